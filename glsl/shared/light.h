@@ -1,0 +1,35 @@
+/* Attenuation of punctual lights, KHR_lights_punctual. One definition for shaders and reference. */
+#ifndef LSF_SHARED_LIGHT_H
+#define LSF_SHARED_LIGHT_H
+
+#include "shared/shared.h"
+
+/* Squared distance below which 1/d^2 is held, in normalised units: a light that touches a surface
+ * stays finite. 1e-6 of the scene's half extent. */
+#define LSF_LIGHT_DISTANCE2_MIN 1e-12f
+
+/* 1/d^2 with the recommended window max(min(1 - (d/range)^4, 1), 0). `inverse_range2` is
+ * 1/range^2, 0 for no range. */
+LSF_SHARED_FUNCTION float lsf_distance_attenuation(float distance2, float inverse_range2)
+{
+    float d2 = max(distance2, LSF_LIGHT_DISTANCE2_MIN);
+    float x = d2 * inverse_range2;
+    float window = max(min(1.0f - x * x, 1.0f), 0.0f);
+    return window / d2;
+}
+
+/* Penumbra: squared linear ramp of the cosine between the outer and the inner cone. `scale` and
+ * `offset` are lsf_spot_scale() and -cos_outer * scale. */
+LSF_SHARED_FUNCTION float lsf_spot_attenuation(float cosine, float scale, float offset)
+{
+    float a = max(min(cosine * scale + offset, 1.0f), 0.0f);
+    return a * a;
+}
+
+LSF_SHARED_FUNCTION float lsf_spot_scale(float cos_inner, float cos_outer)
+{
+    return 1.0f / max(0.001f, cos_inner - cos_outer);
+}
+
+#include "shared/shared_end.h"
+#endif

@@ -1,0 +1,34 @@
+/* Lets C, C++ and GLSL include the same declarations: include shared.h first, shared_end.h last.
+ * Structs shared with GPU buffers use only float, uint, vec2, vec4 and mat4 members (std430,
+ * std140 and C agree on those when a struct's size is a multiple of 16 bytes and vec4 and mat4
+ * come at multiples of 16); functions use scalars only, and literals end in f. */
+#ifdef GL_core_profile
+#define LSF_SHARED_FUNCTION
+#else
+#ifndef LSF_SHARED_TYPES
+#define LSF_SHARED_TYPES
+#include <math.h>
+#define LSF_SHARED_FUNCTION static inline
+typedef unsigned int lsf_uint;
+typedef struct lsf_vec2 {
+    float x, y;
+} lsf_vec2;
+typedef struct lsf_vec4 {
+    float x, y, z, w;
+} lsf_vec4;
+typedef struct lsf_mat4 {
+    float m[16]; /* column-major */
+} lsf_mat4;
+#endif
+#define uint lsf_uint
+#define vec2 lsf_vec2
+#define vec4 lsf_vec4
+#define mat4 lsf_mat4
+#define max fmaxf
+#define min fminf
+#define sqrt sqrtf
+#define pow powf
+#define exp2 exp2f
+#define log2 log2f
+#define abs fabsf
+#endif

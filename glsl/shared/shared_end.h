@@ -1,0 +1,14 @@
+/* Ends what shared.h began: the GLSL names are C macros no longer. */
+#ifndef GL_core_profile
+#undef uint
+#undef vec2
+#undef vec4
+#undef mat4
+#undef max
+#undef min
+#undef sqrt
+#undef pow
+#undef exp2
+#undef log2
+#undef abs
+#endif

@@ -1,0 +1,70 @@
+/* Images: float pixels with named channels, and the files they live in. */
+#ifndef LIGHTSHEAF_IMAGE_H
+#define LIGHTSHEAF_IMAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lightsheaf/error.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#if defined(__GNUC__)
+#pragma GCC visibility push(default)
+#endif
+
+#define LSF_CHANNEL_NAME_SIZE 64
+
+/* Linear Rec.709 radiance [W/(m^2 sr)] in R, G, B; further layers are named as OpenEXR does:
+ * "albedo.R", "normal.X", "depth.Z". Rows run from the top; channels are interleaved:
+ * pixels[(y * width + x) * channel_count + c]. */
+typedef struct lsf_image {
+    uint32_t width, height;
+    uint32_t channel_count;
+    char (*channel_names)[LSF_CHANNEL_NAME_SIZE];
+    float *pixels;
+} lsf_image;
+
+/* Makes a zeroed image. `channel_names` has `channel_count` entries. NULL on overflow or lack of
+ * memory. The caller destroys it. */
+lsf_image *lsf_image_create(uint32_t width, uint32_t height, uint32_t channel_count,
+                            const char *const *channel_names, lsf_error *error);
+void lsf_image_destroy(lsf_image *image); /* NULL allowed */
+
+/* Index of the named channel, or -1. */
+int lsf_image_channel(const lsf_image *image, const char *name);
+
+/* Reads PNG, JPEG, HDR or EXR, recognised by magic bytes and checked against `lsf_image_limits`
+ * before anything is allocated. 8- and 16-bit colour files are decoded from sRGB to linear;
+ * alpha stays linear. All channels of an EXR are kept. LSF_ERROR_FILE on failure. */
+lsf_image *lsf_image_load(const char *path, lsf_error *error);
+
+typedef enum lsf_image_format {
+    LSF_IMAGE_FORMAT_AUTO, /* by the path's ending */
+    LSF_IMAGE_FORMAT_EXR,  /* float32, all channels, lossless */
+    LSF_IMAGE_FORMAT_HDR,  /* R, G, B as RGBE */
+    LSF_IMAGE_FORMAT_PNG,  /* R, G, B tone-mapped to 8-bit sRGB, see tonemap.h */
+} lsf_image_format;
+
+typedef struct lsf_image_save_params {
+    lsf_image_format format;
+    float exposure; /* EV: radiance is multiplied by 2^exposure before tone mapping; PNG only */
+} lsf_image_save_params;
+
+#define LSF_IMAGE_SAVE_PARAMS_DEFAULTS .format = LSF_IMAGE_FORMAT_AUTO, .exposure = 0.0f
+
+/* Writes aside and renames, so that a failure or an interrupt leaves neither a torn file nor
+ * harms an existing one. Path "-" is standard output (format must be given; AUTO means EXR).
+ * `params` NULL means the defaults. */
+bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_save_params *params,
+                    lsf_error *error);
+
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,138 @@
+/* Rendering: a technique on a scene, from a frame plan, by iterations that converge. */
+#ifndef LIGHTSHEAF_RENDERER_H
+#define LIGHTSHEAF_RENDERER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <lightsheaf/context.h>
+#include <lightsheaf/error.h>
+#include <lightsheaf/image.h>
+#include <lightsheaf/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#if defined(__GNUC__)
+#pragma GCC visibility push(default)
+#endif
+
+/* Arbitrary output variables: layers beside the picture's R, G, B. */
+typedef enum lsf_aov {
+    LSF_AOV_ALBEDO = 1 << 0,            /* albedo.R .G .B: base colour, 0..1 */
+    LSF_AOV_NORMAL = 1 << 1,            /* normal.X .Y .Z: shading normal, scene space, towards the viewer */
+    LSF_AOV_DEPTH = 1 << 2,             /* depth.Z: distance along the view axis, scene units, first
+                                         * iteration; infinity where nothing is seen */
+    LSF_AOV_EMISSION = 1 << 3,          /* emission.R .G .B: radiance of what is seen itself */
+    LSF_AOV_DIRECT = 1 << 4,            /* direct.R .G .B: reflected direct light */
+    LSF_AOV_INDIRECT_DIFFUSE = 1 << 5,  /* indirect_diffuse.R .G .B */
+    LSF_AOV_INDIRECT_SPECULAR = 1 << 6, /* indirect_specular.R .G .B */
+    LSF_AOV_MOTION = 1 << 7,            /* motion.X .Y: pixels from the previous frame's position */
+} lsf_aov;
+
+/* "albedo", "normal", ... ; 0 when unknown. */
+uint32_t lsf_aov_from_name(const char *name);
+/* The name of the one AOV that is the lowest set bit of `aovs`. */
+const char *lsf_aov_name(uint32_t aovs);
+
+/* Called between iterations: `done` of `total` iterations. Return false to stop early. */
+typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
+
+typedef struct lsf_render_params {
+    const char *technique;   /* see lsf_technique_name */
+    uint32_t width, height;  /* pixels */
+    uint32_t samples;        /* iterations */
+    double time_limit;       /* seconds of rendering; infinity: none */
+    uint32_t bounces;        /* indirect bounces; 0: direct light only */
+    uint64_t seed;
+    const char *camera;      /* name or index; NULL: the first */
+    const float *camera_position; /* three floats in scene units; NULL: the camera's own */
+    const float *camera_target;   /* three floats in scene units; NULL: the camera's own */
+    float fov_y;             /* degrees, replaces the camera's; NAN: the camera's own */
+    double time;             /* seconds, where node animations are sampled */
+    uint32_t aovs;           /* lsf_aov bits */
+    const char *const *options; /* "pass.key=value", see lsf_option_list */
+    uint32_t option_count;
+    lsf_progress progress;   /* NULL: none */
+    void *progress_user;
+} lsf_render_params;
+
+#define LSF_RENDER_PARAMS_DEFAULTS                                                        \
+    .technique = "direct", .width = 1024, .height = 768, .samples = 64,                   \
+    .time_limit = 1.0 / 0.0, .bounces = 1, .seed = 0, .camera = NULL,                     \
+    .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f, .time = 0.0,    \
+    .aovs = 0, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
+
+/* Registered techniques; NULL past the end. */
+const char *lsf_technique_name(uint32_t index);
+const char *lsf_technique_help(uint32_t index);
+
+/* One option of a pass, as "-D pass.key=value" takes it. */
+typedef struct lsf_option {
+    const char *key;     /* "shadow.filter" */
+    const char *type;    /* "int", "float", "bool", "enum" */
+    const char *range;   /* "1..16384", "none|pcf" */
+    const char *value;   /* default */
+    const char *unit;    /* "texels", "" */
+    const char *help;
+} lsf_option;
+
+/* All options of all passes; false past the end. */
+bool lsf_option_list(uint32_t index, lsf_option *option);
+
+/* The frame plan: which passes run in which order, each resource with its bytes, each shader's
+ * switches, and why each is there or was left out. Needs no GL. */
+typedef struct lsf_plan lsf_plan;
+
+lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params,
+                          lsf_error *error);
+void lsf_plan_destroy(lsf_plan *plan); /* NULL allowed */
+uint64_t lsf_plan_bytes(const lsf_plan *plan); /* GL bytes of all resources */
+char *lsf_plan_describe(const lsf_plan *plan, bool json); /* malloc'ed; NULL without memory */
+
+/* A renderer owns every GL object that the plan lists and nothing else. The scene and the
+ * context are borrowed and must outlive it. */
+typedef struct lsf_renderer lsf_renderer;
+
+lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
+                                  const lsf_render_params *params, lsf_error *error);
+void lsf_renderer_destroy(lsf_renderer *renderer); /* NULL allowed */
+const lsf_plan *lsf_renderer_plan(const lsf_renderer *renderer);
+
+/* Runs one iteration and adds it to the running mean. Allocates and synchronises nothing. */
+bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error);
+/* Runs params->samples iterations, within the time limit, calling params->progress. */
+bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error);
+
+/* Reads the mean so far: R, G, B and the layers of params->aovs. The caller destroys it. */
+lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error);
+/* Reads R, G, B tone-mapped on the GPU to 8-bit sRGB: width * height * 3 bytes into `rgb`,
+ * rows from the top. `exposure` in EV. */
+bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb,
+                            lsf_error *error);
+
+typedef struct lsf_pass_stats {
+    const char *name;
+    uint64_t runs;
+    double milliseconds;  /* mean per iteration */
+    uint32_t count_count; /* what the pass counted, by name */
+    const char *const *count_names;
+    const uint64_t *counts;
+} lsf_pass_stats;
+
+typedef struct lsf_renderer_stats {
+    uint32_t samples;                                   /* iterations done */
+    double compile_seconds, upload_seconds, render_seconds;
+    uint32_t pass_count;
+    const lsf_pass_stats *passes; /* owned by the renderer, valid until the next call */
+} lsf_renderer_stats;
+
+lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer);
+
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,84 @@
+/* Scenes: what a glTF file holds, and what it requires of a renderer. */
+#ifndef LIGHTSHEAF_SCENE_H
+#define LIGHTSHEAF_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <lightsheaf/error.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#if defined(__GNUC__)
+#pragma GCC visibility push(default)
+#endif
+
+typedef struct lsf_scene lsf_scene;
+
+typedef struct lsf_scene_params {
+    const char *environment_path; /* lat-long .hdr or .exr; NULL: none */
+    const float *environment_radiance; /* three floats, uniform radiance [W/(m^2 sr)]; NULL: none */
+    bool diffuse_only; /* read every material as Lambert of its base colour, without normal maps */
+    uint64_t memory_limit; /* bytes that geometry and decoded images may take together */
+} lsf_scene_params;
+
+#define LSF_SCENE_PARAMS_DEFAULTS                                                         \
+    .environment_path = NULL, .environment_radiance = NULL, .diffuse_only = false,        \
+    .memory_limit = (uint64_t)8 << 30
+
+/* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
+ * the environment. Whatever is ignored is logged as one warning each and kept for
+ * lsf_scene_note. A scene without any light, emitter or environment gets a neutral one, with a
+ * warning. The caller destroys it. LSF_ERROR_FILE names file, JSON location and cause. */
+lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error);
+void lsf_scene_destroy(lsf_scene *scene); /* NULL allowed */
+
+/* What the scene asks of a renderer; computed once, at load. */
+typedef struct lsf_requirements {
+    uint32_t point_lights, spot_lights, directional_lights;
+    bool environment;            /* radiance arrives from outside the scene */
+    bool environment_map;        /* ... and varies with direction */
+    bool emissive;               /* some visible material emits */
+    bool unlit;                  /* some visible material is KHR_materials_unlit */
+    bool specular;               /* materials have a specular lobe at all (not diffuse_only) */
+    bool glossy;                 /* some roughness < 1 or metallic > 0, by factor or texture */
+    bool anisotropic;            /* KHR_materials_anisotropy with strength > 0 */
+    bool transmissive;           /* KHR_materials_transmission with factor > 0 */
+    bool variable_ior;           /* some index of refraction other than 1.5 */
+    bool masked;                 /* alphaMode MASK */
+    bool normal_mapped;
+    bool base_color_textured, metallic_roughness_textured, emissive_textured;
+    bool anisotropy_textured;
+    bool texture_transformed;    /* KHR_texture_transform other than identity */
+    bool second_uv;              /* some texture in use reads TEXCOORD_1 */
+    bool vertex_colored;
+    bool moving;                 /* some node that carries geometry, a light or a camera is animated */
+    uint64_t triangles;          /* of all instances */
+    uint64_t unique_triangles;   /* stored once each */
+    uint64_t vertices;           /* stored */
+    uint32_t instances, primitives, materials, textures;
+    double center[3];            /* scene units (metres): centre of the normalised space */
+    double scale;                /* power of two: normalised = (position - center) * scale */
+    double bounds_min[3], bounds_max[3]; /* scene units, at the load time; min > max when empty */
+} lsf_requirements;
+
+const lsf_requirements *lsf_scene_get_requirements(const lsf_scene *scene);
+
+uint32_t lsf_scene_camera_count(const lsf_scene *scene); /* at least 1 */
+const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index);
+
+/* What was ignored or repaired while loading, one sentence each. */
+uint32_t lsf_scene_note_count(const lsf_scene *scene);
+const char *lsf_scene_note(const lsf_scene *scene, uint32_t index);
+
+/* Prints what the file holds, what was ignored, and what it requires; as text or JSON. */
+char *lsf_scene_describe(const lsf_scene *scene, bool json); /* malloc'ed; NULL without memory */
+
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+#ifdef __cplusplus
+}
+#endif
+#endif

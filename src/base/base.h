@@ -1,0 +1,64 @@
+/* What every layer uses: checked allocation, strings, files. */
+#ifndef LSF_BASE_BASE_H
+#define LSF_BASE_BASE_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lightsheaf/error.h>
+#include <lightsheaf/log.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LSF_COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+/* NULL when count * size overflows or memory is short; zeroed. Freed with free(). */
+void *lsf_alloc(uint64_t count, uint64_t size);
+
+/* Grows `*array` (capacity in elements) to hold at least `needed`; keeps the content. */
+bool lsf_grow(void **array, uint64_t *capacity, uint64_t needed, uint64_t size);
+
+/* malloc'ed formatted text; NULL without memory. */
+char *lsf_format(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Text that grows; `text` is always NUL-terminated once something was added. */
+typedef struct lsf_string {
+    char *text;
+    size_t length, capacity;
+    bool failed; /* memory ran out; the text is cut */
+} lsf_string;
+void lsf_string_add(lsf_string *string, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void lsf_string_add_bytes(lsf_string *string, const char *bytes, size_t length);
+/* Adds `text` as a JSON string with quotes; control characters and invalid UTF-8 are escaped. */
+void lsf_string_add_json(lsf_string *string, const char *text);
+/* Adds a JSON number; null when it is not finite. */
+void lsf_string_add_json_number(lsf_string *string, double value);
+
+/* Seconds from a monotonic clock. */
+double lsf_now(void);
+
+/* Reads a regular file of at most `limit` bytes; a NUL follows the content. Refuses FIFOs,
+ * devices and directories without blocking. LSF_ERROR_FILE on failure; the caller frees. */
+char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error *error);
+
+/* A file written aside and renamed on commit, so that readers see the old or the new one whole. */
+typedef struct lsf_atomic_file {
+    char *path, *temporary_path; /* temporary_path is in the same folder, made with mode 0666 & ~umask */
+} lsf_atomic_file;
+bool lsf_atomic_file_begin(lsf_atomic_file *file, const char *path, lsf_error *error);
+bool lsf_atomic_file_commit(lsf_atomic_file *file, lsf_error *error); /* fsync, rename */
+void lsf_atomic_file_abort(lsf_atomic_file *file); /* removes the temporary; harmless after commit */
+/* Removes every temporary that is still open; async-signal-safe, for interrupt handlers. */
+void lsf_atomic_file_abort_all(void);
+/* Begin, write, commit. */
+bool lsf_file_write(const char *path, const void *bytes, size_t length, lsf_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,16 @@
+#include <lightsheaf/error.h>
+
+#include <stdarg.h>
+#include <stdio.h>
+
+bool lsf_error_set(lsf_error *error, lsf_error_code code, const char *format, ...)
+{
+    if (error) {
+        error->code = code;
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(error->message, sizeof error->message, format, arguments);
+        va_end(arguments);
+    }
+    return false;
+}

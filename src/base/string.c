@@ -1,0 +1,84 @@
+#include "base/base.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void lsf_string_add_bytes(lsf_string *string, const char *bytes, size_t length)
+{
+    uint64_t capacity = string->capacity;
+    void *text = string->text;
+    if (string->failed || !lsf_grow(&text, &capacity, (uint64_t)string->length + length + 1, 1)) {
+        string->failed = true;
+        return;
+    }
+    string->text = text;
+    string->capacity = (size_t)capacity;
+    memcpy(string->text + string->length, bytes, length);
+    string->length += length;
+    string->text[string->length] = '\0';
+}
+
+void lsf_string_add(lsf_string *string, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = NULL;
+    int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    if (length < 0) {
+        string->failed = true;
+        return;
+    }
+    lsf_string_add_bytes(string, text, (size_t)length);
+    free(text);
+}
+
+/* Length of the valid UTF-8 sequence at `s`, or 0. */
+static size_t utf8_length(const unsigned char *s)
+{
+    if (s[0] < 0x80)
+        return 1;
+    size_t length = s[0] >= 0xf0 && s[0] < 0xf5 ? 4 : s[0] >= 0xe0 ? 3 : s[0] >= 0xc2 ? 2 : 0;
+    if (s[0] >= 0xf5)
+        return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((s[i] & 0xc0) != 0x80)
+            return 0;
+    if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] >= 0xa0) ||
+        (s[0] == 0xf0 && s[1] < 0x90) || (s[0] == 0xf4 && s[1] >= 0x90))
+        return 0; /* overlong, surrogate, or beyond U+10FFFF */
+    return length;
+}
+
+void lsf_string_add_json(lsf_string *string, const char *text)
+{
+    lsf_string_add_bytes(string, "\"", 1);
+    for (const unsigned char *s = (const unsigned char *)text; *s;) {
+        size_t length = utf8_length(s);
+        if (*s == '"' || *s == '\\') {
+            char escaped[2] = {'\\', (char)*s};
+            lsf_string_add_bytes(string, escaped, 2);
+        } else if (*s < 0x20 || *s == 0x7f) {
+            lsf_string_add(string, "\\u%04x", *s);
+        } else if (length == 0) {
+            lsf_string_add(string, "\\ufffd");
+            length = 1;
+        } else {
+            lsf_string_add_bytes(string, (const char *)s, length);
+        }
+        s += length ? length : 1;
+    }
+    lsf_string_add_bytes(string, "\"", 1);
+}
+
+void lsf_string_add_json_number(lsf_string *string, double value)
+{
+    if (!isfinite(value))
+        lsf_string_add(string, "null");
+    else if (value == floor(value) && fabs(value) < 1e15)
+        lsf_string_add(string, "%.0f", value);
+    else
+        lsf_string_add(string, "%.9g", value);
+}

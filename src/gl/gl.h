@@ -1,0 +1,89 @@
+/* The GL layer: a context's services for passes. Objects are created once, from a plan; direct
+ * state access only. All names are labelled for RenderDoc and apitrace (KHR_debug). */
+#ifndef LSF_GL_GL_H
+#define LSF_GL_GL_H
+
+#include <glad/gl.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <lightsheaf/context.h>
+
+/* --- memory: every byte of GL storage goes through these and is counted ------------------- */
+
+typedef struct lsf_texture_desc {
+    const char *label;
+    GLenum target;          /* GL_TEXTURE_2D, _2D_ARRAY, _CUBE_MAP, _3D */
+    GLenum internal_format; /* sized */
+    uint32_t width, height, depth; /* depth: layers or slices, 1 for 2D, 6 for a cube map */
+    uint32_t levels;
+} lsf_texture_desc;
+
+/* Bytes that the texture's texels take, all levels: what lsf_texture_create counts. */
+uint64_t lsf_texture_bytes(const lsf_texture_desc *desc);
+/* Immutable storage, nearest filtering, clamp to edge. 0 on failure: LSF_ERROR_RENDER names the
+ * label, the size and the device's limit. */
+GLuint lsf_texture_create(lsf_context *context, const lsf_texture_desc *desc, lsf_error *error);
+void lsf_texture_destroy(lsf_context *context, GLuint *texture); /* *texture 0 allowed; set to 0 */
+
+/* Immutable storage; `data` NULL leaves it undefined; `flags` as for glNamedBufferStorage. */
+GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes,
+                         const void *data, GLbitfield flags, lsf_error *error);
+void lsf_buffer_destroy(lsf_context *context, GLuint *buffer);
+
+/* Bytes a texel of this sized internal format takes; 0 when unknown. */
+uint32_t lsf_format_bytes(GLenum internal_format);
+const char *lsf_format_name(GLenum internal_format); /* "GL_RGBA16F" */
+
+typedef struct lsf_framebuffer_desc {
+    const char *label;
+    uint32_t color_count;
+    GLuint colors[8]; /* textures */
+    GLuint depth;     /* texture, 0: none */
+    int32_t layer;    /* -1: whole textures (layered rendering); else one layer of each */
+} lsf_framebuffer_desc;
+GLuint lsf_framebuffer_create(lsf_context *context, const lsf_framebuffer_desc *desc,
+                              lsf_error *error);
+void lsf_framebuffer_destroy(lsf_context *context, GLuint *framebuffer);
+
+/* --- programs -------------------------------------------------------------------------------- */
+
+typedef struct lsf_define {
+    const char *name;
+    int value;
+} lsf_define;
+
+/* Files are named by path below glsl/: "passes/gbuffer.vert.glsl"; the stage follows from the
+ * ending .vert.glsl .tesc.glsl .tese.glsl .geom.glsl .frag.glsl .comp.glsl. */
+typedef struct lsf_program_desc {
+    const char *label;
+    const char *files[5]; /* NULL-terminated unless all five are used */
+    const lsf_define *defines;
+    uint32_t define_count;
+} lsf_program_desc;
+
+/* Compiles and links, or returns the program that an equal source (hashed after preprocessing of
+ * includes and defines) already gave. Owned by the context. 0 on failure: LSF_ERROR_RENDER holds
+ * the whole log, every line as path:line: message. Each source starts with #version 450 core and
+ * the defines; `#include "lib/brdf.glsl"` is by path below glsl/, each file once. */
+GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error);
+
+/* Draws one triangle that covers the viewport with an empty vertex array. Pair with
+ * "lib/fullscreen.vert.glsl". */
+void lsf_draw_fullscreen(lsf_context *context);
+
+/* --- pass groups and time ---------------------------------------------------------------------- */
+
+/* A named timer that also opens a KHR_debug group. On software GL it brackets with glFinish and a
+ * wall clock; on a GPU it uses timestamp queries read back some frames later, never waiting. */
+typedef struct lsf_timer lsf_timer;
+lsf_timer *lsf_timer_create(lsf_context *context, const char *name, lsf_error *error);
+void lsf_timer_destroy(lsf_timer *timer);
+void lsf_timer_begin(lsf_timer *timer);
+void lsf_timer_end(lsf_timer *timer);
+uint64_t lsf_timer_runs(lsf_timer *timer);
+double lsf_timer_milliseconds(lsf_timer *timer); /* total over all finished runs; waits for pending ones */
+const char *lsf_timer_name(const lsf_timer *timer);
+
+#endif

@@ -1,0 +1,186 @@
+/* The scene as loaded: geometry in object space, a node hierarchy, materials, textures, lights,
+ * cameras, animations, environment. Plain arrays, owned by lsf_scene. Everything has been
+ * validated by the importer: indices are in range, floats are finite, the hierarchy is a forest. */
+#ifndef LSF_SCENE_SCENE_H
+#define LSF_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lightsheaf/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Vertex streams of all primitives, one after the other. `position` and `normal` always exist;
+ * the others are NULL unless some primitive has them (then the rest hold the stated default). */
+typedef struct lsf_vertices {
+    uint64_t count;
+    float *position; /* 3 each, object space */
+    float *normal;   /* 3 each, object space, unit length; flat where the file had none */
+    float *tangent;  /* 4 each: unit tangent, and the bitangent's sign in w; only with normal maps
+                      * or anisotropy; computed where the file had none; default 1,0,0,1 */
+    float *uv0;      /* 2 each; default 0,0 */
+    float *uv1;      /* 2 each; default 0,0 */
+    float *color;    /* 4 each, linear; default 1,1,1,1 */
+} lsf_vertices;
+
+/* A list of triangles of one material. Indices count from the stream's start. */
+typedef struct lsf_primitive {
+    uint64_t first_index;
+    uint32_t index_count; /* a multiple of 3 */
+    uint64_t first_vertex;
+    uint32_t vertex_count;
+    uint32_t material;
+    float bounds_min[3], bounds_max[3]; /* object space, of the vertices that triangles use */
+} lsf_primitive;
+
+typedef struct lsf_mesh {
+    char *name; /* "" when the file gives none */
+    uint32_t first_primitive, primitive_count;
+} lsf_mesh;
+
+#define LSF_NONE UINT32_MAX /* no such index */
+
+typedef struct lsf_node {
+    char *name;
+    uint32_t parent; /* LSF_NONE: a root; otherwise smaller than the node's own index */
+    uint32_t mesh, camera, light; /* LSF_NONE: none */
+    bool has_matrix;  /* local transform is `matrix`, else T * R * S */
+    double matrix[16]; /* column-major */
+    double translation[3], rotation[4] /* x,y,z,w unit */, scale[3];
+} lsf_node;
+
+/* One primitive placed by one node. Instances of nodes outside the file's scene do not exist. */
+typedef struct lsf_instance {
+    uint32_t node, primitive;
+} lsf_instance;
+
+typedef enum lsf_wrap { LSF_WRAP_REPEAT, LSF_WRAP_CLAMP, LSF_WRAP_MIRROR } lsf_wrap;
+
+typedef enum lsf_texel_type { LSF_TEXEL_U8, LSF_TEXEL_U16, LSF_TEXEL_F32 } lsf_texel_type;
+
+/* Decoded pixels, rows from the top (glTF: uv 0,0 is the first texel's upper left corner). */
+typedef struct lsf_texture_image {
+    char *name; /* URI or "image N", for messages */
+    uint32_t width, height;
+    uint32_t channels; /* 1 to 4: grey, grey+alpha, RGB, RGBA */
+    lsf_texel_type type;
+    void *texels;      /* width * height * channels, tightly packed */
+    uint64_t non_finite; /* NaN or Inf texels that were set to 0 */
+} lsf_texture_image;
+
+/* An image with its sampler and colour space. */
+typedef struct lsf_texture {
+    uint32_t image;
+    lsf_wrap wrap_s, wrap_t;
+    bool nearest; /* magFilter NEAREST */
+    bool srgb;    /* colour channels hold sRGB-encoded values; alpha is linear */
+} lsf_texture;
+
+typedef struct lsf_texture_slot {
+    uint32_t texture;   /* LSF_NONE: none */
+    uint32_t uv_set;    /* 0 or 1 */
+    float transform[6]; /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 (KHR_texture_transform) */
+} lsf_texture_slot;
+
+typedef enum lsf_alpha_mode { LSF_ALPHA_OPAQUE, LSF_ALPHA_MASK, LSF_ALPHA_BLEND } lsf_alpha_mode;
+
+/* glTF 2.0 metallic-roughness with the extensions that Lightsheaf reads. */
+typedef struct lsf_material {
+    char *name;
+    float base_color[4];       /* linear factor */
+    float metallic, roughness; /* factors */
+    float emission[3];         /* radiance [W/(m^2 sr)]: emissiveFactor * emissiveStrength */
+    float normal_scale;
+    lsf_alpha_mode alpha_mode;
+    float alpha_cutoff;
+    bool double_sided;         /* also emits from its back */
+    bool unlit;                /* shown as emission of its base colour */
+    float ior;
+    float transmission;
+    float anisotropy_strength, anisotropy_rotation; /* 0..1, radians from the tangent */
+    lsf_texture_slot base_color_texture, metallic_roughness_texture, normal_texture,
+        occlusion_texture, emissive_texture, anisotropy_texture, transmission_texture;
+} lsf_material;
+
+typedef enum lsf_light_type { LSF_LIGHT_POINT, LSF_LIGHT_SPOT, LSF_LIGHT_DIRECTIONAL } lsf_light_type;
+
+/* KHR_lights_punctual. Placed by nodes; shines along the node's -z. */
+typedef struct lsf_light {
+    char *name;
+    lsf_light_type type;
+    float intensity[3];  /* colour * intensity: W/sr, directional W/m^2 */
+    float range;         /* scene units; INFINITY: none */
+    float inner_cone, outer_cone; /* radians, spot only */
+} lsf_light;
+
+typedef struct lsf_camera {
+    char *name;
+    uint32_t node;     /* LSF_NONE: `matrix` places it */
+    double matrix[16]; /* column-major camera-to-scene, only when node is LSF_NONE */
+    bool orthographic;
+    float fov_y;       /* radians */
+    float x_magnification, y_magnification; /* half width and height, scene units */
+    float near_plane;  /* scene units, > 0 (orthographic: >= 0) */
+} lsf_camera;
+
+typedef enum lsf_animation_path { LSF_PATH_TRANSLATION, LSF_PATH_ROTATION, LSF_PATH_SCALE } lsf_animation_path;
+typedef enum lsf_interpolation { LSF_STEP, LSF_LINEAR, LSF_CUBIC } lsf_interpolation;
+
+typedef struct lsf_animation_channel {
+    uint32_t node;
+    lsf_animation_path path;
+    lsf_interpolation interpolation;
+    uint32_t key_count;
+    float *times;  /* seconds, strictly increasing */
+    float *values; /* 3 (4 for rotation) a key; cubic: in-tangent, value, out-tangent */
+} lsf_animation_channel;
+
+/* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi, v = acos(y) / pi from
+ * the top row. width == 0: uniform `radiance`. */
+typedef struct lsf_environment {
+    bool present;
+    float radiance[3];
+    uint32_t width, height;
+    float *texels; /* 3 each, linear radiance */
+} lsf_environment;
+
+struct lsf_scene {
+    char *path;
+    lsf_vertices vertices;
+    uint64_t index_count;
+    uint32_t *indices;
+    uint32_t primitive_count, mesh_count, node_count, instance_count, material_count;
+    lsf_primitive *primitives;
+    lsf_mesh *meshes;
+    lsf_node *nodes;          /* parents before children */
+    lsf_instance *instances;
+    lsf_material *materials;  /* the last one is glTF's default material */
+    uint32_t image_count, texture_count;
+    lsf_texture_image *images;
+    lsf_texture *textures;
+    uint32_t light_count, camera_count, channel_count;
+    lsf_light *lights;
+    lsf_camera *cameras;      /* at least 1 */
+    lsf_animation_channel *channels;
+    lsf_environment environment;
+    uint32_t note_count;
+    char **notes;
+    bool diffuse_only;
+    lsf_requirements requirements;
+};
+
+/* Logs a warning and keeps it as a note. The same text is kept once. */
+void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Fills scene->requirements from what the instances use (requirements.c). */
+void lsf_scene_compute_requirements(lsf_scene *scene);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

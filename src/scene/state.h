@@ -1,0 +1,74 @@
+/* The scene at one instant, in normalised space: what the passes and the reference render.
+ *
+ * Normalised space is the scene moved to its centre in double precision and scaled by a power of
+ * two so that its largest half extent lies in (0.5, 1]. Radiance is unchanged: point and spot
+ * intensities are scaled by the square, directional ones not at all. A scene scaled by a power of
+ * two thus gives the same bits, and every epsilon is relative to the scene. */
+#ifndef LSF_SCENE_STATE_H
+#define LSF_SCENE_STATE_H
+
+#include "scene/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lsf_instance_state {
+    float transform[12];  /* rows of the 3x4 object-to-normalised matrix */
+    float normal_transform[9]; /* rows of its inverse transpose, scaled to keep floats in range;
+                                * normals need normalising after it */
+    uint32_t primitive;
+    uint32_t material;
+    bool mirrored;        /* negative determinant: the winding flips */
+    bool skipped;         /* the transform collapses it: nothing to draw */
+    float bounds_min[3], bounds_max[3]; /* normalised space */
+} lsf_instance_state;
+
+typedef struct lsf_light_state {
+    lsf_light_type type;
+    uint32_t light;        /* index into scene->lights */
+    float position[3];     /* normalised space */
+    float direction[3];    /* unit, the way the light shines */
+    float tangent[3];      /* unit, perpendicular to direction */
+    float intensity[3];    /* point, spot: W/sr in normalised units; directional: W/m^2 */
+    float range;           /* normalised units; INFINITY: none */
+    float cos_inner, cos_outer; /* spot only */
+} lsf_light_state;
+
+/* Position on the image plane at ndc (x right, y up, -1..1):
+ * a view ray starts at origin + x * origin_dx + y * origin_dy and runs along
+ * forward + x * forward_dx + y * forward_dy (not normalised: its view depth is 1). */
+typedef struct lsf_camera_state {
+    bool orthographic;
+    float origin[3], origin_dx[3], origin_dy[3];
+    float forward[3], forward_dx[3], forward_dy[3];
+    float near_plane, far_plane; /* normalised units; far is used by orthographic depth only */
+} lsf_camera_state;
+
+typedef struct lsf_state {
+    uint32_t instance_count, light_count;
+    lsf_instance_state *instances; /* index as in scene->instances */
+    lsf_light_state *lights;       /* one for each node that carries a light */
+    lsf_camera_state camera;
+    float bounds_min[3], bounds_max[3]; /* normalised space; min > max when empty */
+    double center[3], scale;
+} lsf_state;
+
+typedef struct lsf_view_params {
+    double time;           /* seconds */
+    const char *camera;    /* name or index; NULL: the first */
+    const float *position, *target; /* scene units, three floats; NULL: the camera's own */
+    float fov_y;           /* degrees; NAN: the camera's own */
+    float aspect;          /* width / height of the picture; the vertical field of view is kept */
+} lsf_view_params;
+
+/* Evaluates animations, the hierarchy and the camera. Reuses the arrays in `state`, which must be
+ * zeroed before the first call. LSF_ERROR_USAGE when the camera does not exist. */
+bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_params *params,
+                      lsf_error *error);
+void lsf_state_finish(lsf_state *state);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
