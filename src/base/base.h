@@ -46,6 +46,10 @@ double lsf_now(void);
  * devices and directories without blocking. LSF_ERROR_FILE on failure; the caller frees. */
 char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error *error);
 
+/* The real path of `relative` below `folder`, for files that a file names: absolute paths, ".."
+ * and symbolic links that lead out of the folder are refused. malloc'ed; NULL on failure. */
+char *lsf_path_confine(const char *folder, const char *relative, lsf_error *error);
+
 /* A file written aside and renamed on commit, so that readers see the old or the new one whole. */
 typedef struct lsf_atomic_file {
     char *path, *temporary_path; /* temporary_path is in the same folder, made with mode 0666 & ~umask */

@@ -1,0 +1,152 @@
+#include "base/base.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char *kind_of(mode_t mode)
+{
+    return S_ISDIR(mode)    ? "a directory"
+           : S_ISFIFO(mode) ? "a named pipe"
+           : S_ISSOCK(mode) ? "a socket"
+           : S_ISCHR(mode)  ? "a character device"
+           : S_ISBLK(mode)  ? "a block device"
+                            : "not a regular file";
+}
+
+static bool refuse_kind(const char *path, mode_t mode, lsf_error *error)
+{
+    return lsf_error_set(error, LSF_ERROR_FILE, "%s: is %s; give a regular file", path,
+                         kind_of(mode));
+}
+
+static bool refuse_size(const char *path, uint64_t limit, lsf_error *error)
+{
+    return lsf_error_set(error, LSF_ERROR_FILE,
+                         "%s: is larger than the %llu bytes allowed here; give a smaller file or "
+                         "raise the memory limit",
+                         path, (unsigned long long)limit);
+}
+
+/* Opening is what blocks on a FIFO and what can have effects on a device: the kind is looked at
+ * before, and again afterwards in case the path was exchanged in between. */
+static int open_regular(const char *path, struct stat *status, lsf_error *error)
+{
+    if (stat(path, status) != 0) {
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: cannot be read (%s); check path and permissions",
+                      path, strerror(errno));
+        return -1;
+    }
+    if (!S_ISREG(status->st_mode)) {
+        refuse_kind(path, status->st_mode, error);
+        return -1;
+    }
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file < 0 || fstat(file, status) != 0) {
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: cannot be opened (%s); check its permissions",
+                      path, strerror(errno));
+        if (file >= 0)
+            close(file);
+        return -1;
+    }
+    if (!S_ISREG(status->st_mode)) {
+        refuse_kind(path, status->st_mode, error);
+        close(file);
+        return -1;
+    }
+    return file;
+}
+
+char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error *error)
+{
+    struct stat status;
+    int file = open_regular(path, &status, error);
+    if (file < 0)
+        return NULL;
+
+    void *bytes = NULL;
+    uint64_t capacity = 0, count = 0;
+    bool good = (uint64_t)status.st_size <= limit;
+    if (!good)
+        refuse_size(path, limit, error);
+
+    /* The size is a hint only: files in /proc say 0, and a file may grow while it is read. */
+    uint64_t wanted = (uint64_t)status.st_size + 1;
+    while (good) {
+        if (!lsf_grow(&bytes, &capacity, wanted + 1, 1)) {
+            good = lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for its %llu bytes",
+                                 path, (unsigned long long)wanted);
+            break;
+        }
+        ssize_t got = read(file, (char *)bytes + count, capacity - 1 - count);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            good = lsf_error_set(error, LSF_ERROR_FILE, "%s: reading failed (%s)", path,
+                                 strerror(errno));
+        if (got <= 0)
+            break;
+        count += (uint64_t)got;
+        if (count > limit)
+            good = refuse_size(path, limit, error);
+        if (count + 1 == capacity)
+            wanted = count + 65536;
+    }
+    close(file);
+    if (!good) {
+        free(bytes);
+        return NULL;
+    }
+    ((char *)bytes)[count] = '\0';
+    *length = (size_t)count;
+    return bytes;
+}
+
+/* True when some component of the path is "..". */
+static bool climbs(const char *path)
+{
+    for (const char *part = path; part; part = strchr(part, '/')) {
+        part += *part == '/';
+        if (part[0] == '.' && part[1] == '.' && (part[2] == '/' || part[2] == '\0'))
+            return true;
+    }
+    return false;
+}
+
+char *lsf_path_confine(const char *folder, const char *relative, lsf_error *error)
+{
+    if (relative[0] == '\0' || relative[0] == '/' || climbs(relative)) {
+        lsf_error_set(error, LSF_ERROR_FILE,
+                      "%s: leads out of the folder %s; use a path relative to that folder, without "
+                      "\"..\"",
+                      relative[0] ? relative : "(empty path)", folder);
+        return NULL;
+    }
+    char *joined = lsf_format("%s/%s", folder, relative);
+    char *root = joined ? realpath(folder, NULL) : NULL;
+    char *target = root ? realpath(joined, NULL) : NULL;
+    if (!target) {
+        lsf_error_set(error, LSF_ERROR_FILE,
+                      "%s: cannot be found (%s); put the file there or correct the path",
+                      joined ? joined : relative, strerror(errno));
+    } else {
+        /* realpath has followed every symbolic link of both. */
+        size_t length = strcmp(root, "/") == 0 ? 0 : strlen(root);
+        if (strncmp(target, root, length) != 0 || target[length] != '/') {
+            lsf_error_set(error, LSF_ERROR_FILE,
+                          "%s: a symbolic link leads out of the folder %s; put the file itself "
+                          "there",
+                          joined, folder);
+            free(target);
+            target = NULL;
+        }
+    }
+    free(joined);
+    free(root);
+    return target;
+}

@@ -1,0 +1,162 @@
+#include "scene/hierarchy.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Scratch of a node while its transform is put together, kept where its matrix will stand. */
+enum { TRANSLATION = 0, ROTATION = 3, SCALE = 7 };
+
+static void normalize_rotation(double q[4])
+{
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int i = 0; i < 4; i++)
+        q[i] = length > 0.0 ? q[i] / length : (i == 3 ? 1.0 : 0.0);
+}
+
+/* Shortest-arc spherical interpolation, glTF 2.0 appendix C.4. */
+static void slerp(const float *a, const float *b, double t, double q[4])
+{
+    double from[4] = {a[0], a[1], a[2], a[3]}, to[4] = {b[0], b[1], b[2], b[3]};
+    normalize_rotation(from);
+    normalize_rotation(to);
+    double dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2] + from[3] * to[3];
+    double sign = dot < 0.0 ? -1.0 : 1.0;
+    double angle = acos(fmin(fabs(dot), 1.0));
+    /* Below this angle sin is linear to the last bit, and dividing by it would not be. */
+    bool linear = angle < 1e-6;
+    double s = sin(angle);
+    double wa = linear ? 1.0 - t : sin((1.0 - t) * angle) / s;
+    double wb = sign * (linear ? t : sin(t * angle) / s);
+    for (int i = 0; i < 4; i++)
+        q[i] = wa * from[i] + wb * to[i];
+    normalize_rotation(q);
+}
+
+/* Cubic Hermite spline, glTF 2.0 appendix C.5: a key is in-tangent, value, out-tangent; `length`
+ * is the time between the keys. */
+static void hermite(const float *from, const float *to, int width, double t, double length,
+                    double *value)
+{
+    double t2 = t * t, t3 = t2 * t;
+    for (int i = 0; i < width; i++) {
+        double v0 = from[width + i], b0 = from[2 * width + i];
+        double a1 = to[i], v1 = to[width + i];
+        value[i] = (2.0 * t3 - 3.0 * t2 + 1.0) * v0 + length * (t3 - 2.0 * t2 + t) * b0 +
+                   (3.0 * t2 - 2.0 * t3) * v1 + length * (t3 - t2) * a1;
+    }
+}
+
+/* The last key at or before `time`; 0 when all are later. */
+static uint32_t find_key(const lsf_animation_channel *channel, double time)
+{
+    uint32_t low = 0, high = channel->key_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (channel->times[middle] <= time)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void lsf_animation_sample(const lsf_animation_channel *channel, double time, double *value)
+{
+    bool rotation = channel->path == LSF_PATH_ROTATION;
+    int width = rotation ? 4 : 3;
+    bool cubic = channel->interpolation == LSF_CUBIC;
+    uint32_t stride = (uint32_t)width * (cubic ? 3 : 1);
+    uint32_t key = find_key(channel, time);
+    const float *from = channel->values + (size_t)key * stride;
+    double start = channel->times[key];
+
+    bool held =
+        key + 1 == channel->key_count || time <= start || channel->interpolation == LSF_STEP;
+    if (held) {
+        for (int i = 0; i < width; i++)
+            value[i] = from[(cubic ? width : 0) + i];
+    } else {
+        const float *to = from + stride;
+        double length = (double)channel->times[key + 1] - start;
+        double t = (time - start) / length;
+        if (cubic)
+            hermite(from, to, width, t, length, value);
+        else if (rotation)
+            slerp(from, to, t, value);
+        else
+            for (int i = 0; i < width; i++)
+                value[i] = (1.0 - t) * from[i] + t * to[i];
+    }
+    if (rotation)
+        normalize_rotation(value);
+}
+
+static void compose(const double scratch[10], double matrix[16])
+{
+    const double *t = scratch + TRANSLATION, *q = scratch + ROTATION, *s = scratch + SCALE;
+    double x = q[0], y = q[1], z = q[2], w = q[3];
+    double rotation[9] = {
+        1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z),       2.0 * (x * z - w * y),
+        2.0 * (x * y - w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x),
+        2.0 * (x * z + w * y),       2.0 * (y * z - w * x),       1.0 - 2.0 * (x * x + y * y),
+    };
+    for (int column = 0; column < 3; column++) {
+        for (int row = 0; row < 3; row++)
+            matrix[4 * column + row] = rotation[3 * column + row] * s[column];
+        matrix[4 * column + 3] = 0.0;
+    }
+    memcpy(matrix + 12, t, 3 * sizeof(double));
+    matrix[15] = 1.0;
+}
+
+/* a * b of affine matrices. */
+static void multiply(const double a[16], const double b[16], double result[16])
+{
+    for (int column = 0; column < 4; column++) {
+        const double *v = b + 4 * column;
+        for (int row = 0; row < 3; row++)
+            result[4 * column + row] = a[row] * v[0] + a[4 + row] * v[1] + a[8 + row] * v[2] +
+                                       (column == 3 ? a[12 + row] : 0.0);
+        result[4 * column + 3] = column == 3 ? 1.0 : 0.0;
+    }
+}
+
+void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matrices)
+{
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const lsf_node *node = &scene->nodes[i];
+        double *scratch = matrices + (size_t)16 * i;
+        memcpy(scratch + TRANSLATION, node->translation, sizeof(node->translation));
+        memcpy(scratch + ROTATION, node->rotation, sizeof(node->rotation));
+        memcpy(scratch + SCALE, node->scale, sizeof(node->scale));
+    }
+    for (uint32_t i = 0; i < scene->channel_count; i++) {
+        const lsf_animation_channel *channel = &scene->channels[i];
+        static const int offsets[] = {[LSF_PATH_TRANSLATION] = TRANSLATION,
+                                      [LSF_PATH_ROTATION] = ROTATION,
+                                      [LSF_PATH_SCALE] = SCALE};
+        lsf_animation_sample(channel, time,
+                             matrices + (size_t)16 * channel->node + offsets[channel->path]);
+    }
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const lsf_node *node = &scene->nodes[i];
+        double *world = matrices + (size_t)16 * i;
+        double local[16];
+        if (node->has_matrix)
+            memcpy(local, node->matrix, sizeof(local));
+        else
+            compose(world, local);
+        if (node->parent == LSF_NONE)
+            memcpy(world, local, sizeof(local));
+        else
+            multiply(matrices + (size_t)16 * node->parent, local, world);
+    }
+}
+
+void lsf_transform_point(const double matrix[16], const double point[3], double result[3])
+{
+    double x = point[0], y = point[1], z = point[2];
+    for (int row = 0; row < 3; row++)
+        result[row] =
+            matrix[row] * x + matrix[4 + row] * y + matrix[8 + row] * z + matrix[12 + row];
+}

@@ -1,0 +1,25 @@
+/* The node hierarchy at one instant. */
+#ifndef LSF_SCENE_HIERARCHY_H
+#define LSF_SCENE_HIERARCHY_H
+
+#include "scene/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Samples the animations at `time` (seconds; clamped to each channel's keys) and multiplies the
+ * transforms down the hierarchy. `matrices` gets 16 doubles a node, column-major, node space to
+ * scene space. A long chain of large scales can overflow: check for finite results. */
+void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matrices);
+
+/* Samples one channel: 3 doubles, or a unit quaternion x,y,z,w for rotations. */
+void lsf_animation_sample(const lsf_animation_channel *channel, double time, double *value);
+
+/* point' = matrix * (point, 1) for an affine column-major matrix. */
+void lsf_transform_point(const double matrix[16], const double point[3], double result[3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
