@@ -1,0 +1,144 @@
+/* The command's options: one table, from which parsing, --help, the man page, the shell
+ * completions and docs/command.md are made. */
+#ifndef LSF_TOOLS_OPTIONS_H
+#define LSF_TOOLS_OPTIONS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lightsheaf/lightsheaf.h>
+
+typedef enum lsf_command_bit {
+    LSF_COMMAND_RENDER = 1 << 0,
+    LSF_COMMAND_REFERENCE = 1 << 1,
+    LSF_COMMAND_COMPARE = 1 << 2,
+    LSF_COMMAND_INFO = 1 << 3,
+    LSF_COMMAND_PLAN = 1 << 4,
+    LSF_COMMAND_HELP = 1 << 5,
+} lsf_command_bit;
+
+typedef struct lsf_command {
+    lsf_command_bit bit;
+    const char *name;
+    const char *operands; /* "[SCENE]" */
+    uint32_t operands_min, operands_max;
+    const char *summary;  /* one line */
+    const char *text;     /* a paragraph */
+} lsf_command;
+
+/* NULL past the end. */
+const lsf_command *lsf_command_at(size_t index);
+const lsf_command *lsf_command_find(lsf_command_bit bit);
+
+/* How an option's text becomes a value, and what is stored at its offset in lsf_settings. */
+typedef enum lsf_value_type {
+    LSF_VALUE_FLAG,        /* bool; takes no argument */
+    LSF_VALUE_COUNT,       /* uint32_t in minimum..maximum */
+    LSF_VALUE_SEED,        /* uint64_t */
+    LSF_VALUE_DOUBLE,      /* double in minimum..maximum */
+    LSF_VALUE_FLOAT,       /* float in minimum..maximum */
+    LSF_VALUE_VECTOR,      /* lsf_vector_setting, each in minimum..maximum */
+    LSF_VALUE_RESOLUTION,  /* uint32_t[2], each in minimum..maximum */
+    LSF_VALUE_TEXT,        /* const char *, not empty */
+    LSF_VALUE_CHOICE,      /* int: minimum + index in `choices` */
+    LSF_VALUE_TECHNIQUE,   /* const char *, registered */
+    LSF_VALUE_AOVS,        /* uint32_t, lsf_aov bits */
+    LSF_VALUE_DEFINE,      /* lsf_list_setting of "pass.key=value", the key known */
+    LSF_VALUE_ENVIRONMENT, /* lsf_environment_setting */
+    LSF_VALUE_THRESHOLD,   /* lsf_list_setting of "metric=x" */
+} lsf_value_type;
+
+typedef struct lsf_command_option {
+    const char *name;     /* long name without dashes */
+    char letter;          /* 0: none */
+    const char *argument; /* what --help calls its value; NULL for flags */
+    unsigned commands;    /* lsf_command_bit of the commands that take it */
+    const char *group;    /* heading in --help; rows of a group follow each other */
+    lsf_value_type type;
+    size_t offset;        /* in lsf_settings */
+    double minimum, maximum;
+    const char *choices;  /* "auto|egl|osmesa" */
+    const char *initial;  /* the default as one would type it; NULL: none */
+    const char *help;     /* effect, unit */
+} lsf_command_option;
+
+/* NULL past the end. */
+const lsf_command_option *lsf_command_option_at(size_t index);
+
+/* What an option accepts, in words, for messages: "a whole number in 1..65535". */
+char *lsf_command_option_range(const lsf_command_option *option); /* malloc'ed */
+
+/* --- values ------------------------------------------------------------------------------------ */
+
+typedef struct lsf_vector_setting {
+    bool given;
+    float value[3];
+} lsf_vector_setting;
+
+typedef struct lsf_list_setting {
+    const char **items; /* point into argv */
+    uint32_t count;
+    uint64_t capacity;
+} lsf_list_setting;
+
+typedef struct lsf_environment_setting {
+    const char *path;           /* NULL: none, or uniform */
+    lsf_vector_setting uniform; /* radiance */
+} lsf_environment_setting;
+
+typedef struct lsf_settings {
+    const lsf_command *command;
+    lsf_list_setting operands;
+
+    bool help, version, list_options, list_techniques, quiet, verbose;
+    bool print_json;       /* info, plan, compare: JSON on stdout */
+    const char *json_path; /* render, reference; NULL: none */
+
+    const char *output;    /* NULL: not given */
+    int format;            /* lsf_image_format */
+    float exposure;        /* EV */
+    bool keep_partial, halves;
+
+    const char *technique;
+    uint32_t resolution[2];
+    uint32_t samples;      /* 0: not given */
+    double time_limit;     /* seconds; infinity: none */
+    uint32_t bounces;
+    uint64_t seed;
+    uint32_t aovs;
+    lsf_list_setting defines;
+
+    const char *camera;
+    lsf_vector_setting camera_position, camera_target; /* scene units */
+    float fov_y;           /* degrees; NAN: the camera's own */
+    double time;           /* seconds */
+
+    lsf_environment_setting environment;
+    bool diffuse_only;
+
+    int backend;           /* lsf_backend */
+    const char *shader_dir;
+    bool gl_debug;
+
+    const char *mask, *difference;
+    double epsilon;        /* NAN: relative to the reference's mean */
+    lsf_list_setting thresholds;
+
+    uint64_t given[2];     /* bit i of word i / 64: row i of the table was on the command line */
+} lsf_settings;
+
+/* Defaults, then the command line; argv[0] is the command's name. `settings` needs no
+ * initialisation and is to be finished either way. LSF_ERROR_USAGE names option, value and range. */
+bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit command, int argc, char **argv,
+                        lsf_error *error);
+void lsf_settings_finish(lsf_settings *settings);
+
+/* Whether the option of that long name was on the command line. */
+bool lsf_settings_given(const lsf_settings *settings, const char *name);
+
+/* What the library's calls take; the results borrow from `settings`. */
+lsf_render_params lsf_settings_render_params(const lsf_settings *settings);
+lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings);
+lsf_context_params lsf_settings_context_params(const lsf_settings *settings);
+
+#endif
