@@ -1,0 +1,291 @@
+#include "scene/state.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "scene/hierarchy.h"
+
+typedef struct vec3d {
+    double x, y, z;
+} vec3d;
+
+static vec3d column(const double *matrix, int index)
+{
+    return (vec3d){matrix[4 * index], matrix[4 * index + 1], matrix[4 * index + 2]};
+}
+
+static vec3d cross(vec3d a, vec3d b)
+{
+    return (vec3d){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static double dot(vec3d a, vec3d b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static vec3d scaled(vec3d a, double factor)
+{
+    return (vec3d){a.x * factor, a.y * factor, a.z * factor};
+}
+
+/* Unit vector along `a`, or `fallback` when `a` has no direction. */
+static vec3d unit(vec3d a, vec3d fallback)
+{
+    double largest = fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    if (!(largest > 0.0) || !isfinite(largest))
+        return fallback;
+    a = (vec3d){a.x / largest, a.y / largest, a.z / largest}; /* no under- or overflow below */
+    return scaled(a, 1.0 / sqrt(dot(a, a)));
+}
+
+/* Some unit vector perpendicular to the unit vector `a`. */
+static vec3d perpendicular(vec3d a)
+{
+    vec3d axis = fabs(a.x) < 0.6 ? (vec3d){1, 0, 0} : (vec3d){0, 1, 0};
+    return unit(cross(a, axis), (vec3d){0, 0, 1});
+}
+
+static void store(float out[3], vec3d a)
+{
+    out[0] = (float)a.x;
+    out[1] = (float)a.y;
+    out[2] = (float)a.z;
+}
+
+static vec3d normalised_position(const lsf_state *state, vec3d position)
+{
+    return (vec3d){(position.x - state->center[0]) * state->scale,
+                   (position.y - state->center[1]) * state->scale,
+                   (position.z - state->center[2]) * state->scale};
+}
+
+/* Bounds of the transformed box: conservative for the primitive inside it. */
+static void transform_bounds(lsf_instance_state *instance, const lsf_primitive *primitive)
+{
+    for (int row = 0; row < 3; row++) {
+        const float *m = instance->transform + 4 * row;
+        float low = m[3], high = m[3];
+        for (int axis = 0; axis < 3; axis++) {
+            float a = m[axis] * primitive->bounds_min[axis];
+            float b = m[axis] * primitive->bounds_max[axis];
+            low += fminf(a, b);
+            high += fmaxf(a, b);
+        }
+        instance->bounds_min[row] = low;
+        instance->bounds_max[row] = high;
+    }
+}
+
+static void update_instance(lsf_instance_state *out, const lsf_state *state, const lsf_scene *scene,
+                            const lsf_instance *instance, const double *world)
+{
+    vec3d x = column(world, 0), y = column(world, 1), z = column(world, 2);
+    vec3d position = normalised_position(state, column(world, 3));
+    const double rows[3][4] = {{x.x, y.x, z.x, position.x},
+                               {x.y, y.y, z.y, position.y},
+                               {x.z, y.z, z.z, position.z}};
+    for (int row = 0; row < 3; row++) {
+        for (int axis = 0; axis < 3; axis++)
+            out->transform[4 * row + axis] = (float)(rows[row][axis] * state->scale);
+        out->transform[4 * row + 3] = (float)rows[row][3];
+    }
+    /* The inverse transpose is the cofactor matrix over the determinant; only its sign matters
+     * once normals are normalised, and the cofactors exist for a flattened instance too. */
+    vec3d cofactor[3] = {cross(y, z), cross(z, x), cross(x, y)}; /* columns */
+    double determinant = dot(x, cofactor[0]);
+    double largest = 0.0;
+    for (int i = 0; i < 3; i++)
+        largest = fmax(largest, fmax(fabs(cofactor[i].x),
+                                     fmax(fabs(cofactor[i].y), fabs(cofactor[i].z))));
+    double sign = determinant < 0.0 ? -1.0 : 1.0;
+    double factor = largest > 0.0 && isfinite(largest) ? sign / largest : 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        out->normal_transform[axis] = (float)(cofactor[axis].x * factor);
+        out->normal_transform[3 + axis] = (float)(cofactor[axis].y * factor);
+        out->normal_transform[6 + axis] = (float)(cofactor[axis].z * factor);
+    }
+    const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+    out->primitive = instance->primitive;
+    out->material = primitive->material;
+    out->mirrored = determinant < 0.0;
+    out->skipped = factor == 0.0 || primitive->index_count == 0;
+    transform_bounds(out, primitive);
+    for (int axis = 0; axis < 3; axis++)
+        if (!isfinite(out->bounds_min[axis]) || !isfinite(out->bounds_max[axis]))
+            out->skipped = true;
+}
+
+static void update_bounds(lsf_state *state)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        state->bounds_min[axis] = INFINITY;
+        state->bounds_max[axis] = -INFINITY;
+    }
+    for (uint32_t i = 0; i < state->instance_count; i++) {
+        const lsf_instance_state *instance = &state->instances[i];
+        for (int axis = 0; !instance->skipped && axis < 3; axis++) {
+            state->bounds_min[axis] = fminf(state->bounds_min[axis], instance->bounds_min[axis]);
+            state->bounds_max[axis] = fmaxf(state->bounds_max[axis], instance->bounds_max[axis]);
+        }
+    }
+}
+
+static void update_light(lsf_light_state *out, const lsf_state *state, const lsf_light *light,
+                         const double *world)
+{
+    vec3d direction = unit(scaled(column(world, 2), -1.0), (vec3d){0, 0, -1});
+    vec3d along = column(world, 0);
+    along = (vec3d){along.x - dot(along, direction) * direction.x,
+                    along.y - dot(along, direction) * direction.y,
+                    along.z - dot(along, direction) * direction.z};
+    out->type = light->type;
+    store(out->position, normalised_position(state, column(world, 3)));
+    store(out->direction, direction);
+    store(out->tangent, unit(along, perpendicular(direction)));
+    /* E = I / d^2 must stay what it was when d is scaled. */
+    double factor = light->type == LSF_LIGHT_DIRECTIONAL ? 1.0 : state->scale * state->scale;
+    for (int i = 0; i < 3; i++)
+        out->intensity[i] = (float)(light->intensity[i] * factor);
+    out->range = (float)(light->range * state->scale);
+    out->cos_inner = (float)cos(light->inner_cone);
+    out->cos_outer = (float)cos(light->outer_cone);
+}
+
+static bool update_lights(lsf_state *state, const lsf_scene *scene, const double *worlds)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        count += scene->nodes[i].light != LSF_NONE;
+    if (count != state->light_count || (count && !state->lights)) {
+        free(state->lights);
+        state->lights = lsf_alloc(count, sizeof *state->lights);
+        state->light_count = state->lights ? count : 0;
+        if (!state->lights)
+            return false;
+    }
+    for (uint32_t i = 0, at = 0; i < scene->node_count; i++) {
+        uint32_t light = scene->nodes[i].light;
+        if (light == LSF_NONE)
+            continue;
+        state->lights[at].light = light;
+        update_light(&state->lights[at++], state, &scene->lights[light], worlds + 16 * (size_t)i);
+    }
+    return true;
+}
+
+/* Index of the camera named or numbered `which`; -1 when there is none. A name goes first. */
+static int find_camera(const lsf_scene *scene, const char *which)
+{
+    if (!which)
+        return 0;
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        if (scene->cameras[i].name && strcmp(scene->cameras[i].name, which) == 0)
+            return (int)i;
+    char *end;
+    long index = strtol(which, &end, 10);
+    if (end != which && *end == '\0' && index >= 0 && index < (long)scene->camera_count)
+        return (int)index;
+    return -1;
+}
+
+/* Depth range for an orthographic camera: up to the farthest corner of the scene's bounds. */
+static float farthest_depth(const lsf_state *state, vec3d origin, vec3d forward)
+{
+    double far = 0.0;
+    for (int corner = 0; corner < 8 && state->bounds_min[0] <= state->bounds_max[0]; corner++) {
+        vec3d p = {(corner & 1 ? state->bounds_max : state->bounds_min)[0] - origin.x,
+                   (corner & 2 ? state->bounds_max : state->bounds_min)[1] - origin.y,
+                   (corner & 4 ? state->bounds_max : state->bounds_min)[2] - origin.z};
+        far = fmax(far, dot(p, forward));
+    }
+    return (float)far;
+}
+
+static void update_camera(lsf_state *state, const lsf_camera *camera, const double *world,
+                          const lsf_view_params *params)
+{
+    lsf_camera_state *out = &state->camera;
+    vec3d position = column(world, 3);
+    vec3d forward = unit(scaled(column(world, 2), -1.0), (vec3d){0, 0, -1});
+    vec3d up = column(world, 1);
+    if (params->position) {
+        const float *p = params->position;
+        position = (vec3d){p[0], p[1], p[2]};
+    }
+    if (params->target) {
+        const float *t = params->target;
+        forward = unit((vec3d){t[0] - position.x, t[1] - position.y, t[2] - position.z}, forward);
+        up = (vec3d){0, 1, 0};
+    }
+    vec3d right = unit(cross(forward, up), perpendicular(forward));
+    up = cross(right, forward);
+    vec3d origin = normalised_position(state, position);
+
+    bool fov_given = !isnan(params->fov_y);
+    memset(out, 0, sizeof *out);
+    out->orthographic = camera->orthographic && !fov_given;
+    store(out->origin, origin);
+    store(out->forward, forward);
+    /* An orthographic camera may start at 0; a perspective one made of it may not. */
+    out->near_plane = fmaxf((float)(camera->near_plane * state->scale), 1e-12f);
+    if (out->orthographic) {
+        double half_height = camera->y_magnification * state->scale;
+        store(out->origin_dx, scaled(right, half_height * params->aspect));
+        store(out->origin_dy, scaled(up, half_height));
+        /* A tenth more than the farthest corner, so that nothing lies on the far plane. */
+        out->far_plane = fmaxf(1.1f * farthest_depth(state, origin, forward),
+                               fmaxf(2.0f * out->near_plane, 1e-3f));
+    } else {
+        double fov_y = fov_given ? params->fov_y * (M_PI / 180.0) : camera->fov_y;
+        double half_height = tan(0.5 * fov_y);
+        store(out->forward_dx, scaled(right, half_height * params->aspect));
+        store(out->forward_dy, scaled(up, half_height));
+        out->far_plane = INFINITY;
+    }
+}
+
+bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_params *params,
+                      lsf_error *error)
+{
+    int camera_index = find_camera(scene, params->camera);
+    if (camera_index < 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "camera '%s' is not in the scene; it has %u, listed by `lightsheaf info`",
+                             params->camera, scene->camera_count);
+    double *worlds = lsf_alloc(scene->node_count, 16 * sizeof *worlds);
+    if (!state->instances)
+        state->instances = lsf_alloc(scene->instance_count, sizeof *state->instances);
+    if (!worlds || !state->instances)
+        goto no_memory;
+    state->instance_count = scene->instance_count;
+    memcpy(state->center, scene->requirements.center, sizeof state->center);
+    state->scale = scene->requirements.scale;
+    lsf_scene_world_matrices(scene, params->time, worlds);
+    for (uint32_t i = 0; i < scene->instance_count; i++)
+        update_instance(&state->instances[i], state, scene, &scene->instances[i],
+                        worlds + 16 * (size_t)scene->instances[i].node);
+    update_bounds(state);
+    if (!update_lights(state, scene, worlds))
+        goto no_memory;
+    const lsf_camera *camera = &scene->cameras[camera_index];
+    update_camera(state, camera,
+                  camera->node == LSF_NONE ? camera->matrix : worlds + 16 * (size_t)camera->node,
+                  params);
+    free(worlds);
+    return true;
+
+no_memory:
+    free(worlds);
+    return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances",
+                         scene->instance_count);
+}
+
+void lsf_state_finish(lsf_state *state)
+{
+    free(state->instances);
+    free(state->lights);
+    memset(state, 0, sizeof *state);
+}
