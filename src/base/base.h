@@ -52,15 +52,22 @@ char *lsf_path_confine(const char *folder, const char *relative, lsf_error *erro
 
 /* A file written aside and renamed on commit, so that readers see the old or the new one whole. */
 typedef struct lsf_atomic_file {
-    char *path, *temporary_path; /* temporary_path is in the same folder, made with mode 0666 & ~umask */
+    char *path, *temporary_path; /* temporary_path is in the same folder, made with mode 0666 & ~umask;
+                                  * it is `path` itself for devices and FIFOs */
 } lsf_atomic_file;
 bool lsf_atomic_file_begin(lsf_atomic_file *file, const char *path, lsf_error *error);
 bool lsf_atomic_file_commit(lsf_atomic_file *file, lsf_error *error); /* fsync, rename */
 void lsf_atomic_file_abort(lsf_atomic_file *file); /* removes the temporary; harmless after commit */
 /* Removes every temporary that is still open; async-signal-safe, for interrupt handlers. */
 void lsf_atomic_file_abort_all(void);
-/* Begin, write, commit. */
+/* Begin, write, commit. Path "-" is standard output. */
 bool lsf_file_write(const char *path, const void *bytes, size_t length, lsf_error *error);
+
+/* dlopen()s NAME.so, a part of the library that is loaded on first use: from the folders in the
+ * environment variable LIGHTSHEAF_MODULE_DIR (separated by colons), beside the library or the
+ * executable, or where it was installed. Never closed. NULL with LSF_ERROR_FILE, whose message
+ * ends with `hint`: the package or the build option to look for. */
+void *lsf_module_open(const char *name, const char *hint, lsf_error *error);
 
 #ifdef __cplusplus
 }
