@@ -1,0 +1,41 @@
+/* What an image file says about itself, read by our own bounds-checked parsers: nothing that a
+ * decoding library allocates is sized by numbers that were not checked here first. */
+#ifndef LSF_IO_IMAGE_HEADER_H
+#define LSF_IO_IMAGE_HEADER_H
+
+#include "base/base.h"
+#include "scene/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lsf_image_file {
+    LSF_IMAGE_FILE_PNG,
+    LSF_IMAGE_FILE_JPEG,
+    LSF_IMAGE_FILE_HDR,
+    LSF_IMAGE_FILE_EXR,
+} lsf_image_file;
+
+typedef struct lsf_image_header {
+    lsf_image_file file;
+    uint32_t width, height;
+    uint32_t channels;   /* once decoded: palettes and colour keys count as RGB and alpha */
+    lsf_texel_type type; /* once decoded: half is F32 */
+} lsf_image_header;
+
+/* Recognises the file by its magic bytes and checks it: known features only, a size within
+ * LSF_IMAGE_MAX_SIZE and `byte_limit` once decoded, no more pixels than so many bytes can hold, not
+ * cut short as far as the container tells. `name` is for messages. */
+bool lsf_image_header_read(lsf_image_header *header, const void *bytes, size_t length,
+                           uint64_t byte_limit, const char *name, lsf_error *error);
+
+/* For lsf_image_header_read: each fills `header` and sets `pixels_max`, the most pixels that a file
+ * of this kind and length can hold. */
+bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
+                         uint64_t *pixels_max, const char *name, lsf_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
