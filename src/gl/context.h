@@ -2,17 +2,112 @@
 #ifndef LSF_GL_CONTEXT_H
 #define LSF_GL_CONTEXT_H
 
+#include "base/base.h"
 #include "gl/gl.h"
 
-/* One backend: how to make, bind and destroy a context, and where its functions are. */
+/* --- backends ---------------------------------------------------------------------------------- */
+
+/* One backend: how to make, bind and destroy a context, and where its functions are. Each loads
+ * its library with dlopen, so that the program starts without any of them installed. */
 typedef struct lsf_backend_ops {
     const char *name;
+    /* Makes an OpenGL 4.5 core context and makes it current. On failure `error` says what was
+     * tried and why it failed, without advice: the caller adds which packages to install. */
     void *(*create)(const lsf_context_params *params, lsf_error *error);
-    void (*destroy)(void *platform);
+    void (*destroy)(void *platform); /* not current any more */
     bool (*make_current)(void *platform, lsf_error *error);
+    void (*release)(void *platform); /* after it no context of this backend is current */
     GLADapiproc (*get_proc_address)(void *platform, const char *name);
 } lsf_backend_ops;
 
 extern const lsf_backend_ops lsf_backend_egl, lsf_backend_osmesa, lsf_backend_glfw;
+
+/* Opens the first of `names` (NULL-terminated) that loads, or only the file that the environment
+ * variable `variable` names. Never closed again: drivers do not survive being unloaded. */
+void *lsf_library_open(const char *variable, const char *const *names, lsf_error *error);
+
+/* --- the context ------------------------------------------------------------------------------- */
+
+typedef struct lsf_allocation {
+    GLenum kind; /* GL_TEXTURE or GL_BUFFER */
+    GLuint name;
+    uint64_t bytes;
+} lsf_allocation;
+
+typedef struct lsf_cached_program {
+    uint64_t key;
+    GLuint program;
+} lsf_cached_program;
+
+#define LSF_GROUP_DEPTH_MAX 16
+
+struct lsf_context {
+    const lsf_backend_ops *ops;
+    void *platform;
+    char *vendor, *renderer, *version;
+    bool software, robust;
+    char *shader_dir; /* NULL: the embedded files */
+
+    bool fail_on_gl_error;
+    bool error_expected; /* an allocation is being tried: its failure is reported by its caller */
+    bool error_seen;
+    char first_error[512];
+
+    const char *groups[LSF_GROUP_DEPTH_MAX]; /* names of the open pass groups, for messages */
+    uint32_t group_count;
+
+    uint64_t gl_bytes, gl_bytes_peak;
+    lsf_allocation *allocations;
+    uint64_t allocation_count, allocation_capacity;
+    uint64_t fail_countdown; /* lsf_context_fail_allocation; 0: off */
+
+    lsf_cached_program *programs;
+    uint64_t program_count, program_capacity;
+    GLuint empty_vertex_array;
+};
+
+/* --- messages ---------------------------------------------------------------------------------- */
+
+/* Sends the current context's KHR_debug messages to the log. */
+void lsf_debug_install(lsf_context *context, bool debug);
+/* Moves what glGetError holds into the context's record; returns the first of them. */
+GLenum lsf_debug_take_errors(lsf_context *context);
+const char *lsf_gl_error_name(GLenum code);
+/* Labels an object for debuggers; cut to what KHR_debug guarantees. */
+void lsf_debug_label(GLenum identifier, GLuint name, const char *label);
+void lsf_debug_push_group(lsf_context *context, const char *name);
+void lsf_debug_pop_group(lsf_context *context);
+
+/* --- memory ------------------------------------------------------------------------------------ */
+
+/* Brackets the GL calls of one allocation. `begin` fails when a test asked for that; `end` fails
+ * when GL reported an error, and else counts the bytes. `what` describes the object in errors. */
+bool lsf_memory_begin(lsf_context *context, const char *what, lsf_error *error);
+bool lsf_memory_end(lsf_context *context, GLenum kind, GLuint name, uint64_t bytes,
+                    const char *what, lsf_error *error);
+void lsf_memory_forget(lsf_context *context, GLenum kind, GLuint name);
+
+/* --- shader sources ---------------------------------------------------------------------------- */
+
+typedef struct lsf_embedded_file {
+    const char *path; /* below glsl/; NULL ends the table */
+    const unsigned char *bytes;
+    size_t length;
+} lsf_embedded_file;
+extern const lsf_embedded_file lsf_embedded_files[];
+
+typedef struct lsf_shader_source {
+    lsf_string text;
+    char **paths; /* by the source-string number in #line; [0] stands for the defines */
+    uint64_t path_count, path_capacity;
+} lsf_shader_source;
+
+/* #version, the defines, then the file with its includes, all with #line. */
+bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
+                             uint32_t define_count, lsf_shader_source *source, lsf_error *error);
+void lsf_shader_source_free(lsf_shader_source *source);
+/* A driver's log with every place as path:line:. */
+void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
+                               lsf_string *mapped);
 
 #endif

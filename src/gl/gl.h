@@ -47,6 +47,10 @@ GLuint lsf_framebuffer_create(lsf_context *context, const lsf_framebuffer_desc *
                               lsf_error *error);
 void lsf_framebuffer_destroy(lsf_context *context, GLuint *framebuffer);
 
+/* For tests: the n-th texture, buffer, framebuffer, program or timer created from now on fails (1:
+ * the next); 0 turns it off. A program from the cache does not count. */
+void lsf_context_fail_allocation(lsf_context *context, uint64_t n);
+
 /* --- programs -------------------------------------------------------------------------------- */
 
 typedef struct lsf_define {

@@ -1,0 +1,298 @@
+#include "gl/context.h"
+
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define INSTALL_ADVICE                                                                             \
+    "On Debian: apt-get install libegl1 libgl1-mesa-dri (EGL, a GPU or software), or "             \
+    "libosmesa6 (software)"
+
+/* glad's function pointers are global: they belong to this context. */
+static lsf_context *loaded_context;
+/* The context current on this thread, so that another backend's can be released first. */
+static _Thread_local lsf_context *current_context;
+
+void *lsf_library_open(const char *variable, const char *const *names, lsf_error *error)
+{
+    const char *chosen = secure_getenv(variable);
+    const char *only[] = {chosen, NULL};
+    bool from_variable = chosen && *chosen;
+    void *library = NULL;
+    const char *reason = NULL;
+    for (const char *const *name = from_variable ? only : names; *name && !library; name++) {
+        library = dlopen(*name, RTLD_NOW | RTLD_LOCAL);
+        if (!library)
+            reason = dlerror();
+    }
+    if (!library)
+        lsf_error_set(error, LSF_ERROR_NO_GL, "%s%s%s", from_variable ? variable : "",
+                      from_variable ? ": " : "", reason ? reason : "no library");
+    return library;
+}
+
+static GLADapiproc load_function(void *user, const char *name)
+{
+    const lsf_context *context = user;
+    return context->ops->get_proc_address(context->platform, name);
+}
+
+static bool load_functions(lsf_context *context, lsf_error *error)
+{
+    int version = gladLoadGLUserPtr(load_function, context);
+    loaded_context = NULL;
+    if (version < GLAD_MAKE_VERSION(4, 5))
+        return lsf_error_set(error, LSF_ERROR_NO_GL, "%s: the driver gives OpenGL %d.%d, not 4.5",
+                             context->ops->name, GLAD_VERSION_MAJOR(version),
+                             GLAD_VERSION_MINOR(version));
+    loaded_context = context;
+    return true;
+}
+
+static void release_current(void)
+{
+    if (current_context)
+        current_context->ops->release(current_context->platform);
+    current_context = NULL;
+}
+
+static const lsf_backend_ops *backend_ops(lsf_backend backend)
+{
+    switch (backend) {
+    case LSF_BACKEND_EGL:
+        return &lsf_backend_egl;
+    case LSF_BACKEND_OSMESA:
+        return &lsf_backend_osmesa;
+    case LSF_BACKEND_GLFW:
+        return &lsf_backend_glfw;
+    case LSF_BACKEND_AUTO:
+        break;
+    }
+    return NULL;
+}
+
+/* LSF_BACKEND_AUTO can be decided by the environment, for programs that offer no option. */
+static bool resolve_backend(lsf_backend *backend, lsf_error *error)
+{
+    const char *value = secure_getenv("LIGHTSHEAF_BACKEND");
+    if (*backend == LSF_BACKEND_AUTO && value && *value && strcmp(value, "auto")) {
+        static const lsf_backend choices[] = {LSF_BACKEND_EGL, LSF_BACKEND_OSMESA,
+                                              LSF_BACKEND_GLFW};
+        for (size_t i = 0; i < LSF_COUNT(choices); i++) {
+            if (!strcmp(value, backend_ops(choices[i])->name)) {
+                *backend = choices[i];
+                return true;
+            }
+        }
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "LIGHTSHEAF_BACKEND=%s: not a backend; use auto, egl, osmesa or glfw",
+                             value);
+    }
+    if (*backend != LSF_BACKEND_AUTO && !backend_ops(*backend))
+        return lsf_error_set(error, LSF_ERROR_USAGE, "backend %d does not exist", (int)*backend);
+    return true;
+}
+
+static bool create_platform(lsf_context *context, const lsf_context_params *params,
+                            lsf_backend backend, lsf_error *error)
+{
+    /* EGL tries hardware before software by itself. */
+    static const lsf_backend_ops *const automatic[] = {&lsf_backend_egl, &lsf_backend_osmesa};
+    const lsf_backend_ops *one[] = {backend_ops(backend)};
+    const lsf_backend_ops *const *candidates = one[0] ? one : automatic;
+    size_t count = one[0] ? 1 : LSF_COUNT(automatic);
+
+    lsf_string reasons = {0};
+    for (size_t i = 0; i < count && !context->platform; i++) {
+        lsf_error reason = {0};
+        context->ops = candidates[i];
+        context->platform = context->ops->create(params, &reason);
+        if (context->platform && !load_functions(context, &reason)) {
+            context->ops->release(context->platform);
+            context->ops->destroy(context->platform);
+            context->platform = NULL;
+        }
+        if (!context->platform)
+            lsf_string_add(&reasons, "%s  %s: %s", reasons.length ? "\n" : "",
+                           context->ops->name, reason.message);
+    }
+    if (!context->platform)
+        lsf_error_set(error, LSF_ERROR_NO_GL,
+                      "no OpenGL 4.5 context could be made. Tried:\n%.3000s\n%s",
+                      reasons.text ? reasons.text : "", INSTALL_ADVICE);
+    else if (reasons.length)
+        lsf_log(LSF_LOG_INFO, "OpenGL falls back to %s, because:\n%s", context->ops->name,
+                reasons.text);
+    free(reasons.text);
+    return context->platform != NULL;
+}
+
+static bool is_software(const char *renderer)
+{
+    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "lavapipe",
+                                        "Software Rasterizer"};
+    for (size_t i = 0; i < LSF_COUNT(names); i++)
+        if (strcasestr(renderer, names[i]))
+            return true;
+    return false;
+}
+
+static char *copy_gl_string(GLenum name)
+{
+    const GLubyte *text = glGetString(name);
+    return strdup(text ? (const char *)text : "unknown");
+}
+
+/* What every pass relies on and none changes. */
+static void set_conventions(void)
+{
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); /* reverse-Z keeps its precision */
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_DITHER);
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+static bool initialise(lsf_context *context, const lsf_context_params *params, lsf_error *error)
+{
+    context->vendor = copy_gl_string(GL_VENDOR);
+    context->renderer = copy_gl_string(GL_RENDERER);
+    context->version = copy_gl_string(GL_VERSION);
+    context->shader_dir = params->shader_dir ? strdup(params->shader_dir) : NULL;
+    if (!context->vendor || !context->renderer || !context->version ||
+        (params->shader_dir && !context->shader_dir))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory while making a GL context");
+    context->software = is_software(context->renderer);
+    GLint strategy = GL_NO_RESET_NOTIFICATION;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    context->robust = strategy == GL_LOSE_CONTEXT_ON_RESET;
+    context->fail_on_gl_error = params->fail_on_gl_error;
+    /* Some drivers leave an error behind for queries of the loader or of the strategy. */
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; i++)
+        ;
+    lsf_debug_install(context, params->debug || params->fail_on_gl_error);
+    set_conventions();
+    glCreateVertexArrays(1, &context->empty_vertex_array);
+    lsf_log(LSF_LOG_DEBUG, "OpenGL by %s: %s, %s, %s%s%s", context->ops->name, context->vendor,
+            context->renderer, context->version, context->software ? ", software" : "",
+            context->robust ? ", robust" : "");
+    return true;
+}
+
+lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *error)
+{
+    static const lsf_context_params defaults = {LSF_CONTEXT_PARAMS_DEFAULTS};
+    if (!params)
+        params = &defaults;
+    lsf_backend backend = params->backend;
+    if (!resolve_backend(&backend, error))
+        return NULL;
+    lsf_context *context = lsf_alloc(1, sizeof *context);
+    if (!context) {
+        lsf_error_set(error, LSF_ERROR_RENDER, "out of memory while making a GL context");
+        return NULL;
+    }
+    /* fail_on_gl_error needs the messages of a debug context. */
+    lsf_context_params wanted = *params;
+    wanted.debug = params->debug || params->fail_on_gl_error;
+    double start = lsf_now();
+    release_current();
+    if (!create_platform(context, &wanted, backend, error)) {
+        free(context);
+        return NULL;
+    }
+    current_context = context;
+    if (!initialise(context, params, error)) {
+        lsf_context_destroy(context);
+        return NULL;
+    }
+    lsf_log(LSF_LOG_DEBUG, "context made in %.1f ms", (lsf_now() - start) * 1e3);
+    return context;
+}
+
+void lsf_context_destroy(lsf_context *context)
+{
+    if (!context)
+        return;
+    if (lsf_context_make_current(context, NULL)) {
+        for (uint64_t i = 0; i < context->program_count; i++)
+            glDeleteProgram(context->programs[i].program);
+        glDeleteVertexArrays(1, &context->empty_vertex_array);
+        if (context->allocation_count)
+            lsf_log(LSF_LOG_DEBUG, "%llu GL objects of %llu bytes outlived their owners",
+                    (unsigned long long)context->allocation_count,
+                    (unsigned long long)context->gl_bytes);
+    }
+    release_current();
+    if (loaded_context == context)
+        loaded_context = NULL;
+    context->ops->destroy(context->platform);
+    free(context->programs);
+    free(context->allocations);
+    free(context->shader_dir);
+    free(context->vendor);
+    free(context->renderer);
+    free(context->version);
+    free(context);
+}
+
+bool lsf_context_make_current(lsf_context *context, lsf_error *error)
+{
+    if (current_context != context) {
+        release_current();
+        if (!context->ops->make_current(context->platform, error))
+            return false;
+        current_context = context;
+    }
+    return loaded_context == context || load_functions(context, error);
+}
+
+static const char *reset_description(GLenum status)
+{
+    switch (status) {
+    case GL_GUILTY_CONTEXT_RESET:
+        return "this program's work hung or crashed the GPU";
+    case GL_INNOCENT_CONTEXT_RESET:
+        return "another program's work hung or crashed the GPU";
+    default:
+        return "the GPU was reset";
+    }
+}
+
+bool lsf_context_check(lsf_context *context, lsf_error *error)
+{
+    GLenum status = context->robust ? glGetGraphicsResetStatus() : GL_NO_ERROR;
+    if (status != GL_NO_ERROR)
+        return lsf_error_set(error, LSF_ERROR_RENDER,
+                             "the OpenGL context was lost: %s. Make a new one, with fewer samples "
+                             "or a lower resolution if it happens again",
+                             reset_description(status));
+    lsf_debug_take_errors(context);
+    bool failed = context->fail_on_gl_error && context->error_seen;
+    context->error_seen = false;
+    if (failed)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "OpenGL reported: %s", context->first_error);
+    return true;
+}
+
+lsf_context_info lsf_context_get_info(const lsf_context *context)
+{
+    return (lsf_context_info){
+        .backend = context->ops->name,
+        .vendor = context->vendor,
+        .renderer = context->renderer,
+        .version = context->version,
+        .software = context->software,
+        .robust = context->robust,
+        .gl_bytes = context->gl_bytes,
+        .gl_bytes_peak = context->gl_bytes_peak,
+    };
+}
+
+void lsf_draw_fullscreen(lsf_context *context)
+{
+    glBindVertexArray(context->empty_vertex_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}

@@ -1,0 +1,218 @@
+#include "gl/context.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <xxhash.h>
+
+#define FILES_MAX LSF_COUNT(((lsf_program_desc *)0)->files)
+
+static GLenum stage_of(const char *path)
+{
+    static const struct {
+        const char *ending;
+        GLenum stage;
+    } stages[] = {
+        {".vert.glsl", GL_VERTEX_SHADER},          {".tesc.glsl", GL_TESS_CONTROL_SHADER},
+        {".tese.glsl", GL_TESS_EVALUATION_SHADER}, {".geom.glsl", GL_GEOMETRY_SHADER},
+        {".frag.glsl", GL_FRAGMENT_SHADER},        {".comp.glsl", GL_COMPUTE_SHADER},
+    };
+    size_t length = strlen(path);
+    for (size_t i = 0; i < LSF_COUNT(stages); i++) {
+        size_t ending = strlen(stages[i].ending);
+        if (length > ending && !strcmp(path + length - ending, stages[i].ending))
+            return stages[i].stage;
+    }
+    return 0;
+}
+
+/* What is being made: the stages of one program. */
+typedef struct build {
+    const lsf_program_desc *desc;
+    uint32_t count;
+    GLenum stages[FILES_MAX];
+    lsf_shader_source sources[FILES_MAX];
+    GLuint shaders[FILES_MAX];
+} build;
+
+static bool read_sources(const lsf_context *context, build *b, lsf_error *error)
+{
+    const lsf_program_desc *desc = b->desc;
+    for (uint32_t i = 0; i < FILES_MAX && desc->files[i]; i++) {
+        b->stages[i] = stage_of(desc->files[i]);
+        if (!b->stages[i])
+            return lsf_error_set(error, LSF_ERROR_RENDER,
+                                 "%s: the name must end in .vert.glsl, .tesc.glsl, .tese.glsl, "
+                                 ".geom.glsl, .frag.glsl or .comp.glsl",
+                                 desc->files[i]);
+        if (!lsf_shader_source_build(context->shader_dir, desc->files[i], desc->defines,
+                                     desc->define_count, &b->sources[i], error))
+            return false;
+        b->count++;
+    }
+    return b->count > 0 || lsf_error_set(error, LSF_ERROR_RENDER, "program %s names no shader",
+                                         desc->label ? desc->label : "without a label");
+}
+
+static uint64_t hash_sources(const build *b)
+{
+    uint64_t key = 0;
+    for (uint32_t i = 0; i < b->count; i++)
+        key = XXH3_64bits_withSeed(b->sources[i].text.text, b->sources[i].text.length,
+                                   key ^ b->stages[i]);
+    return key;
+}
+
+/* The message holds what fits; a longer log goes whole to the log, line by line. */
+static bool report(const char *label, const char *what, const lsf_string *log, lsf_error *error)
+{
+    const char *text = log->text ? log->text : "the driver gives no reason";
+    size_t length = strlen(text);
+    while (length && text[length - 1] == '\n')
+        length--;
+    const size_t room = LSF_ERROR_MESSAGE_SIZE - 256;
+    if (length > room) {
+        for (const char *line = text; *line;) {
+            size_t line_length = strcspn(line, "\n");
+            lsf_log(LSF_LOG_ERROR, "%.*s", (int)line_length, line);
+            line += line_length + (line[line_length] == '\n');
+        }
+    }
+    return lsf_error_set(error, LSF_ERROR_RENDER, "program %.128s did not %s:\n%.*s%s",
+                         label ? label : "without a label", what,
+                         (int)(length > room ? room : length), text,
+                         length > room ? "\n... (the whole text is in the log)" : "");
+}
+
+static char *shader_log(GLuint shader)
+{
+    GLint length = 0;
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    char *log = lsf_alloc((uint64_t)(length > 0 ? length : 0) + 1, 1);
+    if (log && length > 0)
+        glGetShaderInfoLog(shader, length, NULL, log);
+    return log;
+}
+
+static char *program_log(GLuint program)
+{
+    GLint length = 0;
+    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    char *log = lsf_alloc((uint64_t)(length > 0 ? length : 0) + 1, 1);
+    if (log && length > 0)
+        glGetProgramInfoLog(program, length, NULL, log);
+    return log;
+}
+
+/* All stages are handed over before the first result is asked for: a driver that compiles on
+ * threads works on them at once. All their errors are shown together. */
+static bool compile(build *b, lsf_error *error)
+{
+    for (uint32_t i = 0; i < b->count; i++) {
+        const GLchar *text = b->sources[i].text.text;
+        const GLint length = (GLint)b->sources[i].text.length;
+        b->shaders[i] = glCreateShader(b->stages[i]);
+        glShaderSource(b->shaders[i], 1, &text, &length);
+        glCompileShader(b->shaders[i]);
+        lsf_debug_label(GL_SHADER, b->shaders[i], b->desc->files[i]);
+    }
+    lsf_string mapped = {0};
+    bool compiled = true;
+    for (uint32_t i = 0; i < b->count; i++) {
+        GLint status = GL_FALSE;
+        glGetShaderiv(b->shaders[i], GL_COMPILE_STATUS, &status);
+        compiled = compiled && status;
+        char *log = shader_log(b->shaders[i]);
+        if (log)
+            lsf_shader_source_map_log(&b->sources[i], log, &mapped);
+        free(log);
+    }
+    if (!compiled)
+        report(b->desc->label, "compile", &mapped, error);
+    else if (mapped.length)
+        lsf_log(LSF_LOG_DEBUG, "program %s:\n%s", b->desc->label ? b->desc->label : "",
+                mapped.text);
+    free(mapped.text);
+    return compiled;
+}
+
+static GLuint link_stages(const build *b, lsf_error *error)
+{
+    GLuint program = glCreateProgram();
+    for (uint32_t i = 0; i < b->count; i++)
+        glAttachShader(program, b->shaders[i]);
+    glLinkProgram(program);
+    for (uint32_t i = 0; i < b->count; i++)
+        glDetachShader(program, b->shaders[i]);
+    GLint status = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &status);
+    if (!status) {
+        char *log = program_log(program);
+        lsf_string mapped = {0};
+        if (log && *log)
+            lsf_shader_source_map_log(&b->sources[0], log, &mapped);
+        report(b->desc->label, "link", &mapped, error);
+        free(mapped.text);
+        free(log);
+        glDeleteProgram(program);
+        return 0;
+    }
+    lsf_debug_label(GL_PROGRAM, program, b->desc->label);
+    return program;
+}
+
+static GLuint find_cached(const lsf_context *context, uint64_t key)
+{
+    for (uint64_t i = 0; i < context->program_count; i++)
+        if (context->programs[i].key == key)
+            return context->programs[i].program;
+    return 0;
+}
+
+static bool cache(lsf_context *context, uint64_t key, GLuint program, lsf_error *error)
+{
+    void *programs = context->programs;
+    if (!lsf_grow(&programs, &context->program_capacity, context->program_count + 1,
+                  sizeof(lsf_cached_program)))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory while making a program");
+    context->programs = programs;
+    context->programs[context->program_count++] = (lsf_cached_program){key, program};
+    return true;
+}
+
+static GLuint make_program(lsf_context *context, build *b, uint64_t key, lsf_error *error)
+{
+    const char *label = b->desc->label ? b->desc->label : "without a label";
+    char what[256];
+    snprintf(what, sizeof what, "program %s", label);
+    if (!lsf_memory_begin(context, what, error))
+        return 0;
+    double start = lsf_now();
+    GLuint program = compile(b, error) ? link_stages(b, error) : 0;
+    bool made = lsf_memory_end(context, GL_PROGRAM, program, 0, what, program ? error : NULL);
+    if (program && (!made || !cache(context, key, program, error))) {
+        glDeleteProgram(program);
+        return 0;
+    }
+    if (program)
+        lsf_log(LSF_LOG_DEBUG, "%s: compiled in %.1f ms", what, (lsf_now() - start) * 1e3);
+    return program;
+}
+
+GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error)
+{
+    build b = {.desc = desc};
+    GLuint program = 0;
+    if (read_sources(context, &b, error)) {
+        uint64_t key = hash_sources(&b);
+        program = find_cached(context, key);
+        if (!program)
+            program = make_program(context, &b, key, error);
+    }
+    for (uint32_t i = 0; i < b.count; i++) {
+        glDeleteShader(b.shaders[i]); /* 0 is ignored */
+        lsf_shader_source_free(&b.sources[i]);
+    }
+    return program;
+}

@@ -1,0 +1,315 @@
+/* From files below glsl/ to the text of one stage: #version, defines, includes, #line. */
+#include "gl/context.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FILE_LIMIT (1u << 20) /* bytes of one shader file */
+
+/* A file that is being read, and the line of the file that includes it. */
+typedef struct open_file {
+    const char *path;
+    uint64_t line;
+    const struct open_file *parent;
+} open_file;
+
+typedef struct builder {
+    const char *shader_dir;
+    lsf_shader_source *source;
+    lsf_error *error;
+} builder;
+
+static bool out_of_memory(const builder *b)
+{
+    return lsf_error_set(b->error, LSF_ERROR_RENDER, "out of memory while reading shaders");
+}
+
+/* " (included at passes/x.frag.glsl:3)", or nothing for a file that a program names. */
+static void describe_includer(const open_file *file, char *text, size_t size)
+{
+    text[0] = '\0';
+    if (file->parent)
+        snprintf(text, size, " (included at %s:%llu)", file->parent->path,
+                 (unsigned long long)file->parent->line);
+}
+
+static char *read_embedded(const char *path)
+{
+    for (const lsf_embedded_file *file = lsf_embedded_files; file->path; file++)
+        if (!strcmp(file->path, path))
+            return strndup((const char *)file->bytes, file->length);
+    return NULL;
+}
+
+static bool leaves_folder(const char *path)
+{
+    for (const char *at = path; (at = strstr(at, "..")); at += 2)
+        if ((at == path || at[-1] == '/') && (at[2] == '/' || at[2] == '\0'))
+            return true;
+    return path[0] == '/';
+}
+
+static char *read_file(const builder *b, const open_file *file)
+{
+    char includer[256];
+    describe_includer(file, includer, sizeof includer);
+    if (leaves_folder(file->path)) {
+        lsf_error_set(b->error, LSF_ERROR_RENDER,
+                      "%s: a shader's path must stay below glsl/%s", file->path, includer);
+        return NULL;
+    }
+    if (!b->shader_dir) {
+        char *text = read_embedded(file->path);
+        if (!text)
+            lsf_error_set(b->error, LSF_ERROR_RENDER,
+                          "%s: there is no such shader in the library%s", file->path, includer);
+        return text;
+    }
+    lsf_error reason = {0};
+    char *path = lsf_format("%s/%s", b->shader_dir, file->path);
+    char *text = path ? lsf_file_read(path, FILE_LIMIT, NULL, &reason) : NULL;
+    if (!path)
+        out_of_memory(b);
+    else if (!text)
+        lsf_error_set(b->error, LSF_ERROR_FILE,
+                      "%.3000s%s. The shader folder must hold the whole of glsl/", reason.message,
+                      includer);
+    free(path);
+    return text;
+}
+
+/* Whether a line's comments leave it inside a block comment. */
+static bool ends_in_comment(const char *line, size_t length, bool inside)
+{
+    for (size_t i = 0; i + 1 < length; i++) {
+        if (inside && line[i] == '*' && line[i + 1] == '/') {
+            inside = false;
+            i++;
+        } else if (!inside && line[i] == '/' && line[i + 1] == '*') {
+            inside = true;
+            i++;
+        } else if (!inside && line[i] == '/' && line[i + 1] == '/') {
+            return false;
+        }
+    }
+    return inside;
+}
+
+typedef enum include_kind {
+    NO_INCLUDE,
+    INCLUDE,
+    SYSTEM_INCLUDE, /* <...>: meant for C, in the headers that C shares */
+    BAD_INCLUDE,
+} include_kind;
+
+static include_kind parse_include(const char *line, size_t length, char path[static 256])
+{
+    const char *end = line + length;
+    while (line < end && isspace((unsigned char)*line))
+        line++;
+    if (line == end || *line++ != '#')
+        return NO_INCLUDE;
+    while (line < end && isspace((unsigned char)*line))
+        line++;
+    if ((size_t)(end - line) < 7 || strncmp(line, "include", 7))
+        return NO_INCLUDE;
+    line += 7;
+    while (line < end && isspace((unsigned char)*line))
+        line++;
+    if (line < end && *line == '<')
+        return SYSTEM_INCLUDE;
+    if (line == end || *line++ != '"')
+        return BAD_INCLUDE;
+    const char *quote = memchr(line, '"', (size_t)(end - line));
+    if (!quote || quote == line || quote - line >= 256)
+        return BAD_INCLUDE;
+    memcpy(path, line, (size_t)(quote - line));
+    path[quote - line] = '\0';
+    return INCLUDE;
+}
+
+/* The file's number in #line, from 1; 0 when it was not read yet. */
+static uint64_t find_path(const lsf_shader_source *source, const char *path)
+{
+    for (uint64_t i = 1; i < source->path_count; i++)
+        if (!strcmp(source->paths[i], path))
+            return i;
+    return 0;
+}
+
+static bool add_path(const builder *b, const char *path)
+{
+    lsf_shader_source *source = b->source;
+    void *paths = source->paths;
+    if (!lsf_grow(&paths, &source->path_capacity, source->path_count + 1, sizeof(char *)))
+        return out_of_memory(b);
+    source->paths = paths;
+    source->paths[source->path_count] = strdup(path);
+    return source->paths[source->path_count++] != NULL || out_of_memory(b);
+}
+
+static bool check_cycle(const builder *b, const open_file *from, const char *path)
+{
+    for (const open_file *file = from; file; file = file->parent)
+        if (!strcmp(file->path, path))
+            return lsf_error_set(b->error, LSF_ERROR_RENDER,
+                                 "%s:%llu: %s includes itself; break the circle", from->path,
+                                 (unsigned long long)from->line, path);
+    return true;
+}
+
+static bool add_file(const builder *b, const open_file *opened);
+
+static bool add_include(const builder *b, const open_file *from, const char *path)
+{
+    lsf_string *text = &b->source->text;
+    if (!check_cycle(b, from, path))
+        return false;
+    if (find_path(b->source, path)) {
+        lsf_string_add_bytes(text, "\n", 1);
+        return true;
+    }
+    open_file included = {.path = path, .parent = from};
+    if (!add_file(b, &included))
+        return false;
+    lsf_string_add(text, "#line %llu %llu\n", (unsigned long long)from->line + 1,
+                   (unsigned long long)find_path(b->source, from->path));
+    return true;
+}
+
+static bool add_lines(const builder *b, open_file *file, const char *content)
+{
+    lsf_string *text = &b->source->text;
+    bool in_comment = false;
+    char path[256];
+    for (const char *line = content; *line;) {
+        size_t length = strcspn(line, "\n");
+        include_kind kind = in_comment ? NO_INCLUDE : parse_include(line, length, path);
+        in_comment = ends_in_comment(line, length, in_comment);
+        file->line++;
+        switch (kind) {
+        case INCLUDE:
+            if (!add_include(b, file, path))
+                return false;
+            break;
+        case BAD_INCLUDE:
+            return lsf_error_set(b->error, LSF_ERROR_RENDER,
+                                 "%s:%llu: write #include \"path\", the path below glsl/",
+                                 file->path, (unsigned long long)file->line);
+        case SYSTEM_INCLUDE:
+            lsf_string_add_bytes(text, "\n", 1);
+            break;
+        case NO_INCLUDE:
+            lsf_string_add_bytes(text, line, length);
+            lsf_string_add_bytes(text, "\n", 1);
+            break;
+        }
+        line += length + (line[length] == '\n');
+    }
+    return true;
+}
+
+static bool add_file(const builder *b, const open_file *opened)
+{
+    open_file file = *opened;
+    char *content = read_file(b, &file);
+    if (!content)
+        return false;
+    bool added = add_path(b, file.path);
+    if (added) {
+        lsf_string_add(&b->source->text, "#line 1 %llu\n",
+                       (unsigned long long)b->source->path_count - 1);
+        added = add_lines(b, &file, content);
+    }
+    free(content);
+    return added;
+}
+
+bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
+                             uint32_t define_count, lsf_shader_source *source, lsf_error *error)
+{
+    *source = (lsf_shader_source){0};
+    builder b = {shader_dir, source, error};
+    open_file file = {.path = path};
+    bool built = add_path(&b, "defines");
+    if (built) {
+        lsf_string_add(&source->text, "#version 450 core\n");
+        for (uint32_t i = 0; i < define_count; i++)
+            lsf_string_add(&source->text, "#define %s %d\n", defines[i].name, defines[i].value);
+        built = add_file(&b, &file);
+    }
+    if (built && source->text.failed)
+        built = out_of_memory(&b);
+    if (!built)
+        lsf_shader_source_free(source);
+    return built;
+}
+
+void lsf_shader_source_free(lsf_shader_source *source)
+{
+    for (uint64_t i = 0; i < source->path_count; i++)
+        free(source->paths[i]);
+    free(source->paths);
+    free(source->text.text);
+    *source = (lsf_shader_source){0};
+}
+
+/* The place that a log line begins with, and where the message goes on:
+ *   Mesa    0:12(5): error: ...      NVIDIA  0(12) : error C1008: ...
+ *   others  ERROR: 0:12: ...
+ * Returns NULL when the line names no place. */
+static const char *parse_place(const char *line, uint64_t *file, uint64_t *number)
+{
+    char *end;
+    if (!isdigit((unsigned char)*line))
+        return NULL;
+    *file = strtoull(line, &end, 10);
+    bool parenthesis = *end == '(';
+    if ((*end != ':' && !parenthesis) || !isdigit((unsigned char)end[1]))
+        return NULL;
+    *number = strtoull(end + 1, &end, 10);
+    if (parenthesis) {
+        if (*end++ != ')')
+            return NULL;
+    } else if (*end == '(') {
+        end += strcspn(end, ")\n"); /* Mesa's column: of the preprocessed text, no help */
+        if (*end++ != ')')
+            return NULL;
+    }
+    while (*end == ' ')
+        end++;
+    if (*end++ != ':')
+        return NULL;
+    while (*end == ' ')
+        end++;
+    return end;
+}
+
+void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
+                               lsf_string *mapped)
+{
+    static const char *const severities[][2] = {{"ERROR: ", "error: "}, {"WARNING: ", "warning: "}};
+    for (const char *line = log; *line;) {
+        size_t length = strcspn(line, "\n");
+        const char *next = line + length + (line[length] == '\n');
+        const char *severity = "", *at = line;
+        for (size_t i = 0; i < LSF_COUNT(severities); i++) {
+            size_t prefix = strlen(severities[i][0]);
+            if (!strncmp(line, severities[i][0], prefix)) {
+                severity = severities[i][1];
+                at = line + prefix;
+            }
+        }
+        uint64_t file, number;
+        const char *message = parse_place(at, &file, &number);
+        if (message && message <= line + length && file < source->path_count)
+            lsf_string_add(mapped, "%s:%llu: %s%.*s\n", source->paths[file],
+                           (unsigned long long)number, severity, (int)(line + length - message),
+                           message);
+        else if (length)
+            lsf_string_add(mapped, "%.*s\n", (int)length, line);
+        line = next;
+    }
+}
