@@ -9,7 +9,7 @@
  * (name, type, size, value), a zero byte, the table of chunk offsets, the chunks. */
 
 enum { NONE, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB, COMPRESSION_COUNT };
-static const uint8_t rows_per_chunk[COMPRESSION_COUNT] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 0};
+static const uint16_t rows_per_chunk[COMPRESSION_COUNT] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
 enum { FLAG_TILED = 0x200, FLAG_DEEP = 0x800, FLAG_MULTIPART = 0x1000 };
 enum { CHANNELS_MAX = 1024, TILE_MAX = 8192 };
@@ -170,7 +170,7 @@ bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
         chunks = (uint64_t)((width + found.tile_width - 1) / found.tile_width) *
                  (uint64_t)((height + found.tile_height - 1) / found.tile_height);
     } else {
-        int64_t rows = found.compression == DWAB ? 256 : rows_per_chunk[found.compression];
+        int64_t rows = rows_per_chunk[found.compression];
         chunks = (uint64_t)((height + rows - 1) / rows);
     }
     /* Each chunk has an offset of 8 bytes in the table, and a header of 8. */

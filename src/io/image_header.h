@@ -30,8 +30,8 @@ typedef struct lsf_image_header {
 bool lsf_image_header_read(lsf_image_header *header, const void *bytes, size_t length,
                            uint64_t byte_limit, const char *name, lsf_error *error);
 
-/* For lsf_image_header_read: each fills `header` and sets `pixels_max`, the most pixels that a file
- * of this kind and length can hold. */
+/* The part of lsf_image_header_read for OpenEXR. `pixels_max` is the most pixels that a file of
+ * this compression and length can hold. */
 bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
                          uint64_t *pixels_max, const char *name, lsf_error *error);
 

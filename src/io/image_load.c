@@ -1,0 +1,215 @@
+#include "io/image_module.h"
+#include "io/io.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool decode(lsf_decoded_image *decoded, lsf_image_header *header, const void *bytes,
+                   size_t length, uint64_t byte_limit, const char *name, lsf_error *error)
+{
+    if (!lsf_image_header_read(header, bytes, length, byte_limit, name, error))
+        return false;
+    lsf_error cause;
+    const lsf_image_module *module = lsf_image_module_get(&cause);
+    if (!module)
+        return lsf_error_set(error, cause.code, "%s: cannot be read: %s", name, cause.message);
+    return module->decode(decoded, header, bytes, length, name, error);
+}
+
+static void release(lsf_decoded_image *decoded)
+{
+    free(decoded->texels);
+    free(decoded->names);
+}
+
+static int find_name(const lsf_decoded_image *decoded, const char *name)
+{
+    for (uint32_t c = 0; c < decoded->channels; c++)
+        if (strcmp(decoded->names[c], name) == 0)
+            return (int)c;
+    return -1;
+}
+
+/* IEC 61966-2-1, in double precision. */
+static double srgb_to_linear(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/* Grey, grey and alpha, RGB or RGBA integers to linear R, G, B and alpha. */
+static lsf_image *linear_from_integers(const lsf_decoded_image *decoded, lsf_error *error)
+{
+    static const char *const names[] = {"R", "G", "B", "A"};
+    uint32_t colours = decoded->channels >= 3 ? 3 : 1;
+    bool alpha = decoded->channels > colours;
+    uint32_t code_count = decoded->type == LSF_TEXEL_U8 ? 256 : 65536;
+    float *linear = lsf_alloc(code_count, sizeof *linear);
+    lsf_image *image =
+        lsf_image_create(decoded->width, decoded->height, alpha ? 4 : 3, names, error);
+    if (!linear || !image) {
+        free(linear);
+        lsf_image_destroy(image);
+        if (!linear)
+            lsf_error_set(error, LSF_ERROR_RENDER, "not enough memory");
+        return NULL;
+    }
+    for (uint32_t code = 0; code < code_count; code++)
+        linear[code] = (float)srgb_to_linear(code / (double)(code_count - 1));
+
+    const uint8_t *bytes = decoded->texels;
+    const uint16_t *words = decoded->texels;
+    uint64_t pixels = (uint64_t)decoded->width * decoded->height;
+    for (uint64_t i = 0; i < pixels; i++) {
+        float *pixel = image->pixels + i * image->channel_count;
+        for (uint32_t c = 0; c < image->channel_count; c++) {
+            uint32_t source = c == 3 ? decoded->channels - 1 : colours == 1 ? 0 : c;
+            uint64_t at = i * decoded->channels + source;
+            uint32_t code = decoded->type == LSF_TEXEL_U8 ? bytes[at] : words[at];
+            pixel[c] = c == 3 ? (float)code / (float)(code_count - 1) : linear[code];
+        }
+    }
+    free(linear);
+    return image;
+}
+
+static lsf_image *image_from_memory(const void *bytes, size_t length, const char *name,
+                                    lsf_error *error)
+{
+    lsf_image_header header;
+    lsf_decoded_image decoded;
+    if (!decode(&decoded, &header, bytes, length, LSF_IMAGE_MAX_BYTES, name, error))
+        return NULL;
+    if (decoded.type != LSF_TEXEL_F32) {
+        lsf_image *image = linear_from_integers(&decoded, error);
+        release(&decoded);
+        return image;
+    }
+    lsf_image *image = lsf_image_create(0, 0, 0, NULL, error);
+    if (!image) {
+        release(&decoded);
+        return NULL;
+    }
+    free(image->channel_names);
+    free(image->pixels);
+    *image = (lsf_image){.width = decoded.width,
+                         .height = decoded.height,
+                         .channel_count = decoded.channels,
+                         .channel_names = decoded.names,
+                         .pixels = decoded.texels};
+    return image;
+}
+
+lsf_image *lsf_image_load(const char *path, lsf_error *error)
+{
+    size_t length;
+    char *bytes = lsf_file_read(path, LSF_IMAGE_MAX_BYTES, &length, error);
+    if (!bytes)
+        return NULL;
+    lsf_image *image = image_from_memory(bytes, length, path, error);
+    free(bytes);
+    return image;
+}
+
+/* Keeps the channels that make a colour, in the order R, G, B, A (or Y, A). */
+static bool keep_colour_channels(lsf_decoded_image *decoded, const char *name, lsf_error *error)
+{
+    static const char *const wanted[2][4] = {{"R", "G", "B", "A"}, {"Y", "A", "", ""}};
+    int picked[4] = {0};
+    uint32_t count = 0;
+    for (int set = 0; set < 2 && count == 0; set++) {
+        uint32_t needed = set == 0 ? 3 : 1;
+        while (count < needed + 1 && (picked[count] = find_name(decoded, wanted[set][count])) >= 0)
+            count++;
+        if (count < needed)
+            count = 0;
+    }
+    if (count == 0)
+        return lsf_error_set(error, LSF_ERROR_FILE,
+                             "%s: the image has neither channels R, G, B nor Y; its first is "
+                             "\"%s\"; rename its channels",
+                             name, decoded->names[0]);
+    float *texels = decoded->texels;
+    uint64_t pixels = (uint64_t)decoded->width * decoded->height;
+    for (uint64_t i = 0; i < pixels; i++) {
+        float kept[4];
+        for (uint32_t c = 0; c < count; c++)
+            kept[c] = texels[i * decoded->channels + (uint32_t)picked[c]];
+        memcpy(texels + i * count, kept, count * sizeof *kept);
+    }
+    decoded->channels = count;
+    return true;
+}
+
+/* Sets values that `keep_negative` or their finiteness forbids to 0 and counts them. */
+static uint64_t repair(float *values, uint64_t count, bool keep_negative)
+{
+    uint64_t repaired = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        if (isfinite(values[i]) && (keep_negative || values[i] >= 0.0f))
+            continue;
+        values[i] = 0.0f;
+        repaired++;
+    }
+    return repaired;
+}
+
+bool lsf_texture_image_decode(lsf_texture_image *image, const void *bytes, size_t length,
+                              uint64_t byte_limit, const char *name, lsf_error *error)
+{
+    lsf_image_header header;
+    lsf_decoded_image decoded;
+    if (!decode(&decoded, &header, bytes, length, byte_limit, name, error))
+        return false;
+    if (header.file == LSF_IMAGE_FILE_EXR && !keep_colour_channels(&decoded, name, error)) {
+        release(&decoded);
+        return false;
+    }
+    free(decoded.names);
+    image->width = decoded.width;
+    image->height = decoded.height;
+    image->channels = decoded.channels;
+    image->type = decoded.type;
+    image->texels = decoded.texels;
+    image->non_finite = 0;
+    if (image->type == LSF_TEXEL_F32)
+        image->non_finite = repair(image->texels,
+                                   (uint64_t)image->width * image->height * image->channels, true);
+    return true;
+}
+
+bool lsf_environment_load(lsf_environment *environment, const char *path, uint64_t *repaired,
+                          lsf_error *error)
+{
+    lsf_image *image = lsf_image_load(path, error);
+    if (!image)
+        return false;
+    int channels[3] = {lsf_image_channel(image, "R"), lsf_image_channel(image, "G"),
+                       lsf_image_channel(image, "B")};
+    int grey = lsf_image_channel(image, "Y");
+    uint64_t pixels = (uint64_t)image->width * image->height;
+    float *texels = NULL;
+    if ((channels[0] < 0 || channels[1] < 0 || channels[2] < 0) && grey < 0)
+        lsf_error_set(error, LSF_ERROR_FILE,
+                      "%s: an environment needs channels R, G, B or Y; the first here is \"%s\"",
+                      path, image->channel_names[0]);
+    else if (!(texels = lsf_alloc(pixels, 3 * sizeof *texels)))
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for %u x %u pixels", path,
+                      image->width, image->height);
+    if (!texels) {
+        lsf_image_destroy(image);
+        return false;
+    }
+    bool colour = channels[0] >= 0 && channels[1] >= 0 && channels[2] >= 0;
+    for (uint64_t i = 0; i < pixels; i++)
+        for (int c = 0; c < 3; c++)
+            texels[3 * i + (uint64_t)c] =
+                image->pixels[i * image->channel_count + (uint32_t)(colour ? channels[c] : grey)];
+    *repaired = repair(texels, 3 * pixels, false);
+    environment->present = true;
+    environment->width = image->width;
+    environment->height = image->height;
+    environment->texels = texels;
+    lsf_image_destroy(image);
+    return true;
+}
