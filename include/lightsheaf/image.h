@@ -62,6 +62,10 @@ typedef struct lsf_image_save_params {
 bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_save_params *params,
                     lsf_error *error);
 
+/* Removes what lsf_image_save is writing aside at this moment, in any thread. Async-signal-safe:
+ * for the handler of a signal that ends the process. */
+void lsf_image_save_abort(void);
+
 #if defined(__GNUC__)
 #pragma GCC visibility pop
 #endif

@@ -199,3 +199,8 @@ bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_sa
     free(rgb);
     return saved;
 }
+
+void lsf_image_save_abort(void)
+{
+    lsf_atomic_file_abort_all();
+}
