@@ -1,0 +1,16 @@
+/* How every subcommand begins: options, log, and the scene. */
+#ifndef LSF_TOOLS_BEGIN_H
+#define LSF_TOOLS_BEGIN_H
+
+#include "tools/options.h"
+
+enum { LSF_GO_ON = -1 };
+
+/* Parses the command line, takes over the log, and answers --help, --version and the lists.
+ * LSF_GO_ON, or the exit status to end with. Finish `settings` in either case. */
+int lsf_tool_begin(lsf_settings *settings, lsf_command_bit command, int argc, char **argv);
+
+/* The operand, or the scene that comes with Lightsheaf. malloc'ed; NULL: LSF_ERROR_USAGE. */
+char *lsf_tool_scene_path(const lsf_settings *settings, lsf_error *error);
+
+#endif

@@ -1,0 +1,37 @@
+#include "base/base.h"
+#include "tools/begin.h"
+#include "tools/report.h"
+#include "tools/tools.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool print_scene(const lsf_settings *settings, lsf_error *error)
+{
+    lsf_scene_params params = lsf_settings_scene_params(settings);
+    lsf_scene *scene = lsf_scene_load(settings->operands.items[0], &params, error);
+    if (!scene)
+        return false;
+    char *text = lsf_scene_describe(scene, settings->print_json);
+    bool good = text ? lsf_file_write("-", text, strlen(text), error)
+                     : lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left",
+                                     settings->operands.items[0]);
+    free(text);
+    lsf_scene_destroy(scene);
+    return good;
+}
+
+int lsf_tool_info(int argc, char **argv)
+{
+    lsf_settings settings;
+    lsf_error error;
+    int status = lsf_tool_begin(&settings, LSF_COMMAND_INFO, argc, argv);
+    if (status == LSF_GO_ON) {
+        /* What loading warns of is in the description; it is not said twice. */
+        if (!settings.verbose)
+            lsf_report_start(LSF_VERBOSITY_QUIET);
+        status = print_scene(&settings, &error) ? 0 : lsf_report_error(&error);
+    }
+    lsf_settings_finish(&settings);
+    return status;
+}

@@ -1,0 +1,182 @@
+#include "tools/options.h"
+
+#include "base/base.h"
+
+#include <math.h>
+
+#define RENDERING (LSF_COMMAND_RENDER | LSF_COMMAND_REFERENCE)
+#define PLANNING (RENDERING | LSF_COMMAND_PLAN)
+#define LOADING (PLANNING | LSF_COMMAND_INFO)
+#define PICTURES (RENDERING | LSF_COMMAND_COMPARE)
+#define ANY (LOADING | LSF_COMMAND_COMPARE | LSF_COMMAND_HELP)
+
+static const lsf_command commands[] = {
+    {LSF_COMMAND_RENDER, "render", "[SCENE] -o OUT", 0, 1, "render a glTF scene with OpenGL",
+     "Renders SCENE (.gltf or .glb; without one, the furnished interior that comes with "
+     "Lightsheaf) into OUT by iterations that converge. It needs neither display nor GPU."},
+    {LSF_COMMAND_REFERENCE, "reference", "[SCENE] -o OUT", 0, 1,
+     "path-trace the same picture on the CPU, as ground truth",
+     "Path-traces SCENE on the CPU: what a technique's picture is measured against. It takes the "
+     "options of `render`; those that steer OpenGL or a technique have no effect here."},
+    {LSF_COMMAND_COMPARE, "compare", "TEST REFERENCE [REFERENCE_B]", 2, 3,
+     "measure a picture's error against a reference",
+     "Prints the error of TEST against REFERENCE: RMSE, relMSE, bias per channel, SSIM and PSNR. "
+     "With two independent halves of the reference, its own noise is taken out of the squared "
+     "errors. A pixel that is not finite is a failure."},
+    {LSF_COMMAND_INFO, "info", "SCENE", 1, 1, "say what a scene holds and what it requires",
+     "Prints what the file holds, what was ignored or repaired, and what the scene requires of a "
+     "renderer. It needs no OpenGL."},
+    {LSF_COMMAND_PLAN, "plan", "[SCENE]", 0, 1, "say what a rendering would run, and why",
+     "Prints the frame plan: the passes in order, each resource with its bytes, each shader's "
+     "switches, and why each is there or was left out. It needs no OpenGL."},
+    {LSF_COMMAND_HELP, "help", "[COMMAND]", 0, 1, "explain a command and its options",
+     "Prints the options of COMMAND, or the list of commands."},
+};
+
+const lsf_command *lsf_command_at(size_t index)
+{
+    return index < LSF_COUNT(commands) ? &commands[index] : NULL;
+}
+
+const lsf_command *lsf_command_find(lsf_command_bit bit)
+{
+    for (size_t i = 0; i < LSF_COUNT(commands); i++)
+        if (commands[i].bit == bit)
+            return &commands[i];
+    return NULL;
+}
+
+#define AT(member) offsetof(lsf_settings, member)
+
+static const lsf_command_option options[] = {
+    {"output", 'o', "OUT", RENDERING, "Output", LSF_VALUE_TEXT, AT(output), 0, 0, NULL, NULL,
+     "where the picture goes, its format by the ending: .exr (32-bit float, linear radiance, with "
+     "the layers of --aov), .hdr (RGBE), .png (tone-mapped, 8-bit sRGB); - is standard output"},
+    {"format", 0, "FORMAT", RENDERING, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
+     0, "exr|hdr|png", NULL, "the format, whatever the ending of OUT; standard output is exr without it"},
+    {"exposure", 0, "EV", PICTURES, "Output", LSF_VALUE_FLOAT, AT(exposure), -100, 100, NULL, "0",
+     "radiance is multiplied by 2^EV before tone mapping; float formats hold radiance as it is"},
+    {"aov", 0, "LIST", PLANNING, "Output", LSF_VALUE_AOVS, AT(aovs), 0, 0, NULL, NULL,
+     "layers beside the picture, separated by commas: albedo, normal, depth, emission, direct, "
+     "indirect_diffuse, indirect_specular, motion, or all; for .exr"},
+    {"json", 0, "FILE", RENDERING, "Output", LSF_VALUE_TEXT, AT(json_path), 0, 0, NULL, NULL,
+     "write options, device, times, bytes and counts as JSON; - is standard output"},
+    {"json", 0, NULL, LSF_COMMAND_INFO | LSF_COMMAND_PLAN | LSF_COMMAND_COMPARE, "Output",
+     LSF_VALUE_FLAG, AT(print_json), 0, 0, NULL, NULL, "print JSON instead of text"},
+    {"keep-partial", 0, NULL, RENDERING, "Output", LSF_VALUE_FLAG, AT(keep_partial), 0, 0, NULL,
+     NULL, "when interrupted, save what has converged so far"},
+    {"halves", 0, NULL, LSF_COMMAND_REFERENCE, "Output", LSF_VALUE_FLAG, AT(halves), 0, 0, NULL,
+     NULL,
+     "take --samples twice, independently: out_a.exr and out_b.exr beside out.exr, which holds "
+     "their mean"},
+
+    {"technique", 't', "NAME", PLANNING, "Picture", LSF_VALUE_TECHNIQUE, AT(technique), 0, 0, NULL,
+     "direct", "how light is found; see --list-techniques"},
+    {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,
+     NULL, "1024,768", "width and height in pixels; 1024x768 will do too"},
+    {"samples", 's', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(samples), 1, 1000000000, NULL,
+     NULL, "iterations; 64, or with --time-limit as many as fit"},
+    {"time-limit", 0, "S", PLANNING, "Picture", LSF_VALUE_DOUBLE, AT(time_limit), 0.001, 1e9, NULL,
+     NULL, "seconds of rendering after which no further iteration starts"},
+    {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, 1000, NULL, "1",
+     "indirect bounces of light; 0 is direct light only"},
+    {"seed", 0, "N", PLANNING, "Picture", LSF_VALUE_SEED, AT(seed), 0, 0, NULL, "0",
+     "start of the random numbers: the same seed gives the same bits"},
+    {"define", 'D', "pass.key=value", PLANNING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,
+     NULL, "set an option of a pass; repeatable; see --list-options"},
+
+    {"camera", 'c', "NAME|INDEX", PLANNING, "Camera", LSF_VALUE_TEXT, AT(camera), 0, 0, NULL, NULL,
+     "a camera of the scene, by name or by index from 0; without it, the first"},
+    {"camera-position", 0, "X,Y,Z", PLANNING, "Camera", LSF_VALUE_VECTOR, AT(camera_position),
+     -1e30, 1e30, NULL, NULL, "move the camera there, in scene units"},
+    {"camera-target", 0, "X,Y,Z", PLANNING, "Camera", LSF_VALUE_VECTOR, AT(camera_target), -1e30,
+     1e30, NULL, NULL, "turn the camera to that point, in scene units"},
+    {"fov-y", 0, "DEG", PLANNING, "Camera", LSF_VALUE_FLOAT, AT(fov_y), 0.01, 179, NULL, NULL,
+     "vertical field of view in degrees; without it, the camera's own"},
+    {"time", 0, "S", PLANNING, "Camera", LSF_VALUE_DOUBLE, AT(time), -1e9, 1e9, NULL, "0",
+     "the moment at which animations are sampled, in seconds"},
+
+    {"environment", 'e', "FILE|R,G,B", LOADING, "Scene", LSF_VALUE_ENVIRONMENT, AT(environment), 0,
+     1e30, NULL, NULL,
+     "light from outside: a latitude-longitude .hdr or .exr, or a uniform radiance in W/(m^2 sr)"},
+    {"diffuse-only", 0, NULL, LOADING, "Scene", LSF_VALUE_FLAG, AT(diffuse_only), 0, 0, NULL, NULL,
+     "read every material as a diffuse one of its base colour, without normal maps"},
+
+    {"mask", 0, "FILE", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(mask), 0, 0, NULL,
+     NULL, "leave out the pixels whose first channel is above 0.5"},
+    {"threshold", 0, "METRIC=X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_THRESHOLD,
+     AT(thresholds), 0, 0, NULL, NULL,
+     "end with status 5 when the metric is worse than X; repeatable"},
+    {"difference", 0, "OUT", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(difference), 0,
+     0, NULL, NULL, "write the absolute difference as a picture"},
+    {"epsilon", 0, "X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_DOUBLE, AT(epsilon), 0, 1e30,
+     NULL, NULL, "added to the squared reference in relMSE; without it, 0.01 of its squared mean"},
+
+    {"backend", 0, "NAME", LSF_COMMAND_RENDER | LSF_COMMAND_REFERENCE, "Device", LSF_VALUE_CHOICE,
+     AT(backend), LSF_BACKEND_AUTO, 0, "auto|egl|osmesa", "auto",
+     "where OpenGL comes from: auto is EGL on a GPU, else EGL in software, else OSMesa"},
+    {"shader-dir", 0, "DIR", LSF_COMMAND_RENDER | LSF_COMMAND_REFERENCE, "Device", LSF_VALUE_TEXT,
+     AT(shader_dir), 0, 0, NULL, NULL, "read the shaders from DIR instead of the built-in copy"},
+    {"gl-debug", 0, NULL, LSF_COMMAND_RENDER | LSF_COMMAND_REFERENCE, "Device", LSF_VALUE_FLAG,
+     AT(gl_debug), 0, 0, NULL, NULL,
+     "make a debug context, log its messages, and stop at the first OpenGL error"},
+
+    {"list-techniques", 0, NULL, PLANNING, "General", LSF_VALUE_FLAG, AT(list_techniques), 0, 0,
+     NULL, NULL, "print the techniques"},
+    {"list-options", 0, NULL, PLANNING, "General", LSF_VALUE_FLAG, AT(list_options), 0, 0, NULL,
+     NULL, "print the options of all passes, for -D"},
+    {"quiet", 'q', NULL, ANY, "General", LSF_VALUE_FLAG, AT(quiet), 0, 0, NULL, NULL,
+     "say nothing but errors"},
+    {"verbose", 'v', NULL, ANY, "General", LSF_VALUE_FLAG, AT(verbose), 0, 0, NULL, NULL,
+     "say more: what is done, and the messages of OpenGL"},
+    {"help", 'h', NULL, ANY, "General", LSF_VALUE_FLAG, AT(help), 0, 0, NULL, NULL,
+     "print this and end"},
+    {"version", 'V', NULL, ANY, "General", LSF_VALUE_FLAG, AT(version), 0, 0, NULL, NULL,
+     "print the version and end"},
+};
+
+const lsf_command_option *lsf_command_option_at(size_t index)
+{
+    return index < LSF_COUNT(options) ? &options[index] : NULL;
+}
+
+char *lsf_command_option_range(const lsf_command_option *option)
+{
+    double low = option->minimum, high = option->maximum;
+    bool bounded = fabs(low) < 1e30 && fabs(high) < 1e30;
+    switch (option->type) {
+    case LSF_VALUE_FLAG:
+        return lsf_format("no value");
+    case LSF_VALUE_COUNT:
+        return lsf_format("a whole number in %.0f..%.0f", low, high);
+    case LSF_VALUE_SEED:
+        return lsf_format("a whole number in 0..18446744073709551615");
+    case LSF_VALUE_DOUBLE:
+    case LSF_VALUE_FLOAT:
+        return bounded ? lsf_format("a number in %.9g..%.9g", low, high)
+                       : lsf_format("a number from %.9g", low);
+    case LSF_VALUE_VECTOR:
+        return lsf_format("three finite numbers separated by commas, such as 0,1.5,-2");
+    case LSF_VALUE_RESOLUTION:
+        return lsf_format("two whole numbers in %.0f..%.0f separated by a comma or x, such as "
+                          "1024,768",
+                          low, high);
+    case LSF_VALUE_TEXT:
+        return lsf_format("a text that is not empty");
+    case LSF_VALUE_CHOICE:
+        return lsf_format("one of %s", option->choices);
+    case LSF_VALUE_TECHNIQUE:
+        return lsf_format("one of the names that --list-techniques prints");
+    case LSF_VALUE_AOVS:
+        return lsf_format("albedo, normal, depth, emission, direct, indirect_diffuse, "
+                          "indirect_specular, motion or all, separated by commas");
+    case LSF_VALUE_DEFINE:
+        return lsf_format("pass.key=value with a key that --list-options prints");
+    case LSF_VALUE_ENVIRONMENT:
+        return lsf_format("a file, or three numbers from 0 separated by commas, such as "
+                          "1,1,1");
+    case LSF_VALUE_THRESHOLD:
+        return lsf_format("METRIC=X, such as rmse=0.02");
+    }
+    return NULL;
+}

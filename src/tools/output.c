@@ -1,0 +1,134 @@
+#include "tools/output.h"
+
+#include "base/base.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+/* The last dot of the file's name, or its end. */
+static size_t stem_length(const char *path)
+{
+    const char *name = strrchr(path, '/');
+    name = name ? name + 1 : path;
+    const char *dot = strrchr(name, '.');
+    return dot && dot != name ? (size_t)(dot - path) : strlen(path);
+}
+
+static lsf_image_format format_of(const char *path)
+{
+    static const struct {
+        const char *ending;
+        lsf_image_format format;
+    } endings[] = {
+        {".exr", LSF_IMAGE_FORMAT_EXR},
+        {".hdr", LSF_IMAGE_FORMAT_HDR},
+        {".png", LSF_IMAGE_FORMAT_PNG},
+    };
+    const char *ending = path + stem_length(path);
+    for (size_t i = 0; i < LSF_COUNT(endings); i++)
+        if (strcasecmp(ending, endings[i].ending) == 0)
+            return endings[i].format;
+    return LSF_IMAGE_FORMAT_AUTO;
+}
+
+/* Goes as far as one can without touching the file that may be there already. */
+static bool check_writable(const char *path, lsf_error *error)
+{
+    lsf_atomic_file file;
+    if (!lsf_atomic_file_begin(&file, path, error))
+        return false;
+    lsf_atomic_file_abort(&file);
+    return true;
+}
+
+static bool check_format(lsf_destination *destination, const lsf_settings *settings,
+                         lsf_error *error)
+{
+    const char *path = destination->path;
+    bool standard = strcmp(path, "-") == 0;
+    destination->format = (lsf_image_format)settings->format;
+    if (destination->format == LSF_IMAGE_FORMAT_AUTO)
+        destination->format = standard ? LSF_IMAGE_FORMAT_EXR : format_of(path);
+    if (destination->format == LSF_IMAGE_FORMAT_AUTO)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--output %s: no format has that ending; use .exr, .hdr or .png, or "
+                             "give --format",
+                             path);
+    if (settings->aovs && destination->format != LSF_IMAGE_FORMAT_EXR)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--aov: only .exr holds layers, and --output is %s; leave --aov out "
+                             "or write .exr",
+                             path);
+    if (standard && isatty(STDOUT_FILENO))
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--output -: standard output is a terminal; redirect it into a file "
+                             "or a pipe");
+    return true;
+}
+
+static bool check_halves(lsf_destination *destination, lsf_error *error)
+{
+    const char *path = destination->path;
+    if (strcmp(path, "-") == 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--halves: three pictures do not fit into standard output; give a "
+                             "file to --output");
+    size_t stem = stem_length(path);
+    for (int half = 0; half < 2; half++) {
+        destination->half_paths[half] =
+            lsf_format("%.*s_%c%s", (int)stem, path, 'a' + half, path + stem);
+        if (!destination->half_paths[half])
+            return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", path);
+        if (!check_writable(destination->half_paths[half], error))
+            return false;
+    }
+    return true;
+}
+
+static bool check_json(const lsf_destination *destination, const char *json, lsf_error *error)
+{
+    bool same = strcmp(json, destination->path) == 0;
+    for (int half = 0; half < 2; half++)
+        same = same || (destination->half_paths[half] &&
+                        strcmp(json, destination->half_paths[half]) == 0);
+    if (same)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--json %s: the picture goes there; give it another place", json);
+    return strcmp(json, "-") == 0 || check_writable(json, error);
+}
+
+bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *settings,
+                             lsf_error *error)
+{
+    *destination = (lsf_destination){.path = settings->output, .exposure = settings->exposure};
+    if (!settings->output)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--output: missing; say where the picture goes: -o picture.exr, .hdr, "
+                             ".png, or - for standard output");
+    if (!check_format(destination, settings, error))
+        return false;
+    if (strcmp(destination->path, "-") != 0 && !check_writable(destination->path, error))
+        return false;
+    if (settings->halves && !check_halves(destination, error))
+        return false;
+    return !settings->json_path || check_json(destination, settings->json_path, error);
+}
+
+void lsf_destination_finish(lsf_destination *destination)
+{
+    free(destination->half_paths[0]);
+    free(destination->half_paths[1]);
+    *destination = (lsf_destination){0};
+}
+
+bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
+                          lsf_error *error)
+{
+    lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
+    params.format = destination->format;
+    params.exposure = destination->exposure;
+    return lsf_image_save(image, half < 0 ? destination->path : destination->half_paths[half],
+                          &params, error);
+}

@@ -1,0 +1,24 @@
+/* Where a picture goes: decided and checked before anything is rendered. */
+#ifndef LSF_TOOLS_OUTPUT_H
+#define LSF_TOOLS_OUTPUT_H
+
+#include "tools/options.h"
+
+typedef struct lsf_destination {
+    const char *path;        /* "-": standard output; borrowed from the settings */
+    lsf_image_format format; /* never AUTO */
+    char *half_paths[2];     /* --halves: OUT_a and OUT_b; else NULL */
+    float exposure;          /* EV */
+} lsf_destination;
+
+/* Checks that the picture and the JSON can be written where the settings want them.
+ * LSF_ERROR_USAGE or LSF_ERROR_FILE. Finish it either way; it needs no initialisation. */
+bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *settings,
+                             lsf_error *error);
+void lsf_destination_finish(lsf_destination *destination);
+
+/* `half` -1: the picture itself; 0 and 1: its halves. */
+bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
+                          lsf_error *error);
+
+#endif

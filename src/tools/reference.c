@@ -1,0 +1,184 @@
+#include "base/base.h"
+#include "tools/begin.h"
+#include "tools/interrupt.h"
+#include "tools/output.h"
+#include "tools/report.h"
+#include "tools/summary.h"
+#include "tools/tools.h"
+
+#include <stdlib.h>
+
+typedef struct reference_job {
+    lsf_settings settings;
+    lsf_destination destination;
+    char *scene_path;
+    lsf_scene *scene;
+    uint32_t half, half_count;
+    lsf_image *halves[2];
+    lsf_reference_result results[2];
+    lsf_image *mean; /* NULL without halves */
+    lsf_progress_bar bar;
+    double start, load_seconds, save_seconds;
+} reference_job;
+
+static bool on_progress(uint32_t done, uint32_t total, void *user)
+{
+    lsf_progress_bar_draw(user, done, total);
+    return !lsf_interrupted();
+}
+
+static void warn_of_options_without_effect(const lsf_settings *settings)
+{
+    static const char *const names[] = {"technique", "define", "backend", "shader-dir", "gl-debug"};
+    for (size_t i = 0; i < LSF_COUNT(names); i++)
+        if (lsf_settings_given(settings, names[i]))
+            lsf_log(LSF_LOG_WARNING, "--%s: has no effect on the reference", names[i]);
+}
+
+static bool load(reference_job *job, lsf_error *error)
+{
+    lsf_scene_params params = lsf_settings_scene_params(&job->settings);
+    double start = lsf_now();
+    job->scene_path = lsf_tool_scene_path(&job->settings, error);
+    if (!job->scene_path)
+        return false;
+    job->scene = lsf_scene_load(job->scene_path, &params, error);
+    job->load_seconds = lsf_now() - start;
+    return job->scene != NULL;
+}
+
+static bool trace(reference_job *job, lsf_error *error)
+{
+    job->half_count = job->settings.halves ? 2 : 1;
+    lsf_render_params params = lsf_settings_render_params(&job->settings);
+    params.time_limit /= job->half_count;
+    params.progress = on_progress;
+    params.progress_user = &job->bar;
+    lsf_interrupt_begin_iterations();
+    bool good = true;
+    for (uint32_t half = 0; good && half < job->half_count && !lsf_interrupted(); half++) {
+        job->bar = (lsf_progress_bar){
+            .label = job->half_count == 1 ? "reference" : half ? "half b" : "half a",
+            .time_limit = params.time_limit,
+        };
+        job->halves[half] =
+            lsf_reference_render(job->scene, &params, half, &job->results[half], error);
+        good = job->halves[half] != NULL;
+    }
+    lsf_interrupt_end_iterations();
+    lsf_progress_bar_clear();
+    return good;
+}
+
+/* The mean, each half weighed by its samples; depth belongs to one surface and is taken from the
+ * first half, as it is from the first iteration in a rendering. */
+static bool take_mean(reference_job *job, lsf_error *error)
+{
+    const lsf_image *a = job->halves[0], *b = job->halves[1];
+    const char **names = lsf_alloc(a->channel_count, sizeof *names);
+    if (!names)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination.path);
+    for (uint32_t c = 0; c < a->channel_count; c++)
+        names[c] = a->channel_names[c];
+    job->mean = lsf_image_create(a->width, a->height, a->channel_count, names, error);
+    free((void *)names);
+    if (!job->mean)
+        return false;
+    double samples = (double)job->results[0].samples + job->results[1].samples;
+    double weight = job->results[1].samples / samples;
+    int depth = lsf_image_channel(a, "depth.Z");
+    size_t count = (size_t)a->width * a->height * a->channel_count;
+    for (size_t i = 0; i < count; i++) {
+        bool keep = depth >= 0 && i % a->channel_count == (size_t)depth;
+        job->mean->pixels[i] =
+            keep ? a->pixels[i]
+                 : (float)((1 - weight) * (double)a->pixels[i] + weight * (double)b->pixels[i]);
+    }
+    return true;
+}
+
+static bool save(reference_job *job, lsf_error *error)
+{
+    uint32_t samples = job->results[0].samples + job->results[1].samples;
+    if (lsf_interrupted() && (!job->settings.keep_partial || samples == 0))
+        return lsf_error_set(error, LSF_ERROR_RENDER,
+                             "interrupted after %u samples; nothing was written%s", samples,
+                             job->settings.keep_partial
+                                 ? ""
+                                 : " (--keep-partial saves what has converged)");
+    double start = lsf_now();
+    bool good;
+    if (job->half_count == 2 && job->results[1].samples > 0) {
+        good = take_mean(job, error) &&
+               lsf_destination_save(&job->destination, 0, job->halves[0], error) &&
+               lsf_destination_save(&job->destination, 1, job->halves[1], error) &&
+               lsf_destination_save(&job->destination, -1, job->mean, error);
+    } else {
+        if (job->half_count == 2)
+            lsf_log(LSF_LOG_WARNING, "interrupted before the second half: %s holds the first, and "
+                                     "no halves were written",
+                    job->destination.path);
+        good = lsf_destination_save(&job->destination, -1, job->halves[0], error);
+    }
+    job->save_seconds = lsf_now() - start;
+    return good;
+}
+
+static bool report(reference_job *job, lsf_error *error)
+{
+    const lsf_reference_result *a = &job->results[0], *b = &job->results[1];
+    double total = lsf_now() - job->start;
+    const lsf_summary_seconds seconds[] = {
+        {"load", job->load_seconds},
+        {"build", a->build_seconds + b->build_seconds},
+        {"render", a->render_seconds + b->render_seconds},
+        {"save", job->save_seconds},
+        {"total", total},
+    };
+    uint32_t samples = a->samples + b->samples;
+    lsf_report_line("%s: %ux%u, %u samples%s, traced in %.2f s of %.2f s, %.1f million rays",
+                    job->destination.path, job->halves[0]->width, job->halves[0]->height, samples,
+                    lsf_interrupted() ? " (interrupted)" : "",
+                    a->render_seconds + b->render_seconds, total, 1e-6 * (double)(a->rays + b->rays));
+    lsf_summary summary = {
+        .settings = &job->settings,
+        .scene = job->scene,
+        .scene_path = job->scene_path,
+        .output = job->destination.path,
+        .half_paths = job->mean ? (const char *const *)job->destination.half_paths : NULL,
+        .technique = "path tracing",
+        .samples = samples,
+        .interrupted = lsf_interrupted(),
+        .seconds = seconds,
+        .seconds_count = LSF_COUNT(seconds),
+        .rays = a->rays + b->rays,
+    };
+    return lsf_summary_write(&summary, error);
+}
+
+static void finish(reference_job *job)
+{
+    lsf_image_destroy(job->halves[0]);
+    lsf_image_destroy(job->halves[1]);
+    lsf_image_destroy(job->mean);
+    lsf_scene_destroy(job->scene);
+    free(job->scene_path);
+    lsf_destination_finish(&job->destination);
+}
+
+int lsf_tool_reference(int argc, char **argv)
+{
+    reference_job job = {.start = lsf_now()};
+    lsf_error error;
+    int status = lsf_tool_begin(&job.settings, LSF_COMMAND_REFERENCE, argc, argv);
+    if (status == LSF_GO_ON) {
+        warn_of_options_without_effect(&job.settings);
+        bool good = lsf_destination_prepare(&job.destination, &job.settings, &error) &&
+                    load(&job, &error) && trace(&job, &error) && save(&job, &error) &&
+                    report(&job, &error);
+        status = good ? 0 : lsf_report_error(&error);
+        finish(&job);
+    }
+    lsf_settings_finish(&job.settings);
+    return status;
+}

@@ -1,0 +1,143 @@
+#include "base/base.h"
+#include "tools/begin.h"
+#include "tools/interrupt.h"
+#include "tools/output.h"
+#include "tools/report.h"
+#include "tools/summary.h"
+#include "tools/tools.h"
+
+#include <stdlib.h>
+
+typedef struct render_job {
+    lsf_settings settings;
+    lsf_destination destination;
+    char *scene_path;
+    lsf_scene *scene;
+    lsf_context *context;
+    lsf_renderer *renderer;
+    lsf_image *image;
+    lsf_progress_bar bar;
+    lsf_renderer_stats stats;
+    double start;
+    double load_seconds, context_seconds, save_seconds;
+} render_job;
+
+static bool on_progress(uint32_t done, uint32_t total, void *user)
+{
+    lsf_progress_bar_draw(user, done, total);
+    return !lsf_interrupted();
+}
+
+static bool load(render_job *job, lsf_error *error)
+{
+    lsf_scene_params params = lsf_settings_scene_params(&job->settings);
+    double start = lsf_now();
+    job->scene_path = lsf_tool_scene_path(&job->settings, error);
+    if (!job->scene_path)
+        return false;
+    job->scene = lsf_scene_load(job->scene_path, &params, error);
+    job->load_seconds = lsf_now() - start;
+    return job->scene != NULL;
+}
+
+static bool start_gl(render_job *job, lsf_error *error)
+{
+    lsf_context_params params = lsf_settings_context_params(&job->settings);
+    double start = lsf_now();
+    job->context = lsf_context_create(&params, error);
+    job->context_seconds = lsf_now() - start;
+    return job->context != NULL;
+}
+
+static bool converge(render_job *job, lsf_error *error)
+{
+    lsf_render_params params = lsf_settings_render_params(&job->settings);
+    job->bar = (lsf_progress_bar){.label = "render", .time_limit = params.time_limit};
+    params.progress = on_progress;
+    params.progress_user = &job->bar;
+    job->renderer = lsf_renderer_create(job->context, job->scene, &params, error);
+    if (!job->renderer)
+        return false;
+    lsf_interrupt_begin_iterations();
+    bool good = lsf_renderer_run(job->renderer, error);
+    lsf_interrupt_end_iterations();
+    lsf_progress_bar_clear();
+    job->stats = lsf_renderer_get_stats(job->renderer);
+    return good && lsf_context_check(job->context, error);
+}
+
+static bool save(render_job *job, lsf_error *error)
+{
+    if (lsf_interrupted() && (!job->settings.keep_partial || job->stats.samples == 0))
+        return lsf_error_set(error, LSF_ERROR_RENDER,
+                             "interrupted after %u samples; nothing was written%s",
+                             job->stats.samples,
+                             job->settings.keep_partial
+                                 ? ""
+                                 : " (--keep-partial saves what has converged)");
+    double start = lsf_now();
+    job->image = lsf_renderer_read(job->renderer, error);
+    bool good = job->image && lsf_destination_save(&job->destination, -1, job->image, error);
+    job->save_seconds = lsf_now() - start;
+    return good;
+}
+
+static bool report(render_job *job, lsf_error *error)
+{
+    lsf_context_info device = lsf_context_get_info(job->context);
+    double total = lsf_now() - job->start;
+    const lsf_summary_seconds seconds[] = {
+        {"load", job->load_seconds},
+        {"context", job->context_seconds},
+        {"compile", job->stats.compile_seconds},
+        {"upload", job->stats.upload_seconds},
+        {"render", job->stats.render_seconds},
+        {"save", job->save_seconds},
+        {"total", total},
+    };
+    lsf_report_line("%s: %ux%u, %u samples%s of %s, rendered in %.2f s of %.2f s on %s",
+                    job->destination.path, job->image->width, job->image->height,
+                    job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
+                    job->settings.technique, job->stats.render_seconds, total, device.renderer);
+    lsf_summary summary = {
+        .settings = &job->settings,
+        .scene = job->scene,
+        .scene_path = job->scene_path,
+        .output = job->destination.path,
+        .technique = job->settings.technique,
+        .samples = job->stats.samples,
+        .interrupted = lsf_interrupted(),
+        .seconds = seconds,
+        .seconds_count = LSF_COUNT(seconds),
+        .device = &device,
+        .stats = &job->stats,
+        .plan_bytes = lsf_plan_bytes(lsf_renderer_plan(job->renderer)),
+    };
+    return lsf_summary_write(&summary, error);
+}
+
+static void finish(render_job *job)
+{
+    lsf_image_destroy(job->image);
+    lsf_renderer_destroy(job->renderer);
+    lsf_context_destroy(job->context);
+    lsf_scene_destroy(job->scene);
+    free(job->scene_path);
+    lsf_destination_finish(&job->destination);
+}
+
+int lsf_tool_render(int argc, char **argv)
+{
+    render_job job = {.start = lsf_now()};
+    lsf_error error;
+    int status = lsf_tool_begin(&job.settings, LSF_COMMAND_RENDER, argc, argv);
+    if (status == LSF_GO_ON) {
+        bool good = lsf_destination_prepare(&job.destination, &job.settings, &error) &&
+                    load(&job, &error) && start_gl(&job, &error) && converge(&job, &error) &&
+                    save(&job, &error) && report(&job, &error);
+        status = good ? 0 : lsf_report_error(&error);
+        finish(&job);
+    }
+    lsf_settings_finish(&job.settings);
+    return status;
+}

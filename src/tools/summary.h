@@ -1,0 +1,31 @@
+/* What a rendering was and took, as the JSON that --json asks for; docs/command.md has the schema. */
+#ifndef LSF_TOOLS_SUMMARY_H
+#define LSF_TOOLS_SUMMARY_H
+
+#include "tools/options.h"
+
+typedef struct lsf_summary_seconds {
+    const char *name;
+    double value;
+} lsf_summary_seconds;
+
+typedef struct lsf_summary {
+    const lsf_settings *settings;
+    const lsf_scene *scene;
+    const char *scene_path, *output;
+    const char *const *half_paths; /* two, or NULL */
+    const char *technique;         /* "path tracing" for the reference */
+    uint32_t samples;              /* taken */
+    bool interrupted;
+    const lsf_summary_seconds *seconds;
+    uint32_t seconds_count;
+    const lsf_context_info *device;    /* NULL: the reference */
+    const lsf_renderer_stats *stats;   /* NULL: the reference */
+    uint64_t plan_bytes;
+    uint64_t rays;                     /* the reference */
+} lsf_summary;
+
+/* To settings->json_path, when there is one. */
+bool lsf_summary_write(const lsf_summary *summary, lsf_error *error);
+
+#endif
