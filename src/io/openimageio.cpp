@@ -2,6 +2,7 @@
  * leaves this file. */
 #include "io/image_module.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cstdlib>
