@@ -38,7 +38,15 @@ typedef struct lsf_context_params {
     .window_width = 1280, .window_height = 720, .window_title = "Lightsheaf", .shader_dir = NULL
 
 /* Makes a context and makes it current on the calling thread. `params` NULL means the defaults.
- * LSF_ERROR_NO_GL names what was tried and which package to install. */
+ * LSF_ERROR_NO_GL names what was tried and which package to install.
+ *
+ * Several contexts may live at once, but only one thread of a process may use them: OpenGL's
+ * functions are looked up for one context at a time.
+ *
+ * The environment can decide what no option did: LIGHTSHEAF_BACKEND=egl|osmesa|glfw replaces
+ * LSF_BACKEND_AUTO, and LIGHTSHEAF_EGL_LIBRARY, LIGHTSHEAF_OSMESA_LIBRARY and
+ * LIGHTSHEAF_GLFW_LIBRARY name a library file to load in place of the system's, such as a Mesa of
+ * one's own. */
 lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *error);
 void lsf_context_destroy(lsf_context *context); /* NULL allowed */
 

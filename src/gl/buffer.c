@@ -2,8 +2,8 @@
 
 #include <stdio.h>
 
-GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes,
-                         const void *data, GLbitfield flags, lsf_error *error)
+GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes, const void *data,
+                         GLbitfield flags, lsf_error *error)
 {
     char what[256];
     snprintf(what, sizeof what, "buffer %s, %llu bytes", label ? label : "without a label",

@@ -114,8 +114,8 @@ static bool create_platform(lsf_context *context, const lsf_context_params *para
             context->platform = NULL;
         }
         if (!context->platform)
-            lsf_string_add(&reasons, "%s  %s: %s", reasons.length ? "\n" : "",
-                           context->ops->name, reason.message);
+            lsf_string_add(&reasons, "%s  %s: %s", reasons.length ? "\n" : "", context->ops->name,
+                           reason.message);
     }
     if (!context->platform)
         lsf_error_set(error, LSF_ERROR_NO_GL,

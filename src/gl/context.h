@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "gl/gl.h"
 
-/* --- backends ---------------------------------------------------------------------------------- */
+/* --- backends --- */
 
 /* One backend: how to make, bind and destroy a context, and where its functions are. Each loads
  * its library with dlopen, so that the program starts without any of them installed. */
@@ -26,7 +26,7 @@ extern const lsf_backend_ops lsf_backend_egl, lsf_backend_osmesa, lsf_backend_gl
  * variable `variable` names. Never closed again: drivers do not survive being unloaded. */
 void *lsf_library_open(const char *variable, const char *const *names, lsf_error *error);
 
-/* --- the context ------------------------------------------------------------------------------- */
+/* --- the context --- */
 
 typedef struct lsf_allocation {
     GLenum kind; /* GL_TEXTURE or GL_BUFFER */
@@ -66,7 +66,7 @@ struct lsf_context {
     GLuint empty_vertex_array;
 };
 
-/* --- messages ---------------------------------------------------------------------------------- */
+/* --- messages --- */
 
 /* Sends the current context's KHR_debug messages to the log. */
 void lsf_debug_install(lsf_context *context, bool debug);
@@ -78,7 +78,7 @@ void lsf_debug_label(GLenum identifier, GLuint name, const char *label);
 void lsf_debug_push_group(lsf_context *context, const char *name);
 void lsf_debug_pop_group(lsf_context *context);
 
-/* --- memory ------------------------------------------------------------------------------------ */
+/* --- memory --- */
 
 /* Brackets the GL calls of one allocation. `begin` fails when a test asked for that; `end` fails
  * when GL reported an error, and else counts the bytes. `what` describes the object in errors. */
@@ -87,7 +87,7 @@ bool lsf_memory_end(lsf_context *context, GLenum kind, GLuint name, uint64_t byt
                     const char *what, lsf_error *error);
 void lsf_memory_forget(lsf_context *context, GLenum kind, GLuint name);
 
-/* --- shader sources ---------------------------------------------------------------------------- */
+/* --- shader sources --- */
 
 typedef struct lsf_embedded_file {
     const char *path; /* below glsl/; NULL ends the table */
@@ -96,13 +96,20 @@ typedef struct lsf_embedded_file {
 } lsf_embedded_file;
 extern const lsf_embedded_file lsf_embedded_files[];
 
+typedef struct lsf_shader_place {
+    uint32_t file; /* in paths */
+    uint32_t line; /* from 1 */
+} lsf_shader_place;
+
 typedef struct lsf_shader_source {
     lsf_string text;
-    char **paths; /* by the source-string number in #line; [0] stands for the defines */
+    char **paths; /* [0] stands for #version and the defines */
     uint64_t path_count, path_capacity;
+    lsf_shader_place *places; /* where each line of the text came from */
+    uint64_t line_count, line_capacity;
 } lsf_shader_source;
 
-/* #version, the defines, then the file with its includes, all with #line. */
+/* #version, the defines, then the file with its includes. */
 bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
                              uint32_t define_count, lsf_shader_source *source, lsf_error *error);
 void lsf_shader_source_free(lsf_shader_source *source);

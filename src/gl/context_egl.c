@@ -65,8 +65,7 @@ static bool load(lsf_error *error)
     for (size_t i = 0; i < LSF_COUNT(functions); i++) {
         *functions[i].function = dlsym(library, functions[i].name);
         if (!*functions[i].function)
-            return lsf_error_set(error, LSF_ERROR_NO_GL, "the library lacks %s",
-                                 functions[i].name);
+            return lsf_error_set(error, LSF_ERROR_NO_GL, "the library lacks %s", functions[i].name);
     }
     egl.get_platform_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl.get_proc_address("eglGetPlatformDisplayEXT");
@@ -101,9 +100,9 @@ static size_t list_candidates(candidate candidates[static DEVICES_MAX + 1])
     size_t count = 0;
     for (int software = 0; software < 2; software++) {
         for (EGLint i = 0; i < device_count; i++) {
-            const char *extensions =
-                egl.query_device_string ? egl.query_device_string(devices[i], EGL_EXTENSIONS)
-                                        : NULL;
+            const char *extensions = egl.query_device_string
+                                         ? egl.query_device_string(devices[i], EGL_EXTENSIONS)
+                                         : NULL;
             if (has_extension(extensions, "EGL_MESA_device_software") != (bool)software)
                 continue;
             candidates[count] = (candidate){EGL_PLATFORM_DEVICE_EXT, devices[i], software, ""};
@@ -128,12 +127,10 @@ static EGLContext create_context(EGLDisplay display, EGLConfig config, bool debu
     static const int robustness[] = {ROBUST_ACCESS | RESET_NOTIFICATION, RESET_NOTIFICATION, 0};
     for (int with_debug = debug; with_debug >= 0; with_debug--) {
         for (size_t i = 0; i < LSF_COUNT(robustness); i++) {
-            EGLint attributes[16] = {EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+            EGLint attributes[16] = {
+                EGL_CONTEXT_MAJOR_VERSION,       4,
+                EGL_CONTEXT_MINOR_VERSION,       5,
+                EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
             size_t used = 6;
             if (with_debug) {
                 attributes[used++] = EGL_CONTEXT_OPENGL_DEBUG;
@@ -223,8 +220,7 @@ static void *egl_create(const lsf_context_params *params, lsf_error *error)
         lsf_error reason = {0};
         made = open_candidate(&candidates[i], params->debug, self, &reason);
         if (!made)
-            lsf_string_add(&reasons, "%s%s: %s", i ? "; " : "", candidates[i].name,
-                           reason.message);
+            lsf_string_add(&reasons, "%s%s: %s", i ? "; " : "", candidates[i].name, reason.message);
         else
             lsf_log(LSF_LOG_DEBUG, "EGL: %s", candidates[i].name);
     }

@@ -40,13 +40,11 @@ static bool load(lsf_error *error)
     lsf_error reason = {0};
     void *library = lsf_library_open("LIGHTSHEAF_GLFW_LIBRARY", names, &reason);
     if (!library)
-        return lsf_error_set(error, LSF_ERROR_NO_GL, "%.1000s (Debian: libglfw3)",
-                             reason.message);
+        return lsf_error_set(error, LSF_ERROR_NO_GL, "%.1000s (Debian: libglfw3)", reason.message);
     for (size_t i = 0; i < LSF_COUNT(functions); i++) {
         *functions[i].function = dlsym(library, functions[i].name);
         if (!*functions[i].function)
-            return lsf_error_set(error, LSF_ERROR_NO_GL, "the library lacks %s",
-                                 functions[i].name);
+            return lsf_error_set(error, LSF_ERROR_NO_GL, "the library lacks %s", functions[i].name);
     }
     return true;
 }

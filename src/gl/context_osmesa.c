@@ -74,10 +74,21 @@ static void *osmesa_create(const lsf_context_params *params, lsf_error *error)
         lsf_error_set(error, LSF_ERROR_NO_GL, "out of memory");
         return NULL;
     }
-    static const int attributes[] = {
-        OSMESA_FORMAT, GL_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_STENCIL_BITS, 0, OSMESA_ACCUM_BITS, 0,
-        OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 4,
-        OSMESA_CONTEXT_MINOR_VERSION, 5, 0};
+    static const int attributes[] = {OSMESA_FORMAT,
+                                     GL_RGBA,
+                                     OSMESA_DEPTH_BITS,
+                                     0,
+                                     OSMESA_STENCIL_BITS,
+                                     0,
+                                     OSMESA_ACCUM_BITS,
+                                     0,
+                                     OSMESA_PROFILE,
+                                     OSMESA_CORE_PROFILE,
+                                     OSMESA_CONTEXT_MAJOR_VERSION,
+                                     4,
+                                     OSMESA_CONTEXT_MINOR_VERSION,
+                                     5,
+                                     0};
     if (!load(osmesa, error))
         goto fail;
     osmesa->handle = osmesa->create(attributes, NULL);

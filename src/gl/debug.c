@@ -76,8 +76,7 @@ static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenu
     if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP)
         return;
     /* Whoever tries an allocation or a compilation reports its failure. */
-    bool reported_elsewhere =
-        context->error_expected || source == GL_DEBUG_SOURCE_SHADER_COMPILER;
+    bool reported_elsewhere = context->error_expected || source == GL_DEBUG_SOURCE_SHADER_COMPILER;
     lsf_log_level level = reported_elsewhere ? LSF_LOG_DEBUG : level_of(type, severity);
     char prefix[128];
     lsf_log(level, "OpenGL: %s%.*s", group_prefix(context, prefix), message_length(message),

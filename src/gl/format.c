@@ -9,7 +9,10 @@ static const struct {
     uint32_t bytes;
     const char *name;
 } formats[] = {
-#define FORMAT(name, bytes) {name, bytes, #name}
+#define FORMAT(name, bytes)                                                                        \
+    {                                                                                              \
+        name, bytes, #name                                                                         \
+    }
     FORMAT(GL_R8, 1),
     FORMAT(GL_R8_SNORM, 1),
     FORMAT(GL_R8I, 1),

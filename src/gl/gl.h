@@ -10,12 +10,12 @@
 
 #include <lightsheaf/context.h>
 
-/* --- memory: every byte of GL storage goes through these and is counted ------------------- */
+/* --- memory: every byte of GL storage goes through these and is counted --- */
 
 typedef struct lsf_texture_desc {
     const char *label;
-    GLenum target;          /* GL_TEXTURE_2D, _2D_ARRAY, _CUBE_MAP, _3D */
-    GLenum internal_format; /* sized */
+    GLenum target;                 /* GL_TEXTURE_2D, _2D_ARRAY, _CUBE_MAP, _3D */
+    GLenum internal_format;        /* sized */
     uint32_t width, height, depth; /* depth: layers or slices, 1 for 2D, 6 for a cube map */
     uint32_t levels;
 } lsf_texture_desc;
@@ -28,8 +28,8 @@ GLuint lsf_texture_create(lsf_context *context, const lsf_texture_desc *desc, ls
 void lsf_texture_destroy(lsf_context *context, GLuint *texture); /* *texture 0 allowed; set to 0 */
 
 /* Immutable storage; `data` NULL leaves it undefined; `flags` as for glNamedBufferStorage. */
-GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes,
-                         const void *data, GLbitfield flags, lsf_error *error);
+GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes, const void *data,
+                         GLbitfield flags, lsf_error *error);
 void lsf_buffer_destroy(lsf_context *context, GLuint *buffer);
 
 /* Bytes a texel of this sized internal format takes; 0 when unknown. */
@@ -51,7 +51,7 @@ void lsf_framebuffer_destroy(lsf_context *context, GLuint *framebuffer);
  * the next); 0 turns it off. A program from the cache does not count. */
 void lsf_context_fail_allocation(lsf_context *context, uint64_t n);
 
-/* --- programs -------------------------------------------------------------------------------- */
+/* --- programs --- */
 
 typedef struct lsf_define {
     const char *name;
@@ -70,14 +70,16 @@ typedef struct lsf_program_desc {
 /* Compiles and links, or returns the program that an equal source (hashed after preprocessing of
  * includes and defines) already gave. Owned by the context. 0 on failure: LSF_ERROR_RENDER holds
  * the whole log, every line as path:line: message. Each source starts with #version 450 core and
- * the defines; `#include "lib/brdf.glsl"` is by path below glsl/, each file once. */
+ * the defines; `#include "lib/brdf.glsl"` is by path below glsl/, each file once, whatever #if
+ * stands around it. #extension lines stand above the first include, as GLSL wants them before any
+ * declaration. */
 GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error);
 
 /* Draws one triangle that covers the viewport with an empty vertex array. Pair with
  * "lib/fullscreen.vert.glsl". */
 void lsf_draw_fullscreen(lsf_context *context);
 
-/* --- pass groups and time ---------------------------------------------------------------------- */
+/* --- pass groups and time --- */
 
 /* A named timer that also opens a KHR_debug group. On software GL it brackets with glFinish and a
  * wall clock; on a GPU it uses timestamp queries read back some frames later, never waiting. */
@@ -87,7 +89,8 @@ void lsf_timer_destroy(lsf_timer *timer);
 void lsf_timer_begin(lsf_timer *timer);
 void lsf_timer_end(lsf_timer *timer);
 uint64_t lsf_timer_runs(lsf_timer *timer);
-double lsf_timer_milliseconds(lsf_timer *timer); /* total over all finished runs; waits for pending ones */
+/* Total over all finished runs; waits for pending ones. */
+double lsf_timer_milliseconds(lsf_timer *timer);
 const char *lsf_timer_name(const lsf_timer *timer);
 
 #endif

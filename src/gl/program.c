@@ -137,6 +137,39 @@ static bool compile(build *b, lsf_error *error)
     return compiled;
 }
 
+/* A linker's log names no stage in its places; NVIDIA's heads each part with "Fragment info". */
+static void map_link_log(const build *b, const char *log, lsf_string *mapped)
+{
+    static const struct {
+        const char *heading;
+        GLenum stage;
+    } headings[] = {
+        {"Vertex info", GL_VERTEX_SHADER},
+        {"Tessellation control info", GL_TESS_CONTROL_SHADER},
+        {"Tessellation evaluation info", GL_TESS_EVALUATION_SHADER},
+        {"Geometry info", GL_GEOMETRY_SHADER},
+        {"Fragment info", GL_FRAGMENT_SHADER},
+        {"Compute info", GL_COMPUTE_SHADER},
+    };
+    static const lsf_shader_source unknown = {0}; /* maps nothing */
+    const lsf_shader_source *source = b->count == 1 ? &b->sources[0] : &unknown;
+    for (const char *line = log; *line;) {
+        size_t length = strcspn(line, "\n");
+        for (size_t h = 0; h < LSF_COUNT(headings); h++) {
+            if (strncmp(line, headings[h].heading, strlen(headings[h].heading)))
+                continue;
+            for (uint32_t i = 0; i < b->count; i++)
+                if (b->stages[i] == headings[h].stage)
+                    source = &b->sources[i];
+        }
+        char *text = strndup(line, length);
+        if (text)
+            lsf_shader_source_map_log(source, text, mapped);
+        free(text);
+        line += length + (line[length] == '\n');
+    }
+}
+
 static GLuint link_stages(const build *b, lsf_error *error)
 {
     GLuint program = glCreateProgram();
@@ -150,8 +183,8 @@ static GLuint link_stages(const build *b, lsf_error *error)
     if (!status) {
         char *log = program_log(program);
         lsf_string mapped = {0};
-        if (log && *log)
-            lsf_shader_source_map_log(&b->sources[0], log, &mapped);
+        if (log)
+            map_link_log(b, log, &mapped);
         report(b->desc->label, "link", &mapped, error);
         free(mapped.text);
         free(log);

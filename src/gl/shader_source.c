@@ -1,4 +1,8 @@
-/* From files below glsl/ to the text of one stage: #version, defines, includes, #line. */
+/* From files below glsl/ to the text of one stage: #version, defines, the file and its includes.
+ *
+ * Where each line of the text came from is kept in a table. #line would be the language's own way,
+ * but Mesa forgets its file number at many expressions (22.3.6 names file 0 for an undeclared
+ * identifier), and graphics debuggers show the text as one. */
 #include "gl/context.h"
 
 #include <ctype.h>
@@ -56,8 +60,8 @@ static char *read_file(const builder *b, const open_file *file)
     char includer[256];
     describe_includer(file, includer, sizeof includer);
     if (leaves_folder(file->path)) {
-        lsf_error_set(b->error, LSF_ERROR_RENDER,
-                      "%s: a shader's path must stay below glsl/%s", file->path, includer);
+        lsf_error_set(b->error, LSF_ERROR_RENDER, "%s: a shader's path must stay below glsl/%s",
+                      file->path, includer);
         return NULL;
     }
     if (!b->shader_dir) {
@@ -69,7 +73,8 @@ static char *read_file(const builder *b, const open_file *file)
     }
     lsf_error reason = {0};
     char *path = lsf_format("%s/%s", b->shader_dir, file->path);
-    char *text = path ? lsf_file_read(path, FILE_LIMIT, NULL, &reason) : NULL;
+    size_t length = 0;
+    char *text = path ? lsf_file_read(path, FILE_LIMIT, &length, &reason) : NULL;
     if (!path)
         out_of_memory(b);
     else if (!text)
@@ -130,7 +135,7 @@ static include_kind parse_include(const char *line, size_t length, char path[sta
     return INCLUDE;
 }
 
-/* The file's number in #line, from 1; 0 when it was not read yet. */
+/* The file's index, from 1; 0 when it was not read yet. */
 static uint64_t find_path(const lsf_shader_source *source, const char *path)
 {
     for (uint64_t i = 1; i < source->path_count; i++)
@@ -162,26 +167,46 @@ static bool check_cycle(const builder *b, const open_file *from, const char *pat
 
 static bool add_file(const builder *b, const open_file *opened);
 
-static bool add_include(const builder *b, const open_file *from, const char *path)
+static void add_line(const builder *b, const char *line, size_t length, uint64_t file,
+                     uint64_t number)
 {
-    lsf_string *text = &b->source->text;
+    lsf_shader_source *source = b->source;
+    void *places = source->places;
+    if (!lsf_grow(&places, &source->line_capacity, source->line_count + 1,
+                  sizeof(lsf_shader_place))) {
+        source->text.failed = true;
+        return;
+    }
+    source->places = places;
+    source->places[source->line_count++] = (lsf_shader_place){(uint32_t)file, (uint32_t)number};
+    lsf_string_add_bytes(&source->text, line, length);
+    lsf_string_add_bytes(&source->text, "\n", 1);
+}
+
+static bool add_file(const builder *b, const open_file *opened);
+
+/* The include's own line stays as a comment, for readers of the whole text. */
+static bool add_include(const builder *b, const open_file *from, uint64_t from_index,
+                        const char *path)
+{
     if (!check_cycle(b, from, path))
         return false;
-    if (find_path(b->source, path)) {
-        lsf_string_add_bytes(text, "\n", 1);
+    bool again = find_path(b->source, path) != 0;
+    char comment[300];
+    int length = snprintf(comment, sizeof comment, "// %s %s", again ? "above:" : "begin", path);
+    add_line(b, comment, (size_t)length, from_index, from->line);
+    if (again)
         return true;
-    }
     open_file included = {.path = path, .parent = from};
     if (!add_file(b, &included))
         return false;
-    lsf_string_add(text, "#line %llu %llu\n", (unsigned long long)from->line + 1,
-                   (unsigned long long)find_path(b->source, from->path));
+    length = snprintf(comment, sizeof comment, "// end %s", path);
+    add_line(b, comment, (size_t)length, from_index, from->line);
     return true;
 }
 
-static bool add_lines(const builder *b, open_file *file, const char *content)
+static bool add_lines(const builder *b, open_file *file, uint64_t index, const char *content)
 {
-    lsf_string *text = &b->source->text;
     bool in_comment = false;
     char path[256];
     for (const char *line = content; *line;) {
@@ -191,7 +216,7 @@ static bool add_lines(const builder *b, open_file *file, const char *content)
         file->line++;
         switch (kind) {
         case INCLUDE:
-            if (!add_include(b, file, path))
+            if (!add_include(b, file, index, path))
                 return false;
             break;
         case BAD_INCLUDE:
@@ -199,11 +224,10 @@ static bool add_lines(const builder *b, open_file *file, const char *content)
                                  "%s:%llu: write #include \"path\", the path below glsl/",
                                  file->path, (unsigned long long)file->line);
         case SYSTEM_INCLUDE:
-            lsf_string_add_bytes(text, "\n", 1);
+            add_line(b, "", 0, index, file->line);
             break;
         case NO_INCLUDE:
-            lsf_string_add_bytes(text, line, length);
-            lsf_string_add_bytes(text, "\n", 1);
+            add_line(b, line, length, index, file->line);
             break;
         }
         line += length + (line[length] == '\n');
@@ -217,14 +241,25 @@ static bool add_file(const builder *b, const open_file *opened)
     char *content = read_file(b, &file);
     if (!content)
         return false;
-    bool added = add_path(b, file.path);
-    if (added) {
-        lsf_string_add(&b->source->text, "#line 1 %llu\n",
-                       (unsigned long long)b->source->path_count - 1);
-        added = add_lines(b, &file, content);
-    }
+    bool added = add_path(b, file.path) && add_lines(b, &file, b->source->path_count - 1, content);
     free(content);
     return added;
+}
+
+static bool add_preamble(const builder *b, const lsf_define *defines, uint32_t define_count)
+{
+    static const char version[] = "#version 450 core";
+    if (!add_path(b, "defines"))
+        return false;
+    add_line(b, version, strlen(version), 0, 1);
+    for (uint32_t i = 0; i < define_count; i++) {
+        char *line = lsf_format("#define %s %d", defines[i].name, defines[i].value);
+        if (!line)
+            return out_of_memory(b);
+        add_line(b, line, strlen(line), 0, i + 2);
+        free(line);
+    }
+    return true;
 }
 
 bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
@@ -233,13 +268,7 @@ bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf
     *source = (lsf_shader_source){0};
     builder b = {shader_dir, source, error};
     open_file file = {.path = path};
-    bool built = add_path(&b, "defines");
-    if (built) {
-        lsf_string_add(&source->text, "#version 450 core\n");
-        for (uint32_t i = 0; i < define_count; i++)
-            lsf_string_add(&source->text, "#define %s %d\n", defines[i].name, defines[i].value);
-        built = add_file(&b, &file);
-    }
+    bool built = add_preamble(&b, defines, define_count) && add_file(&b, &file);
     if (built && source->text.failed)
         built = out_of_memory(&b);
     if (!built)
@@ -252,6 +281,7 @@ void lsf_shader_source_free(lsf_shader_source *source)
     for (uint64_t i = 0; i < source->path_count; i++)
         free(source->paths[i]);
     free(source->paths);
+    free(source->places);
     free(source->text.text);
     *source = (lsf_shader_source){0};
 }
@@ -259,17 +289,14 @@ void lsf_shader_source_free(lsf_shader_source *source)
 /* The place that a log line begins with, and where the message goes on:
  *   Mesa    0:12(5): error: ...      NVIDIA  0(12) : error C1008: ...
  *   others  ERROR: 0:12: ...
- * Returns NULL when the line names no place. */
-static const char *parse_place(const char *line, uint64_t *file, uint64_t *number)
+ * The 0 counts source strings, of which there is one. Returns NULL when the line names no place. */
+static const char *parse_place(const char *line, uint64_t *number)
 {
     char *end;
-    if (!isdigit((unsigned char)*line))
+    bool parenthesis = line[0] == '0' && line[1] == '(';
+    if (line[0] != '0' || (line[1] != ':' && !parenthesis) || !isdigit((unsigned char)line[2]))
         return NULL;
-    *file = strtoull(line, &end, 10);
-    bool parenthesis = *end == '(';
-    if ((*end != ':' && !parenthesis) || !isdigit((unsigned char)end[1]))
-        return NULL;
-    *number = strtoull(end + 1, &end, 10);
+    *number = strtoull(line + 2, &end, 10);
     if (parenthesis) {
         if (*end++ != ')')
             return NULL;
@@ -287,8 +314,7 @@ static const char *parse_place(const char *line, uint64_t *file, uint64_t *numbe
     return end;
 }
 
-void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
-                               lsf_string *mapped)
+void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log, lsf_string *mapped)
 {
     static const char *const severities[][2] = {{"ERROR: ", "error: "}, {"WARNING: ", "warning: "}};
     for (const char *line = log; *line;) {
@@ -302,13 +328,13 @@ void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
                 at = line + prefix;
             }
         }
-        uint64_t file, number;
-        const char *message = parse_place(at, &file, &number);
-        if (message && message <= line + length && file < source->path_count)
-            lsf_string_add(mapped, "%s:%llu: %s%.*s\n", source->paths[file],
-                           (unsigned long long)number, severity, (int)(line + length - message),
-                           message);
-        else if (length)
+        uint64_t number;
+        const char *message = parse_place(at, &number);
+        if (message && message <= line + length && number >= 1 && number <= source->line_count) {
+            lsf_shader_place place = source->places[number - 1];
+            lsf_string_add(mapped, "%s:%u: %s%.*s\n", source->paths[place.file], place.line,
+                           severity, (int)(line + length - message), message);
+        } else if (length)
             lsf_string_add(mapped, "%.*s\n", (int)length, line);
         line = next;
     }

@@ -13,8 +13,8 @@ struct lsf_timer {
     bool running;
     uint64_t runs;
     double seconds;
-    double start;                      /* software: lsf_now() */
-    GLuint queries[PENDING_MAX][2];    /* GPU: timestamps at begin and end, a ring */
+    double start;                   /* software: lsf_now() */
+    GLuint queries[PENDING_MAX][2]; /* GPU: timestamps at begin and end, a ring */
     uint32_t first_pending, pending_count;
 };
 

@@ -52,8 +52,8 @@ static void test_backend(void **state)
                   (lsf_now() - start) * 1e3);
     if (backend != LSF_BACKEND_AUTO)
         assert_string_equal(info.backend, backend_names[backend]);
-    assert_int_equal(info.software, strstr(info.renderer, "llvmpipe") ||
-                                        strstr(info.renderer, "softpipe"));
+    assert_int_equal(info.software,
+                     strstr(info.renderer, "llvmpipe") || strstr(info.renderer, "softpipe"));
     assert_int_equal(info.gl_bytes, 0);
     check_conventions();
     clear_and_read(context);
