@@ -37,7 +37,9 @@ typedef struct lsf_compare_result {
     bool noise_corrected;         /* reference_b was given */
 } lsf_compare_result;
 
-/* Both images need R, G, B and the same size. LSF_ERROR_FILE when they do not match. */
+/* Both images need R, G, B and the same size. LSF_ERROR_FILE when they do not match. Against two
+ * halves, rmse and relmse are free of their noise (and relmse may be negative); means, bias, SSIM
+ * and PSNR are against the halves' mean. When no finite pixel is left the measures are NAN. */
 bool lsf_compare(const lsf_image *test, const lsf_image *reference,
                  const lsf_compare_params *params, lsf_compare_result *result, lsf_error *error);
 

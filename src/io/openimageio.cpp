@@ -128,6 +128,10 @@ bool encode_unguarded(const lsf_encode_request *request, void **bytes, size_t *l
             spec.channelnames.emplace_back(request->names[c]);
         spec.attribute("compression", "zip");
     }
+    /* Half the time of the default 6 for files 4 % larger. */
+    spec.attribute("png:compressionLevel", 4);
+    /* Otherwise EXR gets the time of day, and equal pictures would make unequal files. */
+    spec.attribute("DateTime", "");
     spec.attribute("oiio:ColorSpace", request->file == LSF_IMAGE_FILE_PNG ? "sRGB" : "Linear");
 
     auto output = OIIO::ImageOutput::create(plugin_names[request->file]);
