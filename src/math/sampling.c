@@ -133,7 +133,7 @@ lsf_float3 lsf_sample_ggx_visible_normal(lsf_float3 view, float alpha_t, float a
                                          float v)
 {
     lsf_float3 stretched = lsf_f3_normalize(lsf_f3(alpha_t * view.x, alpha_b * view.y, view.z));
-    lsf_frame frame = lsf_frame_about(stretched);
+    lsf_basis frame = lsf_basis_about(stretched);
     /* The shrunk half must lie where the hemisphere ends: the frame's b axis points up in z. */
     float side = hypotf(stretched.x, stretched.y);
     if (side > 1e-7f) {
@@ -145,7 +145,7 @@ lsf_float3 lsf_sample_ggx_visible_normal(lsf_float3 view, float alpha_t, float a
     float s = 0.5f * (1.0f + stretched.z);
     p[1] = (1.0f - s) * sqrtf(fmaxf(0.0f, 1.0f - p[0] * p[0])) + s * p[1];
     float pz = sqrtf(fmaxf(0.0f, 1.0f - p[0] * p[0] - p[1] * p[1]));
-    lsf_float3 n = lsf_frame_to_world(&frame, lsf_f3(p[0], p[1], pz));
+    lsf_float3 n = lsf_basis_to_world(&frame, lsf_f3(p[0], p[1], pz));
     return lsf_f3_normalize(lsf_f3(alpha_t * n.x, alpha_b * n.y, fmaxf(1e-7f, n.z)));
 }
 

@@ -100,26 +100,26 @@ static inline float lsf_f3_luminance(lsf_float3 a)
 }
 
 /* A right-handed orthonormal frame about the unit vector `n`; local z is n. */
-typedef struct lsf_frame {
+typedef struct lsf_basis {
     lsf_float3 t, b, n;
-} lsf_frame;
+} lsf_basis;
 
 /* T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
-static inline lsf_frame lsf_frame_about(lsf_float3 n)
+static inline lsf_basis lsf_basis_about(lsf_float3 n)
 {
     float sign = copysignf(1.0f, n.z);
     float a = -1.0f / (sign + n.z);
     float b = n.x * n.y * a;
-    return (lsf_frame){
+    return (lsf_basis){
         {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-static inline lsf_float3 lsf_frame_to_world(const lsf_frame *f, lsf_float3 v)
+static inline lsf_float3 lsf_basis_to_world(const lsf_basis *f, lsf_float3 v)
 {
     return lsf_f3_mad(lsf_f3_mad(lsf_f3_scale(f->t, v.x), f->b, v.y), f->n, v.z);
 }
 
-static inline lsf_float3 lsf_frame_to_local(const lsf_frame *f, lsf_float3 v)
+static inline lsf_float3 lsf_basis_to_local(const lsf_basis *f, lsf_float3 v)
 {
     return lsf_f3(lsf_f3_dot(f->t, v), lsf_f3_dot(f->b, v), lsf_f3_dot(f->n, v));
 }
