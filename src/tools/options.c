@@ -109,6 +109,8 @@ static const lsf_command_option options[] = {
      "end with status 5 when the metric is worse than X; repeatable"},
     {"difference", 0, "OUT", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(difference), 0,
      0, NULL, NULL, "write the absolute difference as a picture"},
+    {"difference-gain", 0, "X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_FLOAT,
+     AT(difference_gain), 1e-6, 1e6, NULL, "4", "the difference is multiplied by this"},
     {"epsilon", 0, "X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_DOUBLE, AT(epsilon), 0, 1e30,
      NULL, NULL, "added to the squared reference in relMSE; without it, 0.01 of its squared mean"},
 

@@ -121,6 +121,7 @@ typedef struct lsf_settings {
     bool gl_debug;
 
     const char *mask, *difference;
+    float difference_gain;
     double epsilon;        /* NAN: relative to the reference's mean */
     lsf_list_setting thresholds;
 

@@ -329,6 +329,7 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
         .seed = render.seed,
         .fov_y = render.fov_y,
         .time = render.time,
+        .difference_gain = 4,
         .epsilon = NAN,
     };
 }
