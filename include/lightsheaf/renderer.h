@@ -51,6 +51,7 @@ typedef struct lsf_render_params {
     float fov_y;             /* degrees, replaces the camera's; NAN: the camera's own */
     double time;             /* seconds, where node animations are sampled */
     uint32_t aovs;           /* lsf_aov bits */
+    bool rgb8;               /* lsf_renderer_read_rgb8 will be called */
     const char *const *options; /* "pass.key=value", see lsf_option_list */
     uint32_t option_count;
     lsf_progress progress;   /* NULL: none */
@@ -61,7 +62,7 @@ typedef struct lsf_render_params {
     .technique = "direct", .width = 1024, .height = 768, .samples = 64,                   \
     .time_limit = 1.0 / 0.0, .bounces = 1, .seed = 0, .camera = NULL,                     \
     .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f, .time = 0.0,    \
-    .aovs = 0, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
+    .aovs = 0, .rgb8 = false, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
 
 /* Registered techniques; NULL past the end. */
 const char *lsf_technique_name(uint32_t index);
@@ -107,7 +108,7 @@ bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error);
 /* Reads the mean so far: R, G, B and the layers of params->aovs. The caller destroys it. */
 lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error);
 /* Reads R, G, B tone-mapped on the GPU to 8-bit sRGB: width * height * 3 bytes into `rgb`,
- * rows from the top. `exposure` in EV. */
+ * rows from the top. `exposure` in EV. LSF_ERROR_USAGE unless params->rgb8 was set. */
 bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb,
                             lsf_error *error);
 

@@ -1,0 +1,67 @@
+/* What a G-buffer texel holds, packed and unpacked in one place.
+ *
+ * gbuffer.surface RGBA32UI
+ *   x  geometric normal, octahedral 2 x snorm16, towards the viewer
+ *   y  shading normal, the same
+ *   z  base colour R, G as 2 x unorm16
+ *   w  base colour B unorm16 | metallic unorm15 << 16 | unlit << 31
+ * gbuffer.gloss R32UI (RG32UI with anisotropy), only when the scene requires it
+ *   x  roughness unorm16 | f0 of the dielectric unorm16 << 16
+ *   y  anisotropy strength unorm16 | angle of its tangent in the shading normal's
+ *      orthonormal_basis, unorm16 of a full turn << 16 */
+#ifndef LSF_LIB_GBUFFER
+#define LSF_LIB_GBUFFER
+
+#include "lib/octahedral.glsl"
+#include "shared/brdf.h"
+
+struct surface {
+    vec3 geometric_normal, normal; /* unit, towards the viewer's side */
+    vec3 base_color;
+    float metallic, roughness, f0;
+    float anisotropy;      /* strength, 0..1 */
+    float anisotropy_turn; /* tangent's angle in orthonormal_basis(normal), 0..1 of a turn */
+    bool unlit;
+};
+
+uvec4 surface_pack(surface s)
+{
+    uint metallic = uint(clamp(s.metallic, 0.0, 1.0) * 32767.0 + 0.5);
+    uint blue = packUnorm2x16(vec2(s.base_color.b, 0.0));
+    return uvec4(octahedral_encode(s.geometric_normal), octahedral_encode(s.normal),
+                 packUnorm2x16(s.base_color.rg),
+                 blue | (metallic << 16) | (s.unlit ? 0x80000000u : 0u));
+}
+
+uvec2 gloss_pack(surface s)
+{
+    return uvec2(packUnorm2x16(vec2(s.roughness, s.f0)),
+                 packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));
+}
+
+surface surface_unpack(uvec4 texel)
+{
+    surface s;
+    s.geometric_normal = octahedral_decode(texel.x);
+    s.normal = octahedral_decode(texel.y);
+    s.base_color = vec3(unpackUnorm2x16(texel.z), unpackUnorm2x16(texel.w & 0xffffu).x);
+    s.metallic = float((texel.w >> 16) & 0x7fffu) / 32767.0;
+    s.unlit = (texel.w & 0x80000000u) != 0u;
+    s.roughness = 1.0;
+    s.f0 = 0.04; /* ior 1.5 */
+    s.anisotropy = 0.0;
+    s.anisotropy_turn = 0.0;
+    return s;
+}
+
+void gloss_unpack(uvec2 texel, inout surface s)
+{
+    vec2 gloss = unpackUnorm2x16(texel.x);
+    s.roughness = gloss.x;
+    s.f0 = gloss.y;
+    vec2 anisotropy = unpackUnorm2x16(texel.y);
+    s.anisotropy = anisotropy.x;
+    s.anisotropy_turn = anisotropy.y;
+}
+
+#endif

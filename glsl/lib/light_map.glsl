@@ -1,0 +1,52 @@
+/* The light in turn and the projection of its map; see shared/light_data.h. */
+#ifndef LSF_LIB_LIGHT_MAP
+#define LSF_LIB_LIGHT_MAP
+
+#include "shared/light_data.h"
+#include "shared/scene_data.h"
+
+layout(std140, binding = LSF_BINDING_LIGHT) uniform lsf_light_block
+{
+    lsf_light_data light;
+};
+
+bool light_map_perspective()
+{
+    return light.map_shape.y == 0.0;
+}
+
+/* Coordinates of a point along right, up and forward of a face. */
+vec3 light_map_coordinates(int face, vec3 position)
+{
+    vec3 p = position - light.map_origin.xyz;
+    return vec3(dot(light.map_right[face].xyz, p), dot(light.map_up[face].xyz, p),
+                dot(light.map_forward[face].xyz, p));
+}
+
+vec4 light_map_clip(int face, vec3 position)
+{
+    vec3 q = light_map_coordinates(face, position);
+    vec2 xy = q.xy / light.map_extent.xy;
+    if (light_map_perspective())
+        return vec4(xy + light.map_extent.zw * q.z, light.map_shape.x, q.z);
+    return vec4(xy + light.map_extent.zw,
+                (light.map_shape.y - q.z) / (light.map_shape.y - light.map_shape.x), 1.0);
+}
+
+/* The face that sees the point. */
+int light_map_face(vec3 position)
+{
+    if (light.map_origin.w == 1.0)
+        return 0;
+    vec3 p = position - light.map_origin.xyz;
+    vec3 c = vec3(dot(light.map_forward[0].xyz, p), dot(light.map_forward[2].xyz, p),
+                  dot(light.map_forward[4].xyz, p));
+    vec3 a = abs(c);
+    if (a.x >= a.y && a.x >= a.z)
+        return c.x >= 0.0 ? 0 : 1;
+    if (a.y >= a.z)
+        return c.y >= 0.0 ? 2 : 3;
+    return c.z >= 0.0 ? 4 : 5;
+}
+
+#endif

@@ -1,0 +1,106 @@
+/* Visibility from the light's map. Switch LSF_SHADOW_PCF.
+ *
+ * A texel knows the depth of the surface at its centre; the receiver lies elsewhere in the texel.
+ * Depth is affine over a plane, so either surface can be continued to the other's place:
+ *  - the occluder's plane, by its stored gradient, to the receiver: at an inner corner the
+ *    neighbouring wall then lies behind, not before, the receiver;
+ *  - the receiver's plane, by its normal, to the texel's centre: at an outer edge the
+ *    neighbouring face then lies behind it.
+ * A surface must be in front by both to cast a shadow. Neither test needs a bias that grows with
+ * slope; what is left is rounding. */
+#ifndef LSF_LIB_SHADOW
+#define LSF_LIB_SHADOW
+
+#include "lib/light_map.glsl"
+
+#define LSF_UNIT_SHADOW_DEPTH 6
+#define LSF_UNIT_SHADOW_GRADIENT 7
+
+layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform sampler2DArray shadow_depth;
+#if !LSF_SHADOW_PCF
+layout(binding = LSF_UNIT_SHADOW_GRADIENT) uniform sampler2DArray shadow_gradient;
+#endif
+
+/* Rounding of positions (2^-24 of the scene) and of interpolated depth, relative to the depth of
+ * a perspective map and to the depth range of an orthographic one. */
+#define LSF_SHADOW_EPSILON 2e-5
+
+/* A place on the map and the receiver's plane there. */
+struct shadow_receiver {
+    vec2 texel;    /* continuous texel coordinates */
+    float depth;
+    vec2 gradient; /* change of depth per texel over the receiver's plane */
+    int face;
+};
+
+shadow_receiver shadow_project(vec3 position, vec3 normal)
+{
+    shadow_receiver r;
+    r.face = light_map_face(position);
+    vec3 q = light_map_coordinates(r.face, position);
+    vec3 n = vec3(dot(light.map_right[r.face].xyz, normal), dot(light.map_up[r.face].xyz, normal),
+                  dot(light.map_forward[r.face].xyz, normal));
+    vec2 extent = light.map_extent.xy;
+    vec2 xy;
+    if (light_map_perspective()) {
+        /* On the plane n.q = c, near / q.z = near / c (n.z + extent n.xy (x, y)). */
+        xy = q.xy / (q.z * extent);
+        r.depth = light.map_shape.x / q.z;
+        r.gradient = light.map_shape.x / dot(n, q) * extent * n.xy;
+    } else {
+        /* q.z = (c - extent n.xy (x, y)) / n.z */
+        xy = q.xy / extent;
+        float range = light.map_shape.y - light.map_shape.x;
+        r.depth = (light.map_shape.y - q.z) / range;
+        r.gradient = extent * n.xy / (n.z * range);
+    }
+    float texels = light.map_shape.z;
+    r.texel = ((xy + light.map_extent.zw) * 0.5 + 0.5) * texels;
+    r.gradient *= 2.0 / texels;
+    return r;
+}
+
+float shadow_tolerance(shadow_receiver r)
+{
+    return LSF_SHADOW_EPSILON * (light_map_perspective() ? r.depth : 1.0);
+}
+
+#if LSF_SHADOW_PCF
+
+/* Percentage-closer filter over 4 x 4 texels about the receiver, whose plane each is compared
+ * with. Reeves et al. 1987. */
+float shadow_visibility(vec3 position, vec3 normal)
+{
+    shadow_receiver r = shadow_project(position, normal);
+    int last = int(light.map_shape.z) - 1;
+    ivec2 corner = ivec2(floor(r.texel - 0.5)) - 1;
+    float lit = 0.0;
+    for (int i = 0; i < 16; i++) {
+        ivec2 at = clamp(corner + ivec2(i & 3, i >> 2), ivec2(0), ivec2(last));
+        float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
+        float receiver = r.depth + dot(r.gradient, vec2(at) + 0.5 - r.texel);
+        lit += depth > receiver + shadow_tolerance(r) ? 0.0 : 1.0;
+    }
+    return lit / 16.0;
+}
+
+#else
+
+float shadow_visibility(vec3 position, vec3 normal)
+{
+    shadow_receiver r = shadow_project(position, normal);
+    int last = int(light.map_shape.z) - 1;
+    ivec2 at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(last));
+    float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
+    vec2 gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg;
+    vec2 to_center = vec2(at) + 0.5 - r.texel;
+    float occluder_at_receiver = depth - dot(gradient, to_center);
+    float receiver_at_center = r.depth + dot(r.gradient, to_center);
+    float tolerance = shadow_tolerance(r);
+    bool shadowed = occluder_at_receiver > r.depth + tolerance &&
+                    depth > receiver_at_center + tolerance;
+    return shadowed ? 0.0 : 1.0;
+}
+
+#endif
+#endif

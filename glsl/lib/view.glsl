@@ -1,0 +1,45 @@
+/* The camera's uniform buffer and positions from depth. Needs LSF_ORTHOGRAPHIC. */
+#ifndef LSF_LIB_VIEW
+#define LSF_LIB_VIEW
+
+#include "shared/scene_data.h"
+#include "shared/view.h"
+
+layout(std140, binding = LSF_BINDING_VIEW) uniform lsf_view_block
+{
+    lsf_view_data view;
+};
+
+/* ndc of the point that the iteration samples in the pixel with centre `fragment` [pixels]. */
+vec2 sample_ndc(vec2 fragment)
+{
+    return fragment * (2.0 * view.size.zw) - 1.0 + view.jitter.xy;
+}
+
+vec3 view_ray_origin(vec2 ndc)
+{
+    return view.origin.xyz + ndc.x * view.origin_dx.xyz + ndc.y * view.origin_dy.xyz;
+}
+
+/* View depth along it grows by 1; not normalised. */
+vec3 view_ray_direction(vec2 ndc)
+{
+    return view.forward.xyz + ndc.x * view.forward_dx.xyz + ndc.y * view.forward_dy.xyz;
+}
+
+/* View depth [normalised units] of a reverse-Z depth; 0 is the background. */
+float view_depth(float depth)
+{
+#if LSF_ORTHOGRAPHIC
+    return view.depth.y - depth * (view.depth.y - view.depth.x);
+#else
+    return view.depth.x / depth;
+#endif
+}
+
+vec3 position_from_depth(vec2 ndc, float depth)
+{
+    return view_ray_origin(ndc) + view_depth(depth) * view_ray_direction(ndc);
+}
+
+#endif

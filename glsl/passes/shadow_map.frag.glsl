@@ -1,0 +1,44 @@
+#include "lib/scene.glsl"
+
+#if LSF_MASK
+flat in uint vertex_instance;
+layout(binding = LSF_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
+#if LSF_TEXTURED
+in vec2 vertex_uv0;
+#else
+const vec2 vertex_uv0 = vec2(0.0);
+#endif
+#if LSF_SECOND_UV
+in vec2 vertex_uv1;
+#else
+#define vertex_uv1 vertex_uv0
+#endif
+#if LSF_VERTEX_COLOR
+in float vertex_alpha;
+#endif
+#endif
+#if LSF_GRADIENT
+layout(location = 0) out vec2 gradient;
+#endif
+
+void main()
+{
+#if LSF_GRADIENT
+    /* Before any discard, while the whole quad is alive. */
+    gradient = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));
+#endif
+#if LSF_MASK
+    lsf_material_data material = materials[uint(instances[vertex_instance].normal_0.w)];
+    float alpha = material.base_color.a;
+#if LSF_TEXTURED
+    if (slot_used(material.base_color_slot))
+        alpha *= textureLod(base_color_texture,
+                            slot_uv(material.base_color_slot, vertex_uv0, vertex_uv1), 0.0).a;
+#endif
+#if LSF_VERTEX_COLOR
+    alpha *= vertex_alpha;
+#endif
+    if (alpha < material.emission.w)
+        discard;
+#endif
+}

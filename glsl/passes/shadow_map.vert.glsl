@@ -1,0 +1,38 @@
+#include "lib/light_map.glsl"
+#include "lib/scene.glsl"
+
+layout(location = 0) uniform int face;
+layout(location = LSF_ATTRIBUTE_POSITION) in vec3 position;
+layout(location = LSF_ATTRIBUTE_INSTANCE) in uint instance_id;
+#if LSF_MASK
+flat out uint vertex_instance;
+#if LSF_TEXTURED
+layout(location = LSF_ATTRIBUTE_UV0) in vec2 uv0;
+out vec2 vertex_uv0;
+#endif
+#if LSF_SECOND_UV
+layout(location = LSF_ATTRIBUTE_UV1) in vec2 uv1;
+out vec2 vertex_uv1;
+#endif
+#if LSF_VERTEX_COLOR
+layout(location = LSF_ATTRIBUTE_COLOR) in vec4 color;
+out float vertex_alpha;
+#endif
+#endif
+
+void main()
+{
+    gl_Position = light_map_clip(face, instance_position(instances[instance_id], position));
+#if LSF_MASK
+    vertex_instance = instance_id;
+#if LSF_TEXTURED
+    vertex_uv0 = uv0;
+#endif
+#if LSF_SECOND_UV
+    vertex_uv1 = uv1;
+#endif
+#if LSF_VERTEX_COLOR
+    vertex_alpha = color.a;
+#endif
+#endif
+}

@@ -1,0 +1,58 @@
+/* The scene as shaders read it. */
+#ifndef LSF_SHARED_SCENE_DATA_H
+#define LSF_SHARED_SCENE_DATA_H
+
+#include "shared/shared.h"
+
+/* One primitive placed by one node; transforms go from object to normalised space. */
+struct lsf_instance_data {
+    vec4 transform_0, transform_1, transform_2; /* rows of the 3x4 matrix */
+    vec4 normal_0, normal_1, normal_2;          /* rows of the normals' 3x3 matrix in x y z;
+                                                 * w: material index, mirrored (0 or 1), unused */
+};
+
+/* A texture slot: u' = row_0.x u + row_0.y v + row_0.z, v' likewise with row_1.
+ * row_0.w: 1 when there is a texture; row_1.w: the UV set, 0 or 1. */
+struct lsf_texture_slot_data {
+    vec4 row_0, row_1;
+};
+#ifndef GL_core_profile
+typedef struct lsf_texture_slot_data lsf_texture_slot_data;
+#endif
+
+struct lsf_material_data {
+    vec4 base_color;
+    vec4 emission;   /* rgb: radiance factor [W/(m^2 sr)]; w: alpha cutoff, negative without mask */
+    vec4 surface;    /* metallic, roughness, normal scale, f0 of the dielectric */
+    vec4 anisotropy; /* strength, cos and sin of the rotation, unused */
+    vec4 flags;      /* double-sided, unlit; 0 or 1 */
+    lsf_texture_slot_data base_color_slot, metallic_roughness_slot, normal_slot, emissive_slot,
+        anisotropy_slot;
+};
+
+/* Attribute locations of the vertex streams. */
+#define LSF_ATTRIBUTE_POSITION 0
+#define LSF_ATTRIBUTE_NORMAL 1
+#define LSF_ATTRIBUTE_TANGENT 2
+#define LSF_ATTRIBUTE_UV0 3
+#define LSF_ATTRIBUTE_UV1 4
+#define LSF_ATTRIBUTE_COLOR 5
+#define LSF_ATTRIBUTE_INSTANCE 6
+
+/* Bindings: storage buffers and texture units of the scene, the same in every pass. */
+#define LSF_BINDING_INSTANCES 0
+#define LSF_BINDING_MATERIALS 1
+#define LSF_BINDING_PREVIOUS_TRANSFORMS 2
+#define LSF_UNIT_BASE_COLOR 0
+#define LSF_UNIT_METALLIC_ROUGHNESS 1
+#define LSF_UNIT_NORMAL 2
+#define LSF_UNIT_EMISSIVE 3
+#define LSF_UNIT_ANISOTROPY 4
+#define LSF_UNIT_ENVIRONMENT 5
+
+/* Uniform buffers. */
+#define LSF_BINDING_VIEW 0
+#define LSF_BINDING_LIGHT 1
+
+#include "shared/shared_end.h"
+#endif

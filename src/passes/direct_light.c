@@ -1,0 +1,82 @@
+#include "passes/direct_light.h"
+
+#include <string.h>
+
+#include "base/base.h"
+
+void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
+{
+    const lsf_requirements *r = &plan->requirements;
+    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    lsf_plan_pass_add(plan, "direct_light", "one reflection of each punctual light");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera's projection");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+                        "some material is anisotropic");
+    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "%u spot lights",
+                        r->spot_lights);
+    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
+                        "%u directional lights", r->directional_lights);
+    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf, "shadow.filter");
+    lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
+                         "the sum over lights");
+}
+
+bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
+                             lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl",
+                                         "passes/direct_light.frag.glsl"};
+    *pass = (lsf_direct_light){.context = context};
+    if (!lsf_plan_create_texture(plan, context, "direct_light.radiance", &pass->radiance, error))
+        return false;
+    lsf_framebuffer_desc desc = {.label = "direct_light",
+                                 .color_count = 1,
+                                 .colors = {pass->radiance},
+                                 .layer = -1};
+    pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
+    pass->program = lsf_plan_program(plan, context, "direct_light", files, error);
+    pass->timer = lsf_timer_create(context, "direct_light", error);
+    return pass->framebuffer && pass->program && pass->timer;
+}
+
+void lsf_direct_light_clear(lsf_direct_light *pass)
+{
+    static const GLfloat black[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, 0, black);
+}
+
+void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
+                          const lsf_direct_light_inputs *inputs)
+{
+    lsf_timer_begin(pass->timer);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
+    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glBindTextureUnit(0, inputs->depth);
+    glBindTextureUnit(1, inputs->surface);
+    glBindTextureUnit(2, inputs->gloss);
+    glBindTextureUnit(6, inputs->shadow_depth);
+    glBindTextureUnit(7, inputs->shadow_gradient);
+    glUseProgram(pass->program);
+    lsf_draw_fullscreen(pass->context);
+    glDisable(GL_BLEND);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_direct_light_destroy(lsf_direct_light *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_texture_destroy(pass->context, &pass->radiance);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}

@@ -1,0 +1,44 @@
+/* G-buffer: what each pixel sees. See gbuffer.md. */
+#ifndef LSF_PASSES_GBUFFER_H
+#define LSF_PASSES_GBUFFER_H
+
+#include "plan/iteration.h"
+#include "plan/option.h"
+
+typedef struct lsf_gbuffer_params {
+    float texture_lod_bias; /* added to the level that the iteration count gives */
+    float frame_time;       /* seconds; motion is measured from this much earlier */
+} lsf_gbuffer_params;
+
+#define LSF_GBUFFER_PARAMS_DEFAULTS .texture_lod_bias = 0.0f, .frame_time = 1.0f / 60.0f
+
+#define LSF_GBUFFER_OPTION_COUNT 2
+extern const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT];
+
+/* Textures of the plan's size, valid until the next run; 0 when the plan leaves them out. Formats
+ * as in glsl/lib/gbuffer.glsl. */
+typedef struct lsf_gbuffer_outputs {
+    GLuint depth;    /* DEPTH_COMPONENT32F, reverse-Z, 0 where nothing is seen */
+    GLuint surface;  /* RGBA32UI */
+    GLuint gloss;    /* R32UI or RG32UI */
+    GLuint emission; /* RGBA32F, radiance */
+    GLuint motion;   /* RG32F, pixels */
+} lsf_gbuffer_outputs;
+
+typedef struct lsf_gbuffer {
+    lsf_context *context;
+    lsf_gbuffer_outputs outputs;
+    GLuint framebuffer, program;
+    uint32_t color_count;
+    lsf_timer *timer;
+} lsf_gbuffer;
+
+/* Lists the pass and its textures. */
+void lsf_gbuffer_plan(lsf_plan *plan);
+bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan *plan,
+                        const lsf_gbuffer_params *params, const lsf_scene_gpu *scene,
+                        lsf_error *error);
+void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration);
+void lsf_gbuffer_destroy(lsf_gbuffer *pass);
+
+#endif

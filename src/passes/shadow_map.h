@@ -1,0 +1,61 @@
+/* Shadow maps of punctual lights. See shadow_map.md. */
+#ifndef LSF_PASSES_SHADOW_MAP_H
+#define LSF_PASSES_SHADOW_MAP_H
+
+#include "plan/iteration.h"
+#include "plan/option.h"
+#include "shared/light_data.h"
+
+typedef enum lsf_shadow_filter {
+    LSF_SHADOW_FILTER_NONE, /* one texel's plane against the receiver's; the borders converge over
+                             * iterations */
+    LSF_SHADOW_FILTER_PCF,  /* 4 x 4 texels, for single frames */
+} lsf_shadow_filter;
+
+typedef struct lsf_shadow_map_params {
+    int32_t filter;         /* lsf_shadow_filter */
+    float texels_per_pixel; /* of the whole map, all faces together, to the picture's pixels */
+} lsf_shadow_map_params;
+
+/* The paper's frame (Tokuyoshi and Ogaki 2012) has 6 faces of 1024^2 texels for 1920 x 1088
+ * pixels: three texels a pixel. */
+#define LSF_SHADOW_MAP_PARAMS_DEFAULTS                                                    \
+    .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 3.0f
+
+#define LSF_SHADOW_MAP_OPTION_COUNT 2
+extern const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT];
+
+/* Depth and its slope, valid until the next run. 2D arrays of 6 layers for a cube, else of 1. */
+typedef struct lsf_shadow_map_outputs {
+    GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
+    GLuint gradient;     /* RG32F: depth's change per texel along x and y; 0 (the name) with pcf */
+    GLuint light_buffer; /* struct lsf_light_data */
+    struct lsf_light_data light;
+} lsf_shadow_map_outputs;
+
+/* One set of textures for maps of the same shape; lights take turns. */
+typedef struct lsf_shadow_map_target {
+    GLuint depth, gradient;
+    GLuint framebuffers[6];
+    uint32_t faces, resolution;
+} lsf_shadow_map_target;
+
+typedef struct lsf_shadow_map {
+    lsf_context *context;
+    lsf_shadow_map_outputs outputs;
+    lsf_shadow_map_target cube, single;
+    GLuint program;
+    lsf_timer *timer;
+} lsf_shadow_map;
+
+/* Lists the pass and its textures: a cube for point lights and wide spots, one map for the rest.
+ * `state` tells which spots are wide. */
+void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
+                         const lsf_state *state);
+bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf_plan *plan,
+                           lsf_error *error);
+/* Draws the map of state->lights[light_index], randomly turned and shifted for this iteration. */
+void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index);
+void lsf_shadow_map_destroy(lsf_shadow_map *pass);
+
+#endif

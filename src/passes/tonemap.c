@@ -1,0 +1,54 @@
+#include "passes/tonemap.h"
+
+#include <math.h>
+#include <string.h>
+
+void lsf_tonemap_plan(lsf_plan *plan)
+{
+    lsf_plan_pass_add(plan, "tonemap", "8-bit output is asked for; runs once, on the mean");
+    lsf_plan_texture_add(plan, "tonemap.display", GL_RGBA8, plan->width, plan->height,
+                         "8-bit sRGB");
+}
+
+bool lsf_tonemap_create(lsf_tonemap *pass, lsf_context *context, const lsf_plan *plan,
+                        lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/tonemap.frag.glsl"};
+    *pass = (lsf_tonemap){.context = context, .width = plan->width, .height = plan->height};
+    if (!lsf_plan_create_texture(plan, context, "tonemap.display", &pass->display, error))
+        return false;
+    lsf_framebuffer_desc desc = {.label = "tonemap",
+                                 .color_count = 1,
+                                 .colors = {pass->display},
+                                 .layer = -1};
+    pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
+    pass->program = lsf_plan_program(plan, context, "tonemap", files, error);
+    pass->timer = lsf_timer_create(context, "tonemap", error);
+    return pass->framebuffer && pass->program && pass->timer;
+}
+
+void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure)
+{
+    lsf_timer_begin(pass->timer);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
+    glViewport(0, 0, (GLsizei)pass->width, (GLsizei)pass->height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glUseProgram(pass->program);
+    glUniform1f(0, exp2f(exposure));
+    glBindTextureUnit(0, radiance);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_tonemap_destroy(lsf_tonemap *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_texture_destroy(pass->context, &pass->display);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}

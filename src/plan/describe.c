@@ -1,0 +1,131 @@
+/* The plan as text and as JSON. */
+#include <stdlib.h>
+
+#include "base/base.h"
+#include "plan/plan.h"
+
+static void add_size(lsf_string *out, double bytes)
+{
+    const char *units[] = {"B", "KiB", "MiB", "GiB"};
+    int unit = 0;
+    for (; bytes >= 1024.0 && unit < 3; unit++)
+        bytes /= 1024.0;
+    lsf_string_add(out, unit ? "%.2f %s" : "%.0f %s", bytes, units[unit]);
+}
+
+static void describe_text(const lsf_plan *plan, lsf_string *out)
+{
+    lsf_string_add(out, "technique %s, %ux%u, %u iterations, %u bounces\n", plan->technique,
+                   plan->width, plan->height, plan->samples, plan->bounces);
+    lsf_string_add(out, "\npasses, in order\n");
+    for (uint64_t i = 0; i < plan->pass_count; i++) {
+        const lsf_plan_pass *pass = &plan->passes[i];
+        lsf_string_add(out, "  %-18s %s\n", pass->name, pass->why);
+        for (uint32_t k = 0; k < pass->switch_count; k++)
+            lsf_string_add(out, "    %-28s %-3d %s\n", pass->switches[k].define.name,
+                           pass->switches[k].define.value, pass->switches[k].why);
+    }
+    lsf_string_add(out, "\nresources\n");
+    for (uint64_t i = 0; i < plan->resource_count; i++) {
+        const lsf_plan_resource *resource = &plan->resources[i];
+        const lsf_texture_desc *texture = &resource->texture;
+        lsf_string shape = {0};
+        if (resource->is_buffer)
+            lsf_string_add(&shape, "buffer");
+        else
+            lsf_string_add(&shape, "%s %ux%u%s%s", lsf_format_name(texture->internal_format) + 3,
+                           texture->width, texture->height, texture->depth == 6 ? "x6" : "",
+                           texture->levels > 1 ? " mips" : "");
+        lsf_string size = {0};
+        add_size(&size, (double)resource->bytes);
+        lsf_string_add(out, "  %-26s %-34s %12s  %s\n", resource->name,
+                       shape.text ? shape.text : "", size.text ? size.text : "", resource->why);
+        free(shape.text);
+        free(size.text);
+    }
+    lsf_string_add(out, "  total ");
+    add_size(out, (double)lsf_plan_bytes(plan));
+    lsf_string_add(out, "\n\nleft out\n");
+    for (uint64_t i = 0; i < plan->omission_count; i++)
+        lsf_string_add(out, "  %-26s %s\n", plan->omissions[i].name, plan->omissions[i].why);
+    for (uint64_t i = 0; i < plan->remark_count; i++)
+        lsf_string_add(out, "%snote: %s\n", i ? "" : "\n", plan->remarks[i]);
+}
+
+static void add_text_field(lsf_string *out, const char *key, const char *value)
+{
+    lsf_string_add(out, "\"%s\": ", key);
+    lsf_string_add_json(out, value);
+}
+
+static void describe_json(const lsf_plan *plan, lsf_string *out)
+{
+    lsf_string_add(out, "{\n  ");
+    add_text_field(out, "technique", plan->technique);
+    lsf_string_add(out,
+                   ",\n  \"width\": %u, \"height\": %u, \"samples\": %u, \"bounces\": %u,\n"
+                   "  \"bytes\": %llu,\n  \"passes\": [",
+                   plan->width, plan->height, plan->samples, plan->bounces,
+                   (unsigned long long)lsf_plan_bytes(plan));
+    for (uint64_t i = 0; i < plan->pass_count; i++) {
+        const lsf_plan_pass *pass = &plan->passes[i];
+        lsf_string_add(out, "%s\n    {", i ? "," : "");
+        add_text_field(out, "name", pass->name);
+        lsf_string_add(out, ", ");
+        add_text_field(out, "why", pass->why);
+        lsf_string_add(out, ", \"switches\": [");
+        for (uint32_t k = 0; k < pass->switch_count; k++) {
+            lsf_string_add(out, "%s\n      {", k ? "," : "");
+            add_text_field(out, "name", pass->switches[k].define.name);
+            lsf_string_add(out, ", \"value\": %d, ", pass->switches[k].define.value);
+            add_text_field(out, "why", pass->switches[k].why);
+            lsf_string_add(out, "}");
+        }
+        lsf_string_add(out, "]}");
+    }
+    lsf_string_add(out, "],\n  \"resources\": [");
+    for (uint64_t i = 0; i < plan->resource_count; i++) {
+        const lsf_plan_resource *resource = &plan->resources[i];
+        lsf_string_add(out, "%s\n    {", i ? "," : "");
+        add_text_field(out, "name", resource->name);
+        lsf_string_add(out, ", \"kind\": \"%s\"", resource->is_buffer ? "buffer" : "texture");
+        if (!resource->is_buffer)
+            lsf_string_add(out,
+                           ", \"format\": \"%s\", \"width\": %u, \"height\": %u, \"depth\": %u, "
+                           "\"levels\": %u",
+                           lsf_format_name(resource->texture.internal_format),
+                           resource->texture.width, resource->texture.height,
+                           resource->texture.depth, resource->texture.levels);
+        lsf_string_add(out, ", \"bytes\": %llu, ", (unsigned long long)resource->bytes);
+        add_text_field(out, "why", resource->why);
+        lsf_string_add(out, "}");
+    }
+    lsf_string_add(out, "],\n  \"left_out\": [");
+    for (uint64_t i = 0; i < plan->omission_count; i++) {
+        lsf_string_add(out, "%s\n    {", i ? "," : "");
+        add_text_field(out, "name", plan->omissions[i].name);
+        lsf_string_add(out, ", ");
+        add_text_field(out, "why", plan->omissions[i].why);
+        lsf_string_add(out, "}");
+    }
+    lsf_string_add(out, "],\n  \"notes\": [");
+    for (uint64_t i = 0; i < plan->remark_count; i++) {
+        lsf_string_add(out, "%s\n    ", i ? "," : "");
+        lsf_string_add_json(out, plan->remarks[i]);
+    }
+    lsf_string_add(out, "]\n}\n");
+}
+
+char *lsf_plan_describe(const lsf_plan *plan, bool json)
+{
+    lsf_string out = {0};
+    if (json)
+        describe_json(plan, &out);
+    else
+        describe_text(plan, &out);
+    if (out.failed) {
+        free(out.text);
+        return NULL;
+    }
+    return out.text;
+}

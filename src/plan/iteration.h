@@ -1,0 +1,36 @@
+/* What every pass reads of the iteration in progress: the plan, the scene and the view. */
+#ifndef LSF_PLAN_ITERATION_H
+#define LSF_PLAN_ITERATION_H
+
+#include "plan/scene_gpu.h"
+#include "shared/view.h"
+
+typedef struct lsf_iteration {
+    lsf_context *context;
+    const lsf_plan *plan;
+    const lsf_state *state;
+    lsf_scene_gpu *scene;
+    uint64_t seed;
+    uint32_t index;           /* from 0 */
+    GLuint view_buffer;       /* struct lsf_view_data */
+    struct lsf_view_data view;
+    lsf_camera_state previous_camera; /* for motion */
+} lsf_iteration;
+
+void lsf_iteration_plan(lsf_plan *plan);
+/* `previous` is the state that motion is measured from, NULL without motion. */
+bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, const lsf_plan *plan,
+                      lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
+                      uint64_t seed, lsf_error *error);
+void lsf_iteration_destroy(lsf_iteration *iteration);
+
+/* Jitters the pixel for iteration `index` (uniform over the pixel: a box filter) and uploads the view. */
+void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index);
+
+/* The half spaces of the view's four sides and its near plane. */
+void lsf_iteration_region(const lsf_iteration *iteration, lsf_draw_region *region);
+
+/* A seed of its own for each use of random numbers, named by `purpose`. */
+uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose);
+
+#endif

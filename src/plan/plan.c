@@ -1,0 +1,201 @@
+#include "plan/plan.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+
+#define FORMAT_INTO(buffer, format)                                                       \
+    do {                                                                                  \
+        va_list arguments;                                                                \
+        va_start(arguments, format);                                                      \
+        vsnprintf(buffer, sizeof(buffer), format, arguments);                             \
+        va_end(arguments);                                                                \
+    } while (0)
+
+/* A zeroed new element at the end of one of the plan's lists, or NULL. */
+static void *append(lsf_plan *plan, void **list, uint64_t *count, uint64_t *capacity, uint64_t size)
+{
+    if (plan->failed || !lsf_grow(list, capacity, *count + 1, size)) {
+        plan->failed = true;
+        return NULL;
+    }
+    void *element = (char *)*list + (*count)++ * size;
+    memset(element, 0, size);
+    return element;
+}
+
+#define APPEND(plan, singular)                                                            \
+    append(plan, (void **)&(plan)->singular##s, &(plan)->singular##_count,                \
+           &(plan)->singular##_capacity, sizeof *(plan)->singular##s)
+
+void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
+{
+    lsf_plan_pass *pass = append(plan, (void **)&plan->passes, &plan->pass_count,
+                                 &plan->pass_capacity, sizeof *plan->passes);
+    if (!pass)
+        return;
+    pass->name = name;
+    FORMAT_INTO(pass->why, why);
+}
+
+void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *why, ...)
+{
+    if (plan->failed)
+        return;
+    lsf_plan_pass *pass = &plan->passes[plan->pass_count - 1];
+    if (pass->switch_count == LSF_PLAN_MAX_SWITCHES) {
+        plan->failed = true;
+        return;
+    }
+    lsf_plan_switch *added = &pass->switches[pass->switch_count++];
+    added->define = (lsf_define){name, value};
+    FORMAT_INTO(added->why, why);
+}
+
+static lsf_plan_resource *add_resource(lsf_plan *plan, const char *name)
+{
+    lsf_plan_resource *resource = APPEND(plan, resource);
+    if (resource)
+        snprintf(resource->name, sizeof resource->name, "%s", name);
+    return resource;
+}
+
+void lsf_plan_texture_add(lsf_plan *plan, const char *name, GLenum internal_format, uint32_t width,
+                          uint32_t height, const char *why, ...)
+{
+    lsf_plan_resource *resource = add_resource(plan, name);
+    if (!resource)
+        return;
+    resource->texture = (lsf_texture_desc){NULL, GL_TEXTURE_2D, internal_format, width, height,
+                                           1,    1};
+    resource->bytes = lsf_texture_bytes(&resource->texture);
+    FORMAT_INTO(resource->why, why);
+}
+
+void lsf_plan_texture_desc_add(lsf_plan *plan, const char *name, const lsf_texture_desc *desc,
+                               const char *why, ...)
+{
+    lsf_plan_resource *resource = add_resource(plan, name);
+    if (!resource)
+        return;
+    resource->texture = *desc;
+    resource->bytes = lsf_texture_bytes(desc);
+    FORMAT_INTO(resource->why, why);
+}
+
+void lsf_plan_buffer_add(lsf_plan *plan, const char *name, uint64_t bytes, const char *why, ...)
+{
+    lsf_plan_resource *resource = add_resource(plan, name);
+    if (!resource)
+        return;
+    resource->is_buffer = true;
+    resource->bytes = bytes;
+    FORMAT_INTO(resource->why, why);
+}
+
+void lsf_plan_omit(lsf_plan *plan, const char *name, const char *why, ...)
+{
+    lsf_plan_omission *omission = APPEND(plan, omission);
+    if (!omission)
+        return;
+    snprintf(omission->name, sizeof omission->name, "%s", name);
+    FORMAT_INTO(omission->why, why);
+}
+
+void lsf_plan_remark(lsf_plan *plan, const char *format, ...)
+{
+    char **remark = APPEND(plan, remark);
+    if (!remark)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    if (vasprintf(remark, format, arguments) < 0) {
+        *remark = NULL;
+        plan->failed = true;
+    }
+    va_end(arguments);
+}
+
+void lsf_plan_destroy(lsf_plan *plan)
+{
+    if (!plan)
+        return;
+    for (uint64_t i = 0; i < plan->remark_count; i++)
+        free(plan->remarks[i]);
+    free(plan->remarks);
+    free(plan->passes);
+    free(plan->resources);
+    free(plan->omissions);
+    free(plan);
+}
+
+uint64_t lsf_plan_bytes(const lsf_plan *plan)
+{
+    uint64_t bytes = 0;
+    for (uint64_t i = 0; i < plan->resource_count; i++)
+        bytes += plan->resources[i].bytes;
+    return bytes;
+}
+
+const lsf_plan_pass *lsf_plan_find_pass(const lsf_plan *plan, const char *name)
+{
+    for (uint64_t i = 0; i < plan->pass_count; i++)
+        if (strcmp(plan->passes[i].name, name) == 0)
+            return &plan->passes[i];
+    return NULL;
+}
+
+const lsf_plan_resource *lsf_plan_find(const lsf_plan *plan, const char *name)
+{
+    for (uint64_t i = 0; i < plan->resource_count; i++)
+        if (strcmp(plan->resources[i].name, name) == 0)
+            return &plan->resources[i];
+    return NULL;
+}
+
+int lsf_plan_switch_value(const lsf_plan *plan, const char *pass_name, const char *name)
+{
+    const lsf_plan_pass *pass = lsf_plan_find_pass(plan, pass_name);
+    for (uint32_t i = 0; pass && i < pass->switch_count; i++)
+        if (strcmp(pass->switches[i].define.name, name) == 0)
+            return pass->switches[i].define.value;
+    return 0;
+}
+
+bool lsf_plan_create_texture(const lsf_plan *plan, lsf_context *context, const char *name,
+                             GLuint *texture, lsf_error *error)
+{
+    const lsf_plan_resource *resource = lsf_plan_find(plan, name);
+    if (!resource)
+        return true;
+    lsf_texture_desc desc = resource->texture;
+    desc.label = resource->name;
+    *texture = lsf_texture_create(context, &desc, error);
+    return *texture != 0;
+}
+
+bool lsf_plan_create_buffer(const lsf_plan *plan, lsf_context *context, const char *name,
+                            const void *data, GLbitfield flags, GLuint *buffer, lsf_error *error)
+{
+    const lsf_plan_resource *resource = lsf_plan_find(plan, name);
+    if (!resource)
+        return true;
+    *buffer = lsf_buffer_create(context, resource->name, resource->bytes, data, flags, error);
+    return *buffer != 0;
+}
+
+GLuint lsf_plan_program(const lsf_plan *plan, lsf_context *context, const char *pass_name,
+                        const char *const files[5], lsf_error *error)
+{
+    const lsf_plan_pass *pass = lsf_plan_find_pass(plan, pass_name);
+    lsf_define defines[LSF_PLAN_MAX_SWITCHES];
+    uint32_t count = pass ? pass->switch_count : 0;
+    for (uint32_t i = 0; i < count; i++)
+        defines[i] = pass->switches[i].define;
+    lsf_program_desc desc = {.label = pass_name, .defines = defines, .define_count = count};
+    for (int i = 0; i < 5 && files[i]; i++)
+        desc.files[i] = files[i];
+    return lsf_program_get(context, &desc, error);
+}

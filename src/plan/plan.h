@@ -1,0 +1,97 @@
+/* The frame plan: what is rendered, from which resources, and why. A technique fills it from the
+ * scene's requirements and the options; the renderer then allocates exactly its resources and
+ * compiles exactly its switches. */
+#ifndef LSF_PLAN_PLAN_H
+#define LSF_PLAN_PLAN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "gl/gl.h"
+#include "scene/scene.h"
+#include <lightsheaf/renderer.h>
+
+#define LSF_PLAN_TEXT_SIZE 200
+
+typedef struct lsf_plan_switch {
+    lsf_define define; /* the name is a string literal */
+    char why[LSF_PLAN_TEXT_SIZE];
+} lsf_plan_switch;
+
+#define LSF_PLAN_MAX_SWITCHES 24
+
+typedef struct lsf_plan_pass {
+    const char *name;
+    char why[LSF_PLAN_TEXT_SIZE];
+    lsf_plan_switch switches[LSF_PLAN_MAX_SWITCHES];
+    uint32_t switch_count;
+} lsf_plan_pass;
+
+typedef struct lsf_plan_resource {
+    char name[64];     /* also the GL label */
+    bool is_buffer;
+    lsf_texture_desc texture; /* without label: the resource's name */
+    uint64_t bytes;
+    char why[LSF_PLAN_TEXT_SIZE];
+} lsf_plan_resource;
+
+typedef struct lsf_plan_omission {
+    char name[64];
+    char why[LSF_PLAN_TEXT_SIZE];
+} lsf_plan_omission;
+
+struct lsf_plan {
+    const char *technique;
+    lsf_requirements requirements;
+    uint32_t width, height, samples, bounces, aovs;
+    bool orthographic;
+    bool failed; /* memory ran out while it was filled */
+    lsf_plan_pass *passes;
+    uint64_t pass_count, pass_capacity;
+    lsf_plan_resource *resources;
+    uint64_t resource_count, resource_capacity;
+    lsf_plan_omission *omissions;
+    uint64_t omission_count, omission_capacity;
+    char **remarks; /* what the user should know of the picture, one sentence each */
+    uint64_t remark_count, remark_capacity;
+};
+
+/* Appends a pass in the order of execution; later lsf_plan_switch_add calls belong to it. */
+void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
+    __attribute__((format(printf, 3, 4)));
+void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *why, ...)
+    __attribute__((format(printf, 4, 5)));
+void lsf_plan_texture_add(lsf_plan *plan, const char *name, GLenum internal_format, uint32_t width,
+                          uint32_t height, const char *why, ...)
+    __attribute__((format(printf, 6, 7)));
+/* For anything but a one-level 2D texture; `desc->label` is not looked at. */
+void lsf_plan_texture_desc_add(lsf_plan *plan, const char *name, const lsf_texture_desc *desc,
+                               const char *why, ...) __attribute__((format(printf, 4, 5)));
+void lsf_plan_buffer_add(lsf_plan *plan, const char *name, uint64_t bytes, const char *why, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Something the technique knows and left out. */
+void lsf_plan_omit(lsf_plan *plan, const char *name, const char *why, ...)
+    __attribute__((format(printf, 3, 4)));
+void lsf_plan_remark(lsf_plan *plan, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* NULL when the plan does not list it. */
+const lsf_plan_pass *lsf_plan_find_pass(const lsf_plan *plan, const char *name);
+const lsf_plan_resource *lsf_plan_find(const lsf_plan *plan, const char *name);
+/* The switch's value, 0 when the pass does not have it. */
+int lsf_plan_switch_value(const lsf_plan *plan, const char *pass, const char *name);
+
+/* Creates the planned texture; *texture stays 0, with success, when the plan does not list it. */
+bool lsf_plan_create_texture(const lsf_plan *plan, lsf_context *context, const char *name,
+                             GLuint *texture, lsf_error *error);
+/* The same for a buffer; `data` holds the planned bytes or is NULL. */
+bool lsf_plan_create_buffer(const lsf_plan *plan, lsf_context *context, const char *name,
+                            const void *data, GLbitfield flags, GLuint *buffer, lsf_error *error);
+/* Compiles `files` (up to five, NULL-terminated) with the pass's switches. 0 on failure. */
+GLuint lsf_plan_program(const lsf_plan *plan, lsf_context *context, const char *pass,
+                        const char *const files[5], lsf_error *error);
+
+/* Refuses a plan that the device cannot hold, naming the smallest change that would fit. */
+bool lsf_plan_check(const lsf_plan *plan, const lsf_context *context, lsf_error *error);
+
+#endif

@@ -1,0 +1,301 @@
+#include "plan/scene_gpu.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "plan/texture_upload.h"
+#include "shared/brdf.h"
+#include "shared/scene_data.h"
+
+typedef struct lsf_instance_data instance_data;
+typedef struct lsf_material_data material_data;
+
+static bool any_texture(const lsf_requirements *requirements)
+{
+    return requirements->base_color_textured || requirements->metallic_roughness_textured ||
+           requirements->normal_mapped || requirements->emissive_textured ||
+           requirements->anisotropy_textured;
+}
+
+void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
+{
+    const lsf_requirements *r = &plan->requirements;
+    uint64_t vertices = scene->vertices.count;
+    if (scene->instance_count == 0 || scene->index_count == 0) {
+        lsf_plan_omit(plan, "scene.positions", "the scene has no triangles");
+    } else {
+        lsf_plan_buffer_add(plan, "scene.positions", vertices * 12, "3 floats a vertex");
+        lsf_plan_buffer_add(plan, "scene.normals", vertices * 12, "3 floats a vertex");
+        lsf_plan_buffer_add(plan, "scene.indices", scene->index_count * 4, "32 bits each");
+        lsf_plan_buffer_add(plan, "scene.instance_ids", (uint64_t)scene->instance_count * 4,
+                            "names the instance of a draw");
+        lsf_plan_buffer_add(plan, "scene.instances",
+                            scene->instance_count * sizeof(instance_data),
+                            "transforms and material of %u instances", scene->instance_count);
+        lsf_plan_buffer_add(plan, "scene.materials", scene->material_count * sizeof(material_data),
+                            "%u materials", scene->material_count);
+        if (r->normal_mapped || r->anisotropic)
+            lsf_plan_buffer_add(plan, "scene.tangents", vertices * 16, "%s",
+                                r->normal_mapped ? "normal maps" : "anisotropy");
+        else
+            lsf_plan_omit(plan, "scene.tangents", "no normal map and no anisotropy");
+        if (any_texture(r))
+            lsf_plan_buffer_add(plan, "scene.uv0", vertices * 8, "textures");
+        else
+            lsf_plan_omit(plan, "scene.uv0", "no textures");
+        if (r->second_uv)
+            lsf_plan_buffer_add(plan, "scene.uv1", vertices * 8, "a texture reads TEXCOORD_1");
+        if (r->vertex_colored)
+            lsf_plan_buffer_add(plan, "scene.colors", vertices * 16, "vertex colours");
+        if (plan->aovs & LSF_AOV_MOTION)
+            lsf_plan_buffer_add(plan, "scene.previous_transforms",
+                                (uint64_t)scene->instance_count * 48, "motion is asked for");
+    }
+    lsf_texture_upload_plan(plan, scene);
+}
+
+static struct lsf_texture_slot_data slot_data(const lsf_texture_slot *slot)
+{
+    const float *t = slot->transform;
+    return (struct lsf_texture_slot_data){
+        {t[0], t[1], t[2], slot->texture != LSF_NONE ? 1.0f : 0.0f},
+        {t[3], t[4], t[5], (float)slot->uv_set}};
+}
+
+static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+{
+    const lsf_scene *scene = gpu->scene;
+    material_data *data = lsf_alloc(scene->material_count, sizeof *data);
+    if (!data)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u materials",
+                             scene->material_count);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lsf_material *m = &scene->materials[i];
+        data[i] = (material_data){
+            .base_color = {m->base_color[0], m->base_color[1], m->base_color[2], m->base_color[3]},
+            .emission = {m->emission[0], m->emission[1], m->emission[2],
+                         m->alpha_mode == LSF_ALPHA_MASK ? m->alpha_cutoff : -1.0f},
+            .surface = {m->metallic, m->roughness, m->normal_scale, lsf_f0_from_ior(m->ior)},
+            .anisotropy = {m->anisotropy_strength, cosf(m->anisotropy_rotation),
+                           sinf(m->anisotropy_rotation), 0.0f},
+            .flags = {m->double_sided, m->unlit, 0.0f, 0.0f},
+            .base_color_slot = slot_data(&m->base_color_texture),
+            .metallic_roughness_slot = slot_data(&m->metallic_roughness_texture),
+            .normal_slot = slot_data(&m->normal_texture),
+            .emissive_slot = slot_data(&m->emissive_texture),
+            .anisotropy_slot = slot_data(&m->anisotropy_texture)};
+    }
+    bool ok = lsf_plan_create_buffer(plan, gpu->context, "scene.materials", data, 0,
+                                     &gpu->materials, error);
+    free(data);
+    return ok;
+}
+
+static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
+                             const lsf_state *previous, lsf_error *error)
+{
+    uint32_t count = gpu->scene->instance_count;
+    gpu->instance_data = lsf_alloc(count, sizeof *gpu->instance_data);
+    uint32_t *ids = lsf_alloc(count, sizeof *ids);
+    float *transforms = lsf_alloc(count, 12 * sizeof *transforms);
+    bool ok = gpu->instance_data && ids && transforms;
+    if (!ok)
+        lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances", count);
+    for (uint32_t i = 0; ok && i < count; i++) {
+        const lsf_instance_state *instance = &state->instances[i];
+        const float *t = instance->transform, *n = instance->normal_transform;
+        gpu->instance_data[i] = (instance_data){{t[0], t[1], t[2], t[3]},
+                                                {t[4], t[5], t[6], t[7]},
+                                                {t[8], t[9], t[10], t[11]},
+                                                {n[0], n[1], n[2], (float)instance->material},
+                                                {n[3], n[4], n[5], instance->mirrored},
+                                                {n[6], n[7], n[8], 0.0f}};
+        ids[i] = i;
+        if (previous)
+            memcpy(transforms + 12 * (size_t)i, previous->instances[i].transform, 48);
+    }
+    ok = ok &&
+         lsf_plan_create_buffer(plan, gpu->context, "scene.instances", gpu->instance_data, 0,
+                                &gpu->instances, error) &&
+         lsf_plan_create_buffer(plan, gpu->context, "scene.instance_ids", ids, 0,
+                                &gpu->instance_ids, error) &&
+         lsf_plan_create_buffer(plan, gpu->context, "scene.previous_transforms", transforms, 0,
+                                &gpu->previous_transforms, error);
+    free(ids);
+    free(transforms);
+    return ok;
+}
+
+static void add_attribute(GLuint array, GLuint location, GLuint buffer, GLint components)
+{
+    if (!buffer)
+        return;
+    glVertexArrayVertexBuffer(array, location, buffer, 0, components * (GLsizei)sizeof(float));
+    glVertexArrayAttribFormat(array, location, components, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(array, location, location);
+    glEnableVertexArrayAttrib(array, location);
+}
+
+static GLuint create_array(const lsf_scene_gpu *gpu, const char *label, bool shading, bool masked)
+{
+    GLuint array;
+    glCreateVertexArrays(1, &array);
+    glObjectLabel(GL_VERTEX_ARRAY, array, -1, label);
+    glVertexArrayElementBuffer(array, gpu->indices);
+    add_attribute(array, LSF_ATTRIBUTE_POSITION, gpu->positions, 3);
+    if (shading) {
+        add_attribute(array, LSF_ATTRIBUTE_NORMAL, gpu->normals, 3);
+        add_attribute(array, LSF_ATTRIBUTE_TANGENT, gpu->tangents, 4);
+    }
+    if (shading || masked) {
+        add_attribute(array, LSF_ATTRIBUTE_UV0, gpu->uv0, 2);
+        add_attribute(array, LSF_ATTRIBUTE_UV1, gpu->uv1, 2);
+        add_attribute(array, LSF_ATTRIBUTE_COLOR, gpu->colors, 4);
+    }
+    glVertexArrayVertexBuffer(array, LSF_ATTRIBUTE_INSTANCE, gpu->instance_ids, 0, 4);
+    glVertexArrayAttribIFormat(array, LSF_ATTRIBUTE_INSTANCE, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(array, LSF_ATTRIBUTE_INSTANCE, LSF_ATTRIBUTE_INSTANCE);
+    glVertexArrayBindingDivisor(array, LSF_ATTRIBUTE_INSTANCE, 1);
+    glEnableVertexArrayAttrib(array, LSF_ATTRIBUTE_INSTANCE);
+    return array;
+}
+
+/* Instances grouped by material, in a stable order (a counting sort). */
+static bool order_draws(lsf_scene_gpu *gpu, const lsf_state *state, lsf_error *error)
+{
+    const lsf_scene *scene = gpu->scene;
+    uint32_t *first = lsf_alloc((uint64_t)scene->material_count + 1, sizeof *first);
+    gpu->draw_order = lsf_alloc(scene->instance_count, sizeof *gpu->draw_order);
+    if (!first || !gpu->draw_order) {
+        free(first);
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u draws",
+                             scene->instance_count);
+    }
+    for (uint32_t i = 0; i < state->instance_count; i++)
+        first[state->instances[i].material + 1]++;
+    for (uint32_t m = 0; m < scene->material_count; m++)
+        first[m + 1] += first[m];
+    for (uint32_t i = 0; i < state->instance_count; i++)
+        gpu->draw_order[first[state->instances[i].material]++] = i;
+    gpu->draw_count = state->instance_count;
+    free(first);
+    return true;
+}
+
+bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
+                          const lsf_scene *scene, const lsf_state *state,
+                          const lsf_state *previous, lsf_error *error)
+{
+    const lsf_vertices *v = &scene->vertices;
+    memset(gpu, 0, sizeof *gpu);
+    gpu->context = context;
+    gpu->scene = scene;
+    if (!lsf_texture_upload_create(gpu, plan, error))
+        return false;
+    if (!lsf_plan_find(plan, "scene.positions"))
+        return true;
+    const struct {
+        const char *name;
+        const void *data;
+        GLuint *buffer;
+    } streams[] = {
+        {"scene.positions", v->position, &gpu->positions},
+        {"scene.normals", v->normal, &gpu->normals},
+        {"scene.tangents", v->tangent, &gpu->tangents},
+        {"scene.uv0", v->uv0, &gpu->uv0},
+        {"scene.uv1", v->uv1, &gpu->uv1},
+        {"scene.colors", v->color, &gpu->colors},
+        {"scene.indices", scene->indices, &gpu->indices},
+    };
+    for (size_t i = 0; i < LSF_COUNT(streams); i++)
+        if (!lsf_plan_create_buffer(plan, context, streams[i].name, streams[i].data, 0,
+                                    streams[i].buffer, error))
+            return false;
+    if (!upload_instances(gpu, plan, state, previous, error) ||
+        !upload_materials(gpu, plan, error) || !order_draws(gpu, state, error))
+        return false;
+    gpu->shading_array = create_array(gpu, "scene.shading_array", true, false);
+    gpu->position_array =
+        create_array(gpu, "scene.position_array", false, plan->requirements.masked);
+    return true;
+}
+
+void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
+{
+    if (!gpu->context)
+        return;
+    GLuint *buffers[] = {&gpu->positions,    &gpu->normals,   &gpu->tangents,
+                         &gpu->uv0,          &gpu->uv1,       &gpu->colors,
+                         &gpu->indices,      &gpu->materials, &gpu->instances,
+                         &gpu->instance_ids, &gpu->previous_transforms};
+    for (size_t i = 0; i < LSF_COUNT(buffers); i++)
+        lsf_buffer_destroy(gpu->context, buffers[i]);
+    lsf_texture_upload_destroy(gpu);
+    glDeleteVertexArrays(1, &gpu->shading_array);
+    glDeleteVertexArrays(1, &gpu->position_array);
+    free(gpu->instance_data);
+    free(gpu->draw_order);
+    memset(gpu, 0, sizeof *gpu);
+}
+
+static bool inside(const lsf_draw_region *region, const lsf_instance_state *instance)
+{
+    for (uint32_t i = 0; i < region->plane_count; i++) {
+        const float *plane = region->planes[i];
+        float farthest = plane[3];
+        for (int axis = 0; axis < 3; axis++)
+            farthest += plane[axis] * (plane[axis] > 0.0f ? instance->bounds_max
+                                                          : instance->bounds_min)[axis];
+        if (farthest < 0.0f)
+            return false;
+    }
+    return true;
+}
+
+static void bind_slot(const lsf_scene_gpu *gpu, GLuint unit, const lsf_texture_slot *slot)
+{
+    if (slot->texture == LSF_NONE)
+        return;
+    glBindTextureUnit(unit, gpu->textures[gpu->texture_of[slot->texture]]);
+    glBindSampler(unit, lsf_texture_upload_sampler(gpu, slot->texture));
+}
+
+static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material,
+                          lsf_draw_mode mode)
+{
+    if (mode == LSF_DRAW_SHADING || material->alpha_mode == LSF_ALPHA_MASK)
+        bind_slot(gpu, LSF_UNIT_BASE_COLOR, &material->base_color_texture);
+    if (mode != LSF_DRAW_SHADING)
+        return;
+    bind_slot(gpu, LSF_UNIT_METALLIC_ROUGHNESS, &material->metallic_roughness_texture);
+    bind_slot(gpu, LSF_UNIT_NORMAL, &material->normal_texture);
+    bind_slot(gpu, LSF_UNIT_EMISSIVE, &material->emissive_texture);
+    bind_slot(gpu, LSF_UNIT_ANISOTROPY, &material->anisotropy_texture);
+}
+
+void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
+                        const lsf_draw_region *region)
+{
+    uint32_t bound = LSF_NONE;
+    glBindVertexArray(mode == LSF_DRAW_SHADING ? gpu->shading_array : gpu->position_array);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_INSTANCES, gpu->instances);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
+    if (gpu->previous_transforms)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_PREVIOUS_TRANSFORMS,
+                         gpu->previous_transforms);
+    for (uint32_t i = 0; i < gpu->draw_count; i++) {
+        const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
+        if (instance->skipped || (region && !inside(region, instance)))
+            continue;
+        if (instance->material != bound)
+            bind_material(gpu, &gpu->scene->materials[bound = instance->material], mode);
+        const lsf_primitive *primitive = &gpu->scene->primitives[instance->primitive];
+        glDrawElementsInstancedBaseInstance(
+            GL_TRIANGLES, (GLsizei)primitive->index_count, GL_UNSIGNED_INT,
+            (const void *)(uintptr_t)(primitive->first_index * 4), 1, gpu->draw_order[i]);
+    }
+    for (GLuint unit = 0; unit <= LSF_UNIT_ANISOTROPY && gpu->gl_texture_count; unit++)
+        glBindSampler(unit, 0);
+}

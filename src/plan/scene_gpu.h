@@ -1,0 +1,50 @@
+/* The scene's GL resources: vertex streams, instances, materials, textures, environment. Only
+ * what the scene requires exists; everything is uploaded once. */
+#ifndef LSF_PLAN_SCENE_GPU_H
+#define LSF_PLAN_SCENE_GPU_H
+
+#include "plan/plan.h"
+#include "scene/state.h"
+
+typedef struct lsf_scene_gpu {
+    lsf_context *context;
+    const lsf_scene *scene;
+    GLuint positions, normals, tangents, uv0, uv1, colors, indices;
+    GLuint instance_ids, instances, previous_transforms, materials, environment;
+    GLuint *textures;         /* one for each image and colour space in use */
+    uint32_t gl_texture_count;
+    uint32_t *texture_of;     /* scene texture to an entry of `textures` */
+    GLuint samplers[18];      /* wrap s, wrap t, nearest: 3 x 3 x 2; 0 until needed */
+    GLuint shading_array;     /* vertex array with every stream */
+    GLuint position_array;    /* positions (and UVs where masks need them) */
+    uint32_t *draw_order;     /* instances, grouped by material */
+    uint32_t draw_count;
+    struct lsf_instance_data *instance_data; /* staging, one an instance */
+} lsf_scene_gpu;
+
+/* Lists what lsf_scene_gpu_create will create. */
+void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene);
+
+/* `previous` is the state that motion is measured from, NULL without motion. */
+bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
+                          const lsf_scene *scene, const lsf_state *state,
+                          const lsf_state *previous, lsf_error *error);
+void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
+
+typedef enum lsf_draw_mode {
+    LSF_DRAW_SHADING,   /* all streams; material textures are bound for each draw */
+    LSF_DRAW_POSITIONS, /* positions; base colour textures of masked materials are bound */
+} lsf_draw_mode;
+
+/* A convex region: an instance wholly on the negative side of a plane is not drawn.
+ * planes[i]: normal and offset, n.p + w >= 0 inside, normalised space. */
+typedef struct lsf_draw_region {
+    uint32_t plane_count;
+    float planes[6][4];
+} lsf_draw_region;
+
+/* Draws every instance inside `region` (NULL: all) with the bound program and framebuffer. */
+void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
+                        const lsf_draw_region *region);
+
+#endif

@@ -1,0 +1,253 @@
+#include "plan/texture_upload.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "shared/tonemap.h"
+
+/* How an image is stored: 8-bit colour stays sRGB-encoded and is decoded by the sampler before it
+ * filters; 16-bit colour has no such format and is decoded here, to half floats, which resolve
+ * 11 bits at every brightness. */
+typedef struct storage {
+    GLenum internal_format, type;
+    uint32_t channels; /* of the uploaded texels */
+    bool decode;       /* sRGB to linear floats here */
+} storage;
+
+static storage choose_storage(const lsf_texture_image *image, bool srgb)
+{
+    uint32_t n = image->channels;
+    if (image->type == LSF_TEXEL_F32)
+        return (storage){GL_RGBA32F, GL_FLOAT, 4, false};
+    if (image->type == LSF_TEXEL_U16 && srgb)
+        return (storage){GL_RGBA16F, GL_FLOAT, 4, true};
+    if (srgb)
+        return (storage){GL_SRGB8_ALPHA8, GL_UNSIGNED_BYTE, 4, false};
+    bool wide = image->type == LSF_TEXEL_U16;
+    GLenum type = wide ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE;
+    if (n == 1)
+        return (storage){wide ? GL_R16 : GL_R8, type, 1, false};
+    if (n == 2)
+        return (storage){wide ? GL_RG16 : GL_RG8, type, 2, false};
+    return (storage){wide ? GL_RGBA16 : GL_RGBA8, type, 4, false};
+}
+
+static uint32_t level_count(uint32_t width, uint32_t height)
+{
+    uint32_t levels = 1;
+    for (uint32_t size = width > height ? width : height; size > 1; size >>= 1)
+        levels++;
+    return levels;
+}
+
+/* Numbers the distinct pairs of image and colour space that materials in use read; returns their
+ * count. `of` (per scene texture, LSF_NONE when unused) and `representative` (per pair, a scene
+ * texture) may be NULL. */
+static uint32_t number_textures(const lsf_scene *scene, uint32_t *of, uint32_t *representative)
+{
+    uint32_t count = 0;
+    uint32_t *pair_of = lsf_alloc((uint64_t)scene->image_count * 2, sizeof *pair_of);
+    bool *used = lsf_alloc(scene->texture_count, sizeof *used);
+    if (!pair_of || !used)
+        goto done;
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const lsf_material *m =
+            &scene->materials[scene->primitives[scene->instances[i].primitive].material];
+        const lsf_texture_slot *slots[] = {&m->base_color_texture, &m->metallic_roughness_texture,
+                                           &m->normal_texture, &m->emissive_texture,
+                                           &m->anisotropy_texture};
+        for (size_t s = 0; s < LSF_COUNT(slots); s++)
+            if (slots[s]->texture != LSF_NONE)
+                used[slots[s]->texture] = true;
+    }
+    for (uint32_t t = 0; t < scene->texture_count; t++) {
+        if (of)
+            of[t] = LSF_NONE;
+        if (!used[t])
+            continue;
+        uint32_t *pair = &pair_of[2 * scene->textures[t].image + scene->textures[t].srgb];
+        if (*pair == 0) {
+            if (representative)
+                representative[count] = t;
+            *pair = ++count; /* one-based; 0 is "not numbered yet" */
+        }
+        if (of)
+            of[t] = *pair - 1;
+    }
+done:
+    free(pair_of);
+    free(used);
+    return count;
+}
+
+static void texture_name(char name[64], uint32_t index)
+{
+    snprintf(name, 64, "scene.texture.%u", index);
+}
+
+void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
+{
+    uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
+    if (!representative) {
+        plan->failed = true;
+        return;
+    }
+    uint32_t count = number_textures(scene, NULL, representative);
+    for (uint32_t i = 0; i < count; i++) {
+        const lsf_texture *texture = &scene->textures[representative[i]];
+        const lsf_texture_image *image = &scene->images[texture->image];
+        lsf_texture_desc desc = {NULL,          GL_TEXTURE_2D, choose_storage(image, texture->srgb).internal_format,
+                                 image->width,  image->height, 1,
+                                 level_count(image->width, image->height)};
+        char name[64];
+        texture_name(name, i);
+        lsf_plan_texture_desc_add(plan, name, &desc, "%.100s%s", image->name,
+                                  texture->srgb ? ", sRGB" : "");
+    }
+    free(representative);
+    if (scene->environment.present && scene->environment.width)
+        lsf_plan_texture_add(plan, "scene.environment", GL_RGB32F, scene->environment.width,
+                             scene->environment.height, "the environment map, lat-long");
+}
+
+/* Texels as GL takes them: grey spread over R, G, B when four channels are stored. NULL without
+ * memory. */
+static void *convert_texels(const lsf_texture_image *image, storage s)
+{
+    uint64_t count = (uint64_t)image->width * image->height;
+    size_t size = s.type == GL_FLOAT ? 4 : s.type == GL_UNSIGNED_SHORT ? 2 : 1;
+    void *out = lsf_alloc(count, s.channels * size);
+    bool grey = image->channels <= 2;
+    for (uint64_t i = 0; out && i < count; i++)
+        for (uint32_t c = 0; c < s.channels; c++) {
+            uint32_t from = s.channels < 4 ? c : c < 3 ? (grey ? 0 : c) : image->channels - 1;
+            bool opaque = s.channels == 4 && c == 3 && (image->channels == 1 || image->channels == 3);
+            uint64_t source = i * image->channels + from, target = i * s.channels + c;
+            switch (image->type) {
+            case LSF_TEXEL_U8:
+                ((uint8_t *)out)[target] = opaque ? 255 : ((uint8_t *)image->texels)[source];
+                break;
+            case LSF_TEXEL_U16: {
+                uint16_t texel = opaque ? 65535 : ((uint16_t *)image->texels)[source];
+                if (s.decode)
+                    ((float *)out)[target] =
+                        c < 3 ? lsf_srgb_decode((float)texel / 65535.0f) : (float)texel / 65535.0f;
+                else
+                    ((uint16_t *)out)[target] = texel;
+                break;
+            }
+            case LSF_TEXEL_F32:
+                ((float *)out)[target] = opaque ? 1.0f : ((float *)image->texels)[source];
+                break;
+            }
+        }
+    return out;
+}
+
+static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index,
+                   const lsf_texture *texture, lsf_error *error)
+{
+    static const GLenum layouts[] = {0, GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    const lsf_texture_image *image = &gpu->scene->images[texture->image];
+    storage s = choose_storage(image, texture->srgb);
+    char name[64];
+    texture_name(name, index);
+    if (!lsf_plan_create_texture(plan, gpu->context, name, &gpu->textures[index], error))
+        return false;
+    bool direct = s.channels == image->channels && !s.decode;
+    void *converted = direct ? NULL : convert_texels(image, s);
+    if (!direct && !converted)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory for %ux%u texels",
+                             image->name, image->width, image->height);
+    glTextureSubImage2D(gpu->textures[index], 0, 0, 0, (GLsizei)image->width,
+                        (GLsizei)image->height, layouts[s.channels], s.type,
+                        direct ? image->texels : converted);
+    free(converted);
+    if (s.channels <= 2) {
+        GLint swizzle[] = {GL_RED, GL_RED, GL_RED, s.channels == 2 ? GL_GREEN : GL_ONE};
+        glTextureParameteriv(gpu->textures[index], GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+    }
+    glGenerateTextureMipmap(gpu->textures[index]);
+    return true;
+}
+
+static bool upload_environment(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+{
+    const lsf_environment *environment = &gpu->scene->environment;
+    if (!lsf_plan_create_texture(plan, gpu->context, "scene.environment", &gpu->environment, error))
+        return false;
+    if (!gpu->environment)
+        return true;
+    glTextureSubImage2D(gpu->environment, 0, 0, 0, (GLsizei)environment->width,
+                        (GLsizei)environment->height, GL_RGB, GL_FLOAT, environment->texels);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return true;
+}
+
+static uint32_t sampler_index(const lsf_texture *texture)
+{
+    return (uint32_t)texture->wrap_s * 6 + (uint32_t)texture->wrap_t * 2 + texture->nearest;
+}
+
+static void create_sampler(lsf_scene_gpu *gpu, const lsf_texture *texture)
+{
+    static const GLint wraps[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
+    GLuint *sampler = &gpu->samplers[sampler_index(texture)];
+    if (*sampler)
+        return;
+    glCreateSamplers(1, sampler);
+    glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_S, wraps[texture->wrap_s]);
+    glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_T, wraps[texture->wrap_t]);
+    glSamplerParameteri(*sampler, GL_TEXTURE_MAG_FILTER, texture->nearest ? GL_NEAREST : GL_LINEAR);
+    glSamplerParameteri(*sampler, GL_TEXTURE_MIN_FILTER,
+                        texture->nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
+}
+
+bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+{
+    const lsf_scene *scene = gpu->scene;
+    uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
+    gpu->texture_of = lsf_alloc(scene->texture_count, sizeof *gpu->texture_of);
+    gpu->textures = lsf_alloc(scene->texture_count, sizeof *gpu->textures);
+    bool ok = representative && gpu->texture_of && gpu->textures;
+    if (ok)
+        gpu->gl_texture_count = number_textures(scene, gpu->texture_of, representative);
+    else
+        lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u textures",
+                      scene->texture_count);
+    for (uint32_t i = 0; ok && i < gpu->gl_texture_count; i++)
+        ok = upload(gpu, plan, i, &scene->textures[representative[i]], error);
+    for (uint32_t t = 0; ok && t < scene->texture_count; t++)
+        if (gpu->texture_of[t] != LSF_NONE)
+            create_sampler(gpu, &scene->textures[t]);
+    free(representative);
+    return ok && upload_environment(gpu, plan, error);
+}
+
+void lsf_texture_upload_destroy(lsf_scene_gpu *gpu)
+{
+    for (uint32_t i = 0; gpu->textures && i < gpu->gl_texture_count; i++)
+        lsf_texture_destroy(gpu->context, &gpu->textures[i]);
+    lsf_texture_destroy(gpu->context, &gpu->environment);
+    glDeleteSamplers(LSF_COUNT(gpu->samplers), gpu->samplers);
+    free(gpu->textures);
+    free(gpu->texture_of);
+}
+
+GLuint lsf_texture_upload_sampler(const lsf_scene_gpu *gpu, uint32_t texture)
+{
+    return gpu->samplers[sampler_index(&gpu->scene->textures[texture])];
+}
+
+void lsf_texture_upload_set_lod_bias(const lsf_scene_gpu *gpu, float bias)
+{
+    for (size_t i = 0; i < LSF_COUNT(gpu->samplers); i++)
+        if (gpu->samplers[i])
+            glSamplerParameterf(gpu->samplers[i], GL_TEXTURE_LOD_BIAS, bias);
+}

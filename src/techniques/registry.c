@@ -1,0 +1,40 @@
+#include <string.h>
+
+#include "base/base.h"
+#include "techniques/technique.h"
+
+static const lsf_technique *const techniques[] = {&lsf_technique_direct};
+
+static const lsf_pass_params defaults = {LSF_PASS_PARAMS_DEFAULTS};
+
+#define TABLE(pass, rows)                                                                 \
+    {lsf_##pass##_options, rows, &defaults.pass, offsetof(lsf_pass_params, pass)}
+
+const lsf_option_table lsf_pass_option_tables[] = {
+    TABLE(gbuffer, LSF_GBUFFER_OPTION_COUNT),
+    TABLE(shadow_map, LSF_SHADOW_MAP_OPTION_COUNT),
+};
+const uint32_t lsf_pass_option_table_count = LSF_COUNT(lsf_pass_option_tables);
+
+const lsf_technique *lsf_technique_find(const char *name)
+{
+    for (size_t i = 0; i < LSF_COUNT(techniques); i++)
+        if (strcmp(techniques[i]->name, name) == 0)
+            return techniques[i];
+    return NULL;
+}
+
+const char *lsf_technique_name(uint32_t index)
+{
+    return index < LSF_COUNT(techniques) ? techniques[index]->name : NULL;
+}
+
+const char *lsf_technique_help(uint32_t index)
+{
+    return index < LSF_COUNT(techniques) ? techniques[index]->help : NULL;
+}
+
+bool lsf_option_list(uint32_t index, lsf_option *option)
+{
+    return lsf_option_at(lsf_pass_option_tables, lsf_pass_option_table_count, index, option);
+}

@@ -1,0 +1,262 @@
+#include <lightsheaf/renderer.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "passes/accumulate.h"
+#include "passes/tonemap.h"
+#include "techniques/setup.h"
+
+#define MAX_PASSES (LSF_TECHNIQUE_MAX_TIMERS + 2)
+
+struct lsf_renderer {
+    lsf_context *context;
+    lsf_setup setup;
+    lsf_scene_gpu scene;
+    lsf_iteration iteration;
+    void *technique;
+    lsf_technique_outputs outputs;
+    lsf_accumulate accumulate;
+    lsf_tonemap tonemap;
+    uint32_t samples; /* iterations done */
+    double time_limit;
+    uint32_t samples_wanted;
+    lsf_progress progress;
+    void *progress_user;
+    double compile_seconds, upload_seconds, render_seconds;
+    lsf_pass_stats pass_stats[MAX_PASSES];
+};
+
+static bool create_resources(lsf_renderer *renderer, const lsf_scene *scene,
+                             const lsf_render_params *params, lsf_error *error)
+{
+    lsf_setup *setup = &renderer->setup;
+    lsf_context *context = renderer->context;
+    const lsf_state *previous = params->aovs & LSF_AOV_MOTION ? &setup->previous : NULL;
+    double start = lsf_now();
+    if (!lsf_plan_check(setup->plan, context, error) ||
+        !lsf_scene_gpu_create(&renderer->scene, context, setup->plan, scene, &setup->state,
+                              previous, error) ||
+        !lsf_iteration_create(&renderer->iteration, context, setup->plan, &renderer->scene, &setup->state,
+                          previous, params->seed, error))
+        return false;
+    double uploaded = lsf_now();
+    if (!setup->technique->create(&renderer->technique, context, setup->plan, &setup->pass_params,
+                                  &renderer->scene, error) ||
+        !lsf_accumulate_create(&renderer->accumulate, context, setup->plan, setup->layer_count,
+                               setup->layer_names, error) ||
+        (params->rgb8 && !lsf_tonemap_create(&renderer->tonemap, context, setup->plan, error)))
+        return false;
+    renderer->upload_seconds = uploaded - start;
+    renderer->compile_seconds = lsf_now() - uploaded;
+    return lsf_context_check(context, error);
+}
+
+lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
+                                  const lsf_render_params *params, lsf_error *error)
+{
+    lsf_renderer *renderer = lsf_alloc(1, sizeof *renderer);
+    if (!renderer) {
+        lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+        return NULL;
+    }
+    renderer->context = context;
+    renderer->samples_wanted = params->samples;
+    renderer->time_limit = params->time_limit;
+    renderer->progress = params->progress;
+    renderer->progress_user = params->progress_user;
+    if (!lsf_setup_init(&renderer->setup, scene, params, error) ||
+        !lsf_context_make_current(context, error) ||
+        !create_resources(renderer, scene, params, error)) {
+        lsf_renderer_destroy(renderer);
+        return NULL;
+    }
+    const lsf_plan *plan = renderer->setup.plan;
+    for (uint64_t i = 0; i < plan->remark_count; i++)
+        lsf_log(LSF_LOG_INFO, "%s", plan->remarks[i]);
+    return renderer;
+}
+
+void lsf_renderer_destroy(lsf_renderer *renderer)
+{
+    if (!renderer)
+        return;
+    lsf_tonemap_destroy(&renderer->tonemap);
+    lsf_accumulate_destroy(&renderer->accumulate);
+    if (renderer->setup.technique)
+        renderer->setup.technique->destroy(renderer->technique);
+    lsf_iteration_destroy(&renderer->iteration);
+    lsf_scene_gpu_destroy(&renderer->scene);
+    lsf_setup_finish(&renderer->setup);
+    free(renderer);
+}
+
+const lsf_plan *lsf_renderer_plan(const lsf_renderer *renderer)
+{
+    return renderer->setup.plan;
+}
+
+/* The texture of a layer; 0 when the technique has none, and the layer stays black. */
+static GLuint layer_texture(const lsf_technique_outputs *outputs, uint32_t aov)
+{
+    switch (aov) {
+    case LSF_AOV_ALBEDO:
+    case LSF_AOV_NORMAL:
+        return outputs->surface;
+    case LSF_AOV_DEPTH:
+        return outputs->depth;
+    case LSF_AOV_EMISSION:
+        return outputs->emission;
+    case LSF_AOV_DIRECT:
+        return outputs->direct;
+    case LSF_AOV_INDIRECT_DIFFUSE:
+        return outputs->indirect_diffuse;
+    case LSF_AOV_INDIRECT_SPECULAR:
+        return outputs->indirect_specular;
+    case LSF_AOV_MOTION:
+        return outputs->motion;
+    default:
+        return outputs->picture;
+    }
+}
+
+bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
+{
+    GLuint layers[LSF_SETUP_MAX_LAYERS];
+    const lsf_setup *setup = &renderer->setup;
+    double start = lsf_now();
+    lsf_iteration_begin(&renderer->iteration, renderer->samples);
+    setup->technique->run(renderer->technique, &renderer->iteration, &renderer->outputs);
+    for (uint32_t i = 0; i < setup->layer_count; i++)
+        layers[i] = layer_texture(&renderer->outputs, setup->layer_aovs[i]);
+    lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers, renderer->outputs.depth);
+    renderer->samples++;
+    renderer->render_seconds += lsf_now() - start;
+    return lsf_context_check(renderer->context, error);
+}
+
+bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
+{
+    double start = lsf_now();
+    while (renderer->samples < renderer->samples_wanted) {
+        if (!lsf_renderer_iterate(renderer, error))
+            return false;
+        if (renderer->progress && !renderer->progress(renderer->samples, renderer->samples_wanted,
+                                                      renderer->progress_user))
+            break;
+        if (lsf_now() - start >= renderer->time_limit)
+            break;
+    }
+    return true;
+}
+
+/* Names of an image's channels: those of the picture, then of each layer. */
+static uint32_t name_channels(const lsf_setup *setup, char (*names)[LSF_CHANNEL_NAME_SIZE])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < setup->layer_count; i++) {
+        const char *letters = "RGB";
+        if (setup->layer_aovs[i] == LSF_AOV_NORMAL)
+            letters = "XYZ";
+        else if (setup->layer_aovs[i] == LSF_AOV_MOTION)
+            letters = "XY";
+        else if (setup->layer_aovs[i] == LSF_AOV_DEPTH)
+            letters = "Z";
+        for (; *letters; letters++)
+            if (i == 0)
+                snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%c", *letters);
+            else
+                snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%s.%c", setup->layer_names[i],
+                         *letters);
+    }
+    return count;
+}
+
+/* Copies a layer, bottom row first, into channels of the image, top row first. */
+static void copy_layer(lsf_image *image, uint32_t first_channel, uint32_t channels,
+                       const float *texels)
+{
+    for (uint32_t y = 0; y < image->height; y++)
+        for (uint32_t x = 0; x < image->width; x++) {
+            size_t source = ((size_t)(image->height - 1 - y) * image->width + x) * 4;
+            size_t target = ((size_t)y * image->width + x) * image->channel_count + first_channel;
+            memcpy(image->pixels + target, texels + source, channels * sizeof(float));
+        }
+}
+
+lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
+{
+    const lsf_setup *setup = &renderer->setup;
+    const lsf_plan *plan = setup->plan;
+    char names[3 * LSF_SETUP_MAX_LAYERS][LSF_CHANNEL_NAME_SIZE];
+    const char *name_list[3 * LSF_SETUP_MAX_LAYERS];
+    uint32_t channel_count = name_channels(setup, names);
+    for (uint32_t i = 0; i < channel_count; i++)
+        name_list[i] = names[i];
+    uint64_t texel_bytes = (uint64_t)plan->width * plan->height * 16;
+    lsf_image *image =
+        lsf_image_create(plan->width, plan->height, channel_count, name_list, error);
+    float *texels = lsf_alloc(texel_bytes, 1);
+    if (!image || !texels || texel_bytes > INT32_MAX) {
+        lsf_error_set(error, LSF_ERROR_RENDER, "%ux%u is too large to read back", plan->width,
+                      plan->height);
+        free(texels);
+        lsf_image_destroy(image);
+        return NULL;
+    }
+    for (uint32_t i = 0, channel = 0; i < setup->layer_count; i++) {
+        uint32_t channels = setup->layer_aovs[i] == LSF_AOV_DEPTH    ? 1
+                            : setup->layer_aovs[i] == LSF_AOV_MOTION ? 2
+                                                                     : 3;
+        bool present = layer_texture(&renderer->outputs, setup->layer_aovs[i]) != 0;
+        if (present) {
+            glGetTextureImage(renderer->accumulate.means[i], 0, GL_RGBA, GL_FLOAT,
+                              (GLsizei)texel_bytes, texels);
+            copy_layer(image, channel, channels, texels);
+        }
+        channel += channels;
+    }
+    free(texels);
+    if (!lsf_context_check(renderer->context, error)) {
+        lsf_image_destroy(image);
+        return NULL;
+    }
+    return image;
+}
+
+bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb, lsf_error *error)
+{
+    if (!renderer->tonemap.display)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "8-bit output was not asked for; set rgb8 in lsf_render_params");
+    const lsf_plan *plan = renderer->setup.plan;
+    lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure);
+    glGetTextureImage(renderer->tonemap.display, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                      (GLsizei)(plan->width * plan->height * 3), rgb);
+    return lsf_context_check(renderer->context, error);
+}
+
+lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
+{
+    lsf_timer *timers[MAX_PASSES];
+    uint32_t count = renderer->setup.technique->timers(renderer->technique, timers);
+    timers[count++] = renderer->accumulate.timer;
+    if (renderer->tonemap.timer)
+        timers[count++] = renderer->tonemap.timer;
+    for (uint32_t i = 0; i < count; i++) {
+        double iterations = renderer->samples ? renderer->samples : 1;
+        renderer->pass_stats[i] =
+            (lsf_pass_stats){.name = lsf_timer_name(timers[i]),
+                             .runs = lsf_timer_runs(timers[i]),
+                             .milliseconds = lsf_timer_milliseconds(timers[i]) / iterations};
+    }
+    return (lsf_renderer_stats){.samples = renderer->samples,
+                                .compile_seconds = renderer->compile_seconds,
+                                .upload_seconds = renderer->upload_seconds,
+                                .render_seconds = renderer->render_seconds,
+                                .pass_count = count,
+                                .passes = renderer->pass_stats};
+}

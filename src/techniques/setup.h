@@ -1,0 +1,26 @@
+/* Everything that is decided before GL is needed: options, the state of the scene, the plan. */
+#ifndef LSF_TECHNIQUES_SETUP_H
+#define LSF_TECHNIQUES_SETUP_H
+
+#include "scene/state.h"
+#include "techniques/technique.h"
+
+#define LSF_SETUP_MAX_LAYERS 9
+
+typedef struct lsf_setup {
+    const lsf_technique *technique;
+    lsf_pass_params pass_params;
+    lsf_state state;
+    lsf_state previous; /* that motion is measured from; only when motion is asked for */
+    lsf_plan *plan;
+    uint32_t layer_count;                          /* of the result; the first is the picture */
+    const char *layer_names[LSF_SETUP_MAX_LAYERS]; /* "picture", "albedo", ... */
+    uint32_t layer_aovs[LSF_SETUP_MAX_LAYERS];     /* 0 for the picture */
+} lsf_setup;
+
+/* LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case. */
+bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
+                    lsf_error *error);
+void lsf_setup_finish(lsf_setup *setup);
+
+#endif

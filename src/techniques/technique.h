@@ -1,0 +1,50 @@
+/* A technique: a chain of passes that makes one iteration's picture. Register in registry.c. */
+#ifndef LSF_TECHNIQUES_TECHNIQUE_H
+#define LSF_TECHNIQUES_TECHNIQUE_H
+
+#include "passes/gbuffer.h"
+#include "passes/shadow_map.h"
+#include "plan/iteration.h"
+
+/* The params of every pass that takes options; lsf_pass_option_tables names them. */
+typedef struct lsf_pass_params {
+    lsf_gbuffer_params gbuffer;
+    lsf_shadow_map_params shadow_map;
+} lsf_pass_params;
+
+#define LSF_PASS_PARAMS_DEFAULTS                                                          \
+    .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS}, .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS}
+
+extern const lsf_option_table lsf_pass_option_tables[];
+extern const uint32_t lsf_pass_option_table_count;
+
+/* What an iteration left, valid until the next; 0 where the technique has none. */
+typedef struct lsf_technique_outputs {
+    GLuint picture;           /* RGBA32F radiance */
+    GLuint depth, surface;    /* of the G-buffer */
+    GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
+    GLuint motion;
+} lsf_technique_outputs;
+
+#define LSF_TECHNIQUE_MAX_TIMERS 32
+
+typedef struct lsf_technique {
+    const char *name, *help;
+    /* Lists passes and resources, and what is left out. */
+    void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
+    /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets
+     * `error`; NULL without memory. */
+    bool (*create)(void **self, lsf_context *context, const lsf_plan *plan,
+                   const lsf_pass_params *params, const lsf_scene_gpu *scene, lsf_error *error);
+    void (*run)(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs);
+    void (*destroy)(void *self); /* NULL allowed */
+    /* Timers of its passes in order; returns their number. */
+    uint32_t (*timers)(void *self, lsf_timer *timers[LSF_TECHNIQUE_MAX_TIMERS]);
+} lsf_technique;
+
+extern const lsf_technique lsf_technique_direct;
+
+/* NULL when unknown. */
+const lsf_technique *lsf_technique_find(const char *name);
+
+#endif
