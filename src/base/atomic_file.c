@@ -75,9 +75,8 @@ static bool make_temporary(lsf_atomic_file *file, lsf_error *error)
     const char *slash = strrchr(file->path, '/');
     int folder_length = slash ? (int)(slash - file->path) + 1 : 0;
     for (int attempt = 0; attempt < 100; attempt++) {
-        file->temporary_path =
-            lsf_format("%.*s.lightsheaf-%ld-%u.tmp", folder_length, file->path, (long)getpid(),
-                       atomic_fetch_add(&counter, 1));
+        file->temporary_path = lsf_format("%.*s.lightsheaf-%ld-%u.tmp", folder_length, file->path,
+                                          (long)getpid(), atomic_fetch_add(&counter, 1));
         if (!file->temporary_path)
             return lsf_error_set(error, LSF_ERROR_FILE, "%s: out of memory", file->path);
         int slot = register_temporary(file->temporary_path);

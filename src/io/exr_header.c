@@ -123,8 +123,8 @@ bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
         return damaged(name, "it ends in the header", error);
     uint32_t flags = read_u32(bytes + 4);
     if ((flags & 0xff) != 2)
-        return lsf_error_set(error, LSF_ERROR_FILE, "%s: EXR version %u is not known; use version 2",
-                             name, flags & 0xff);
+        return lsf_error_set(error, LSF_ERROR_FILE,
+                             "%s: EXR version %u is not known; use version 2", name, flags & 0xff);
     if (flags & (FLAG_DEEP | FLAG_MULTIPART))
         return lsf_error_set(error, LSF_ERROR_FILE,
                              "%s: EXR with %s is not read; save it as a flat EXR with one part",

@@ -138,7 +138,8 @@ static bool read_hdr(lsf_image_header *header, const uint8_t *bytes, size_t leng
             break;
         char line[128];
         size_t size = (size_t)(end - (bytes + at));
-        snprintf(line, sizeof line, "%.*s", (int)(size < 127 ? size : 127), (const char *)bytes + at);
+        snprintf(line, sizeof line, "%.*s", (int)(size < 127 ? size : 127),
+                 (const char *)bytes + at);
         at += size + 1;
         if (strncmp(line, "FORMAT=", 7) == 0 && strncmp(line, "FORMAT=32-bit_rle_rgbe", 22) != 0)
             return lsf_error_set(error, LSF_ERROR_FILE,
@@ -199,7 +200,9 @@ bool lsf_image_header_read(lsf_image_header *header, const void *data, size_t le
                              "%s: the image has %u x %u pixels; at most %u a side are read, scale "
                              "it down",
                              name, header->width, header->height, LSF_IMAGE_MAX_SIZE);
-    uint64_t texel_bytes = header->type == LSF_TEXEL_F32 ? 4 : header->type == LSF_TEXEL_U16 ? 2 : 1;
+    uint64_t texel_bytes = header->type == LSF_TEXEL_F32   ? 4
+                           : header->type == LSF_TEXEL_U16 ? 2
+                                                           : 1;
     uint64_t pixels = (uint64_t)header->width * header->height;
     if (pixels > byte_limit / (header->channels * texel_bytes))
         return lsf_error_set(error, LSF_ERROR_FILE,

@@ -173,8 +173,8 @@ bool lsf_texture_image_decode(lsf_texture_image *image, const void *bytes, size_
     image->texels = decoded.texels;
     image->non_finite = 0;
     if (image->type == LSF_TEXEL_F32)
-        image->non_finite = repair(image->texels,
-                                   (uint64_t)image->width * image->height * image->channels, true);
+        image->non_finite =
+            repair(image->texels, (uint64_t)image->width * image->height * image->channels, true);
     return true;
 }
 

@@ -14,7 +14,7 @@ extern "C" {
 typedef struct lsf_decoded_image {
     uint32_t width, height, channels;
     lsf_texel_type type;
-    void *texels;                        /* malloc'ed, rows from the top, tightly packed */
+    void *texels;                         /* malloc'ed, rows from the top, tightly packed */
     char (*names)[LSF_CHANNEL_NAME_SIZE]; /* malloc'ed */
 } lsf_decoded_image;
 

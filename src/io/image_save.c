@@ -134,11 +134,8 @@ static bool save_png(const float *rgb, uint32_t width, uint32_t height, float ex
 bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,
                          lsf_error *error)
 {
-    lsf_encode_request request = {.file = LSF_IMAGE_FILE_PNG,
-                                  .width = width,
-                                  .height = height,
-                                  .channels = 3,
-                                  .texels = rgb};
+    lsf_encode_request request = {
+        .file = LSF_IMAGE_FILE_PNG, .width = width, .height = height, .channels = 3, .texels = rgb};
     return check_size(width, height, path, error) && encode_and_write(&request, path, error);
 }
 
@@ -173,8 +170,7 @@ bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_sa
     if (!params)
         params = &defaults;
     lsf_image_format format = params->format;
-    if (!find_format(&format, path, error) ||
-        !check_size(image->width, image->height, path, error))
+    if (!find_format(&format, path, error) || !check_size(image->width, image->height, path, error))
         return false;
 
     if (format == LSF_IMAGE_FORMAT_EXR) {

@@ -44,8 +44,8 @@ void undo_integer_scale(lsf_decoded_image *decoded, const OIIO::ImageSpec &spec)
                 texels[i * decoded->channels + c] *= 4294967295.0f;
 }
 
-bool decode_unguarded(lsf_decoded_image *decoded, const lsf_image_header *header,
-                      const void *bytes, size_t length, const char *name, lsf_error *error)
+bool decode_unguarded(lsf_decoded_image *decoded, const lsf_image_header *header, const void *bytes,
+                      size_t length, const char *name, lsf_error *error)
 {
     /* create() with a format's name: open() would go on to try every other reader on a file that
      * the right one refuses. */
@@ -111,15 +111,14 @@ bool decode(lsf_decoded_image *decoded, const lsf_image_header *header, const vo
 bool encode_failed(const char *name, lsf_image_file file, const std::string &cause,
                    lsf_error *error)
 {
-    return lsf_error_set(error, LSF_ERROR_FILE, "%s: cannot encode %s: %s", name,
-                         file_kinds[file], cause.c_str());
+    return lsf_error_set(error, LSF_ERROR_FILE, "%s: cannot encode %s: %s", name, file_kinds[file],
+                         cause.c_str());
 }
 
 bool encode_unguarded(const lsf_encode_request *request, void **bytes, size_t *length,
                       const char *name, lsf_error *error)
 {
-    OIIO::TypeDesc type =
-        request->file == LSF_IMAGE_FILE_PNG ? OIIO::TypeUInt8 : OIIO::TypeFloat;
+    OIIO::TypeDesc type = request->file == LSF_IMAGE_FILE_PNG ? OIIO::TypeUInt8 : OIIO::TypeFloat;
     OIIO::ImageSpec spec(static_cast<int>(request->width), static_cast<int>(request->height),
                          static_cast<int>(request->channels), type);
     if (request->file == LSF_IMAGE_FILE_EXR) {
@@ -165,5 +164,5 @@ bool encode(const lsf_encode_request *request, void **bytes, size_t *length, con
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) const lsf_image_module lsf_openimageio = {
-    decode, encode};
+extern "C" __attribute__((visibility("default")))
+const lsf_image_module lsf_openimageio = {decode, encode};

@@ -16,7 +16,7 @@ typedef struct rgb_view {
 typedef struct comparison {
     rgb_view test, a, b; /* b.image is NULL without a second half */
     const lsf_image *mask;
-    uint8_t *compared;   /* for each pixel: neither masked nor non-finite */
+    uint8_t *compared; /* for each pixel: neither masked nor non-finite */
     uint64_t width, height;
 } comparison;
 
@@ -206,8 +206,8 @@ static bool open_comparison(comparison *c, const lsf_image *test, const lsf_imag
                              "the same size",
                              c->mask->width, c->mask->height, test->width, test->height);
     c->compared = lsf_alloc(c->width * c->height, 1);
-    return c->compared || lsf_error_set(error, LSF_ERROR_RENDER,
-                                        "not enough memory to compare images");
+    return c->compared ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "not enough memory to compare images");
 }
 
 static bool measure(const comparison *c, const lsf_compare_params *params,

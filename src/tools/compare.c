@@ -14,7 +14,7 @@
 static const struct metric {
     const char *name;
     bool higher_is_better;
-} metrics[] = {{"rmse", false},  {"rmse_relative", false}, {"relmse", false},
+} metrics[] = {{"rmse", false}, {"rmse_relative", false}, {"relmse", false},
                {"bias", false}, {"ssim", true},           {"psnr", true}};
 
 typedef struct threshold {
@@ -133,8 +133,7 @@ static void add_text(lsf_string *text, const session *s, const lsf_settings *set
     add_row(text, "mean reference", r->mean_reference, "");
     add_row(text, "bias", r->bias, "%");
     lsf_string_add(text, "%-16s %.6g (%.4g%% of the mean)%s\n", "RMSE", r->rmse,
-                   100.0 * r->rmse_relative,
-                   r->noise_corrected ? ", reference noise removed" : "");
+                   100.0 * r->rmse_relative, r->noise_corrected ? ", reference noise removed" : "");
     lsf_string_add(text, "%-16s %.6g (epsilon %.4g)%s\n", "relMSE", r->relmse, r->relmse_epsilon,
                    r->noise_corrected ? ", reference noise removed" : "");
     lsf_string_add(text, "%-16s %.6f (tone-mapped luminance, exposure %+g EV)\n", "SSIM", r->ssim,
@@ -200,19 +199,17 @@ static bool judge(const session *s, const lsf_settings *settings, lsf_error *err
 {
     const lsf_compare_result *r = &s->result;
     if (r->non_finite_test + r->non_finite_reference)
-        return lsf_error_set(error, LSF_ERROR_DIFFERS,
-                             "%s: %" PRIu64 " pixels are NaN or infinite, and %" PRIu64
-                             " of the reference",
-                             settings->operands.items[0], r->non_finite_test,
-                             r->non_finite_reference);
+        return lsf_error_set(
+            error, LSF_ERROR_DIFFERS,
+            "%s: %" PRIu64 " pixels are NaN or infinite, and %" PRIu64 " of the reference",
+            settings->operands.items[0], r->non_finite_test, r->non_finite_reference);
     for (uint32_t i = 0; i < s->threshold_count; i++) {
         const threshold *t = &s->thresholds[i];
         if (!t->passed)
-            return lsf_error_set(error, LSF_ERROR_DIFFERS,
-                                 "%s differs from %s: %s is %.6g, %s the threshold %.6g",
-                                 settings->operands.items[0], settings->operands.items[1],
-                                 t->metric->name, t->value,
-                                 t->metric->higher_is_better ? "below" : "above", t->limit);
+            return lsf_error_set(
+                error, LSF_ERROR_DIFFERS, "%s differs from %s: %s is %.6g, %s the threshold %.6g",
+                settings->operands.items[0], settings->operands.items[1], t->metric->name, t->value,
+                t->metric->higher_is_better ? "below" : "above", t->limit);
     }
     return true;
 }
