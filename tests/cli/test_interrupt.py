@@ -1,0 +1,98 @@
+"""Signals: the first stops the iterations, the second the process; no file is ever torn."""
+import os
+import pty
+import signal
+import subprocess
+import unittest
+
+from command import COMMAND, DONE, RENDERING, CommandTest, exr_channels, main
+
+ENDLESS = ("--resolution", "32,24", "--samples", "1000000000")
+
+
+class Interrupt(CommandTest):
+    def start_and_interrupt(self, tool, *words, number=signal.SIGINT, again=False):
+        """Starts at a terminal, waits for the progress bar, and sends the signal."""
+        mine, theirs = pty.openpty()
+        scene = self.scene()
+        process = subprocess.Popen([COMMAND, tool, scene, "-o", "a.exr", *ENDLESS, *words],
+                                   cwd=self.folder, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=theirs)
+        os.close(theirs)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.kill)
+        seen, sent = b"", False
+        try:
+            while True:
+                try:
+                    part = os.read(mine, 65536)
+                except OSError:
+                    break
+                if not part:
+                    break
+                seen += part
+                if not sent and b" samples" in seen:
+                    process.send_signal(number)
+                    if again:
+                        process.send_signal(signal.SIGTERM)
+                    sent = True
+        finally:
+            os.close(mine)
+        process.wait(60)
+        self.assertTrue(sent, seen)
+        return process.returncode, seen.decode()
+
+    def test_nothing_is_written(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            status, seen = self.start_and_interrupt("render", number=number)
+            self.assertEqual(status, RENDERING, seen)
+            self.assertIn("--keep-partial", seen)
+            self.assertEqual(self.files(), ["scene.gltf"])
+
+    def test_keep_partial(self):
+        status, seen = self.start_and_interrupt("render", "--keep-partial", "--json", "a.json")
+        self.assertEqual(status, DONE, seen)
+        self.assertIn("(interrupted)", seen)
+        self.assertEqual(set(exr_channels(self.read("a.exr"))), {"R", "G", "B"})
+        report = self.read_json("a.json")
+        self.assertIs(report["interrupted"], True)
+        self.assertGreater(report["samples"], 0)
+        self.assertIn(f"{report['samples']} samples", seen)
+        self.assertEqual(self.files(), ["a.exr", "a.json", "scene.gltf"])
+
+    def test_partial_is_the_same_as_asking_for_it(self):
+        """What was saved is a whole picture of that many samples."""
+        self.start_and_interrupt("render", "--keep-partial", "--json", "a.json")
+        samples = self.read_json("a.json")["samples"]
+        self.run_command("render", "scene.gltf", "-o", "b.exr", "-q", "-r", "32,24", "-s",
+                         str(samples))
+        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
+
+    def test_second_signal_kills(self):
+        """Both may arrive before the first is looked at, or the second while saving."""
+        status, seen = self.start_and_interrupt("render", again=True)
+        self.assertIn(status, (RENDERING, -signal.SIGTERM, -signal.SIGINT), seen)
+        self.assertEqual(self.files(), ["scene.gltf"])
+
+    def test_reference(self):
+        status, seen = self.start_and_interrupt("reference")
+        self.assertEqual(status, RENDERING, seen)
+        self.assertEqual(self.files(), ["scene.gltf"])
+        status, seen = self.start_and_interrupt("reference", "--keep-partial")
+        self.assertEqual(status, DONE, seen)
+        self.assertEqual(self.files(), ["a.exr", "scene.gltf"])
+
+    def test_reference_half(self):
+        """Interrupted in the first half, there is one picture and no pair."""
+        status, seen = self.start_and_interrupt("reference", "--keep-partial", "--halves")
+        self.assertEqual(status, DONE, seen)
+        self.assertIn("before the second half", seen)
+        self.assertEqual(self.files(), ["a.exr", "scene.gltf"])
+
+
+if __name__ == "__main__":
+    if "reference" not in os.environ.get("LSF_MODULES", "reference"):
+        for name in ("test_reference", "test_reference_half"):
+            setattr(Interrupt, name,
+                    unittest.skip("built without Embree")(getattr(Interrupt, name)))
+    main()
