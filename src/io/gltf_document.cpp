@@ -1,0 +1,112 @@
+#include "io/gltf_import.hpp"
+
+#include <cinttypes>
+
+/* From the file's bytes to a tinygltf model. tinygltf gets to see only what has been checked, and
+ * asks for buffers that have been read already: it opens no file itself. */
+
+namespace lsf
+{
+
+/* External buffers in the file's order, which is the order in which tinygltf asks for them. */
+struct buffer_queue {
+    std::vector<std::vector<unsigned char>> contents;
+    size_t next = 0;
+};
+
+static bool queue_has_next(const std::string &, void *user)
+{
+    buffer_queue *queue = static_cast<buffer_queue *>(user);
+    return queue->next < queue->contents.size();
+}
+
+static std::string keep_path(const std::string &path, void *)
+{
+    return path;
+}
+
+static bool take_next(std::vector<unsigned char> *bytes, std::string *, const std::string &,
+                      void *user)
+{
+    buffer_queue *queue = static_cast<buffer_queue *>(user);
+    *bytes = std::move(queue->contents[queue->next++]);
+    return true;
+}
+
+static bool write_nothing(std::string *, const std::string &, const std::vector<unsigned char> &,
+                          void *)
+{
+    return false;
+}
+
+/* Images in data URIs are kept encoded: only those that a material uses will be decoded. */
+static bool keep_encoded(tinygltf::Image *image, const int, std::string *, std::string *, int, int,
+                         const unsigned char *bytes, int size, void *)
+{
+    if (image->bufferView < 0)
+        image->image.assign(bytes, bytes + size);
+    return true;
+}
+
+static void check_length(uint64_t actual, uint64_t declared, const std::string &location)
+{
+    if (actual < declared)
+        fail("BUFFER_BYTE_LENGTH_MISMATCH", location,
+             "%" PRIu64 " bytes are declared, only %" PRIu64 " are there; export the file again",
+             declared, actual);
+}
+
+static void read_buffers(gltf_import &import, const gltf_container &container,
+                         const gltf_checked &checked, buffer_queue &queue)
+{
+    for (size_t i = 0; i < checked.buffers.size(); i++) {
+        const gltf_buffer_source &source = checked.buffers[i];
+        std::string location = location_of("buffers", i);
+        import.budget.take(source.byte_length, 1, location);
+        if (source.uri.empty()) {
+            if (!container.is_glb || i != 0)
+                fail("UNDEFINED_PROPERTY", location,
+                     "\"uri\" is missing; only the first buffer of a .glb may leave it out");
+            check_length(container.binary.size(), source.byte_length, location);
+        } else if (uri_is_data(source.uri)) {
+            uint64_t size = uri_data_size(source.uri, location + "/uri");
+            if (size != source.byte_length)
+                fail("BUFFER_BYTE_LENGTH_MISMATCH", location,
+                     "%" PRIu64 " bytes are declared, the data URI holds %" PRIu64,
+                     source.byte_length, size);
+        } else {
+            std::string path = uri_to_path(import.folder, source.uri, location + "/uri");
+            std::vector<unsigned char> bytes = file_bytes(path, import.params->memory_limit);
+            check_length(bytes.size(), source.byte_length, location);
+            bytes.resize(source.byte_length);
+            queue.contents.push_back(std::move(bytes));
+        }
+    }
+}
+
+void gltf_document_read(gltf_import &import)
+{
+    std::vector<unsigned char> bytes = file_bytes(import.path, import.params->memory_limit);
+    gltf_container container =
+        gltf_container_split({reinterpret_cast<const char *>(bytes.data()), bytes.size()});
+    gltf_checked checked = gltf_schema_check(container.json, import.params->memory_limit);
+    buffer_queue queue;
+    read_buffers(import, container, checked, queue);
+
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks({queue_has_next, keep_path, take_next, write_nothing, &queue});
+    parser.SetImageLoader(keep_encoded, nullptr);
+    std::string error, warning;
+    /* tinygltf refuses an empty binary chunk, which the specification only advises against. */
+    bool parsed =
+        container.binary.empty()
+            ? parser.LoadASCIIFromString(&import.model, &error, &warning, container.json.data(),
+                                         (unsigned int)container.json.size(), "")
+            : parser.LoadBinaryFromMemory(&import.model, &error, &warning, bytes.data(),
+                                          (unsigned int)bytes.size(), "");
+    if (!parsed)
+        fail("INVALID_JSON", "/", "%s",
+             error.empty() ? "the document cannot be read" : error.c_str());
+}
+
+} // namespace lsf

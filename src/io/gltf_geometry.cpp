@@ -1,0 +1,409 @@
+#include "io/gltf_primitive.hpp"
+
+#include "io/mesh_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cinttypes>
+#include <cstdlib>
+#include <map>
+#include <memory>
+
+/* The primitives of the meshes that the scene uses, each stored once however many nodes place it.
+ */
+
+namespace lsf
+{
+
+/* With all streams: what vertices that are added to those of the file may take. */
+static const uint64_t VERTEX_BYTES_MAX = (3 + 3 + 4 + 2 + 2 + 4) * sizeof(float);
+
+/* A stream of the scene that grows. */
+class stream
+{
+  public:
+    stream(float **array, uint64_t width, std::array<float, 4> otherwise, bool present)
+        : array_(array), width_(width), otherwise_(otherwise), present_(present)
+    {
+    }
+    /* Appends `count` vertices at `first`; the default where the file has none. */
+    void append(uint64_t first, uint64_t count, const std::vector<float> &values);
+
+  private:
+    float **array_;
+    uint64_t width_, capacity_ = 0;
+    std::array<float, 4> otherwise_;
+    bool present_;
+};
+
+void stream::append(uint64_t first, uint64_t count, const std::vector<float> &values)
+{
+    if (!present_)
+        return;
+    void *grown = *array_;
+    if (!lsf_grow(&grown, &capacity_, (first + count) * width_, sizeof(float)))
+        throw std::bad_alloc();
+    *array_ = static_cast<float *>(grown);
+    float *out = *array_ + first * width_;
+    if (!values.empty())
+        std::copy_n(values.data(), count * width_, out);
+    else
+        for (uint64_t i = 0; i < count; i++)
+            std::copy_n(otherwise_.data(), width_, out + i * width_);
+}
+
+class geometry_importer
+{
+  public:
+    geometry_importer(gltf_import &import, const stream_choice &streams);
+    void add_mesh(size_t mesh);
+    void finish();
+
+  private:
+    /* What primitives that share vertices or indices have in common: accessors. */
+    using vertex_key = std::array<int, 6>;
+    using index_key = std::array<int, 3>;
+
+    void add_primitive(const tinygltf::Primitive &source, const std::string &location);
+    void add_shared(const tinygltf::Primitive &source, const std::string &location,
+                    lsf_primitive &primitive);
+    void add_computed(const tinygltf::Primitive &source, const std::string &location, bool flat,
+                      bool tangents, lsf_primitive &primitive);
+    void repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles);
+    void compute_tangents(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
+                          const lsf_material &material);
+    void append_vertices(const vertex_arrays &arrays, lsf_primitive &primitive);
+    void append_indices(const std::vector<uint32_t> &triangles, lsf_primitive &primitive);
+    void find_bounds(lsf_primitive &primitive) const;
+    void count_ignored(const tinygltf::Primitive &source, const lsf_material &material);
+
+    gltf_import &import_;
+    lsf_scene *scene_;
+    stream_choice streams_;
+    stream position_, normal_, tangent_, uv0_, uv1_, color_;
+    uint64_t index_capacity_ = 0;
+    std::vector<lsf_primitive> primitives_;
+    std::map<vertex_key, lsf_primitive> known_vertices_;
+    std::map<index_key, lsf_primitive> known_indices_;
+};
+
+geometry_importer::geometry_importer(gltf_import &import, const stream_choice &streams)
+    : import_(import), scene_(import.scene), streams_(streams),
+      position_(&scene_->vertices.position, 3, {0, 0, 0, 0}, true),
+      normal_(&scene_->vertices.normal, 3, {0, 0, 1, 0}, true),
+      tangent_(&scene_->vertices.tangent, 4, {1, 0, 0, 1}, streams.tangent),
+      uv0_(&scene_->vertices.uv0, 2, {0, 0, 0, 0}, streams.uv0),
+      uv1_(&scene_->vertices.uv1, 2, {0, 0, 0, 0}, streams.uv1),
+      color_(&scene_->vertices.color, 4, {1, 1, 1, 1}, streams.color)
+{
+}
+
+/* --- what materials ask for ----------------------------------------------------------------------
+ */
+
+static const lsf_material &material_of(const gltf_import &import,
+                                       const tinygltf::Primitive &primitive)
+{
+    return import.scene
+        ->materials[primitive.material < 0 ? import.scene->material_count - 1
+                                           : import.material_of[(size_t)primitive.material]];
+}
+
+static bool wants_tangents(const lsf_material &material)
+{
+    return material.normal_texture.texture != LSF_NONE || material.anisotropy_strength > 0.0f;
+}
+
+static bool reads_uv(const lsf_material &material, uint32_t set)
+{
+    const lsf_texture_slot *slots[] = {
+        &material.base_color_texture,  &material.metallic_roughness_texture,
+        &material.normal_texture,      &material.occlusion_texture,
+        &material.emissive_texture,    &material.anisotropy_texture,
+        &material.transmission_texture};
+    for (const lsf_texture_slot *slot : slots)
+        if (slot->texture != LSF_NONE && slot->uv_set == set)
+            return true;
+    return false;
+}
+
+/* Tangents follow the texture coordinates of the map that is turned by them; anisotropy without
+ * any map follows the first set. */
+static uint32_t tangent_uv_set(const lsf_material &material)
+{
+    return material.normal_texture.texture != LSF_NONE       ? material.normal_texture.uv_set
+           : material.anisotropy_texture.texture != LSF_NONE ? material.anisotropy_texture.uv_set
+                                                             : 0;
+}
+
+static stream_choice choose_streams(const gltf_import &import)
+{
+    stream_choice streams;
+    for (size_t i = 0; i < import.model.meshes.size(); i++) {
+        if (!import.mesh_used[i])
+            continue;
+        for (const tinygltf::Primitive &primitive : import.model.meshes[i].primitives) {
+            if (!mode_is_triangles(primitive.mode))
+                continue;
+            const lsf_material &material = material_of(import, primitive);
+            bool tangents = wants_tangents(material);
+            streams.tangent = streams.tangent || tangents;
+            streams.uv0 =
+                streams.uv0 || reads_uv(material, 0) || (tangents && tangent_uv_set(material) == 0);
+            streams.uv1 = streams.uv1 || reads_uv(material, 1);
+            streams.color = streams.color || find_attribute(primitive, "COLOR_0") >= 0;
+        }
+    }
+    return streams;
+}
+
+void geometry_importer::count_ignored(const tinygltf::Primitive &source,
+                                      const lsf_material &material)
+{
+    gltf_repairs &repairs = import_.repairs;
+    repairs.morph_targets += !source.targets.empty();
+    repairs.further_vertex_colors += find_attribute(source, "COLOR_1") >= 0;
+    repairs.further_uv_sets += find_attribute(source, "TEXCOORD_2") >= 0;
+    repairs.missing_uv_sets +=
+        (reads_uv(material, 0) && find_attribute(source, "TEXCOORD_0") < 0) ||
+        (reads_uv(material, 1) && find_attribute(source, "TEXCOORD_1") < 0);
+}
+
+/* --- repairs
+ * --------------------------------------------------------------------------------------- */
+
+void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles)
+{
+    uint64_t zeros = 0;
+    for (uint64_t i = 0; i < arrays.normal.size() / 3; i++) {
+        bool off = false;
+        if (lsf_make_unit(&arrays.normal[3 * i], &off))
+            import_.repairs.normals_scaled += off;
+        else
+            zeros++;
+    }
+    if (zeros > 0)
+        lsf_replace_zero_normals(arrays.position.data(), arrays.count, triangles.data(),
+                                 triangles.size(), arrays.normal.data());
+    import_.repairs.normals_zero += zeros;
+
+    for (uint64_t i = 0; i < arrays.tangent.size() / 4; i++) {
+        float *tangent = &arrays.tangent[4 * i];
+        bool off = false;
+        if (!lsf_make_unit(tangent, &off)) {
+            lsf_any_tangent(&arrays.normal[3 * i], tangent);
+            off = true;
+        }
+        import_.repairs.tangents_scaled += off || (tangent[3] != 1.0f && tangent[3] != -1.0f);
+        tangent[3] = tangent[3] < 0.0f ? -1.0f : 1.0f;
+    }
+}
+
+void geometry_importer::compute_tangents(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
+                                         const lsf_material &material)
+{
+    const std::vector<float> &uvs = tangent_uv_set(material) == 0 ? arrays.uv0 : arrays.uv1;
+    if (uvs.empty()) {
+        import_.repairs.tangents_without_uv++;
+    } else {
+        uint32_t *copied;
+        uint64_t copied_count;
+        bool split = lsf_split_mirrored(uvs.data(), arrays.count, triangles.data(),
+                                        triangles.size(), &copied, &copied_count);
+        std::unique_ptr<uint32_t, decltype(&std::free)> owner(copied, std::free);
+        if (!split)
+            throw std::bad_alloc();
+        arrays.append_copies(copied, copied_count);
+    }
+    arrays.tangent.resize(arrays.count * 4);
+    lsf_make_tangents(arrays.position.data(), arrays.normal.data(),
+                      uvs.empty() ? nullptr : uvs.data(), arrays.count, triangles.data(),
+                      triangles.size(), arrays.tangent.data());
+}
+
+/* --- storing
+ * ------------------------------------------------------------------------------------------ */
+
+void geometry_importer::append_vertices(const vertex_arrays &arrays, lsf_primitive &primitive)
+{
+    uint64_t first = scene_->vertices.count;
+    primitive.first_vertex = first;
+    primitive.vertex_count = (uint32_t)arrays.count;
+    position_.append(first, arrays.count, arrays.position);
+    normal_.append(first, arrays.count, arrays.normal);
+    tangent_.append(first, arrays.count, arrays.tangent);
+    uv0_.append(first, arrays.count, arrays.uv0);
+    uv1_.append(first, arrays.count, arrays.uv1);
+    color_.append(first, arrays.count, arrays.color);
+    scene_->vertices.count += arrays.count;
+    if (scene_->vertices.count > UINT32_MAX)
+        fail("MEMORY_LIMIT", "/meshes", "the scene has more than 4294967295 vertices");
+}
+
+void geometry_importer::append_indices(const std::vector<uint32_t> &triangles,
+                                       lsf_primitive &primitive)
+{
+    primitive.first_index = scene_->index_count;
+    primitive.index_count = (uint32_t)triangles.size();
+    void *grown = scene_->indices;
+    if (!lsf_grow(&grown, &index_capacity_, scene_->index_count + triangles.size(),
+                  sizeof(uint32_t)))
+        throw std::bad_alloc();
+    scene_->indices = static_cast<uint32_t *>(grown);
+    for (size_t i = 0; i < triangles.size(); i++)
+        scene_->indices[scene_->index_count + i] =
+            (uint32_t)(primitive.first_vertex + triangles[i]);
+    scene_->index_count += triangles.size();
+}
+
+void geometry_importer::find_bounds(lsf_primitive &primitive) const
+{
+    for (int c = 0; c < 3; c++) {
+        primitive.bounds_min[c] = FLT_MAX;
+        primitive.bounds_max[c] = -FLT_MAX;
+    }
+    for (uint64_t i = 0; i < primitive.index_count; i++) {
+        const float *p =
+            scene_->vertices.position + 3 * (size_t)scene_->indices[primitive.first_index + i];
+        for (int c = 0; c < 3; c++) {
+            primitive.bounds_min[c] = std::min(primitive.bounds_min[c], p[c]);
+            primitive.bounds_max[c] = std::max(primitive.bounds_max[c], p[c]);
+        }
+    }
+}
+
+/* Vertices and indices as the file has them: primitives that name the same accessors share. */
+void geometry_importer::add_shared(const tinygltf::Primitive &source, const std::string &location,
+                                   lsf_primitive &primitive)
+{
+    vertex_key key = {find_attribute(source, "POSITION"),   find_attribute(source, "NORMAL"),
+                      find_attribute(source, "TANGENT"),    find_attribute(source, "TEXCOORD_0"),
+                      find_attribute(source, "TEXCOORD_1"), find_attribute(source, "COLOR_0")};
+    auto vertices = known_vertices_.find(key);
+    bool known = vertices != known_vertices_.end();
+    vertex_arrays arrays;
+    if (known) {
+        primitive.first_vertex = vertices->second.first_vertex;
+        primitive.vertex_count = vertices->second.vertex_count;
+    } else {
+        arrays = read_vertices(import_, source, streams_, location);
+        primitive.vertex_count = (uint32_t)arrays.count;
+        primitive.first_vertex = scene_->vertices.count;
+    }
+    index_key indices_key = {(int)primitive.first_vertex, source.indices, source.mode};
+    auto indices = known ? known_indices_.find(indices_key) : known_indices_.end();
+    if (indices != known_indices_.end()) {
+        primitive.first_index = indices->second.first_index;
+        primitive.index_count = indices->second.index_count;
+        return;
+    }
+    std::vector<uint32_t> triangles =
+        read_triangles(import_, source, primitive.vertex_count, location);
+    if (!known) {
+        repair(arrays, triangles);
+        append_vertices(arrays, primitive);
+        known_vertices_[key] = primitive;
+    }
+    append_indices(triangles, primitive);
+    known_indices_[indices_key] = primitive;
+}
+
+void geometry_importer::add_computed(const tinygltf::Primitive &source, const std::string &location,
+                                     bool flat, bool tangents, lsf_primitive &primitive)
+{
+    vertex_arrays arrays = read_vertices(import_, source, streams_, location);
+    std::vector<uint32_t> triangles = read_triangles(import_, source, arrays.count, location);
+    uint64_t before = arrays.count;
+    if (flat) {
+        import_.repairs.normals_missing_primitives++;
+        if (triangles.size() > before)
+            import_.budget.take(triangles.size() - before, VERTEX_BYTES_MAX, location);
+        before = std::max(before, (uint64_t)triangles.size());
+        arrays.gather(triangles);
+        for (size_t i = 0; i < triangles.size(); i++)
+            triangles[i] = (uint32_t)i;
+        arrays.normal.resize(arrays.count * 3);
+        lsf_flat_normals(arrays.position.data(), arrays.count / 3, arrays.normal.data());
+    }
+    repair(arrays, triangles);
+    if (tangents)
+        compute_tangents(arrays, triangles, material_of(import_, source));
+    if (arrays.count > before)
+        import_.budget.take(arrays.count - before, VERTEX_BYTES_MAX, location);
+    append_vertices(arrays, primitive);
+    append_indices(triangles, primitive);
+}
+
+void geometry_importer::add_primitive(const tinygltf::Primitive &source,
+                                      const std::string &location)
+{
+    if (!mode_is_triangles(source.mode)) {
+        import_.repairs.lines_and_points++;
+        return;
+    }
+    if (find_attribute(source, "POSITION") < 0) {
+        import_.repairs.no_position++;
+        return;
+    }
+    const lsf_material &material = material_of(import_, source);
+    count_ignored(source, material);
+    lsf_primitive primitive = {};
+    primitive.material = (uint32_t)(&material - scene_->materials);
+    bool flat = find_attribute(source, "NORMAL") < 0;
+    bool tangents = wants_tangents(material) && (flat || find_attribute(source, "TANGENT") < 0);
+    if (flat || tangents)
+        add_computed(source, location, flat, tangents, primitive);
+    else
+        add_shared(source, location, primitive);
+    find_bounds(primitive);
+    primitives_.push_back(primitive);
+}
+
+void geometry_importer::add_mesh(size_t index)
+{
+    const tinygltf::Mesh &source = import_.model.meshes[index];
+    lsf_mesh &mesh = scene_->meshes[index];
+    mesh.name = copy_text(source.name);
+    scene_->mesh_count++;
+    mesh.first_primitive = (uint32_t)primitives_.size();
+    if (import_.mesh_used[index])
+        for (size_t i = 0; i < source.primitives.size(); i++)
+            add_primitive(source.primitives[i],
+                          location_of("meshes", index) + "/primitives/" + std::to_string(i));
+    mesh.primitive_count = (uint32_t)(primitives_.size() - mesh.first_primitive);
+}
+
+void geometry_importer::finish()
+{
+    scene_->primitives = copy_array(primitives_);
+    scene_->primitive_count = (uint32_t)primitives_.size();
+
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene_->node_count; i++)
+        if (scene_->nodes[i].mesh != LSF_NONE)
+            count += scene_->meshes[scene_->nodes[i].mesh].primitive_count;
+    import_.budget.take(count, sizeof(lsf_instance), "/nodes");
+    if (count >= UINT32_MAX)
+        fail("MEMORY_LIMIT", "/nodes", "%" PRIu64 " instances are too many", count);
+    scene_->instances = static_cast<lsf_instance *>(allocate(count, sizeof(lsf_instance)));
+    for (uint32_t i = 0; i < scene_->node_count; i++) {
+        if (scene_->nodes[i].mesh == LSF_NONE)
+            continue;
+        const lsf_mesh &mesh = scene_->meshes[scene_->nodes[i].mesh];
+        for (uint32_t p = 0; p < mesh.primitive_count; p++)
+            scene_->instances[scene_->instance_count++] = {i, mesh.first_primitive + p};
+    }
+}
+
+void gltf_geometry_import(gltf_import &import)
+{
+    geometry_importer importer(import, choose_streams(import));
+    import.scene->meshes =
+        static_cast<lsf_mesh *>(allocate(import.model.meshes.size(), sizeof(lsf_mesh)));
+    for (size_t i = 0; i < import.model.meshes.size(); i++)
+        importer.add_mesh(i);
+    importer.finish();
+}
+
+} // namespace lsf

@@ -1,0 +1,162 @@
+/* What the files of the glTF importer share. Errors travel as exceptions inside the importer and
+ * stop at lsf_gltf_load. Findings carry the names that Khronos' glTF-Validator gives them. */
+#ifndef LSF_IO_GLTF_IMPORT_HPP
+#define LSF_IO_GLTF_IMPORT_HPP
+
+#include "io/io.h"
+
+/* Images are decoded elsewhere. */
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lsf
+{
+
+/* --- failures -------------------------------------------------------------------------------- */
+
+class failure : public std::exception
+{
+  public:
+    explicit failure(std::string text) : text_(std::move(text))
+    {
+    }
+    const char *what() const noexcept override
+    {
+        return text_.c_str();
+    }
+
+  private:
+    std::string text_;
+};
+
+/* Throws "FINDING at LOCATION: cause and remedy". The location is a JSON pointer. */
+[[noreturn]] void fail(const char *finding, const std::string &location, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* "/accessors/7" */
+std::string location_of(const char *array, size_t index);
+
+/* What geometry and decoded images may take together; taken before it is allocated. */
+class memory_budget
+{
+  public:
+    explicit memory_budget(uint64_t limit) : limit_(limit)
+    {
+    }
+    void take(uint64_t count, uint64_t size, const std::string &location);
+    uint64_t left() const
+    {
+        return limit_ - used_;
+    }
+    uint64_t limit() const
+    {
+        return limit_;
+    }
+
+  private:
+    uint64_t limit_, used_ = 0;
+};
+
+/* --- the file -------------------------------------------------------------------------------- */
+
+/* The bytes of a .gltf or .glb, told apart by the magic, with the chunks of the latter. */
+struct gltf_container {
+    std::string_view bytes, json, binary;
+    bool is_glb = false;
+};
+
+gltf_container gltf_container_split(std::string_view bytes); /* gltf_container.cpp */
+
+/* Checks everything in the JSON that can be checked without the binary data: types, ranges,
+ * references, buffer views against buffers (gltf_schema.cpp). */
+struct gltf_buffer_source {
+    std::string uri; /* empty: the GLB's binary chunk */
+    uint64_t byte_length;
+};
+struct gltf_checked {
+    std::vector<gltf_buffer_source> buffers;
+};
+bool extension_is_supported(const std::string &name);
+gltf_checked gltf_schema_check(std::string_view json, uint64_t memory_limit);
+
+/* gltf_uri.cpp */
+bool uri_is_data(const std::string &uri);
+/* Throws unless it is well-formed base64; returns the decoded size. */
+uint64_t uri_data_size(const std::string &uri, const std::string &location);
+/* Path of a file below `folder`; refuses schemes, absolute paths and ways out of the folder. */
+std::string uri_to_path(const std::string &folder, const std::string &uri,
+                        const std::string &location);
+/* The whole file; fails when it is not a regular one or longer than `limit`. */
+std::vector<unsigned char> file_bytes(const std::string &path, uint64_t limit);
+
+/* --- the import ------------------------------------------------------------------------------ */
+
+/* What was repaired, summed up so that a file gives one note for each kind. */
+struct gltf_repairs {
+    uint64_t normals_missing_primitives = 0, normals_scaled = 0, normals_zero = 0;
+    uint64_t tangents_scaled = 0, tangents_without_uv = 0, rotations_scaled = 0;
+    uint64_t trailing_indices = 0, lines_and_points = 0, no_position = 0, morph_targets = 0;
+    uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
+};
+
+struct gltf_import {
+    gltf_import(lsf_scene *s, const lsf_scene_params *p)
+        : scene(s), params(p), budget(p->memory_limit)
+    {
+    }
+
+    lsf_scene *scene;
+    const lsf_scene_params *params;
+    std::string path, folder;
+    memory_budget budget;
+    tinygltf::Model model;
+    gltf_repairs repairs;
+
+    std::vector<uint32_t> node_of;     /* file's node -> scene's node, LSF_NONE outside the scene */
+    std::vector<bool> mesh_used;       /* by file's index */
+    std::vector<uint32_t> material_of; /* file's material -> scene's; LSF_NONE: not used */
+};
+
+void gltf_document_read(gltf_import &import);     /* gltf_document.cpp */
+void gltf_nodes_import(gltf_import &import);      /* gltf_nodes.cpp */
+void gltf_placed_import(gltf_import &import);     /* gltf_placed.cpp: cameras and lights */
+void gltf_materials_import(gltf_import &import);  /* gltf_materials.cpp */
+void gltf_geometry_import(gltf_import &import);   /* gltf_geometry.cpp */
+void gltf_animations_import(gltf_import &import); /* gltf_animations.cpp */
+void gltf_notes_add(gltf_import &import);         /* gltf_notes.cpp */
+
+/* --- accessors, gltf_accessor.cpp ---------------------------------------------------------------
+ */
+
+/* Appends count * width floats; normalised integers become -1..1 or 0..1. */
+void accessor_read_floats(const gltf_import &import, int accessor, std::vector<float> &values);
+/* Appends unsigned indices of any width; each must be below `limit`. */
+void accessor_read_indices(const gltf_import &import, int accessor, uint64_t limit,
+                           std::vector<uint32_t> &values);
+std::string accessor_format(const tinygltf::Accessor &accessor); /* "VEC3 of FLOAT" */
+
+/* --- into the scene's C arrays
+ * -------------------------------------------------------------------- */
+
+/* malloc'ed, freed by lsf_scene_destroy. */
+char *copy_text(const std::string &text);
+void *allocate(uint64_t count, uint64_t size);
+template <typename T> T *copy_array(const std::vector<T> &values)
+{
+    T *copy = static_cast<T *>(allocate(values.size(), sizeof(T)));
+    std::copy(values.begin(), values.end(), copy);
+    return copy;
+}
+
+} // namespace lsf
+
+#endif

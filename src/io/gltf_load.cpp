@@ -1,0 +1,100 @@
+#include "io/gltf_import.hpp"
+
+#include <cinttypes>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace lsf
+{
+
+void fail(const char *finding, const std::string &location, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *text = nullptr;
+    int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    std::string message = std::string(finding) + " at " + location + ": ";
+    if (length >= 0)
+        message += text;
+    free(text);
+    throw failure(message);
+}
+
+std::string location_of(const char *array, size_t index)
+{
+    return "/" + std::string(array) + "/" + std::to_string(index);
+}
+
+void memory_budget::take(uint64_t count, uint64_t size, const std::string &location)
+{
+    uint64_t bytes, sum;
+    if (__builtin_mul_overflow(count, size, &bytes) || __builtin_add_overflow(used_, bytes, &sum) ||
+        sum > limit_)
+        fail("MEMORY_LIMIT", location,
+             "%" PRIu64 " elements of %" PRIu64 " bytes do not fit into the %" PRIu64
+             " bytes that the memory limit leaves of %" PRIu64 "; raise it or simplify the scene",
+             count, size, limit_ - used_, limit_);
+    used_ = sum;
+}
+
+void *allocate(uint64_t count, uint64_t size)
+{
+    void *memory = lsf_alloc(count, size);
+    if (!memory)
+        throw std::bad_alloc();
+    return memory;
+}
+
+char *copy_text(const std::string &text)
+{
+    char *copy = strdup(text.c_str());
+    if (!copy)
+        throw std::bad_alloc();
+    return copy;
+}
+
+static void import_file(lsf_scene *scene, const char *path, const lsf_scene_params *params)
+{
+    gltf_import import(scene, params);
+    import.path = path;
+    size_t slash = import.path.rfind('/');
+    import.folder = slash == std::string::npos ? "."
+                    : slash == 0               ? "/"
+                                               : import.path.substr(0, slash);
+    scene->path = copy_text(import.path);
+    scene->diffuse_only = params->diffuse_only;
+    gltf_document_read(import);
+    gltf_nodes_import(import);
+    gltf_placed_import(import);
+    gltf_materials_import(import);
+    gltf_geometry_import(import);
+    gltf_animations_import(import);
+    gltf_notes_add(import);
+}
+
+} // namespace lsf
+
+bool lsf_gltf_load(lsf_scene *scene, const char *path, const lsf_scene_params *params,
+                   lsf_error *error)
+{
+    try {
+        lsf::import_file(scene, path, params);
+        return true;
+    } catch (const std::bad_alloc &) {
+        return lsf_error_set(error, LSF_ERROR_FILE,
+                             "%s: not enough memory to read it; close other programs or simplify "
+                             "the scene",
+                             path);
+    } catch (const std::exception &exception) {
+        /* Failures of the file itself begin with its path. */
+        const char *text = exception.what();
+        size_t length = strlen(path);
+        if (strncmp(text, path, length) == 0 && text[length] == ':')
+            return lsf_error_set(error, LSF_ERROR_FILE, "%s", text);
+        return lsf_error_set(error, LSF_ERROR_FILE, "%s: %s", path, text);
+    }
+}

@@ -1,0 +1,333 @@
+#include "io/gltf_import.hpp"
+
+#include <climits>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <tuple>
+
+/* Materials that the scene's meshes use, then glTF's default; and the textures and images that
+ * those materials read. */
+
+namespace lsf
+{
+
+using tinygltf::Value;
+
+/* --- textures and images -----------------------------------------------------------------------
+ */
+
+class texture_importer
+{
+  public:
+    explicit texture_importer(gltf_import &import) : import_(import)
+    {
+    }
+    uint32_t add(int texture, bool srgb);
+    void finish();
+
+  private:
+    uint32_t add_image(size_t image);
+    void decode(size_t image, lsf_texture_image &decoded);
+
+    gltf_import &import_;
+    std::map<std::pair<int, bool>, uint32_t> known_;
+    std::map<size_t, uint32_t> known_images_;
+    std::vector<lsf_texture> textures_;
+    std::vector<size_t> images_;
+};
+
+static lsf_wrap wrap_of(int code)
+{
+    return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? LSF_WRAP_CLAMP
+           : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? LSF_WRAP_MIRROR
+                                                           : LSF_WRAP_REPEAT;
+}
+
+uint32_t texture_importer::add(int index, bool srgb)
+{
+    auto found = known_.find({index, srgb});
+    if (found != known_.end())
+        return found->second;
+    const tinygltf::Texture &source = import_.model.textures[(size_t)index];
+    if (source.source < 0) {
+        lsf_scene_add_note(import_.scene,
+                           "texture %d has no PNG or JPEG image: the materials that use it are "
+                           "shown without it",
+                           index);
+        return known_[{index, srgb}] = LSF_NONE;
+    }
+    lsf_texture texture = {};
+    texture.srgb = srgb;
+    texture.image = add_image((size_t)source.source);
+    if (source.sampler >= 0) {
+        const tinygltf::Sampler &sampler = import_.model.samplers[(size_t)source.sampler];
+        texture.wrap_s = wrap_of(sampler.wrapS);
+        texture.wrap_t = wrap_of(sampler.wrapT);
+        texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    textures_.push_back(texture);
+    return known_[{index, srgb}] = (uint32_t)textures_.size() - 1;
+}
+
+uint32_t texture_importer::add_image(size_t image)
+{
+    auto found = known_images_.find(image);
+    if (found != known_images_.end())
+        return found->second;
+    images_.push_back(image);
+    return known_images_[image] = (uint32_t)images_.size() - 1;
+}
+
+void texture_importer::decode(size_t index, lsf_texture_image &decoded)
+{
+    const tinygltf::Image &source = import_.model.images[index];
+    std::string location = location_of("images", index);
+    std::vector<unsigned char> file;
+    const unsigned char *bytes;
+    size_t length;
+    if (source.bufferView >= 0) {
+        const tinygltf::BufferView &view = import_.model.bufferViews[(size_t)source.bufferView];
+        bytes = import_.model.buffers[(size_t)view.buffer].data.data() + view.byteOffset;
+        length = view.byteLength;
+    } else if (!source.image.empty()) {
+        bytes = source.image.data();
+        length = source.image.size();
+    } else {
+        file = file_bytes(uri_to_path(import_.folder, source.uri, location + "/uri"),
+                          import_.params->memory_limit);
+        bytes = file.data();
+        length = file.size();
+    }
+
+    std::string name = !source.uri.empty() ? source.uri : "image " + std::to_string(index);
+    decoded.name = copy_text(name);
+    lsf_error error;
+    uint64_t limit = std::min(import_.budget.left(), (uint64_t)LSF_IMAGE_MAX_BYTES);
+    if (!lsf_texture_image_decode(&decoded, bytes, length, limit, name.c_str(), &error))
+        fail("IMAGE_DATA_INVALID", location, "%s", error.message);
+    static const uint64_t texel_bytes[] = {1, 2, 4};
+    import_.budget.take((uint64_t)decoded.width * decoded.height * decoded.channels,
+                        texel_bytes[decoded.type], location);
+    if (decoded.non_finite)
+        lsf_scene_add_note(import_.scene, "%s: %llu texels that were NaN or infinite were set to 0",
+                           name.c_str(), (unsigned long long)decoded.non_finite);
+}
+
+void texture_importer::finish()
+{
+    lsf_scene *scene = import_.scene;
+    scene->textures = copy_array(textures_);
+    scene->texture_count = (uint32_t)textures_.size();
+    scene->images =
+        static_cast<lsf_texture_image *>(allocate(images_.size(), sizeof(lsf_texture_image)));
+    for (size_t image : images_) {
+        scene->image_count++;
+        decode(image, scene->images[scene->image_count - 1]);
+    }
+}
+
+/* --- texture slots -------------------------------------------------------------------------------
+ */
+
+static const lsf_texture_slot empty_slot = {LSF_NONE, 0, {1, 0, 0, 0, 1, 0}};
+
+static double number_in(const Value &object, const char *key, double otherwise)
+{
+    return object.IsObject() && object.Has(key) ? object.Get(key).GetNumberAsDouble() : otherwise;
+}
+
+/* KHR_texture_transform: T * R * S, where R turns the coordinates counter-clockwise as seen in the
+ * image (v points down), as Khronos' TextureTransformTest shows. */
+static void apply_transform(const tinygltf::ExtensionMap &extensions, lsf_texture_slot &slot)
+{
+    auto found = extensions.find("KHR_texture_transform");
+    if (found == extensions.end())
+        return;
+    const Value &transform = found->second;
+    double angle = number_in(transform, "rotation", 0.0);
+    double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0};
+    for (int i = 0; i < 2; i++) {
+        if (transform.Has("offset"))
+            offset[i] = transform.Get("offset").Get(i).GetNumberAsDouble();
+        if (transform.Has("scale"))
+            scale[i] = transform.Get("scale").Get(i).GetNumberAsDouble();
+    }
+    double c = std::cos(angle), s = std::sin(angle);
+    double values[6] = {c * scale[0],  s * scale[1], offset[0],
+                        -s * scale[0], c * scale[1], offset[1]};
+    for (int i = 0; i < 6; i++)
+        slot.transform[i] = (float)values[i];
+    slot.uv_set = (uint32_t)number_in(transform, "texCoord", slot.uv_set);
+}
+
+static lsf_texture_slot make_slot(texture_importer &textures, int texture, int uv_set, bool srgb,
+                                  const tinygltf::ExtensionMap &extensions,
+                                  const std::string &location)
+{
+    lsf_texture_slot slot = empty_slot;
+    if (texture < 0)
+        return slot;
+    slot.uv_set = (uint32_t)uv_set;
+    apply_transform(extensions, slot);
+    if (slot.uv_set > 1)
+        fail("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", location,
+             "a texture reads TEXCOORD_%u; only TEXCOORD_0 and TEXCOORD_1 are supported",
+             slot.uv_set);
+    slot.texture = textures.add(texture, srgb);
+    return slot.texture == LSF_NONE ? empty_slot : slot;
+}
+
+template <typename Info>
+static lsf_texture_slot core_slot(texture_importer &textures, const Info &info, bool srgb,
+                                  const std::string &location)
+{
+    return make_slot(textures, info.index, info.texCoord, srgb, info.extensions, location);
+}
+
+/* A texture inside a material extension, which tinygltf keeps as plain values. */
+static lsf_texture_slot extension_slot(texture_importer &textures, const Value &extension,
+                                       const char *key, const std::string &location)
+{
+    if (!extension.IsObject() || !extension.Has(key))
+        return empty_slot;
+    const Value &info = extension.Get(key);
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform"))
+        extensions["KHR_texture_transform"] = info.Get("extensions").Get("KHR_texture_transform");
+    return make_slot(textures, info.Get("index").GetNumberAsInt(),
+                     (int)number_in(info, "texCoord", 0.0), false, extensions, location);
+}
+
+/* --- materials
+ * ------------------------------------------------------------------------------------- */
+
+static lsf_material default_material()
+{
+    lsf_material material = {};
+    for (int c = 0; c < 4; c++)
+        material.base_color[c] = 1.0f;
+    material.metallic = material.roughness = 1.0f;
+    material.normal_scale = 1.0f;
+    material.alpha_cutoff = 0.5f;
+    material.ior = 1.5f;
+    material.base_color_texture = material.metallic_roughness_texture = material.normal_texture =
+        material.occlusion_texture = material.emissive_texture = material.anisotropy_texture =
+            material.transmission_texture = empty_slot;
+    return material;
+}
+
+static void make_lambert(lsf_material &material)
+{
+    material.metallic = 0.0f;
+    material.roughness = 1.0f;
+}
+
+static void read_base(texture_importer &textures, const tinygltf::Material &source,
+                      const std::string &location, lsf_material &material)
+{
+    const tinygltf::PbrMetallicRoughness &pbr = source.pbrMetallicRoughness;
+    for (size_t c = 0; c < 4; c++)
+        material.base_color[c] = (float)pbr.baseColorFactor[c];
+    material.base_color_texture = core_slot(textures, pbr.baseColorTexture, true, location);
+    material.emissive_texture = core_slot(textures, source.emissiveTexture, true, location);
+    material.alpha_mode = source.alphaMode == "MASK"    ? LSF_ALPHA_MASK
+                          : source.alphaMode == "BLEND" ? LSF_ALPHA_BLEND
+                                                        : LSF_ALPHA_OPAQUE;
+    material.alpha_cutoff = (float)source.alphaCutoff;
+    material.double_sided = source.doubleSided;
+    material.unlit = source.extensions.count("KHR_materials_unlit") != 0;
+
+    double strength = 1.0;
+    auto found = source.extensions.find("KHR_materials_emissive_strength");
+    if (found != source.extensions.end())
+        strength = number_in(found->second, "emissiveStrength", 1.0);
+    for (size_t c = 0; c < 3; c++) {
+        material.emission[c] = (float)(source.emissiveFactor[c] * strength);
+        if (!std::isfinite(material.emission[c]))
+            fail("VALUE_NOT_IN_RANGE", location,
+                 "emissiveFactor times emissiveStrength is too large for a float");
+    }
+}
+
+static void read_surface(texture_importer &textures, const tinygltf::Material &source,
+                         const std::string &location, lsf_material &material)
+{
+    const tinygltf::PbrMetallicRoughness &pbr = source.pbrMetallicRoughness;
+    material.metallic = (float)pbr.metallicFactor;
+    material.roughness = (float)pbr.roughnessFactor;
+    material.metallic_roughness_texture =
+        core_slot(textures, pbr.metallicRoughnessTexture, false, location);
+    material.normal_texture = core_slot(textures, source.normalTexture, false, location);
+    material.normal_scale = (float)source.normalTexture.scale;
+    material.occlusion_texture = core_slot(textures, source.occlusionTexture, false, location);
+
+    for (const auto &[name, extension] : source.extensions) {
+        if (name == "KHR_materials_ior") {
+            material.ior = (float)number_in(extension, "ior", 1.5);
+            if (material.ior > 0.0f && material.ior < 1.0f)
+                fail("VALUE_NOT_IN_RANGE", location + "/extensions/KHR_materials_ior/ior",
+                     "%g must be 0 or at least 1", (double)material.ior);
+        } else if (name == "KHR_materials_transmission") {
+            material.transmission = (float)number_in(extension, "transmissionFactor", 0.0);
+            material.transmission_texture =
+                extension_slot(textures, extension, "transmissionTexture", location);
+        } else if (name == "KHR_materials_anisotropy") {
+            material.anisotropy_strength = (float)number_in(extension, "anisotropyStrength", 0.0);
+            material.anisotropy_rotation = (float)number_in(extension, "anisotropyRotation", 0.0);
+            material.anisotropy_texture =
+                extension_slot(textures, extension, "anisotropyTexture", location);
+        }
+    }
+}
+
+static std::vector<bool> find_used(const gltf_import &import)
+{
+    std::vector<bool> used(import.model.materials.size());
+    for (size_t i = 0; i < import.model.meshes.size(); i++)
+        if (import.mesh_used[i])
+            for (const tinygltf::Primitive &primitive : import.model.meshes[i].primitives)
+                if (primitive.material >= 0)
+                    used[(size_t)primitive.material] = true;
+    return used;
+}
+
+void gltf_materials_import(gltf_import &import)
+{
+    texture_importer textures(import);
+    std::vector<bool> used = find_used(import);
+    std::vector<lsf_material> materials;
+    std::vector<std::string> names;
+    bool blended = false;
+    import.material_of.assign(import.model.materials.size(), LSF_NONE);
+    for (size_t i = 0; i < used.size(); i++) {
+        if (!used[i])
+            continue;
+        const tinygltf::Material &source = import.model.materials[i];
+        std::string location = location_of("materials", i);
+        lsf_material material = default_material();
+        read_base(textures, source, location, material);
+        if (import.params->diffuse_only)
+            make_lambert(material);
+        else
+            read_surface(textures, source, location, material);
+        blended = blended || material.alpha_mode == LSF_ALPHA_BLEND;
+        import.material_of[i] = (uint32_t)materials.size();
+        materials.push_back(material);
+        names.push_back(source.name);
+    }
+    materials.push_back(default_material());
+    names.push_back("default");
+    if (import.params->diffuse_only)
+        make_lambert(materials.back());
+
+    import.scene->materials = copy_array(materials);
+    for (const std::string &name : names)
+        import.scene->materials[import.scene->material_count++].name = copy_text(name);
+    textures.finish();
+    if (blended)
+        lsf_scene_add_note(import.scene, "alphaMode BLEND is not supported: such materials are "
+                                         "treated as opaque");
+}
+
+} // namespace lsf

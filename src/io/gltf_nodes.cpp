@@ -1,0 +1,140 @@
+#include "io/gltf_import.hpp"
+
+#include <cmath>
+
+/* The node hierarchy, walked without recursion: a chain may be a million nodes long. */
+
+namespace lsf
+{
+
+/* Every node's parent, LSF_NONE for roots; a forest, or an error. */
+static std::vector<uint32_t> find_parents(const tinygltf::Model &model)
+{
+    std::vector<uint32_t> parents(model.nodes.size(), LSF_NONE);
+    for (size_t i = 0; i < model.nodes.size(); i++)
+        for (int child : model.nodes[i].children) {
+            if (parents[(size_t)child] != LSF_NONE)
+                fail("NODE_PARENT_OVERRIDE", location_of("nodes", i) + "/children",
+                     "node %d has another parent, node %u", child, parents[(size_t)child]);
+            parents[(size_t)child] = (uint32_t)i;
+        }
+    return parents;
+}
+
+/* Nodes below `roots`, each parent before its children, siblings in the file's order. */
+static std::vector<uint32_t> walk(const tinygltf::Model &model, const std::vector<uint32_t> &roots)
+{
+    std::vector<uint32_t> order, stack(roots.rbegin(), roots.rend());
+    while (!stack.empty()) {
+        uint32_t node = stack.back();
+        stack.pop_back();
+        order.push_back(node);
+        const std::vector<int> &children = model.nodes[node].children;
+        stack.insert(stack.end(), children.rbegin(), children.rend());
+    }
+    return order;
+}
+
+/* With at most one parent each, nodes that no root reaches stand in a loop or below one. */
+static void check_loops(const tinygltf::Model &model, const std::vector<uint32_t> &parents)
+{
+    std::vector<uint32_t> roots;
+    for (size_t i = 0; i < parents.size(); i++)
+        if (parents[i] == LSF_NONE)
+            roots.push_back((uint32_t)i);
+    std::vector<bool> reached(parents.size());
+    for (uint32_t node : walk(model, roots))
+        reached[node] = true;
+    for (size_t i = 0; i < parents.size(); i++)
+        if (!reached[i])
+            fail("NODE_LOOP", location_of("nodes", i),
+                 "the node is its own ancestor, or below one that is");
+}
+
+/* The file's scene, else scene 0, else all roots. */
+static std::vector<uint32_t> scene_roots(const tinygltf::Model &model,
+                                         const std::vector<uint32_t> &parents)
+{
+    std::vector<uint32_t> roots;
+    if (model.scenes.empty()) {
+        for (size_t i = 0; i < parents.size(); i++)
+            if (parents[i] == LSF_NONE)
+                roots.push_back((uint32_t)i);
+        return roots;
+    }
+    size_t scene = model.defaultScene >= 0 ? (size_t)model.defaultScene : 0;
+    std::vector<bool> listed(parents.size());
+    for (int node : model.scenes[scene].nodes) {
+        if (parents[(size_t)node] != LSF_NONE)
+            fail("SCENE_NON_ROOT_NODE", location_of("scenes", scene) + "/nodes",
+                 "node %d is a child of node %u", node, parents[(size_t)node]);
+        if (listed[(size_t)node])
+            fail("DUPLICATE_ELEMENTS", location_of("scenes", scene) + "/nodes",
+                 "node %d is listed twice", node);
+        listed[(size_t)node] = true;
+        roots.push_back((uint32_t)node);
+    }
+    return roots;
+}
+
+static void set_transform(gltf_import &import, const tinygltf::Node &source,
+                          const std::string &location, lsf_node &node)
+{
+    for (int i = 0; i < 16; i++)
+        node.matrix[i] = i % 5 == 0 ? 1.0 : 0.0;
+    for (int i = 0; i < 3; i++) {
+        node.translation[i] = source.translation.empty() ? 0.0 : source.translation[(size_t)i];
+        node.scale[i] = source.scale.empty() ? 1.0 : source.scale[(size_t)i];
+    }
+    double length = 0.0;
+    for (int i = 0; i < 4; i++) {
+        double q = source.rotation.empty() ? (i == 3 ? 1.0 : 0.0) : source.rotation[(size_t)i];
+        node.rotation[i] = q;
+        length += q * q;
+    }
+    length = std::sqrt(length);
+    /* Files hold rotations as floats: up to 1e-6 is rounding. */
+    if (std::fabs(length - 1.0) > 1e-4)
+        import.repairs.rotations_scaled++;
+    for (int i = 0; i < 4; i++)
+        node.rotation[i] = length > 0.0 ? node.rotation[i] / length : (i == 3 ? 1.0 : 0.0);
+
+    node.has_matrix = !source.matrix.empty();
+    if (!node.has_matrix)
+        return;
+    std::copy(source.matrix.begin(), source.matrix.end(), node.matrix);
+    if (node.matrix[3] != 0.0 || node.matrix[7] != 0.0 || node.matrix[11] != 0.0 ||
+        node.matrix[15] != 1.0)
+        fail("NODE_MATRIX_NON_TRS", location + "/matrix",
+             "the last row must be 0, 0, 0, 1; export the file again");
+}
+
+void gltf_nodes_import(gltf_import &import)
+{
+    const tinygltf::Model &model = import.model;
+    lsf_scene *scene = import.scene;
+    std::vector<uint32_t> parents = find_parents(model);
+    check_loops(model, parents);
+    std::vector<uint32_t> order = walk(model, scene_roots(model, parents));
+
+    import.node_of.assign(model.nodes.size(), LSF_NONE);
+    import.mesh_used.assign(model.meshes.size(), false);
+    import.budget.take(order.size(), sizeof(lsf_node), "/nodes");
+    scene->nodes = static_cast<lsf_node *>(allocate(order.size(), sizeof(lsf_node)));
+    for (size_t i = 0; i < order.size(); i++) {
+        const tinygltf::Node &source = model.nodes[order[i]];
+        import.node_of[order[i]] = (uint32_t)i;
+        lsf_node &node = scene->nodes[i];
+        node.name = copy_text(source.name);
+        scene->node_count++;
+        uint32_t parent = parents[order[i]];
+        node.parent = parent == LSF_NONE ? LSF_NONE : import.node_of[parent];
+        node.mesh = source.mesh >= 0 ? (uint32_t)source.mesh : LSF_NONE;
+        node.camera = node.light = LSF_NONE;
+        set_transform(import, source, location_of("nodes", order[i]), node);
+        if (source.mesh >= 0)
+            import.mesh_used[(size_t)source.mesh] = true;
+    }
+}
+
+} // namespace lsf

@@ -1,0 +1,430 @@
+#include "io/gltf_schema.hpp"
+
+#include "io/gltf_import.hpp"
+#include "io/json_scan.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cinttypes>
+#include <cstring>
+#include <map>
+
+namespace lsf
+{
+
+using nlohmann::json;
+
+/* Nothing that is read nests deeper than 10; extras may, within reason. */
+static const uint64_t DEPTH_MAX = 64;
+
+/* A parsed document takes about this many times the bytes of its text, and about this many bytes
+ * for each entry of the root's arrays (tinygltf::Node, ::Material); the text and the entries are
+ * held against the memory limit before they are parsed. */
+static const uint64_t BYTES_PER_TEXT_BYTE = 32, BYTES_PER_ENTRY = 1024;
+
+static const char *const supported_extensions[] = {
+    "KHR_lights_punctual",   "KHR_materials_anisotropy",   "KHR_materials_emissive_strength",
+    "KHR_materials_ior",     "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_mesh_quantization", "KHR_texture_transform",
+};
+
+bool extension_is_supported(const std::string &name)
+{
+    for (const char *supported : supported_extensions)
+        if (name == supported)
+            return true;
+    return false;
+}
+
+/* --- parsing -------------------------------------------------------------------------------------
+ */
+
+/* Builds the document as json::parse does and remembers where it failed. */
+class locating_parser : public nlohmann::detail::json_sax_dom_parser<json>
+{
+  public:
+    explicit locating_parser(json &root) : json_sax_dom_parser(root, false)
+    {
+    }
+
+    template <class Exception>
+    bool parse_error(std::size_t position, const std::string &token, const Exception &error)
+    {
+        position_ = position;
+        message_ = error.what();
+        return json_sax_dom_parser::parse_error(position, token, error);
+    }
+
+    std::size_t position_ = 0;
+    std::string message_;
+};
+
+static json parse(std::string_view text, uint64_t memory_limit)
+{
+    if (text.size() > memory_limit / BYTES_PER_TEXT_BYTE)
+        fail("INVALID_JSON", "/",
+             "%zu bytes of JSON are more than the %" PRIu64
+             " that the memory limit allows; raise it or keep data in buffers",
+             text.size(), memory_limit / BYTES_PER_TEXT_BYTE);
+    uint64_t depth = lsf_json_depth(text.data(), text.size());
+    if (depth > DEPTH_MAX)
+        fail("INVALID_JSON", "/", "nested %" PRIu64 " deep; at most %" PRIu64 " levels are read",
+             depth, DEPTH_MAX);
+
+    json root;
+    locating_parser parser(root);
+    if (!json::sax_parse(text.begin(), text.end(), &parser)) {
+        uint64_t line, column;
+        lsf_json_location(text.data(), text.size(), parser.position_ ? parser.position_ - 1 : 0,
+                          &line, &column);
+        /* nlohmann-json begins with "[json.exception...] ". */
+        size_t skip = parser.message_.find("] ");
+        std::string cause = parser.message_.substr(skip == std::string::npos ? 0 : skip + 2);
+        fail("INVALID_JSON", "line " + std::to_string(line) + ", column " + std::to_string(column),
+             "%s", cause.c_str());
+    }
+    if (!root.is_object())
+        fail("TYPE_MISMATCH", "/", "the document is %s, not an object; is this a glTF file?",
+             root.type_name());
+    return root;
+}
+
+/* --- checking against the tables
+ * --------------------------------------------------------------------- */
+
+class checker
+{
+  public:
+    explicit checker(const json &root) : root_(root)
+    {
+        for (auto &member : root.items())
+            if (member.value().is_array())
+                counts_[member.key()] = member.value().size();
+        json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+        if (root.contains(lights) && root[lights].is_array())
+            counts_["lights"] = root[lights].size();
+    }
+
+    void check_object(const json &value, const schema &rules, bool extension = false);
+
+    uint64_t count(const char *array) const
+    {
+        auto found = counts_.find(array);
+        return found == counts_.end() ? 0 : found->second;
+    }
+
+  private:
+    void check(const json &value, const rule &rule, bool extension);
+    void check_integer(const json &value, double low, double high);
+    void check_number(const json &value, double low, double high, bool extension);
+    void check_code(const json &value, const char *names);
+    void check_name(const json &value, const char *names);
+    void check_reference(const json &value, const char *array);
+    void check_attributes(const json &value);
+    void expect(bool holds, const json &value, const char *wanted);
+    /* Runs `each` on all entries with the location extended by their index. */
+    template <class Each> void check_entries(const json &value, Each each);
+
+    const json &root_;
+    std::map<std::string, uint64_t> counts_;
+    std::string location_; /* a JSON pointer, extended and cut while descending */
+};
+
+/* The value as JSON, short enough for a message. */
+static std::string shown(const json &value)
+{
+    if (value.is_structured())
+        return value.is_array() ? "an array" : "an object";
+    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+void checker::expect(bool holds, const json &value, const char *wanted)
+{
+    if (!holds)
+        fail("TYPE_MISMATCH", location_, "%s is not %s", shown(value).c_str(), wanted);
+}
+
+template <class Each> void checker::check_entries(const json &value, Each each)
+{
+    expect(value.is_array(), value, "an array");
+    size_t length = location_.size();
+    for (size_t i = 0; i < value.size(); i++) {
+        location_ += "/" + std::to_string(i);
+        each(value[i]);
+        location_.resize(length);
+    }
+}
+
+void checker::check_integer(const json &value, double low, double high)
+{
+    expect(value.is_number_integer(), value, "an integer");
+    bool inside = value.is_number_unsigned() && (double)value.get<uint64_t>() >= low &&
+                  (double)value.get<uint64_t>() <= high;
+    if (!inside)
+        fail("VALUE_NOT_IN_RANGE", location_, "%s is not within %.0f to %.0f", shown(value).c_str(),
+             low, high);
+}
+
+void checker::check_number(const json &value, double low, double high, bool extension)
+{
+    expect(value.is_number(), value, "a number");
+    double number = value.get<double>();
+    if (!(number >= low && number <= high))
+        fail("VALUE_NOT_IN_RANGE", location_, "%s is not within %.9g to %.9g", shown(value).c_str(),
+             low, high);
+    /* tinygltf keeps integers inside extensions in an int. */
+    if (extension && value.is_number_integer() && (number < INT32_MIN || number > INT32_MAX))
+        fail("VALUE_NOT_IN_RANGE", location_, "%s is too large an integer; write %s.0",
+             shown(value).c_str(), shown(value).c_str());
+}
+
+/* True when `text` is one of the names between '|'. */
+static bool among(const std::string &text, const char *names)
+{
+    for (const char *name = names; name;) {
+        const char *end = strchr(name, '|');
+        size_t length = end ? (size_t)(end - name) : strlen(name);
+        if (text.size() == length && text.compare(0, length, name, length) == 0)
+            return true;
+        name = end ? end + 1 : nullptr;
+    }
+    return false;
+}
+
+void checker::check_code(const json &value, const char *names)
+{
+    expect(value.is_number_integer(), value, "an integer");
+    if (!among(value.dump(), names))
+        fail("VALUE_NOT_IN_LIST", location_, "%s is not one of %s", shown(value).c_str(), names);
+}
+
+void checker::check_name(const json &value, const char *names)
+{
+    expect(value.is_string(), value, "a string");
+    if (!among(value.get_ref<const std::string &>(), names))
+        fail("VALUE_NOT_IN_LIST", location_, "%s is not one of %s", shown(value).c_str(), names);
+}
+
+void checker::check_reference(const json &value, const char *array)
+{
+    expect(value.is_number_integer(), value, "an index");
+    if (!value.is_number_unsigned() || value.get<uint64_t>() >= count(array))
+        fail("UNRESOLVED_REFERENCE", location_,
+             "there is no entry %s in \"%s\", which has %" PRIu64, shown(value).c_str(), array,
+             count(array));
+}
+
+void checker::check_attributes(const json &value)
+{
+    expect(value.is_object(), value, "an object");
+    size_t length = location_.size();
+    for (auto &member : value.items()) {
+        location_ += "/" + member.key();
+        check_reference(member.value(), "accessors");
+        location_.resize(length);
+    }
+}
+
+void checker::check(const json &value, const rule &rule, bool extension)
+{
+    switch (rule.kind) {
+    case shape::anything:
+        return;
+    case shape::boolean:
+        return expect(value.is_boolean(), value, "true or false");
+    case shape::string:
+        return expect(value.is_string(), value, "a string");
+    case shape::strings:
+        return check_entries(
+            value, [&](const json &entry) { expect(entry.is_string(), entry, "a string"); });
+    case shape::one_of:
+        return check_name(value, rule.names);
+    case shape::integer:
+        return check_integer(value, rule.low, rule.high);
+    case shape::code:
+        return check_code(value, rule.names);
+    case shape::number:
+        return check_number(value, rule.low, rule.high, extension);
+    case shape::numbers:
+        expect(value.is_array(), value, "an array");
+        if (rule.entries && value.size() != rule.entries)
+            fail("ARRAY_LENGTH_NOT_IN_LIST", location_, "%zu entries instead of %zu", value.size(),
+                 rule.entries);
+        return check_entries(
+            value, [&](const json &entry) { check_number(entry, rule.low, rule.high, extension); });
+    case shape::reference:
+        return check_reference(value, rule.names);
+    case shape::references:
+        return check_entries(value, [&](const json &entry) { check_reference(entry, rule.names); });
+    case shape::object:
+        return check_object(value, *rule.child, extension);
+    case shape::objects:
+        return check_entries(
+            value, [&](const json &entry) { check_object(entry, *rule.child, extension); });
+    case shape::attributes:
+        return check_attributes(value);
+    case shape::targets:
+        return check_entries(value, [&](const json &entry) { check_attributes(entry); });
+    case shape::extensions:
+        return check_object(value, *rule.child, true);
+    }
+}
+
+void checker::check_object(const json &value, const schema &schema, bool extension)
+{
+    expect(value.is_object(), value, "an object");
+    size_t length = location_.size();
+    for (size_t i = 0; i < schema.rule_count; i++) {
+        const rule &rule = schema.rules[i];
+        auto member = value.find(rule.name);
+        if (member == value.end()) {
+            if (rule.required)
+                fail("UNDEFINED_PROPERTY", location_.empty() ? "/" : location_, "\"%s\" is missing",
+                     rule.name);
+            continue;
+        }
+        location_ += "/";
+        location_ += rule.name;
+        check(*member, rule, extension);
+        location_.resize(length);
+    }
+}
+
+/* --- what the tables cannot say
+ * ------------------------------------------------------------------------ */
+
+static void check_version(const json &root)
+{
+    const json &asset = root["asset"];
+    std::string wanted = asset["version"].get<std::string>();
+    if (asset.contains("minVersion"))
+        wanted = asset["minVersion"].get<std::string>();
+    if (wanted.compare(0, 2, "2.") != 0 || (asset.contains("minVersion") && wanted != "2.0"))
+        fail("UNKNOWN_ASSET_MAJOR_VERSION", "/asset",
+             "glTF version %s is not supported; export the file as glTF 2.0", wanted.c_str());
+}
+
+static const char *remedy_for(const std::string &extension)
+{
+    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
+        return "export the file with mesh compression switched off";
+    if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" ||
+        extension == "EXT_texture_avif" || extension == "MSFT_texture_dds")
+        return "export the file with PNG or JPEG textures";
+    return "export the file without it";
+}
+
+static void check_required_extensions(const json &root)
+{
+    auto required = root.find("extensionsRequired");
+    if (required == root.end() || !required->is_array())
+        return;
+    for (size_t i = 0; i < required->size(); i++) {
+        if (!(*required)[i].is_string())
+            continue;
+        std::string name = (*required)[i].get<std::string>();
+        if (!extension_is_supported(name))
+            fail("UNSUPPORTED_EXTENSION", "/extensionsRequired/" + std::to_string(i),
+                 "the file requires %s, which is not supported; %s", name.c_str(),
+                 remedy_for(name));
+    }
+}
+
+static void check_buffer_views(const json &root)
+{
+    auto views = root.find("bufferViews");
+    if (views == root.end())
+        return;
+    for (size_t i = 0; i < views->size(); i++) {
+        const json &view = (*views)[i];
+        uint64_t offset = view.value("byteOffset", (uint64_t)0), end;
+        uint64_t available = root["buffers"][view["buffer"].get<size_t>()]["byteLength"];
+        if (__builtin_add_overflow(offset, view["byteLength"].get<uint64_t>(), &end) ||
+            end > available)
+            fail("BUFFER_VIEW_TOO_LONG", location_of("bufferViews", i),
+                 "bytes from %" PRIu64 " on, %" PRIu64 " of them, do not fit into buffer %" PRIu64
+                 " of %" PRIu64 " bytes",
+                 offset, view["byteLength"].get<uint64_t>(), view["buffer"].get<uint64_t>(),
+                 available);
+        if (view.contains("byteStride") && view["byteStride"].get<uint64_t>() % 4 != 0)
+            fail("VALUE_NOT_IN_RANGE", location_of("bufferViews", i) + "/byteStride",
+                 "%" PRIu64 " is not a multiple of 4", view["byteStride"].get<uint64_t>());
+    }
+}
+
+static void check_sources(const json &root)
+{
+    auto images = root.find("images");
+    if (images != root.end())
+        for (size_t i = 0; i < images->size(); i++)
+            if ((*images)[i].contains("uri") == (*images)[i].contains("bufferView"))
+                fail("ONE_OF_MISMATCH", location_of("images", i),
+                     "exactly one of \"uri\" and \"bufferView\" must be given");
+    auto accessors = root.find("accessors");
+    if (accessors != root.end())
+        for (size_t i = 0; i < accessors->size(); i++)
+            if ((*accessors)[i].contains("byteOffset") && !(*accessors)[i].contains("bufferView"))
+                fail("UNSATISFIED_DEPENDENCY", location_of("accessors", i),
+                     "\"byteOffset\" without \"bufferView\"");
+}
+
+static void check_choices(const json &root)
+{
+    auto cameras = root.find("cameras");
+    if (cameras != root.end())
+        for (size_t i = 0; i < cameras->size(); i++) {
+            std::string type = (*cameras)[i]["type"].get<std::string>();
+            if (!(*cameras)[i].contains(type))
+                fail("UNDEFINED_PROPERTY", location_of("cameras", i), "\"%s\" is missing",
+                     type.c_str());
+        }
+    json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+    if (root.contains(lights))
+        for (size_t i = 0; i < root[lights].size(); i++)
+            if (root[lights][i]["type"] == "spot" && !root[lights][i].contains("spot"))
+                fail("UNDEFINED_PROPERTY",
+                     "/extensions/KHR_lights_punctual/lights/" + std::to_string(i),
+                     "\"spot\" is missing");
+    auto nodes = root.find("nodes");
+    if (nodes != root.end())
+        for (size_t i = 0; i < nodes->size(); i++) {
+            const json &node = (*nodes)[i];
+            if (node.contains("matrix") && (node.contains("translation") ||
+                                            node.contains("rotation") || node.contains("scale")))
+                fail("NODE_MATRIX_TRS", location_of("nodes", i),
+                     "a node has either \"matrix\" or translation, rotation and scale");
+        }
+}
+
+gltf_checked gltf_schema_check(std::string_view text, uint64_t memory_limit)
+{
+    json root = parse(text, memory_limit);
+    checker checker(root);
+    /* First: what such a file leaves out may be just what the extension would bring. */
+    check_required_extensions(root);
+
+    uint64_t entries = 0;
+    for (const json &member : root)
+        entries += member.is_array() ? member.size() : 0;
+    if (entries > memory_limit / BYTES_PER_ENTRY)
+        fail("INVALID_JSON", "/",
+             "%" PRIu64 " entries are more than the %" PRIu64
+             " that the memory limit allows; raise it",
+             entries, memory_limit / BYTES_PER_ENTRY);
+
+    checker.check_object(root, gltf_root_schema);
+    check_version(root);
+    check_buffer_views(root);
+    check_sources(root);
+    check_choices(root);
+
+    gltf_checked checked;
+    if (root.contains("buffers"))
+        for (const json &buffer : root["buffers"])
+            checked.buffers.push_back(
+                {buffer.value("uri", std::string()), buffer["byteLength"].get<uint64_t>()});
+    return checked;
+}
+
+} // namespace lsf

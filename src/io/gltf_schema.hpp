@@ -1,0 +1,52 @@
+/* The part of glTF 2.0's JSON schema that the importer reads, as tables. */
+#ifndef LSF_IO_GLTF_SCHEMA_HPP
+#define LSF_IO_GLTF_SCHEMA_HPP
+
+#include <cfloat>
+#include <cstddef>
+#include <cstdint>
+
+namespace lsf
+{
+
+enum class shape {
+    anything,
+    boolean,
+    string,
+    strings,
+    one_of,     /* a string among `names`, separated by '|' */
+    integer,    /* low..high */
+    code,       /* an integer among `names`, separated by '|' */
+    number,     /* low..high, finite as a float */
+    numbers,    /* `entries` numbers; 0: any count */
+    reference,  /* an index into the root array `names` */
+    references, /* an array of them */
+    object,
+    objects,    /* an array of objects */
+    attributes, /* an object whose members are references into accessors */
+    targets,    /* an array of such objects */
+    extensions, /* an object whose members are objects, `child` naming the known ones */
+};
+
+struct schema;
+
+struct rule {
+    const char *name;
+    shape kind;
+    bool required = false;
+    double low = -FLT_MAX, high = FLT_MAX;
+    const char *names = nullptr;
+    const schema *child = nullptr;
+    size_t entries = 0;
+};
+
+struct schema {
+    const rule *rules;
+    size_t rule_count;
+};
+
+extern const schema gltf_root_schema;
+
+} // namespace lsf
+
+#endif

@@ -1,0 +1,255 @@
+#include "scene/scene.h"
+
+#include "base/base.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* What `lightsheaf info` prints. */
+
+static uint32_t count_placed(const lsf_scene *scene, lsf_light_type type)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        uint32_t light = scene->nodes[i].light;
+        count += light != LSF_NONE && scene->lights[light].type == type;
+    }
+    return count;
+}
+
+/* Time of the last key. */
+static double animation_duration(const lsf_scene *scene)
+{
+    double duration = 0.0;
+    for (uint32_t i = 0; i < scene->channel_count; i++) {
+        const lsf_animation_channel *channel = &scene->channels[i];
+        duration = fmax(duration, channel->times[channel->key_count - 1]);
+    }
+    return duration;
+}
+
+/* --- the requirements, once for both forms
+ * -------------------------------------------------------- */
+
+typedef struct flag {
+    const char *name;
+    bool value;
+} flag;
+
+enum { FLAG_COUNT = 20 };
+
+static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
+{
+    const flag list[FLAG_COUNT] = {
+        {"environment", r->environment},
+        {"environment_map", r->environment_map},
+        {"emissive", r->emissive},
+        {"unlit", r->unlit},
+        {"specular", r->specular},
+        {"glossy", r->glossy},
+        {"anisotropic", r->anisotropic},
+        {"transmissive", r->transmissive},
+        {"variable_ior", r->variable_ior},
+        {"masked", r->masked},
+        {"normal_mapped", r->normal_mapped},
+        {"base_color_textured", r->base_color_textured},
+        {"metallic_roughness_textured", r->metallic_roughness_textured},
+        {"emissive_textured", r->emissive_textured},
+        {"anisotropy_textured", r->anisotropy_textured},
+        {"texture_transformed", r->texture_transformed},
+        {"second_uv", r->second_uv},
+        {"vertex_colored", r->vertex_colored},
+        {"moving", r->moving},
+        {"bounded", r->bounds_min[0] <= r->bounds_max[0]},
+    };
+    for (int i = 0; i < FLAG_COUNT; i++)
+        flags[i] = list[i];
+}
+
+/* --- JSON
+ * --------------------------------------------------------------------------------------------- */
+
+static void add_vector(lsf_string *out, const char *key, const double v[3])
+{
+    lsf_string_add(out, "\"%s\": [", key);
+    for (int c = 0; c < 3; c++) {
+        lsf_string_add(out, "%s", c ? ", " : "");
+        lsf_string_add_json_number(out, v[c]);
+    }
+    lsf_string_add(out, "]");
+}
+
+static void add_images_json(lsf_string *out, const lsf_scene *scene)
+{
+    static const char *const types[] = {"u8", "u16", "f32"};
+    lsf_string_add(out, "  \"images\": [");
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        const lsf_texture_image *image = &scene->images[i];
+        lsf_string_add(out, "%s\n    {\"name\": ", i ? "," : "");
+        lsf_string_add_json(out, image->name);
+        lsf_string_add(out, ", \"width\": %u, \"height\": %u, \"channels\": %u, \"type\": \"%s\"}",
+                       image->width, image->height, image->channels, types[image->type]);
+    }
+    lsf_string_add(out, "%s],\n", scene->image_count ? "\n  " : "");
+}
+
+static void add_cameras_json(lsf_string *out, const lsf_scene *scene)
+{
+    lsf_string_add(out, "  \"cameras\": [");
+    for (uint32_t i = 0; i < scene->camera_count; i++) {
+        lsf_string_add(out, "%s\n    {\"name\": ", i ? "," : "");
+        lsf_string_add_json(out, scene->cameras[i].name);
+        lsf_string_add(out, ", \"type\": \"%s\", \"from_file\": %s}",
+                       scene->cameras[i].orthographic ? "orthographic" : "perspective",
+                       scene->cameras[i].node == LSF_NONE ? "false" : "true");
+    }
+    lsf_string_add(out, "\n  ],\n");
+}
+
+static void add_requirements_json(lsf_string *out, const lsf_requirements *r)
+{
+    flag flags[FLAG_COUNT];
+    list_flags(r, flags);
+    lsf_string_add(out, "  \"requirements\": {\n");
+    lsf_string_add(out,
+                   "    \"point_lights\": %u, \"spot_lights\": %u, \"directional_lights\": %u,\n",
+                   r->point_lights, r->spot_lights, r->directional_lights);
+    for (int i = 0; i < FLAG_COUNT; i++)
+        lsf_string_add(out, "    \"%s\": %s,\n", flags[i].name, flags[i].value ? "true" : "false");
+    lsf_string_add(out,
+                   "    \"triangles\": %llu, \"unique_triangles\": %llu, \"vertices\": %llu,\n"
+                   "    \"instances\": %u, \"primitives\": %u, \"materials\": %u, "
+                   "\"textures\": %u,\n    ",
+                   (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
+                   (unsigned long long)r->vertices, r->instances, r->primitives, r->materials,
+                   r->textures);
+    add_vector(out, "center", r->center);
+    lsf_string_add(out, ", \"scale\": ");
+    lsf_string_add_json_number(out, r->scale);
+    lsf_string_add(out, "\n  }\n");
+}
+
+static void describe_json(lsf_string *out, const lsf_scene *scene)
+{
+    const lsf_requirements *r = &scene->requirements;
+    lsf_string_add(out, "{\n  \"path\": ");
+    lsf_string_add_json(out, scene->path);
+    lsf_string_add(out,
+                   ",\n  \"nodes\": %u, \"meshes\": %u, \"primitives\": %u, \"instances\": %u,\n"
+                   "  \"triangles\": %llu, \"unique_triangles\": %llu, \"vertices\": %llu,\n"
+                   "  \"materials\": %u, \"textures\": %u,\n",
+                   scene->node_count, scene->mesh_count, scene->primitive_count,
+                   scene->instance_count, (unsigned long long)r->triangles,
+                   (unsigned long long)r->unique_triangles, (unsigned long long)r->vertices,
+                   scene->material_count, scene->texture_count);
+    add_images_json(out, scene);
+    lsf_string_add(out, "  \"lights\": {\"point\": %u, \"spot\": %u, \"directional\": %u},\n",
+                   count_placed(scene, LSF_LIGHT_POINT), count_placed(scene, LSF_LIGHT_SPOT),
+                   count_placed(scene, LSF_LIGHT_DIRECTIONAL));
+    add_cameras_json(out, scene);
+    lsf_string_add(out, "  \"animation\": {\"channels\": %u, \"seconds\": ", scene->channel_count);
+    lsf_string_add_json_number(out, animation_duration(scene));
+    lsf_string_add(out, "},\n  \"bounds\": {");
+    add_vector(out, "min", r->bounds_min);
+    lsf_string_add(out, ", ");
+    add_vector(out, "max", r->bounds_max);
+    lsf_string_add(out, "},\n  \"diffuse_only\": %s,\n  \"notes\": [",
+                   scene->diffuse_only ? "true" : "false");
+    for (uint32_t i = 0; i < scene->note_count; i++) {
+        lsf_string_add(out, "%s\n    ", i ? "," : "");
+        lsf_string_add_json(out, scene->notes[i]);
+    }
+    lsf_string_add(out, "%s],\n", scene->note_count ? "\n  " : "");
+    add_requirements_json(out, r);
+    lsf_string_add(out, "}\n");
+}
+
+/* --- text
+ * -----------------------------------------------------------------------------------------------
+ */
+
+static void add_images_text(lsf_string *out, const lsf_scene *scene)
+{
+    static const int bits[] = {8, 16, 32};
+    lsf_string_add(out, "textures     %u, from %u images\n", scene->texture_count,
+                   scene->image_count);
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        const lsf_texture_image *image = &scene->images[i];
+        lsf_string_add(out, "             %u x %u, %u x %d bit  %s\n", image->width, image->height,
+                       image->channels, bits[image->type], image->name);
+    }
+}
+
+static void add_requirements_text(lsf_string *out, const lsf_requirements *r)
+{
+    flag flags[FLAG_COUNT];
+    list_flags(r, flags);
+    lsf_string_add(out, "requires    ");
+    for (int i = 0; i < FLAG_COUNT; i++)
+        if (flags[i].value)
+            lsf_string_add(out, " %s", flags[i].name);
+    lsf_string_add(out, "\nleft out    ");
+    for (int i = 0; i < FLAG_COUNT; i++)
+        if (!flags[i].value)
+            lsf_string_add(out, " %s", flags[i].name);
+    lsf_string_add(out, "\nnormalised   (position - (%.9g, %.9g, %.9g)) * %.9g\n", r->center[0],
+                   r->center[1], r->center[2], r->scale);
+}
+
+static void describe_text(lsf_string *out, const lsf_scene *scene)
+{
+    const lsf_requirements *r = &scene->requirements;
+    lsf_string_add(out, "%s\n", scene->path);
+    lsf_string_add(out, "nodes        %u\n", scene->node_count);
+    lsf_string_add(out, "meshes       %u, %u primitives, %u instances\n", scene->mesh_count,
+                   scene->primitive_count, scene->instance_count);
+    lsf_string_add(out, "triangles    %llu, %llu of them stored, %llu vertices\n",
+                   (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
+                   (unsigned long long)r->vertices);
+    lsf_string_add(out, "materials    %u in use\n", r->materials);
+    add_images_text(out, scene);
+    lsf_string_add(out, "lights       %u point, %u spot, %u directional\n",
+                   count_placed(scene, LSF_LIGHT_POINT), count_placed(scene, LSF_LIGHT_SPOT),
+                   count_placed(scene, LSF_LIGHT_DIRECTIONAL));
+    const lsf_environment *environment = &scene->environment;
+    if (environment->width > 0)
+        lsf_string_add(out, "environment  map of %u x %u\n", environment->width,
+                       environment->height);
+    else if (environment->present)
+        lsf_string_add(out, "environment  uniform, %g %g %g\n", (double)environment->radiance[0],
+                       (double)environment->radiance[1], (double)environment->radiance[2]);
+    else
+        lsf_string_add(out, "environment  none\n");
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        lsf_string_add(out, "camera %-4u  \"%s\", %s%s\n", i, scene->cameras[i].name,
+                       scene->cameras[i].orthographic ? "orthographic" : "perspective",
+                       scene->cameras[i].node == LSF_NONE ? ", made to frame the scene" : "");
+    if (scene->channel_count > 0)
+        lsf_string_add(out, "animation    %u channels, %.9g s\n", scene->channel_count,
+                       animation_duration(scene));
+    if (r->bounds_min[0] <= r->bounds_max[0])
+        lsf_string_add(out, "bounds       %.9g %.9g %.9g to %.9g %.9g %.9g\n", r->bounds_min[0],
+                       r->bounds_min[1], r->bounds_min[2], r->bounds_max[0], r->bounds_max[1],
+                       r->bounds_max[2]);
+    else
+        lsf_string_add(out, "bounds       empty\n");
+    if (scene->diffuse_only)
+        lsf_string_add(out, "diffuse only\n");
+    for (uint32_t i = 0; i < scene->note_count; i++)
+        lsf_string_add(out, "note         %s\n", scene->notes[i]);
+    add_requirements_text(out, r);
+}
+
+char *lsf_scene_describe(const lsf_scene *scene, bool json)
+{
+    lsf_string out = {0};
+    if (json)
+        describe_json(&out, scene);
+    else
+        describe_text(&out, scene);
+    if (out.failed) {
+        free(out.text);
+        return NULL;
+    }
+    return out.text;
+}

@@ -1,0 +1,233 @@
+#include "scene/scene.h"
+
+#include "base/base.h"
+#include "scene/hierarchy.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Vertices visited for exact bounds. Beyond that many (a mesh placed a million times), instances
+ * count with the corners of their boxes, which can only make the bounds larger. */
+#define EXACT_VISITS_MAX ((uint64_t)1 << 26)
+
+/* --- materials
+ * ------------------------------------------------------------------------------------ */
+
+static bool in_use(lsf_requirements *r, const lsf_texture_slot *slot)
+{
+    static const float identity[6] = {1, 0, 0, 0, 1, 0};
+    if (slot->texture == LSF_NONE)
+        return false;
+    r->second_uv = r->second_uv || slot->uv_set == 1;
+    r->texture_transformed =
+        r->texture_transformed || memcmp(slot->transform, identity, sizeof(identity)) != 0;
+    return true;
+}
+
+/* Occlusion maps stand for light that is computed here: none is read. */
+static void add_material(lsf_requirements *r, const lsf_material *material, bool diffuse_only)
+{
+    r->masked |= material->alpha_mode == LSF_ALPHA_MASK;
+    r->base_color_textured |= in_use(r, &material->base_color_texture);
+    if (material->unlit) {
+        r->unlit = true;
+        return;
+    }
+    if (material->emission[0] > 0.0f || material->emission[1] > 0.0f ||
+        material->emission[2] > 0.0f) {
+        r->emissive = true;
+        r->emissive_textured |= in_use(r, &material->emissive_texture);
+    }
+    if (diffuse_only)
+        return;
+    r->specular = true;
+    bool textured = in_use(r, &material->metallic_roughness_texture);
+    r->metallic_roughness_textured |= textured;
+    r->glossy |= textured || material->roughness < 1.0f || material->metallic > 0.0f;
+    r->variable_ior |= material->ior != 1.5f;
+    r->normal_mapped |= in_use(r, &material->normal_texture);
+    if (material->anisotropy_strength > 0.0f) {
+        r->anisotropic = true;
+        r->anisotropy_textured |= in_use(r, &material->anisotropy_texture);
+    }
+    if (material->transmission > 0.0f) {
+        r->transmissive = true;
+        in_use(r, &material->transmission_texture);
+    }
+}
+
+/* --- nodes
+ * ------------------------------------------------------------------------------------------ */
+
+static void add_lights(const lsf_scene *scene, lsf_requirements *r)
+{
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (scene->nodes[i].light == LSF_NONE)
+            continue;
+        lsf_light_type type = scene->lights[scene->nodes[i].light].type;
+        r->point_lights += type == LSF_LIGHT_POINT;
+        r->spot_lights += type == LSF_LIGHT_SPOT;
+        r->directional_lights += type == LSF_LIGHT_DIRECTIONAL;
+    }
+}
+
+/* True when an animation moves a node that carries something, or an ancestor of it. */
+static bool is_moving(const lsf_scene *scene)
+{
+    if (scene->channel_count == 0)
+        return false;
+    bool *moves = lsf_alloc(scene->node_count, sizeof(bool));
+    if (!moves)
+        return true; /* the safe answer */
+    for (uint32_t i = 0; i < scene->channel_count; i++)
+        moves[scene->channels[i].node] = true;
+    bool found = false;
+    for (uint32_t i = 0; i < scene->node_count && !found; i++) {
+        const lsf_node *node = &scene->nodes[i];
+        moves[i] = moves[i] || (node->parent != LSF_NONE && moves[node->parent]);
+        bool carries = node->light != LSF_NONE || node->camera != LSF_NONE ||
+                       (node->mesh != LSF_NONE && scene->meshes[node->mesh].primitive_count > 0);
+        found = moves[i] && carries;
+    }
+    free(moves);
+    return found;
+}
+
+/* --- bounds
+ * ------------------------------------------------------------------------------------------ */
+
+static void grow(lsf_requirements *r, const double *matrix, const double point[3])
+{
+    double world[3];
+    lsf_transform_point(matrix, point, world);
+    for (int c = 0; c < 3; c++) {
+        r->bounds_min[c] = fmin(r->bounds_min[c], world[c]);
+        r->bounds_max[c] = fmax(r->bounds_max[c], world[c]);
+    }
+}
+
+static bool covers(const lsf_requirements *outer, const lsf_requirements *inner)
+{
+    for (int c = 0; c < 3; c++)
+        if (!(inner->bounds_min[c] >= outer->bounds_min[c] &&
+              inner->bounds_max[c] <= outer->bounds_max[c]))
+            return false;
+    return true;
+}
+
+static void clear_bounds(lsf_requirements *r)
+{
+    for (int c = 0; c < 3; c++) {
+        r->bounds_min[c] = INFINITY;
+        r->bounds_max[c] = -INFINITY;
+    }
+}
+
+static void add_bounds(const lsf_scene *scene, const lsf_primitive *primitive, const double *matrix,
+                       uint64_t *visits, lsf_requirements *r)
+{
+    lsf_requirements box;
+    clear_bounds(&box);
+    for (int corner = 0; corner < 8; corner++) {
+        double point[3];
+        for (int c = 0; c < 3; c++)
+            point[c] = corner & (1 << c) ? primitive->bounds_max[c] : primitive->bounds_min[c];
+        grow(&box, matrix, point);
+    }
+    if (covers(r, &box))
+        return;
+    *visits += primitive->index_count;
+    if (*visits > EXACT_VISITS_MAX) {
+        for (int c = 0; c < 3; c++) {
+            r->bounds_min[c] = fmin(r->bounds_min[c], box.bounds_min[c]);
+            r->bounds_max[c] = fmax(r->bounds_max[c], box.bounds_max[c]);
+        }
+        return;
+    }
+    for (uint64_t i = 0; i < primitive->index_count; i++) {
+        const float *p =
+            scene->vertices.position + 3 * (size_t)scene->indices[primitive->first_index + i];
+        double point[3] = {p[0], p[1], p[2]};
+        grow(r, matrix, point);
+    }
+}
+
+/* The power of two that brings the half extent into (0.5, 1]. */
+static double normalizing_scale(double half_extent)
+{
+    if (!(half_extent > 1e-200)) /* nothing, a point, or beyond what a double can normalise */
+        return 1.0;
+    int exponent;
+    double mantissa = frexp(half_extent, &exponent); /* in [0.5, 1) */
+    return ldexp(1.0, mantissa == 0.5 ? 1 - exponent : -exponent);
+}
+
+static void find_center(lsf_requirements *r)
+{
+    double largest = 0.0;
+    for (int c = 0; c < 3; c++) {
+        bool empty = r->bounds_min[c] > r->bounds_max[c];
+        r->center[c] = empty ? 0.0 : 0.5 * (r->bounds_min[c] + r->bounds_max[c]);
+        largest = empty ? 0.0 : fmax(largest, 0.5 * (r->bounds_max[c] - r->bounds_min[c]));
+    }
+    r->scale = normalizing_scale(largest);
+}
+
+/* --- all
+ * ------------------------------------------------------------------------------------------------
+ */
+
+static void add_instances(const lsf_scene *scene, lsf_requirements *r)
+{
+    double *matrices = lsf_alloc(scene->node_count, 16 * sizeof(double));
+    bool *primitive_seen = lsf_alloc(scene->primitive_count, sizeof(bool));
+    bool *material_seen = lsf_alloc(scene->material_count, sizeof(bool));
+    uint64_t visits = 0;
+    if (matrices)
+        lsf_scene_world_matrices(scene, 0.0, matrices);
+    for (uint32_t i = 0; matrices && primitive_seen && material_seen && i < scene->instance_count;
+         i++) {
+        const lsf_instance *instance = &scene->instances[i];
+        const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+        if (primitive->index_count == 0)
+            continue;
+        r->instances++;
+        r->triangles += primitive->index_count / 3;
+        add_bounds(scene, primitive, matrices + (size_t)16 * instance->node, &visits, r);
+        if (!primitive_seen[instance->primitive]) {
+            primitive_seen[instance->primitive] = true;
+            r->primitives++;
+            r->unique_triangles += primitive->index_count / 3;
+        }
+        if (!material_seen[primitive->material]) {
+            material_seen[primitive->material] = true;
+            r->materials++;
+            add_material(r, &scene->materials[primitive->material], scene->diffuse_only);
+        }
+    }
+    free(matrices);
+    free(primitive_seen);
+    free(material_seen);
+}
+
+void lsf_scene_compute_requirements(lsf_scene *scene)
+{
+    lsf_requirements *r = &scene->requirements;
+    memset(r, 0, sizeof(*r));
+    clear_bounds(r);
+    add_lights(scene, r);
+    add_instances(scene, r);
+    find_center(r);
+
+    const lsf_environment *environment = &scene->environment;
+    r->environment_map = environment->present && environment->width > 0;
+    r->environment = r->environment_map ||
+                     (environment->present &&
+                      (environment->radiance[0] > 0.0f || environment->radiance[1] > 0.0f ||
+                       environment->radiance[2] > 0.0f));
+    r->vertex_colored = scene->vertices.color != NULL && r->instances > 0;
+    r->moving = is_moving(scene);
+    r->vertices = scene->vertices.count;
+    r->textures = scene->texture_count;
+}
