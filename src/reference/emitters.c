@@ -1,0 +1,207 @@
+#include "reference/emitters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "math/sampling.h"
+#include "reference/surface.h"
+
+/* A textured emitter is looked at in 4 to 64 points, about one for each texel it covers. */
+#define MIN_SAMPLES 4u
+#define MAX_SAMPLES 64u
+
+static const lsf_material *material_of(const lsf_reference_geometry *geometry, uint32_t instance)
+{
+    return &geometry->scene->materials[geometry->state->instances[instance].material];
+}
+
+static bool emission_varies(const lsf_scene *scene, const lsf_material *material)
+{
+    if (material->unlit)
+        return material->base_color_texture.texture != LSF_NONE || scene->vertices.color != NULL;
+    return material->emissive_texture.texture != LSF_NONE || material->alpha_mode == LSF_ALPHA_MASK;
+}
+
+/* Texels that a triangle covers, in the texture that its emission comes from. */
+static float covered_texels(const lsf_reference_geometry *geometry, const lsf_material *material,
+                            uint32_t instance, uint32_t triangle)
+{
+    const lsf_scene *scene = geometry->scene;
+    const lsf_texture_slot *slot =
+        material->unlit ? &material->base_color_texture : &material->emissive_texture;
+    const float *uv = slot->uv_set == 0 ? scene->vertices.uv0 : scene->vertices.uv1;
+    if (slot->texture == LSF_NONE || uv == NULL)
+        return (float)MAX_SAMPLES;
+    uint64_t v[3];
+    lsf_reference_vertices(geometry, instance, triangle, v);
+    float ax = uv[2 * v[1]] - uv[2 * v[0]], ay = uv[2 * v[1] + 1] - uv[2 * v[0] + 1];
+    float bx = uv[2 * v[2]] - uv[2 * v[0]], by = uv[2 * v[2] + 1] - uv[2 * v[0] + 1];
+    const float *m = slot->transform;
+    const lsf_texture_image *image = &scene->images[scene->textures[slot->texture].image];
+    return 0.5f * fabsf((ax * by - ay * bx) * (m[0] * m[4] - m[1] * m[3])) * (float)image->width *
+           (float)image->height;
+}
+
+/* Mean luminance over the triangle's front. */
+static float mean_emission(const lsf_reference_geometry *geometry, const lsf_material *material,
+                           uint32_t instance, uint32_t triangle)
+{
+    lsf_reference_hit hit = {instance, triangle, 1.0f / 3.0f, 1.0f / 3.0f, 0.0f};
+    if (!emission_varies(geometry->scene, material))
+        return lsf_f3_luminance(lsf_reference_emission(geometry, &hit, true));
+    float texels = covered_texels(geometry, material, instance, triangle);
+    uint32_t samples = texels < (float)MAX_SAMPLES ? MIN_SAMPLES + (uint32_t)texels : MAX_SAMPLES;
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < samples; i++) {
+        float u[2];
+        lsf_sobol_2d(i, triangle, u);
+        lsf_sample_triangle(u[0], u[1], &hit.b1, &hit.b2);
+        sum += lsf_f3_luminance(lsf_reference_emission(geometry, &hit, true));
+    }
+    return sum / (float)samples;
+}
+
+/* The emission's bound, by its factor: what the few samples may have missed is drawn now and then
+ * too, so that no emission is out of reach. */
+static float emission_floor(const lsf_reference_geometry *geometry, const lsf_material *material)
+{
+    if (!emission_varies(geometry->scene, material))
+        return 0.0f;
+    const float *factor = material->unlit ? material->base_color : material->emission;
+    return 0.01f * lsf_f3_luminance(lsf_f3_load(factor));
+}
+
+static uint64_t count_emitters(lsf_reference_emitters *emitters,
+                               const lsf_reference_geometry *geometry)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < geometry->state->instance_count; i++) {
+        emitters->first[i] = UINT64_MAX;
+        if (geometry->meshes[i].triangle_count == 0 ||
+            !lsf_reference_material_emits(material_of(geometry, i)))
+            continue;
+        emitters->first[i] = count;
+        count += geometry->meshes[i].triangle_count;
+    }
+    return count;
+}
+
+/* Fills the lists; weights receive each triangle's power, up to a common factor. */
+static void list_emitters(lsf_reference_emitters *emitters, const lsf_reference_geometry *geometry,
+                          float *weights)
+{
+    uint64_t at = 0;
+    for (uint32_t i = 0; i < geometry->state->instance_count; i++) {
+        if (emitters->first[i] == UINT64_MAX)
+            continue;
+        const lsf_material *material = material_of(geometry, i);
+        float sides = material->double_sided || material->unlit ? 2.0f : 1.0f;
+        float floor = emission_floor(geometry, material);
+        for (uint32_t t = 0; t < geometry->meshes[i].triangle_count; t++, at++) {
+            lsf_float3 corners[3];
+            float area;
+            lsf_reference_corners(geometry, i, t, corners);
+            lsf_reference_triangle_normal(geometry, i, corners, &area);
+            emitters->instance[at] = i;
+            emitters->triangle[at] = t;
+            emitters->area_pdf[at] = area; /* until the probabilities are known */
+            float emission = area > 0.0f ? mean_emission(geometry, material, i, t) : 0.0f;
+            weights[at] = sides * area * fmaxf(emission, floor);
+        }
+    }
+}
+
+bool lsf_reference_emitters_init(lsf_reference_emitters *emitters,
+                                 const lsf_reference_geometry *geometry, lsf_error *error)
+{
+    memset(emitters, 0, sizeof *emitters);
+    emitters->first = lsf_alloc(geometry->state->instance_count, sizeof *emitters->first);
+    if (emitters->first == NULL)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the list of emitters");
+    uint64_t count = count_emitters(emitters, geometry);
+    if (count == 0)
+        return true;
+    emitters->instance = lsf_alloc(count, sizeof *emitters->instance);
+    emitters->triangle = lsf_alloc(count, sizeof *emitters->triangle);
+    emitters->area_pdf = lsf_alloc(count, sizeof *emitters->area_pdf);
+    float *weights = lsf_alloc(count, sizeof *weights);
+    bool ok = emitters->instance != NULL && emitters->triangle != NULL &&
+              emitters->area_pdf != NULL && weights != NULL;
+    if (ok) {
+        list_emitters(emitters, geometry, weights);
+        ok = lsf_distribution_init(&emitters->power, weights, count);
+    }
+    free(weights);
+    if (!ok) {
+        lsf_reference_emitters_finish(emitters);
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %llu emissive triangles",
+                             (unsigned long long)count);
+    }
+    for (uint64_t i = 0; i < count; i++) {
+        float area = emitters->area_pdf[i];
+        emitters->area_pdf[i] =
+            area > 0.0f ? (float)(lsf_distribution_probability(&emitters->power, i) / area) : 0.0f;
+    }
+    emitters->count = emitters->power.sum > 0.0 ? count : 0;
+    return true;
+}
+
+void lsf_reference_emitters_finish(lsf_reference_emitters *emitters)
+{
+    free(emitters->first);
+    free(emitters->instance);
+    free(emitters->triangle);
+    free(emitters->area_pdf);
+    lsf_distribution_finish(&emitters->power);
+    memset(emitters, 0, sizeof *emitters);
+}
+
+lsf_reference_emitter_sample lsf_reference_emitters_sample(const lsf_reference_emitters *emitters,
+                                                           const lsf_reference_geometry *geometry,
+                                                           lsf_float3 from, double choice,
+                                                           const float u[2])
+{
+    lsf_reference_emitter_sample sample = {.pdf = 0.0f};
+    uint64_t i = lsf_distribution_sample(&emitters->power, choice, NULL);
+    lsf_reference_hit hit = {emitters->instance[i], emitters->triangle[i], 0.0f, 0.0f, 0.0f};
+    lsf_sample_triangle(u[0], u[1], &hit.b1, &hit.b2);
+    lsf_float3 corners[3];
+    lsf_reference_corners(geometry, hit.instance, hit.triangle, corners);
+    lsf_float3 normal = lsf_reference_triangle_normal(geometry, hit.instance, corners, NULL);
+    lsf_float3 point = lsf_f3_scale(corners[0], 1.0f - hit.b1 - hit.b2);
+    point = lsf_f3_mad(lsf_f3_mad(point, corners[1], hit.b1), corners[2], hit.b2);
+
+    lsf_float3 to = lsf_f3_sub(point, from);
+    float distance2 = lsf_f3_dot(to, to);
+    if (!(distance2 > 0.0f))
+        return sample;
+    sample.direction = lsf_f3_scale(to, 1.0f / sqrtf(distance2));
+    float cosine = -lsf_f3_dot(normal, sample.direction);
+    if (cosine == 0.0f)
+        return sample;
+    sample.radiance = lsf_reference_emission(geometry, &hit, cosine > 0.0f);
+    sample.pdf = emitters->area_pdf[i] * distance2 / fabsf(cosine);
+    float offset = copysignf(lsf_reference_ray_offset(corners), cosine);
+    sample.target = lsf_f3_mad(point, normal, offset);
+    return sample;
+}
+
+float lsf_reference_emitters_pdf(const lsf_reference_emitters *emitters,
+                                 const lsf_reference_geometry *geometry,
+                                 const lsf_reference_hit *hit, lsf_float3 from,
+                                 lsf_float3 direction)
+{
+    if (emitters->count == 0 || emitters->first[hit->instance] == UINT64_MAX)
+        return 0.0f;
+    lsf_float3 corners[3];
+    lsf_reference_corners(geometry, hit->instance, hit->triangle, corners);
+    lsf_float3 normal = lsf_reference_triangle_normal(geometry, hit->instance, corners, NULL);
+    lsf_float3 point = lsf_f3_scale(corners[0], 1.0f - hit->b1 - hit->b2);
+    point = lsf_f3_mad(lsf_f3_mad(point, corners[1], hit->b1), corners[2], hit->b2);
+    lsf_float3 to = lsf_f3_sub(point, from);
+    float cosine = fabsf(lsf_f3_dot(normal, direction));
+    float area_pdf = emitters->area_pdf[emitters->first[hit->instance] + hit->triangle];
+    return cosine > 0.0f ? area_pdf * lsf_f3_dot(to, to) / cosine : 0.0f;
+}

@@ -1,0 +1,220 @@
+#include "reference/geometry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/base.h"
+#include "reference/surface.h"
+
+/* Embree needs about this much for its tree at good quality, in bytes for each triangle, with
+ * what it uses while building. */
+#define TREE_BYTES_PER_TRIANGLE 220u
+
+/* Only single rays are traced here, for which a hit's layout is that of struct RTCHit. */
+static void reject_cut_out(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const lsf_reference_mesh *mesh = arguments->geometryUserPtr;
+    const struct RTCHit *found = (const struct RTCHit *)arguments->hit;
+    lsf_reference_hit hit = {mesh->instance, found->primID, found->u, found->v, 0.0f};
+    if (lsf_reference_cut_out(mesh->geometry, &hit))
+        arguments->valid[0] = 0;
+}
+
+static bool transform_positions(lsf_reference_mesh *mesh, const lsf_scene *scene,
+                                const lsf_instance_state *instance)
+{
+    const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+    /* Embree reads the last vertex with a 16-byte load. */
+    mesh->positions = lsf_alloc((uint64_t)primitive->vertex_count * 3 + 4, sizeof(float));
+    if (mesh->positions == NULL)
+        return false;
+    const float *m = instance->transform;
+    for (uint32_t i = 0; i < primitive->vertex_count; i++) {
+        const float *p = scene->vertices.position + 3 * (primitive->first_vertex + i);
+        for (int row = 0; row < 3; row++)
+            mesh->positions[3 * (uint64_t)i + row] =
+                m[4 * row] * p[0] + m[4 * row + 1] * p[1] + m[4 * row + 2] * p[2] + m[4 * row + 3];
+    }
+    return true;
+}
+
+static bool local_indices(lsf_reference_geometry *geometry, uint32_t primitive_index)
+{
+    const lsf_primitive *primitive = &geometry->scene->primitives[primitive_index];
+    if (geometry->indices[primitive_index] != NULL)
+        return true;
+    uint32_t *list = lsf_alloc(primitive->index_count, sizeof *list);
+    if (list == NULL)
+        return false;
+    for (uint32_t i = 0; i < primitive->index_count; i++)
+        list[i] = geometry->scene->indices[primitive->first_index + i] -
+                  (uint32_t)primitive->first_vertex;
+    geometry->indices[primitive_index] = list;
+    return true;
+}
+
+static bool add_instance(lsf_reference_geometry *geometry, uint32_t index)
+{
+    const lsf_scene *scene = geometry->scene;
+    const lsf_instance_state *instance = &geometry->state->instances[index];
+    lsf_reference_mesh *mesh = &geometry->meshes[index];
+    mesh->geometry = geometry;
+    mesh->instance = index;
+    if (instance->skipped)
+        return true;
+    if (!transform_positions(mesh, scene, instance) ||
+        !local_indices(geometry, instance->primitive))
+        return false;
+    const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+    mesh->triangle_count = primitive->index_count / 3;
+    mesh->indices = geometry->indices[instance->primitive];
+
+    RTCGeometry shape = rtcNewGeometry(geometry->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->positions,
+                               0, 3 * sizeof(float), primitive->vertex_count);
+    rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->indices, 0,
+                               3 * sizeof(uint32_t), mesh->triangle_count);
+    if (scene->materials[instance->material].alpha_mode == LSF_ALPHA_MASK) {
+        rtcSetGeometryUserData(shape, mesh);
+        rtcSetGeometryIntersectFilterFunction(shape, reject_cut_out);
+        rtcSetGeometryOccludedFilterFunction(shape, reject_cut_out);
+    }
+    rtcCommitGeometry(shape);
+    rtcAttachGeometryByID(geometry->tree, shape, index);
+    rtcReleaseGeometry(shape);
+    return true;
+}
+
+static bool fits_in_memory(const lsf_scene *scene, const lsf_state *state, lsf_error *error)
+{
+    double bytes = 0.0;
+    for (uint32_t i = 0; i < state->instance_count; i++) {
+        const lsf_primitive *primitive = &scene->primitives[state->instances[i].primitive];
+        bytes += primitive->index_count / 3 * (double)TREE_BYTES_PER_TRIANGLE +
+                 primitive->vertex_count * 12.0;
+    }
+    double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (bytes <= 0.75 * memory)
+        return true;
+    return lsf_error_set(error, LSF_ERROR_RENDER,
+                         "the reference needs about %.1f GiB for this scene's triangles and the "
+                         "machine has %.1f; use a scene with fewer instances",
+                         bytes * 0x1p-30, memory * 0x1p-30);
+}
+
+bool lsf_reference_geometry_init(lsf_reference_geometry *geometry, const lsf_scene *scene,
+                                 const lsf_state *state, lsf_error *error)
+{
+    memset(geometry, 0, sizeof *geometry);
+    geometry->scene = scene;
+    geometry->state = state;
+    if (!fits_in_memory(scene, state, error))
+        return false;
+    /* One building thread: trees built by several may differ in the order of coplanar triangles,
+     * and with it the bits of the picture. */
+    geometry->device = rtcNewDevice("threads=1");
+    geometry->tree = geometry->device ? rtcNewScene(geometry->device) : NULL;
+    geometry->meshes = lsf_alloc(state->instance_count, sizeof *geometry->meshes);
+    geometry->indices = lsf_alloc(scene->primitive_count, sizeof *geometry->indices);
+    bool ok = geometry->tree != NULL && geometry->meshes != NULL && geometry->indices != NULL;
+    if (ok) {
+        /* Robust: no ray slips between two triangles that share an edge. */
+        rtcSetSceneFlags(geometry->tree, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(geometry->tree, RTC_BUILD_QUALITY_MEDIUM);
+    }
+    for (uint32_t i = 0; ok && i < state->instance_count; i++)
+        ok = add_instance(geometry, i);
+    if (ok) {
+        rtcCommitScene(geometry->tree);
+        ok = rtcGetDeviceError(geometry->device) == RTC_ERROR_NONE;
+    }
+    if (!ok) {
+        lsf_reference_geometry_finish(geometry);
+        return lsf_error_set(error, LSF_ERROR_RENDER,
+                             "the reference cannot build its ray tracing tree: out of memory");
+    }
+    return true;
+}
+
+void lsf_reference_geometry_finish(lsf_reference_geometry *geometry)
+{
+    if (geometry->tree != NULL)
+        rtcReleaseScene(geometry->tree);
+    if (geometry->device != NULL)
+        rtcReleaseDevice(geometry->device);
+    for (uint32_t i = 0; geometry->meshes != NULL && i < geometry->state->instance_count; i++)
+        free(geometry->meshes[i].positions);
+    for (uint32_t i = 0; geometry->indices != NULL && i < geometry->scene->primitive_count; i++)
+        free(geometry->indices[i]);
+    free(geometry->meshes);
+    free(geometry->indices);
+    memset(geometry, 0, sizeof *geometry);
+}
+
+static struct RTCRay make_ray(lsf_float3 origin, lsf_float3 direction, float near, float far)
+{
+    return (struct RTCRay){
+        .org_x = origin.x,
+        .org_y = origin.y,
+        .org_z = origin.z,
+        .tnear = near,
+        .dir_x = direction.x,
+        .dir_y = direction.y,
+        .dir_z = direction.z,
+        .tfar = far,
+        .mask = ~0u,
+    };
+}
+
+bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 origin,
+                         lsf_float3 direction, float near, float far, lsf_reference_hit *hit)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    struct RTCRayHit query = {.ray = make_ray(origin, direction, near, far)};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(geometry->tree, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+    *hit = (lsf_reference_hit){query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
+                               query.ray.tfar};
+    return true;
+}
+
+bool lsf_reference_occluded(const lsf_reference_geometry *geometry, lsf_float3 origin,
+                            lsf_float3 direction, float far)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    struct RTCRay ray = make_ray(origin, direction, 0.0f, far);
+    rtcOccluded1(geometry->tree, &context, &ray);
+    return ray.tfar < 0.0f;
+}
+
+void lsf_reference_corners(const lsf_reference_geometry *geometry, uint32_t instance,
+                           uint32_t triangle, lsf_float3 corners[3])
+{
+    const lsf_reference_mesh *mesh = &geometry->meshes[instance];
+    for (int i = 0; i < 3; i++)
+        corners[i] =
+            lsf_f3_load(mesh->positions + 3 * (uint64_t)mesh->indices[3 * (uint64_t)triangle + i]);
+}
+
+void lsf_reference_vertices(const lsf_reference_geometry *geometry, uint32_t instance,
+                            uint32_t triangle, uint64_t vertices[3])
+{
+    const lsf_primitive *primitive =
+        &geometry->scene->primitives[geometry->state->instances[instance].primitive];
+    for (int i = 0; i < 3; i++)
+        vertices[i] = geometry->scene->indices[primitive->first_index + 3 * (uint64_t)triangle + i];
+}
+
+float lsf_reference_ray_offset(const lsf_float3 corners[3])
+{
+    float largest = fmaxf(lsf_f3_max_abs(corners[0]),
+                          fmaxf(lsf_f3_max_abs(corners[1]), lsf_f3_max_abs(corners[2])));
+    return fmaxf(0x1p-20f * largest, 0x1p-100f); /* 8 to 16 units in the last place */
+}

@@ -1,0 +1,40 @@
+/* What passes between the library and the module that holds the path tracer. */
+#ifndef LSF_REFERENCE_MODULE_H
+#define LSF_REFERENCE_MODULE_H
+
+#include <lightsheaf/reference.h>
+
+#include "scene/state.h"
+
+#define LSF_REFERENCE_MODULE_NAME "lightsheaf-reference"
+#define LSF_REFERENCE_MODULE_ENTRY "lsf_reference_module_render"
+
+typedef enum lsf_reference_layer {
+    LSF_REFERENCE_BEAUTY,
+    LSF_REFERENCE_ALBEDO,
+    LSF_REFERENCE_NORMAL,
+    LSF_REFERENCE_DEPTH,
+    LSF_REFERENCE_EMISSION,
+    LSF_REFERENCE_DIRECT,
+    LSF_REFERENCE_INDIRECT_DIFFUSE,
+    LSF_REFERENCE_INDIRECT_SPECULAR,
+    LSF_REFERENCE_LAYER_COUNT,
+} lsf_reference_layer;
+
+typedef struct lsf_reference_job {
+    const lsf_scene *scene;
+    const lsf_state *state;
+    const lsf_render_params *params;
+    uint32_t half;
+    uint32_t threads; /* 0: one for each core */
+    lsf_image *image;
+    int channels[LSF_REFERENCE_LAYER_COUNT]; /* each layer's first channel in the image; -1: none */
+    lsf_reference_result result;             /* filled */
+} lsf_reference_job;
+
+typedef bool (*lsf_reference_module_function)(lsf_reference_job *job, lsf_error *error);
+
+__attribute__((visibility("default"))) bool lsf_reference_module_render(lsf_reference_job *job,
+                                                                        lsf_error *error);
+
+#endif

@@ -1,0 +1,348 @@
+#include "reference/path.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "math/sampling.h"
+#include "reference/bsdf.h"
+#include "shared/brdf.h"
+#include "shared/light.h"
+
+/* Sets of random numbers: one for the pixel, then these for every vertex. */
+enum {
+    DIMENSION_LIGHT,
+    DIMENSION_EMITTER,
+    DIMENSION_EMITTER_POINT,
+    DIMENSION_SKY,
+    DIMENSION_LOBE,
+    DIMENSION_DIRECTION,
+    DIMENSION_ROULETTE,
+    DIMENSIONS_PER_VERTEX,
+};
+
+static uint32_t dimension_seed(const lsf_reference_sampler *sampler, uint32_t vertex,
+                               uint32_t dimension)
+{
+    return lsf_hash(sampler->pixel_seed, 1u + (uint64_t)vertex * DIMENSIONS_PER_VERTEX + dimension);
+}
+
+void lsf_reference_pixel_sample(const lsf_reference_sampler *sampler, float point[2])
+{
+    lsf_sobol_2d(sampler->index, lsf_hash(sampler->pixel_seed, 0), point);
+}
+
+/* Radiant power of a light, up to a common factor. A directional light is taken over the disc
+ * that bounds normalised space, a point light over the sphere. */
+static float light_power(const lsf_light_state *light)
+{
+    float intensity = lsf_f3_luminance(lsf_f3_load(light->intensity));
+    switch (light->type) {
+    case LSF_LIGHT_DIRECTIONAL:
+        return LSF_PI * 3.0f * intensity;
+    case LSF_LIGHT_SPOT:
+        return 2.0f * LSF_PI * (1.0f - light->cos_outer) * intensity;
+    case LSF_LIGHT_POINT:
+        break;
+    }
+    return 4.0f * LSF_PI * intensity;
+}
+
+static bool init_light_power(lsf_reference_world *world, const lsf_state *state, lsf_error *error)
+{
+    if (state->light_count <= LSF_REFERENCE_ALL_LIGHTS)
+        return true;
+    float *weights = lsf_alloc(state->light_count, sizeof *weights);
+    for (uint32_t i = 0; weights != NULL && i < state->light_count; i++)
+        weights[i] = light_power(&state->lights[i]);
+    bool ok =
+        weights != NULL && lsf_distribution_init(&world->light_power, weights, state->light_count);
+    free(weights);
+    return ok || lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights",
+                               state->light_count);
+}
+
+bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene,
+                              const lsf_state *state, uint32_t bounces, lsf_error *error)
+{
+    memset(world, 0, sizeof *world);
+    world->bounces = bounces;
+    if (!lsf_reference_geometry_init(&world->geometry, scene, state, error))
+        return false;
+    if (lsf_reference_emitters_init(&world->emitters, &world->geometry, error) &&
+        lsf_reference_sky_init(&world->sky, &scene->environment, error) &&
+        init_light_power(world, state, error))
+        return true;
+    lsf_reference_world_finish(world);
+    return false;
+}
+
+void lsf_reference_world_finish(lsf_reference_world *world)
+{
+    lsf_distribution_finish(&world->light_power);
+    lsf_reference_sky_finish(&world->sky);
+    lsf_reference_emitters_finish(&world->emitters);
+    lsf_reference_geometry_finish(&world->geometry);
+}
+
+/* Power heuristic, exponent 2: E. Veach, "Robust Monte Carlo Methods for Light Transport
+ * Simulation", 1997, section 9.2.2. By the ratio, whose square stays in range. */
+static float mis_weight(float pdf, float other_pdf)
+{
+    float ratio = other_pdf / pdf;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/* A path on its way. Throughput is kept apart for the two lobes of the first hit, by which
+ * indirect light is split; what the path meets is weighed with their sum. */
+typedef struct walk {
+    const lsf_reference_world *world;
+    const lsf_reference_sampler *sampler;
+    lsf_reference_path *path;
+    uint32_t vertex; /* 0: the first hit */
+    lsf_float3 diffuse, specular;
+    lsf_reference_surface surface;
+    lsf_reference_bsdf bsdf;
+} walk;
+
+/* Adds light that reaches the current vertex and is reflected along the path; `reflection` is
+ * weighed by `radiance`, which includes one over the density. */
+static void add_reflected(walk *w, const lsf_reference_reflection *reflection, lsf_float3 radiance)
+{
+    lsf_float3 f = lsf_f3_mul(lsf_f3_add(reflection->diffuse, reflection->specular), radiance);
+    lsf_reference_path *path = w->path;
+    if (w->vertex == 0) {
+        path->direct = lsf_f3_add(path->direct, f);
+        return;
+    }
+    path->indirect_diffuse = lsf_f3_add(path->indirect_diffuse, lsf_f3_mul(w->diffuse, f));
+    path->indirect_specular = lsf_f3_add(path->indirect_specular, lsf_f3_mul(w->specular, f));
+}
+
+static lsf_float3 ray_origin(const lsf_reference_surface *s)
+{
+    return lsf_f3_mad(s->position, s->geometric_normal, s->ray_offset);
+}
+
+/* Nothing between the current vertex and `target`. */
+static bool reaches(walk *w, lsf_float3 target)
+{
+    lsf_float3 origin = ray_origin(&w->surface);
+    w->path->rays++;
+    /* The last few bits stay out, for the target is known to no more than that. */
+    return !lsf_reference_occluded(&w->world->geometry, origin, lsf_f3_sub(target, origin),
+                                   1.0f - 0x1p-22f);
+}
+
+static bool reaches_sky(walk *w, lsf_float3 direction)
+{
+    w->path->rays++;
+    return !lsf_reference_occluded(&w->world->geometry, ray_origin(&w->surface), direction,
+                                   INFINITY);
+}
+
+static float spot_factor(const lsf_light_state *light, lsf_float3 to_light)
+{
+    if (light->type != LSF_LIGHT_SPOT)
+        return 1.0f;
+    float scale = lsf_spot_scale(light->cos_inner, light->cos_outer);
+    float cosine = -lsf_f3_dot(lsf_f3_load(light->direction), to_light);
+    return lsf_spot_attenuation(cosine, scale, -light->cos_outer * scale);
+}
+
+static void add_light(walk *w, const lsf_light_state *light, float weight)
+{
+    lsf_float3 intensity = lsf_f3_scale(lsf_f3_load(light->intensity), weight);
+    lsf_float3 position = lsf_f3_load(light->position);
+    lsf_float3 direction;
+    float attenuation = 1.0f;
+    if (light->type == LSF_LIGHT_DIRECTIONAL) {
+        direction = lsf_f3_scale(lsf_f3_load(light->direction), -1.0f);
+    } else {
+        lsf_float3 to = lsf_f3_sub(position, w->surface.position);
+        direction = lsf_f3_normalize_or(to, w->surface.geometric_normal);
+        float inverse_range2 = isinf(light->range) ? 0.0f : 1.0f / (light->range * light->range);
+        attenuation = lsf_distance_attenuation(lsf_f3_dot(to, to), inverse_range2) *
+                      spot_factor(light, direction);
+    }
+    if (!(attenuation > 0.0f))
+        return;
+    lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
+    if (!(reflection.pdf > 0.0f))
+        return;
+    /* A light may lie in a surface, which must not hide it: the ray ends short of it. */
+    float short_of = 0x1p-20f * lsf_f3_max_abs(position);
+    bool visible = light->type == LSF_LIGHT_DIRECTIONAL
+                       ? reaches_sky(w, direction)
+                       : reaches(w, lsf_f3_mad(position, direction, -short_of));
+    if (visible)
+        add_reflected(w, &reflection, lsf_f3_scale(intensity, attenuation));
+}
+
+static void add_punctual(walk *w)
+{
+    const lsf_reference_world *world = w->world;
+    const lsf_state *state = world->geometry.state;
+    if (world->light_power.count == 0) {
+        for (uint32_t i = 0; i < state->light_count; i++)
+            add_light(w, &state->lights[i], 1.0f);
+    } else if (world->light_power.sum > 0.0) {
+        uint32_t seed = dimension_seed(w->sampler, w->vertex, DIMENSION_LIGHT);
+        double u = lsf_unit_double(lsf_sobol_1d_bits(w->sampler->index, seed));
+        uint64_t i = lsf_distribution_sample(&world->light_power, u, NULL);
+        double probability = lsf_distribution_probability(&world->light_power, i);
+        add_light(w, &state->lights[i], (float)(1.0 / probability));
+    }
+}
+
+static void add_emitter(walk *w)
+{
+    const lsf_reference_world *world = w->world;
+    if (world->emitters.count == 0)
+        return;
+    uint32_t index = w->sampler->index;
+    float u[2];
+    uint32_t choice =
+        lsf_sobol_1d_bits(index, dimension_seed(w->sampler, w->vertex, DIMENSION_EMITTER));
+    lsf_sobol_2d(index, dimension_seed(w->sampler, w->vertex, DIMENSION_EMITTER_POINT), u);
+    lsf_reference_emitter_sample light = lsf_reference_emitters_sample(
+        &world->emitters, &world->geometry, w->surface.position, lsf_unit_double(choice), u);
+    if (!(light.pdf > 0.0f) || !(lsf_f3_max(light.radiance) > 0.0f))
+        return;
+    lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, light.direction);
+    if (!(reflection.pdf > 0.0f) || !reaches(w, light.target))
+        return;
+    float weight = mis_weight(light.pdf, reflection.pdf) / light.pdf;
+    add_reflected(w, &reflection, lsf_f3_scale(light.radiance, weight));
+}
+
+static void add_sky(walk *w)
+{
+    const lsf_reference_sky *sky = &w->world->sky;
+    if (!sky->sampled)
+        return;
+    uint32_t bits[2];
+    lsf_sobol_2d_bits(w->sampler->index, dimension_seed(w->sampler, w->vertex, DIMENSION_SKY),
+                      bits);
+    double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
+    lsf_float3 direction;
+    float pdf = lsf_reference_sky_sample(sky, u, &direction);
+    if (!(pdf > 0.0f))
+        return;
+    lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
+    if (!(reflection.pdf > 0.0f) || !reaches_sky(w, direction))
+        return;
+    float weight = mis_weight(pdf, reflection.pdf) / pdf;
+    add_reflected(w, &reflection, lsf_f3_scale(lsf_reference_sky_radiance(sky, direction), weight));
+}
+
+/* Whether rays that leave a surface can meet something that shines. */
+static bool rays_find_light(const lsf_reference_world *world)
+{
+    return world->emitters.count != 0 || world->geometry.scene->environment.present;
+}
+
+/* Russian roulette by the throughput, which does not depend on the scene's brightness. */
+static bool survives(walk *w)
+{
+    if (w->vertex + 1 < LSF_REFERENCE_ROULETTE_VERTEX)
+        return true;
+    float q = fminf(lsf_f3_max(lsf_f3_add(w->diffuse, w->specular)), 0.95f);
+    uint32_t seed = dimension_seed(w->sampler, w->vertex, DIMENSION_ROULETTE);
+    if (!(lsf_sobol_1d(w->sampler->index, seed) < q))
+        return false;
+    w->diffuse = lsf_f3_scale(w->diffuse, 1.0f / q);
+    w->specular = lsf_f3_scale(w->specular, 1.0f / q);
+    return true;
+}
+
+/* Follows a direction drawn from the BRDF to the next vertex: adds what shines there, then moves
+ * the walk on. False when the path ends. */
+static bool step(walk *w)
+{
+    const lsf_reference_world *world = w->world;
+    bool last = w->vertex >= world->bounces;
+    if (last && !rays_find_light(world))
+        return false;
+    uint32_t index = w->sampler->index;
+    float lobe = lsf_sobol_1d(index, dimension_seed(w->sampler, w->vertex, DIMENSION_LOBE));
+    float u[2];
+    lsf_sobol_2d(index, dimension_seed(w->sampler, w->vertex, DIMENSION_DIRECTION), u);
+    lsf_float3 direction = lsf_reference_bsdf_sample(&w->bsdf, lobe, u);
+    lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
+    if (!(reflection.pdf > 0.0f))
+        return false;
+    lsf_float3 from = w->surface.position;
+    lsf_reference_hit hit;
+    w->path->rays++;
+    if (!lsf_reference_trace(&world->geometry, ray_origin(&w->surface), direction, 0.0f, INFINITY,
+                             &hit)) {
+        if (world->sky.environment->present) {
+            float other = world->sky.sampled ? lsf_reference_sky_pdf(&world->sky, direction) : 0.0f;
+            float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
+            lsf_float3 radiance = lsf_reference_sky_radiance(&world->sky, direction);
+            add_reflected(w, &reflection, lsf_f3_scale(radiance, weight));
+        }
+        return false;
+    }
+    lsf_reference_surface next;
+    lsf_reference_surface_init(&next, &world->geometry, &hit, direction);
+    if (lsf_f3_max(next.emission) > 0.0f) {
+        float other =
+            lsf_reference_emitters_pdf(&world->emitters, &world->geometry, &hit, from, direction);
+        float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
+        add_reflected(w, &reflection, lsf_f3_scale(next.emission, weight));
+    }
+    if (last)
+        return false;
+    lsf_float3 diffuse = lsf_f3_scale(reflection.diffuse, 1.0f / reflection.pdf);
+    lsf_float3 specular = lsf_f3_scale(reflection.specular, 1.0f / reflection.pdf);
+    if (w->vertex > 0) {
+        lsf_float3 both = lsf_f3_add(diffuse, specular);
+        diffuse = lsf_f3_mul(w->diffuse, both);
+        specular = lsf_f3_mul(w->specular, both);
+    }
+    w->surface = next;
+    lsf_reference_bsdf_init(&w->bsdf, &w->surface);
+    w->diffuse = diffuse;
+    w->specular = specular;
+    w->vertex++;
+    return survives(w);
+}
+
+static lsf_float3 camera_vector(const float base[3], const float dx[3], const float dy[3],
+                                const float ndc[2])
+{
+    lsf_float3 at_x = lsf_f3_mad(lsf_f3_load(base), lsf_f3_load(dx), ndc[0]);
+    return lsf_f3_mad(at_x, lsf_f3_load(dy), ndc[1]);
+}
+
+void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[2],
+                              const lsf_reference_sampler *sampler, lsf_reference_path *path)
+{
+    *path = (lsf_reference_path){.depth = INFINITY, .rays = 1};
+    walk w = {.world = world, .sampler = sampler, .path = path};
+    const lsf_camera_state *camera = &world->geometry.state->camera;
+    lsf_float3 origin = camera_vector(camera->origin, camera->origin_dx, camera->origin_dy, ndc);
+    /* Its length makes the distance along the ray the depth along the view axis. */
+    lsf_float3 along = camera_vector(camera->forward, camera->forward_dx, camera->forward_dy, ndc);
+    lsf_float3 direction = lsf_f3_normalize(along);
+    lsf_reference_hit hit;
+    if (!lsf_reference_trace(&world->geometry, origin, along, camera->near_plane, INFINITY, &hit)) {
+        path->emission = lsf_reference_sky_radiance(&world->sky, direction);
+        return;
+    }
+    lsf_reference_surface_init(&w.surface, &world->geometry, &hit, direction);
+    lsf_reference_bsdf_init(&w.bsdf, &w.surface);
+    path->depth = hit.distance;
+    path->emission = w.surface.emission;
+    path->albedo = w.surface.base_color;
+    path->normal = w.surface.frame.n;
+    bool walking = true;
+    while (walking && w.bsdf.specular_probability >= 0.0f) {
+        add_punctual(&w);
+        add_emitter(&w);
+        add_sky(&w);
+        walking = step(&w);
+    }
+}

@@ -1,0 +1,121 @@
+/* The library's side of the reference: evaluates the scene, loads the module, hands over. */
+#include <lightsheaf/reference.h>
+
+#include <dlfcn.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "reference/module.h"
+#include "scene/state.h"
+
+typedef struct layer {
+    lsf_reference_layer layer;
+    uint32_t aov; /* 0: always there */
+    int count;
+    const char *channels[3];
+} layer;
+
+static const layer layers[] = {
+    {LSF_REFERENCE_BEAUTY, 0, 3, {"R", "G", "B"}},
+    {LSF_REFERENCE_ALBEDO, LSF_AOV_ALBEDO, 3, {"albedo.R", "albedo.G", "albedo.B"}},
+    {LSF_REFERENCE_NORMAL, LSF_AOV_NORMAL, 3, {"normal.X", "normal.Y", "normal.Z"}},
+    {LSF_REFERENCE_DEPTH, LSF_AOV_DEPTH, 1, {"depth.Z"}},
+    {LSF_REFERENCE_EMISSION, LSF_AOV_EMISSION, 3, {"emission.R", "emission.G", "emission.B"}},
+    {LSF_REFERENCE_DIRECT, LSF_AOV_DIRECT, 3, {"direct.R", "direct.G", "direct.B"}},
+    {LSF_REFERENCE_INDIRECT_DIFFUSE,
+     LSF_AOV_INDIRECT_DIFFUSE,
+     3,
+     {"indirect_diffuse.R", "indirect_diffuse.G", "indirect_diffuse.B"}},
+    {LSF_REFERENCE_INDIRECT_SPECULAR,
+     LSF_AOV_INDIRECT_SPECULAR,
+     3,
+     {"indirect_specular.R", "indirect_specular.G", "indirect_specular.B"}},
+};
+
+static bool check_params(const lsf_render_params *params, uint32_t half, lsf_error *error)
+{
+    if (params->width == 0 || params->height == 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--resolution %u,%u: a picture needs at least 1 x 1 pixels",
+                             params->width, params->height);
+    if (params->samples == 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE, "--samples 0: at least 1 is needed");
+    if (half > 1)
+        return lsf_error_set(error, LSF_ERROR_USAGE, "there is no half %u, only 0 and 1", half);
+    if (params->aovs & LSF_AOV_MOTION)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--aov motion: the reference shows one instant and knows no motion; "
+                             "leave it out");
+    return true;
+}
+
+/* Makes the picture with the channels that are asked for and notes where each layer begins. */
+static lsf_image *create_image(const lsf_render_params *params, lsf_reference_job *job,
+                               lsf_error *error)
+{
+    const char *names[3 * LSF_COUNT(layers)];
+    uint32_t count = 0;
+    for (size_t i = 0; i < LSF_COUNT(layers); i++) {
+        bool wanted = layers[i].aov == 0 || (params->aovs & layers[i].aov) != 0;
+        job->channels[layers[i].layer] = wanted ? (int)count : -1;
+        for (int c = 0; wanted && c < layers[i].count; c++)
+            names[count++] = layers[i].channels[c];
+    }
+    return lsf_image_create(params->width, params->height, count, names, error);
+}
+
+static lsf_reference_module_function load_module(lsf_error *error)
+{
+    static const char hint[] = "the reference is built where libembree-dev is installed";
+    lsf_error cause;
+    void *module = lsf_module_open(LSF_REFERENCE_MODULE_NAME, hint, &cause);
+    if (module == NULL) {
+        lsf_error_set(error, LSF_ERROR_USAGE, "%s", cause.message);
+        return NULL;
+    }
+    void *symbol = dlsym(module, LSF_REFERENCE_MODULE_ENTRY);
+    if (symbol == NULL) {
+        lsf_error_set(error, LSF_ERROR_USAGE,
+                      "%s.so has no function %s; install library and module of one version",
+                      LSF_REFERENCE_MODULE_NAME, LSF_REFERENCE_MODULE_ENTRY);
+        return NULL;
+    }
+    lsf_reference_module_function function;
+    memcpy(&function, &symbol, sizeof function); /* ISO C has no cast from object to function */
+    return function;
+}
+
+lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params *params,
+                                uint32_t half, lsf_reference_result *result, lsf_error *error)
+{
+    if (!check_params(params, half, error))
+        return NULL;
+    lsf_reference_module_function render = load_module(error);
+    if (render == NULL)
+        return NULL;
+
+    lsf_state state = {0};
+    lsf_reference_job job = {.scene = scene, .state = &state, .params = params, .half = half};
+    lsf_view_params view = {
+        .time = params->time,
+        .camera = params->camera,
+        .position = params->camera_position,
+        .target = params->camera_target,
+        .fov_y = params->fov_y,
+        .aspect = (float)params->width / (float)params->height,
+    };
+    bool ok = lsf_state_update(&state, scene, &view, error);
+    if (ok) {
+        job.image = create_image(params, &job, error);
+        ok = job.image != NULL && render(&job, error);
+    }
+    lsf_state_finish(&state);
+    if (!ok) {
+        lsf_image_destroy(job.image);
+        return NULL;
+    }
+    if (result != NULL)
+        *result = job.result;
+    return job.image;
+}

@@ -1,0 +1,45 @@
+/* What a hit point is made of. */
+#ifndef LSF_REFERENCE_SURFACE_H
+#define LSF_REFERENCE_SURFACE_H
+
+#include "math/vector.h"
+#include "reference/geometry.h"
+
+/* A shading point, seen from one side. Directions are unit and in normalised space. */
+typedef struct lsf_reference_surface {
+    lsf_float3 position;
+    lsf_float3 geometric_normal; /* towards the viewer */
+    lsf_basis frame;             /* shading normal in n, turned to the same side; t along the
+                                  * anisotropy's direction */
+    float ray_offset;            /* along geometric_normal, for rays that leave the surface */
+    lsf_float3 view;             /* towards the viewer */
+    lsf_float3 emission;         /* radiance towards the viewer */
+    bool reflects;               /* false: unlit, it only emits */
+    bool specular;               /* has the GGX lobe */
+    lsf_float3 base_color;
+    float metallic;
+    float alpha_t, alpha_b; /* GGX, along and across frame.t */
+    float f0_dielectric;
+} lsf_reference_surface;
+
+/* `direction` is the ray's, unit. */
+void lsf_reference_surface_init(lsf_reference_surface *surface,
+                                const lsf_reference_geometry *geometry,
+                                const lsf_reference_hit *hit, lsf_float3 direction);
+
+/* Whether an alpha mask cuts the hit point out. */
+bool lsf_reference_cut_out(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit);
+
+/* Radiance that leaves the hit point on the front side, or on the back; 0 where it is cut out.
+ * An unlit material emits its base colour on both. */
+lsf_float3 lsf_reference_emission(const lsf_reference_geometry *geometry,
+                                  const lsf_reference_hit *hit, bool front);
+
+/* Whether the material can emit at all. */
+bool lsf_reference_material_emits(const lsf_material *material);
+
+/* Unit normal of a triangle's front, or 0 when it has no area; `area` receives its area. */
+lsf_float3 lsf_reference_triangle_normal(const lsf_reference_geometry *geometry, uint32_t instance,
+                                         const lsf_float3 corners[3], float *area);
+
+#endif
