@@ -62,6 +62,11 @@ typedef struct lsf_image_save_params {
 bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_save_params *params,
                     lsf_error *error);
 
+/* Writes 8-bit sRGB pixels as PNG: `width` * `height` * 3 bytes, rows from the top, as
+ * lsf_renderer_read_rgb8 gives them. Written aside and renamed; path "-" is standard output. */
+bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,
+                         lsf_error *error);
+
 /* Removes what lsf_image_save is writing aside at this moment, in any thread. Async-signal-safe:
  * for the handler of a signal that ends the process. */
 void lsf_image_save_abort(void);

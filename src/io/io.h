@@ -28,11 +28,6 @@ bool lsf_texture_image_decode(lsf_texture_image *image, const void *bytes, size_
 bool lsf_environment_load(lsf_environment *environment, const char *path, uint64_t *repaired,
                           lsf_error *error);
 
-/* Writes 8-bit sRGB pixels, 3 bytes each, rows from the top, as PNG; for pictures that were
- * tone-mapped on the GPU. Written aside and renamed; path "-" is standard output. */
-bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,
-                         lsf_error *error);
-
 /* Largest width or height of any image that is read or written, and most bytes of one decoded. */
 #define LSF_IMAGE_MAX_SIZE 65535u
 #define LSF_IMAGE_MAX_BYTES ((uint64_t)2 << 30)

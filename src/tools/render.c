@@ -15,7 +15,6 @@ typedef struct render_job {
     lsf_scene *scene;
     lsf_context *context;
     lsf_renderer *renderer;
-    lsf_image *image;
     lsf_progress_bar bar;
     lsf_renderer_stats stats;
     double start;
@@ -53,6 +52,7 @@ static bool converge(render_job *job, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(&job->settings);
     job->bar = (lsf_progress_bar){.label = "render", .time_limit = params.time_limit};
+    params.rgb8 = job->destination.format == LSF_IMAGE_FORMAT_PNG;
     params.progress = on_progress;
     params.progress_user = &job->bar;
     job->renderer = lsf_renderer_create(job->context, job->scene, &params, error);
@@ -66,6 +66,27 @@ static bool converge(render_job *job, lsf_error *error)
     return good && lsf_context_check(job->context, error);
 }
 
+static bool save_float(render_job *job, lsf_error *error)
+{
+    lsf_image *image = lsf_renderer_read(job->renderer, error);
+    bool good = image && lsf_destination_save(&job->destination, -1, image, error);
+    lsf_image_destroy(image);
+    return good;
+}
+
+/* Tone-mapped on the GPU: only the bytes of the file come back. */
+static bool save_rgb8(render_job *job, lsf_error *error)
+{
+    uint32_t width = job->settings.resolution[0], height = job->settings.resolution[1];
+    uint8_t *rgb = lsf_alloc((uint64_t)width * height, 3);
+    bool good = rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left",
+                                     job->destination.path);
+    good = good && lsf_renderer_read_rgb8(job->renderer, job->settings.exposure, rgb, error) &&
+           lsf_image_save_rgb8(rgb, width, height, job->destination.path, error);
+    free(rgb);
+    return good;
+}
+
 static bool save(render_job *job, lsf_error *error)
 {
     if (lsf_interrupted() && (!job->settings.keep_partial || job->stats.samples == 0))
@@ -76,8 +97,8 @@ static bool save(render_job *job, lsf_error *error)
                                  ? ""
                                  : " (--keep-partial saves what has converged)");
     double start = lsf_now();
-    job->image = lsf_renderer_read(job->renderer, error);
-    bool good = job->image && lsf_destination_save(&job->destination, -1, job->image, error);
+    bool good = job->destination.format == LSF_IMAGE_FORMAT_PNG ? save_rgb8(job, error)
+                                                                : save_float(job, error);
     job->save_seconds = lsf_now() - start;
     return good;
 }
@@ -96,8 +117,8 @@ static bool report(render_job *job, lsf_error *error)
         {"total", total},
     };
     lsf_report_line("%s: %ux%u, %u samples%s of %s, rendered in %.2f s of %.2f s on %s",
-                    job->destination.path, job->image->width, job->image->height,
-                    job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
+                    job->destination.path, job->settings.resolution[0],
+                    job->settings.resolution[1], job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
                     job->settings.technique, job->stats.render_seconds, total, device.renderer);
     lsf_summary summary = {
         .settings = &job->settings,
@@ -118,7 +139,6 @@ static bool report(render_job *job, lsf_error *error)
 
 static void finish(render_job *job)
 {
-    lsf_image_destroy(job->image);
     lsf_renderer_destroy(job->renderer);
     lsf_context_destroy(job->context);
     lsf_scene_destroy(job->scene);
