@@ -43,10 +43,6 @@ static bool check_params(const lsf_render_params *params, uint32_t half, lsf_err
         return lsf_error_set(error, LSF_ERROR_USAGE, "--samples 0: at least 1 is needed");
     if (half > 1)
         return lsf_error_set(error, LSF_ERROR_USAGE, "there is no half %u, only 0 and 1", half);
-    if (params->aovs & LSF_AOV_MOTION)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--aov motion: the reference shows one instant and knows no motion; "
-                             "leave it out");
     return true;
 }
 
@@ -63,6 +59,14 @@ static lsf_image *create_image(const lsf_render_params *params, lsf_reference_jo
             names[count++] = layers[i].channels[c];
     }
     return lsf_image_create(params->width, params->height, count, names, error);
+}
+
+/* `--aov all` asks for motion too, which a single instant does not have. */
+static void warn_of_motion(const lsf_render_params *params)
+{
+    if (params->aovs & LSF_AOV_MOTION)
+        lsf_log(LSF_LOG_WARNING, "--aov motion: the reference shows one instant and has no such "
+                                 "layer; it is left out");
 }
 
 static lsf_reference_module_function load_module(lsf_error *error)
@@ -91,6 +95,7 @@ lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params 
 {
     if (!check_params(params, half, error))
         return NULL;
+    warn_of_motion(params);
     lsf_reference_module_function render = load_module(error);
     if (render == NULL)
         return NULL;
