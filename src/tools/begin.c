@@ -38,8 +38,7 @@ int lsf_tool_begin(lsf_settings *settings, lsf_command_bit command, int argc, ch
     lsf_string text = {0};
     int status = LSF_GO_ON;
     if (add_answer(&text, settings))
-        status = lsf_file_write("-", text.text, text.length, &error) ? 0
-                                                                     : lsf_report_error(&error);
+        status = lsf_file_write("-", text.text, text.length, &error) ? 0 : lsf_report_error(&error);
     free(text.text);
     return status;
 }

@@ -39,9 +39,9 @@ int lsf_tool_help(int argc, char **argv)
     int status = lsf_tool_begin(&settings, LSF_COMMAND_HELP, argc, argv);
     if (status == LSF_GO_ON) {
         lsf_string text = {0};
-        bool good = add_help(&text, settings.operands.count ? settings.operands.items[0] : NULL,
-                             &error) &&
-                    lsf_file_write("-", text.text, text.length, &error);
+        bool good =
+            add_help(&text, settings.operands.count ? settings.operands.items[0] : NULL, &error) &&
+            lsf_file_write("-", text.text, text.length, &error);
         status = good ? 0 : lsf_report_error(&error);
         free(text.text);
     }

@@ -77,8 +77,7 @@ static void add_option(lsf_string *text, const lsf_command_option *option)
 
 void lsf_help_command(lsf_string *text, const lsf_command *command)
 {
-    lsf_string_add(text, "Usage: lightsheaf %s %s [OPTION]...\n", command->name,
-                   command->operands);
+    lsf_string_add(text, "Usage: lightsheaf %s %s [OPTION]...\n", command->name, command->operands);
     add_wrapped(text, command->text, 0, 0);
     const char *group = NULL;
     for (size_t i = 0; lsf_command_option_at(i); i++) {
@@ -95,8 +94,7 @@ void lsf_help_command(lsf_string *text, const lsf_command *command)
 void lsf_help_pass_options(lsf_string *text)
 {
     lsf_option option;
-    lsf_string_add(text, "%-28s%-7s%-24s%-12s%s\n", "option", "type", "range", "default",
-                   "effect");
+    lsf_string_add(text, "%-28s%-7s%-24s%-12s%s\n", "option", "type", "range", "default", "effect");
     for (uint32_t i = 0; lsf_option_list(i, &option); i++) {
         const char *unit = option.unit ? option.unit : "";
         lsf_string_add(text, "%-27s %-6s %-23s %-11s ", option.key, option.type, option.range,

@@ -11,10 +11,10 @@ typedef struct lsf_json {
 } lsf_json;
 
 /* `name` NULL: an element of an array, or the whole text. */
-void lsf_json_begin(lsf_json *json, const char *name, char bracket); /* '{' or '[' */
-void lsf_json_end(lsf_json *json, char bracket);                     /* '}' or ']' */
+void lsf_json_begin(lsf_json *json, const char *name, char bracket);       /* '{' or '[' */
+void lsf_json_end(lsf_json *json, char bracket);                           /* '}' or ']' */
 void lsf_json_string(lsf_json *json, const char *name, const char *value); /* NULL: null */
-void lsf_json_number(lsf_json *json, const char *name, double value); /* not finite: null */
+void lsf_json_number(lsf_json *json, const char *name, double value);      /* not finite: null */
 void lsf_json_integer(lsf_json *json, const char *name, uint64_t value);
 void lsf_json_bool(lsf_json *json, const char *name, bool value);
 /* A short array on one line; `values` NULL: null. */

@@ -97,8 +97,8 @@ static size_t edits_between(const char *a, size_t a_length, const char *b, size_
         size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *two_above = rows[(i + 1) % 3];
         row[0] = i;
         for (size_t j = 1; j <= b_length; j++) {
-            size_t best = above[j - 1] + (tolower((unsigned char)a[i - 1]) !=
-                                          tolower((unsigned char)b[j - 1]));
+            size_t best = above[j - 1] +
+                          (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
             if (above[j] + 1 < best)
                 best = above[j] + 1;
             if (row[j - 1] + 1 < best)
@@ -112,8 +112,7 @@ static size_t edits_between(const char *a, size_t a_length, const char *b, size_
     return rows[a_length % 3][b_length];
 }
 
-const char *lsf_nearest(const char *text, const char *(*next)(size_t index, void *user),
-                        void *user)
+const char *lsf_nearest(const char *text, const char *(*next)(size_t index, void *user), void *user)
 {
     size_t length = strlen(text);
     if (length == 0 || length > LONGEST)

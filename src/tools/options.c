@@ -53,7 +53,8 @@ static const lsf_command_option options[] = {
      "where the picture goes, its format by the ending: .exr (32-bit float, linear radiance, with "
      "the layers of --aov), .hdr (RGBE), .png (tone-mapped, 8-bit sRGB); - is standard output"},
     {"format", 0, "FORMAT", RENDERING, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
-     0, "exr|hdr|png", NULL, "the format, whatever the ending of OUT; standard output is exr without it"},
+     0, "exr|hdr|png", NULL,
+     "the format, whatever the ending of OUT; standard output is exr without it"},
     {"exposure", 0, "EV", PICTURES, "Output", LSF_VALUE_FLOAT, AT(exposure), -100, 100, NULL, "0",
      "radiance is multiplied by 2^EV before tone mapping; float formats hold radiance as it is"},
     {"aov", 0, "LIST", PLANNING, "Output", LSF_VALUE_AOVS, AT(aovs), 0, 0, NULL, NULL,
@@ -82,8 +83,8 @@ static const lsf_command_option options[] = {
      "indirect bounces of light; 0 is direct light only"},
     {"seed", 0, "N", PLANNING, "Picture", LSF_VALUE_SEED, AT(seed), 0, 0, NULL, "0",
      "start of the random numbers: the same seed gives the same bits"},
-    {"define", 'D', "pass.key=value", PLANNING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,
-     NULL, "set an option of a pass; repeatable; see --list-options"},
+    {"define", 'D', "pass.key=value", PLANNING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0,
+     NULL, NULL, "set an option of a pass; repeatable; see --list-options"},
 
     {"camera", 'c', "NAME|INDEX", PLANNING, "Camera", LSF_VALUE_TEXT, AT(camera), 0, 0, NULL, NULL,
      "a camera of the scene, by name or by index from 0; without it, the first"},

@@ -22,8 +22,8 @@ typedef struct lsf_command {
     const char *name;
     const char *operands; /* "[SCENE]" */
     uint32_t operands_min, operands_max;
-    const char *summary;  /* one line */
-    const char *text;     /* a paragraph */
+    const char *summary; /* one line */
+    const char *text;    /* a paragraph */
 } lsf_command;
 
 /* NULL past the end. */
@@ -55,11 +55,11 @@ typedef struct lsf_command_option {
     unsigned commands;    /* lsf_command_bit of the commands that take it */
     const char *group;    /* heading in --help; rows of a group follow each other */
     lsf_value_type type;
-    size_t offset;        /* in lsf_settings */
+    size_t offset; /* in lsf_settings */
     double minimum, maximum;
-    const char *choices;  /* "auto|egl|osmesa" */
-    const char *initial;  /* the default as one would type it; NULL: none */
-    const char *help;     /* effect, unit */
+    const char *choices; /* "auto|egl|osmesa" */
+    const char *initial; /* the default as one would type it; NULL: none */
+    const char *help;    /* effect, unit */
 } lsf_command_option;
 
 /* NULL past the end. */
@@ -68,7 +68,8 @@ const lsf_command_option *lsf_command_option_at(size_t index);
 /* What an option accepts, in words, for messages: "a whole number in 1..65535". */
 char *lsf_command_option_range(const lsf_command_option *option); /* malloc'ed */
 
-/* --- values ------------------------------------------------------------------------------------ */
+/* --- values ------------------------------------------------------------------------------------
+ */
 
 typedef struct lsf_vector_setting {
     bool given;
@@ -94,15 +95,15 @@ typedef struct lsf_settings {
     bool print_json;       /* info, plan, compare: JSON on stdout */
     const char *json_path; /* render, reference; NULL: none */
 
-    const char *output;    /* NULL: not given */
-    int format;            /* lsf_image_format */
-    float exposure;        /* EV */
+    const char *output; /* NULL: not given */
+    int format;         /* lsf_image_format */
+    float exposure;     /* EV */
     bool keep_partial, halves;
 
     const char *technique;
     uint32_t resolution[2];
-    uint32_t samples;      /* 0: not given */
-    double time_limit;     /* seconds; infinity: none */
+    uint32_t samples;  /* 0: not given */
+    double time_limit; /* seconds; infinity: none */
     uint32_t bounces;
     uint64_t seed;
     uint32_t aovs;
@@ -110,26 +111,27 @@ typedef struct lsf_settings {
 
     const char *camera;
     lsf_vector_setting camera_position, camera_target; /* scene units */
-    float fov_y;           /* degrees; NAN: the camera's own */
-    double time;           /* seconds */
+    float fov_y;                                       /* degrees; NAN: the camera's own */
+    double time;                                       /* seconds */
 
     lsf_environment_setting environment;
     bool diffuse_only;
 
-    int backend;           /* lsf_backend */
+    int backend; /* lsf_backend */
     const char *shader_dir;
     bool gl_debug;
 
     const char *mask, *difference;
     float difference_gain;
-    double epsilon;        /* NAN: relative to the reference's mean */
+    double epsilon; /* NAN: relative to the reference's mean */
     lsf_list_setting thresholds;
 
-    uint64_t given[2];     /* bit i of word i / 64: row i of the table was on the command line */
+    uint64_t given[2]; /* bit i of word i / 64: row i of the table was on the command line */
 } lsf_settings;
 
 /* Defaults, then the command line; argv[0] is the command's name. `settings` needs no
- * initialisation and is to be finished either way. LSF_ERROR_USAGE names option, value and range. */
+ * initialisation and is to be finished either way. LSF_ERROR_USAGE names option, value and range.
+ */
 bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit command, int argc, char **argv,
                         lsf_error *error);
 void lsf_settings_finish(lsf_settings *settings);

@@ -91,8 +91,8 @@ static bool check_json(const lsf_destination *destination, const char *json, lsf
 {
     bool same = strcmp(json, destination->path) == 0;
     for (int half = 0; half < 2; half++)
-        same = same || (destination->half_paths[half] &&
-                        strcmp(json, destination->half_paths[half]) == 0);
+        same = same ||
+               (destination->half_paths[half] && strcmp(json, destination->half_paths[half]) == 0);
     if (same)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--json %s: the picture goes there; give it another place", json);

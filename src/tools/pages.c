@@ -8,9 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- man page ---------------------------------------------------------------------------------- */
+/* --- man page ----------------------------------------------------------------------------------
+ */
 
-/* Dashes that are typed, and backslashes, are escaped; a leading dot or quote would be a request. */
+/* Dashes that are typed, and backslashes, are escaped; a leading dot or quote would be a request.
+ */
 static void add_roff(lsf_string *page, const char *text)
 {
     if (*text == '.' || *text == '\'')
@@ -46,8 +48,9 @@ static void add_man_option(lsf_string *page, const lsf_command_option *option)
 
 static void add_man(lsf_string *page)
 {
-    lsf_string_add(page, ".TH LIGHTSHEAF 1 \"\" \"Lightsheaf %d.%d.%d\"\n.SH NAME\n"
-                         "lightsheaf \\- global illumination by rasterisation\n.SH SYNOPSIS\n",
+    lsf_string_add(page,
+                   ".TH LIGHTSHEAF 1 \"\" \"Lightsheaf %d.%d.%d\"\n.SH NAME\n"
+                   "lightsheaf \\- global illumination by rasterisation\n.SH SYNOPSIS\n",
                    LSF_VERSION_MAJOR, LSF_VERSION_MINOR, LSF_VERSION_PATCH);
     for (size_t i = 0; lsf_command_at(i); i++) {
         lsf_string_add(page, "%s.B lightsheaf %s\n", i ? ".br\n" : "", lsf_command_at(i)->name);
@@ -85,7 +88,8 @@ static void add_man(lsf_string *page)
                          "lightsheaf compare atrium.exr truth_a.exr truth_b.exr\n.fi\n");
 }
 
-/* --- shell completion -------------------------------------------------------------------------- */
+/* --- shell completion --------------------------------------------------------------------------
+ */
 
 /* Single quotes end a quoted word in every shell; the table has none, and this keeps it so. */
 static void add_quoted(lsf_string *page, const char *text)
@@ -164,8 +168,7 @@ static void add_bash(lsf_string *page)
                          "        else\n            compopt -o default\n        fi\n"
                          "        return\n    fi\n    case ${COMP_WORDS[1]} in\n");
     for (size_t i = 0; lsf_command_at(i); i++) {
-        lsf_string_add(page, "    %s)\n        COMPREPLY=($(compgen -W '",
-                       lsf_command_at(i)->name);
+        lsf_string_add(page, "    %s)\n        COMPREPLY=($(compgen -W '", lsf_command_at(i)->name);
         const char *space = "";
         for (size_t j = 0; lsf_command_option_at(j); j++) {
             if (!(lsf_command_option_at(j)->commands & lsf_command_at(i)->bit))
@@ -191,8 +194,7 @@ static void add_fish(lsf_string *page)
             const lsf_command_option *option = lsf_command_option_at(j);
             if (!(option->commands & command->bit))
                 continue;
-            lsf_string_add(page,
-                           "complete -c lightsheaf -n '__fish_seen_subcommand_from %s' -l %s",
+            lsf_string_add(page, "complete -c lightsheaf -n '__fish_seen_subcommand_from %s' -l %s",
                            command->name, option->name);
             if (option->letter)
                 lsf_string_add(page, " -s %c", option->letter);
@@ -210,13 +212,15 @@ static void add_fish(lsf_string *page)
     }
 }
 
-/* --- docs/command.md --------------------------------------------------------------------------- */
+/* --- docs/command.md ---------------------------------------------------------------------------
+ */
 
 static void add_markdown(lsf_string *page)
 {
     for (size_t i = 0; lsf_command_at(i); i++) {
         const lsf_command *command = lsf_command_at(i);
-        lsf_string_add(page, "%s### `lightsheaf %s %s`\n\n%s\n\n| option | effect |\n| --- | --- |\n",
+        lsf_string_add(page,
+                       "%s### `lightsheaf %s %s`\n\n%s\n\n| option | effect |\n| --- | --- |\n",
                        i ? "\n" : "", command->name, command->operands, command->text);
         for (size_t j = 0; lsf_command_option_at(j); j++) {
             const lsf_command_option *option = lsf_command_option_at(j);
@@ -249,7 +253,8 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*add)(lsf_string *page);
-    } pages[] = {{"man", add_man}, {"bash", add_bash}, {"fish", add_fish}, {"markdown", add_markdown}};
+    } pages[] = {
+        {"man", add_man}, {"bash", add_bash}, {"fish", add_fish}, {"markdown", add_markdown}};
     for (size_t i = 0; argc == 2 && i < LSF_COUNT(pages); i++) {
         if (strcmp(argv[1], pages[i].name) != 0)
             continue;

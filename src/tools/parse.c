@@ -25,7 +25,8 @@ static bool append(lsf_list_setting *list, const char *item)
     return true;
 }
 
-/* --- one value --------------------------------------------------------------------------------- */
+/* --- one value ---------------------------------------------------------------------------------
+ */
 
 static bool bad_value(const lsf_command_option *option, const char *text, const char *meant,
                       lsf_error *error)
@@ -82,8 +83,7 @@ static bool set_resolution(uint32_t *place, const lsf_command_option *option, co
     width[length] = '\0';
     uint64_t most = (uint64_t)option->maximum;
     if (!lsf_parse_integer(width, most, &values[0]) ||
-        !lsf_parse_integer(text + length + 1, most, &values[1]) || values[0] == 0 ||
-        values[1] == 0)
+        !lsf_parse_integer(text + length + 1, most, &values[1]) || values[0] == 0 || values[1] == 0)
         return false;
     place[0] = (uint32_t)values[0];
     place[1] = (uint32_t)values[1];
@@ -235,7 +235,8 @@ static bool set_value(lsf_settings *settings, const lsf_command_option *option, 
     return good || bad_value(option, text, NULL, error);
 }
 
-/* --- the command line -------------------------------------------------------------------------- */
+/* --- the command line --------------------------------------------------------------------------
+ */
 
 static const lsf_command_option *find_by_letter(const lsf_command *command, int letter)
 {
@@ -311,8 +312,7 @@ static bool bad_argument(const lsf_command_option *option, bool missing, lsf_err
         lsf_error_set(error, LSF_ERROR_USAGE, "--%s: needs a value: %s", option->name,
                       range ? range : option->argument);
     else
-        lsf_error_set(error, LSF_ERROR_USAGE, "--%s: takes no value; write it alone",
-                      option->name);
+        lsf_error_set(error, LSF_ERROR_USAGE, "--%s: takes no value; write it alone", option->name);
     free(range);
     return false;
 }
@@ -437,7 +437,8 @@ bool lsf_settings_given(const lsf_settings *settings, const char *name)
     return false;
 }
 
-/* --- what the library takes -------------------------------------------------------------------- */
+/* --- what the library takes --------------------------------------------------------------------
+ */
 
 lsf_render_params lsf_settings_render_params(const lsf_settings *settings)
 {

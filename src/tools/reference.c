@@ -57,10 +57,8 @@ static bool trace(reference_job *job, lsf_error *error)
     lsf_interrupt_begin_iterations();
     bool good = true;
     for (uint32_t half = 0; good && half < job->half_count && !lsf_interrupted(); half++) {
-        job->bar = (lsf_progress_bar){
-            .label = job->half_count == 1 ? "reference" : half ? "half b" : "half a",
-            .time_limit = params.time_limit,
-        };
+        const char *label = job->half_count == 1 ? "reference" : half ? "half b" : "half a";
+        lsf_progress_bar_start(&job->bar, label, params.samples, params.time_limit);
         job->halves[half] =
             lsf_reference_render(job->scene, &params, half, &job->results[half], error);
         good = job->halves[half] != NULL;
@@ -101,11 +99,9 @@ static bool save(reference_job *job, lsf_error *error)
 {
     uint32_t samples = job->results[0].samples + job->results[1].samples;
     if (lsf_interrupted() && (!job->settings.keep_partial || samples == 0))
-        return lsf_error_set(error, LSF_ERROR_RENDER,
-                             "interrupted after %u samples; nothing was written%s", samples,
-                             job->settings.keep_partial
-                                 ? ""
-                                 : " (--keep-partial saves what has converged)");
+        return lsf_error_set(
+            error, LSF_ERROR_RENDER, "interrupted after %u samples; nothing was written%s", samples,
+            job->settings.keep_partial ? "" : " (--keep-partial saves what has converged)");
     double start = lsf_now();
     bool good;
     if (job->half_count == 2 && job->results[1].samples > 0) {
@@ -115,8 +111,9 @@ static bool save(reference_job *job, lsf_error *error)
                lsf_destination_save(&job->destination, -1, job->mean, error);
     } else {
         if (job->half_count == 2)
-            lsf_log(LSF_LOG_WARNING, "interrupted before the second half: %s holds the first, and "
-                                     "no halves were written",
+            lsf_log(LSF_LOG_WARNING,
+                    "interrupted before the second half: %s holds the first, and "
+                    "no halves were written",
                     job->destination.path);
         good = lsf_destination_save(&job->destination, -1, job->halves[0], error);
     }
@@ -139,7 +136,8 @@ static bool report(reference_job *job, lsf_error *error)
     lsf_report_line("%s: %ux%u, %u samples%s, traced in %.2f s of %.2f s, %.1f million rays",
                     job->destination.path, job->halves[0]->width, job->halves[0]->height, samples,
                     lsf_interrupted() ? " (interrupted)" : "",
-                    a->render_seconds + b->render_seconds, total, 1e-6 * (double)(a->rays + b->rays));
+                    a->render_seconds + b->render_seconds, total,
+                    1e-6 * (double)(a->rays + b->rays));
     lsf_summary summary = {
         .settings = &job->settings,
         .scene = job->scene,

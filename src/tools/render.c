@@ -51,7 +51,6 @@ static bool start_gl(render_job *job, lsf_error *error)
 static bool converge(render_job *job, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(&job->settings);
-    job->bar = (lsf_progress_bar){.label = "render", .time_limit = params.time_limit};
     params.rgb8 = job->destination.format == LSF_IMAGE_FORMAT_PNG;
     params.progress = on_progress;
     params.progress_user = &job->bar;
@@ -59,6 +58,7 @@ static bool converge(render_job *job, lsf_error *error)
     if (!job->renderer)
         return false;
     lsf_interrupt_begin_iterations();
+    lsf_progress_bar_start(&job->bar, "render", params.samples, params.time_limit);
     bool good = lsf_renderer_run(job->renderer, error);
     lsf_interrupt_end_iterations();
     lsf_progress_bar_clear();
@@ -79,8 +79,8 @@ static bool save_rgb8(render_job *job, lsf_error *error)
 {
     uint32_t width = job->settings.resolution[0], height = job->settings.resolution[1];
     uint8_t *rgb = lsf_alloc((uint64_t)width * height, 3);
-    bool good = rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left",
-                                     job->destination.path);
+    bool good =
+        rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination.path);
     good = good && lsf_renderer_read_rgb8(job->renderer, job->settings.exposure, rgb, error) &&
            lsf_image_save_rgb8(rgb, width, height, job->destination.path, error);
     free(rgb);
@@ -90,12 +90,10 @@ static bool save_rgb8(render_job *job, lsf_error *error)
 static bool save(render_job *job, lsf_error *error)
 {
     if (lsf_interrupted() && (!job->settings.keep_partial || job->stats.samples == 0))
-        return lsf_error_set(error, LSF_ERROR_RENDER,
-                             "interrupted after %u samples; nothing was written%s",
-                             job->stats.samples,
-                             job->settings.keep_partial
-                                 ? ""
-                                 : " (--keep-partial saves what has converged)");
+        return lsf_error_set(
+            error, LSF_ERROR_RENDER, "interrupted after %u samples; nothing was written%s",
+            job->stats.samples,
+            job->settings.keep_partial ? "" : " (--keep-partial saves what has converged)");
     double start = lsf_now();
     bool good = job->destination.format == LSF_IMAGE_FORMAT_PNG ? save_rgb8(job, error)
                                                                 : save_float(job, error);
@@ -117,8 +115,8 @@ static bool report(render_job *job, lsf_error *error)
         {"total", total},
     };
     lsf_report_line("%s: %ux%u, %u samples%s of %s, rendered in %.2f s of %.2f s on %s",
-                    job->destination.path, job->settings.resolution[0],
-                    job->settings.resolution[1], job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
+                    job->destination.path, job->settings.resolution[0], job->settings.resolution[1],
+                    job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
                     job->settings.technique, job->stats.render_seconds, total, device.renderer);
     lsf_summary summary = {
         .settings = &job->settings,

@@ -80,14 +80,19 @@ static void format_duration(char *text, size_t size, double seconds)
         snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
+void lsf_progress_bar_start(lsf_progress_bar *bar, const char *label, uint32_t total,
+                            double time_limit)
+{
+    *bar = (lsf_progress_bar){.label = label, .time_limit = time_limit, .start = lsf_now()};
+    lsf_progress_bar_draw(bar, 0, total);
+}
+
 void lsf_progress_bar_draw(lsf_progress_bar *bar, uint32_t done, uint32_t total)
 {
     enum { WIDTH = 30 };
     if (verbosity == LSF_VERBOSITY_QUIET || !isatty(STDERR_FILENO))
         return;
     double now = lsf_now();
-    if (bar->start == 0)
-        bar->start = now;
     if (now - bar->drawn < 0.1) /* seconds between two pictures of the bar */
         return;
     bar->drawn = now;

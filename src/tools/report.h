@@ -22,10 +22,13 @@ void lsf_report_line(const char *format, ...) __attribute__((format(printf, 1, 2
 /* A bar with the time left, drawn only when stderr is a terminal and the command is not quiet. */
 typedef struct lsf_progress_bar {
     const char *label;
-    double time_limit;  /* seconds; infinity: none */
-    double start, drawn; /* lsf_now(); start 0: at the first call */
+    double time_limit;   /* seconds; infinity: none */
+    double start, drawn; /* lsf_now() */
 } lsf_progress_bar;
 
+/* Draws an empty bar and starts its clock. */
+void lsf_progress_bar_start(lsf_progress_bar *bar, const char *label, uint32_t total,
+                            double time_limit);
 /* `done` of `total` iterations; `total` UINT32_MAX: as many as the time limit allows. */
 void lsf_progress_bar_draw(lsf_progress_bar *bar, uint32_t done, uint32_t total);
 void lsf_progress_bar_clear(void);

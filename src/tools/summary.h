@@ -1,4 +1,5 @@
-/* What a rendering was and took, as the JSON that --json asks for; docs/command.md has the schema. */
+/* What a rendering was and took, as the JSON that --json asks for; docs/command.md has the schema.
+ */
 #ifndef LSF_TOOLS_SUMMARY_H
 #define LSF_TOOLS_SUMMARY_H
 
@@ -19,10 +20,10 @@ typedef struct lsf_summary {
     bool interrupted;
     const lsf_summary_seconds *seconds;
     uint32_t seconds_count;
-    const lsf_context_info *device;    /* NULL: the reference */
-    const lsf_renderer_stats *stats;   /* NULL: the reference */
+    const lsf_context_info *device;  /* NULL: the reference */
+    const lsf_renderer_stats *stats; /* NULL: the reference */
     uint64_t plan_bytes;
-    uint64_t rays;                     /* the reference */
+    uint64_t rays; /* the reference */
 } lsf_summary;
 
 /* To settings->json_path, when there is one. */

@@ -60,7 +60,8 @@ def write_scene(path, emissive=False, light=True, camera=True, animated=False, n
     positions = struct.pack("<12f", -.5, -.5, 0, .5, -.5, 0, .5, .5, 0, -.5, .5, 0)
     indices = struct.pack("<6H", 0, 1, 2, 0, 2, 3)
     times = struct.pack("<2f6f", 0, 1, 0, 0, 0, 0.25, 0, 0)
-    data = positions + indices + times
+    normals = 4 * struct.pack("<3f", 0, 0, 1)
+    data = positions + indices + times + normals
     uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     material = {"pbrMetallicRoughness": {"baseColorFactor": [.8, .6, .4, 1], "metallicFactor": 0,
                                          "roughnessFactor": 1}}
@@ -71,16 +72,19 @@ def write_scene(path, emissive=False, light=True, camera=True, animated=False, n
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 2}, "indices": 1,
+                                    "material": 0}]}],
         "materials": [material],
         "buffers": [{"byteLength": len(data), "uri": uri}],
         "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48},
                         {"buffer": 0, "byteOffset": 48, "byteLength": 12},
-                        {"buffer": 0, "byteOffset": 60, "byteLength": 32}],
+                        {"buffer": 0, "byteOffset": 60, "byteLength": 32},
+                        {"buffer": 0, "byteOffset": 92, "byteLength": 48}],
         "accessors": [
             {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
              "min": [-.5, -.5, 0], "max": [.5, .5, 0]},
-            {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+            {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+            {"bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC3"}],
     }
 
     def add_node(node):
@@ -102,7 +106,7 @@ def write_scene(path, emissive=False, light=True, camera=True, animated=False, n
             {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR",
              "min": [0], "max": [1]},
             {"bufferView": 2, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"}]
-        scene["animations"] = [{"samplers": [{"input": 2, "output": 3}],
+        scene["animations"] = [{"samplers": [{"input": 3, "output": 4}],
                                 "channels": [{"sampler": 0,
                                               "target": {"node": 0, "path": "translation"}}]}]
     with open(path, "w", encoding="utf-8") as file:

@@ -112,7 +112,7 @@ class Refusals(CommandTest):
             os.close(theirs)
 
     def test_unknown_camera(self):
-        self.refuse("render", self.scene(), "-o", "a.exr", "--camera", "Back", says=["Back", "Front"])
+        self.refuse("render", self.scene(), "-o", "a.exr", "--camera", "Back", says=["Back", "info"])
         self.refuse("plan", self.scene(), "--technique", "dirct", says=["did you mean direct?"])
 
     def test_every_error_is_one_line(self):

@@ -171,14 +171,29 @@ static void test_order_does_not_matter(void **state)
 {
     (void)state;
     static const char *const words[] = {
-        "scene.gltf",      "-o out.exr",           "--resolution 7,13",
-        "--samples=9",     "--time-limit 2.5",     "-b 3",
-        "-c Cam",          "--seed 18446744073709551615", "--camera-position -1,2,3e-2",
-        "--camera-target 0,-.5,+1", "--fov-y 30",  "--time -1.5",
-        "--exposure -2",   "--aov depth,albedo",   "--json -",
-        "--diffuse-only",  "--keep-partial",       "--gl-debug",
-        "--backend osmesa", "--shader-dir glsl",   "--format exr",
-        "-e 1,.5,0.25",    "--technique direct",
+        "scene.gltf",
+        "-o out.exr",
+        "--resolution 7,13",
+        "--samples=9",
+        "--time-limit 2.5",
+        "-b 3",
+        "-c Cam",
+        "--seed 18446744073709551615",
+        "--camera-position -1,2,3e-2",
+        "--camera-target 0,-.5,+1",
+        "--fov-y 30",
+        "--time -1.5",
+        "--exposure -2",
+        "--aov depth,albedo",
+        "--json -",
+        "--diffuse-only",
+        "--keep-partial",
+        "--gl-debug",
+        "--backend osmesa",
+        "--shader-dir glsl",
+        "--format exr",
+        "-e 1,.5,0.25",
+        "--technique direct",
     };
     enum { COUNT = LSF_COUNT(words) };
     for (size_t shift = 0; shift < COUNT; shift++) {
@@ -330,8 +345,8 @@ static void test_numbers(void **state)
 {
     (void)state;
     static const char *const good[] = {"0", "-1", "+1.", ".5", "1e3", "1E-3", "-0.0", "00012"};
-    static const char *const bad[] = {"",    " 1",   "1 ",  "0x1p3", "inf",    "-inf", "nan",
-                                      "1e",  "1e+",  ".",   "-",     "1,5",    "1.2.3", "--1",
+    static const char *const bad[] = {"",    " 1",    "1 ",  "0x1p3", "inf",     "-inf",  "nan",
+                                      "1e",  "1e+",   ".",   "-",     "1,5",     "1.2.3", "--1",
                                       "1_0", "1e999", "\t1", "1f",    "infinity"};
     double value;
     for (size_t i = 0; i < LSF_COUNT(good); i++)
