@@ -166,6 +166,19 @@ static void for_each_sparse(const gltf_import &import, const tinygltf::Accessor 
     }
 }
 
+/* Element count and bounds of every accessor, before any memory is taken for one. */
+void accessors_check(const gltf_import &import)
+{
+    for (size_t i = 0; i < import.model.accessors.size(); i++) {
+        const tinygltf::Accessor &accessor = import.model.accessors[i];
+        uint64_t component = component_size(accessor.componentType);
+        uint64_t width = (uint64_t)tinygltf::GetNumComponentsInType((uint32_t)accessor.type);
+        if (accessor.bufferView >= 0)
+            find_elements(import, accessor.bufferView, accessor.byteOffset, accessor.count,
+                          component * width, component, location_of("accessors", i));
+    }
+}
+
 void accessor_read_floats(const gltf_import &import, int index, std::vector<float> &values)
 {
     const tinygltf::Accessor &accessor = import.model.accessors[(size_t)index];

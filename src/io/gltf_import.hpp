@@ -137,6 +137,8 @@ void gltf_notes_add(gltf_import &import);         /* gltf_notes.cpp */
 /* --- accessors, gltf_accessor.cpp ---------------------------------------------------------------
  */
 
+/* Holds every accessor against its buffer view. */
+void accessors_check(const gltf_import &import);
 /* Appends count * width floats; normalised integers become -1..1 or 0..1. */
 void accessor_read_floats(const gltf_import &import, int accessor, std::vector<float> &values);
 /* Appends unsigned indices of any width; each must be below `limit`. */
