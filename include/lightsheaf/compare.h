@@ -38,8 +38,8 @@ typedef struct lsf_compare_result {
 } lsf_compare_result;
 
 /* Both images need R, G, B and the same size. LSF_ERROR_FILE when they do not match. Against two
- * halves, rmse and relmse are free of their noise (and relmse may be negative); means, bias, SSIM
- * and PSNR are against the halves' mean. When no finite pixel is left the measures are NAN. */
+ * halves, rmse is free of their noise, and relmse nearly so (it divides by the halves' mean, and may
+ * be negative); means, bias, SSIM and PSNR are against the halves' mean. When no finite pixel is left the measures are NAN. */
 bool lsf_compare(const lsf_image *test, const lsf_image *reference,
                  const lsf_compare_params *params, lsf_compare_result *result, lsf_error *error);
 

@@ -79,6 +79,10 @@ bool decode_unguarded(lsf_decoded_image *decoded, const lsf_image_header *header
     OIIO::TypeDesc type = decoded->type == LSF_TEXEL_F32   ? OIIO::TypeFloat
                           : decoded->type == LSF_TEXEL_U16 ? OIIO::TypeUInt16
                                                            : OIIO::TypeUInt8;
+    /* Without a conversion, OpenImageIO reads in place; for one it takes 64 MiB, however small the
+     * picture. */
+    if (spec.format == type && spec.channelformats.empty())
+        type = OIIO::TypeUnknown;
     bool read = input->read_image(0, 0, 0, spec.nchannels, type, decoded->texels);
     /* libjpeg only warns about damaged data; OpenImageIO keeps the warning as a pending error. */
     if (!read || input->has_error())
