@@ -224,7 +224,7 @@ def _shade(mesh, bottom, top, bottom_radius, top_radius, thickness=0.003):
 
 
 def floor_lamp():
-    """The bulb is at y = 1.52."""
+    """The bulb is at y = 1.58, near the top, to light the ceiling."""
     parts = _parts("brass", "shade")
     parts["brass"].lathe([(0, 0), (0.14, 0), (0.14, 0.012), (0.02, 0.025), (0.011, 0.05),
                           (0.011, 1.44), (0.018, 1.45), (0.018, 1.48), (0, 1.48)], 48)

@@ -136,12 +136,12 @@ def _furnish(gltf):
 
 def _light(gltf):
     gltf.light("Sun", "directional", (1.0, 0.84, 0.64), 16.0, direction=(0.76, -0.50, -0.33))
-    gltf.light("Pendant bulb", "point", WARM, 2.2, (-1.5, HEIGHT - 0.98, 1.15))
-    gltf.light("Floor lamp bulb", "point", WARM, 2.2, (0.56, 1.52, -1.86))
-    gltf.light("Ceiling lamp bulb", "point", (1.0, 0.86, 0.68), 3.6, (0.5, HEIGHT - 0.42, 0.7))
-    gltf.light("Picture light", "spot", WARM, 2.6, (-0.85, HEIGHT - 0.05, -1.25),
+    gltf.light("Pendant bulb", "point", WARM, 3.0, (-1.5, HEIGHT - 0.98, 1.15))
+    gltf.light("Floor lamp bulb", "point", WARM, 3.0, (0.56, 1.58, -1.86))
+    gltf.light("Ceiling lamp bulb", "point", (1.0, 0.86, 0.68), 8.0, (0.5, HEIGHT - 0.42, 0.7))
+    gltf.light("Picture light", "spot", WARM, 3.4, (-0.85, HEIGHT - 0.05, -1.25),
                direction=(0, -0.75, -0.66), cones=(12, 36))
-    gltf.light("Shelf light", "spot", WARM, 2.6, (1.5, HEIGHT - 0.05, -1.2),
+    gltf.light("Shelf light", "spot", WARM, 3.4, (1.5, HEIGHT - 0.05, -1.2),
                direction=(0, -0.82, -0.57), cones=(15, 40))
 
 

@@ -1,0 +1,165 @@
+/* lsf_scene_load: a glTF file and an environment become a scene that can be rendered. */
+#include "base/base.h"
+#include "io/io.h"
+#include "scene/hierarchy.h"
+#include "scene/scene.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Coordinates beyond this, in scene units, could overflow a double on their way to the picture. */
+#define COORDINATE_MAX 1e100
+
+/* How far back from the centre a camera that looks along -back must stand for the corner, given
+ * relative to the centre, to lie inside its square field of view. */
+static double distance_for(const double corner[3], const double right[3], const double up[3],
+                           const double back[3], double tangent)
+{
+    double x = 0.0, y = 0.0, z = 0.0;
+    for (int c = 0; c < 3; c++) {
+        x += corner[c] * right[c];
+        y += corner[c] * up[c];
+        z += corner[c] * back[c];
+    }
+    return fmax(fabs(x), fabs(y)) / tangent + z;
+}
+
+/* A three-quarter view from the front (glTF assets face +z), a little from above, of the whole
+ * scene in a square picture or a wider one. */
+static bool add_default_camera(lsf_scene *scene)
+{
+    static const double margin = 1.05;
+    const lsf_requirements *requirements = &scene->requirements;
+    double half[3], largest = 0.0;
+    for (int c = 0; c < 3; c++) {
+        half[c] = 0.5 * (requirements->bounds_max[c] - requirements->bounds_min[c]);
+        largest = fmax(largest, half[c]);
+    }
+    if (!(largest > 0.0)) /* empty, or a point */
+        half[0] = half[1] = half[2] = 1.0;
+
+    double back[3] = {0.48, 0.36, 0.8}; /* unit */
+    double right[3] = {back[2] / hypot(back[0], back[2]), 0.0, -back[0] / hypot(back[0], back[2])};
+    double up[3] = {back[1] * right[2], back[2] * right[0] - back[0] * right[2],
+                    -back[1] * right[0]};
+    double fov_y = 45.0 * acos(-1.0) / 180.0;
+    double distance = 0.0;
+    for (int corner = 0; corner < 8; corner++) {
+        double point[3];
+        for (int c = 0; c < 3; c++)
+            point[c] = corner & (1 << c) ? half[c] : -half[c];
+        distance = fmax(distance, distance_for(point, right, up, back, tan(0.5 * fov_y)));
+    }
+    distance *= margin;
+
+    lsf_camera *camera = lsf_alloc(1, sizeof(*camera));
+    if (!camera)
+        return false;
+    free(scene->cameras);
+    scene->cameras = camera;
+    scene->camera_count = 1;
+    camera->name = strdup("default");
+    camera->node = LSF_NONE;
+    camera->fov_y = (float)fov_y;
+    camera->x_magnification = camera->y_magnification = 1.0f;
+    camera->near_plane = fmaxf((float)(distance * 1e-3), FLT_MIN);
+    for (int c = 0; c < 3; c++) {
+        camera->matrix[c] = right[c];
+        camera->matrix[4 + c] = up[c];
+        camera->matrix[8 + c] = back[c];
+        camera->matrix[12 + c] = requirements->center[c] + distance * back[c];
+    }
+    camera->matrix[15] = 1.0;
+    return camera->name != NULL;
+}
+
+static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, lsf_error *error)
+{
+    const float *radiance = params->environment_radiance;
+    if (params->environment_path && radiance)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "environment: a map and a uniform radiance were given; give one");
+    if (radiance) {
+        for (int c = 0; c < 3; c++) {
+            if (!isfinite(radiance[c]) || radiance[c] < 0.0f)
+                return lsf_error_set(error, LSF_ERROR_USAGE,
+                                     "environment: radiance %g must be finite and at least 0",
+                                     (double)radiance[c]);
+            scene->environment.radiance[c] = radiance[c];
+        }
+        scene->environment.present = true;
+    }
+    if (!params->environment_path)
+        return true;
+    uint64_t repaired = 0;
+    if (!lsf_environment_load(&scene->environment, params->environment_path, &repaired, error))
+        return false;
+    scene->environment.present = true;
+    if (repaired > 0)
+        lsf_scene_add_note(scene, "%s: %llu negative or non-finite values were set to 0",
+                           params->environment_path, (unsigned long long)repaired);
+    return true;
+}
+
+static bool check_transforms(const lsf_scene *scene, lsf_error *error)
+{
+    double *matrices = lsf_alloc(scene->node_count, 16 * sizeof(double));
+    if (!matrices)
+        return lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for %u nodes",
+                             scene->path, scene->node_count);
+    lsf_scene_world_matrices(scene, 0.0, matrices);
+    bool good = true;
+    for (uint64_t i = 0; good && i < (uint64_t)16 * scene->node_count; i++)
+        if (!(fabs(matrices[i]) <= COORDINATE_MAX))
+            good = lsf_error_set(error, LSF_ERROR_FILE,
+                                 "%s: the transforms above node \"%s\" multiply to more than %g; "
+                                 "use smaller scales",
+                                 scene->path, scene->nodes[i / 16].name, COORDINATE_MAX);
+    free(matrices);
+    return good;
+}
+
+static bool has_light(const lsf_scene *scene)
+{
+    const lsf_requirements *requirements = &scene->requirements;
+    return requirements->point_lights || requirements->spot_lights ||
+           requirements->directional_lights || requirements->emissive || scene->environment.present;
+}
+
+static void add_neutral_environment(lsf_scene *scene)
+{
+    lsf_scene_add_note(scene, "the scene has no light, no emissive material and no environment: a "
+                              "uniform environment of radiance 1 lights it");
+    scene->environment.present = true;
+    for (int c = 0; c < 3; c++)
+        scene->environment.radiance[c] = 1.0f;
+    lsf_scene_compute_requirements(scene);
+}
+
+lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error)
+{
+    static const lsf_scene_params defaults = {LSF_SCENE_PARAMS_DEFAULTS};
+    if (!params)
+        params = &defaults;
+    lsf_scene *scene = lsf_alloc(1, sizeof(*scene));
+    if (!scene) {
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
+        return NULL;
+    }
+    if (!lsf_gltf_load(scene, path, params, error) || !check_transforms(scene, error) ||
+        !load_environment(scene, params, error)) {
+        lsf_scene_destroy(scene);
+        return NULL;
+    }
+    lsf_scene_compute_requirements(scene);
+    if (!has_light(scene))
+        add_neutral_environment(scene);
+    if (scene->camera_count == 0 && !add_default_camera(scene)) {
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
+        lsf_scene_destroy(scene);
+        return NULL;
+    }
+    return scene;
+}

@@ -1,0 +1,96 @@
+"""Installs into an empty folder, looks for every file there, and builds a C and a C++ program
+against the installed package alone."""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = os.environ["LSF_BUILD_ROOT"]
+SOURCE = pathlib.Path(os.environ["LSF_SOURCE_ROOT"])
+COMPILERS = {"program.c": sys.argv.pop(1), "program.cpp": sys.argv.pop(1)}
+PREFIX, LIBDIR = sys.argv.pop(1), sys.argv.pop(1)
+MODULES = sys.argv.pop(1).split(",")
+VERSION = sys.argv.pop(1)
+
+
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="lightsheaf-install-")
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        subprocess.run(["meson", "install", "-C", BUILD, "--no-rebuild", "--quiet",
+                        "--destdir", cls.folder], check=True, stdout=subprocess.DEVNULL)
+        cls.prefix = pathlib.Path(cls.folder + PREFIX)
+        cls.environment = {key: value for key, value in os.environ.items()
+                           if key != "LIGHTSHEAF_MODULE_DIR"}
+        cls.environment.update({
+            "LD_LIBRARY_PATH": str(cls.prefix / LIBDIR),
+            "PKG_CONFIG_PATH": str(cls.prefix / LIBDIR / "pkgconfig"),
+            "PKG_CONFIG_SYSROOT_DIR": cls.folder,
+        })
+
+    def test_files(self):
+        wanted = ["bin/lightsheaf", "share/man/man1/lightsheaf.1",
+                  "share/bash-completion/completions/lightsheaf",
+                  "share/lightsheaf/scenes/interior.gltf", "share/lightsheaf/scenes/interior.bin",
+                  f"{LIBDIR}/liblightsheaf.so", f"{LIBDIR}/pkgconfig/lightsheaf.pc"]
+        wanted += [f"include/lightsheaf/{header.name}"
+                   for header in (SOURCE / "include/lightsheaf").glob("*.h")]
+        wanted += [f"{LIBDIR}/lightsheaf/{module}.so" for module in MODULES]
+        missing = [name for name in wanted if not (self.prefix / name).is_file()]
+        self.assertEqual(missing, [])
+
+    def run_installed(self, *words):
+        return subprocess.run(words, env=self.environment, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, cwd=self.folder, timeout=120)
+
+    def test_programs(self):
+        scene = self.prefix / "share/lightsheaf/scenes/cornell_point.gltf"
+        for source, compiler in COMPILERS.items():
+            with self.subTest(source=source):
+                flags = self.run_installed("pkg-config", "--cflags", "--libs", "lightsheaf")
+                self.assertEqual(flags.returncode, 0, flags.stderr)
+                program = os.path.join(self.folder, source.replace(".", "-"))
+                built = self.run_installed(
+                    compiler, "-Wall", "-Wextra", "-Werror",
+                    str(pathlib.Path(__file__).parent / source), "-o", program,
+                    *shlex.split(flags.stdout))
+                self.assertEqual(built.returncode, 0, built.stderr)
+                done = self.run_installed(program, str(scene))
+                self.assertEqual((done.returncode, done.stdout, done.stderr),
+                                 (0, f"{VERSION} 34 triangles\n", ""))
+                refused = self.run_installed(program, "no-such-file.gltf")
+                self.assertEqual(refused.returncode, 3)
+                self.assertIn("no-such-file.gltf", refused.stderr)
+
+    def test_only_the_public_api_is_exported(self):
+        names = self.run_installed("nm", "-D", "--defined-only", "--format=posix",
+                                   str(self.prefix / LIBDIR / "liblightsheaf.so")).stdout
+        exported = {line.split()[0] for line in names.splitlines()}
+        declared = set()
+        for header in (SOURCE / "include/lightsheaf").glob("*.h"):
+            declared |= set(re.findall(r"\b(lsf_\w+)\(", header.read_text()))
+        ours = {name for name in exported if name.startswith("lsf_")}
+        self.assertEqual(ours - declared, set(), "exported, not declared in a public header")
+        self.assertEqual(declared - ours, set(), "declared in a public header, not exported")
+        # Weak symbols of C++ templates aside, nothing else may show.
+        foreign = {name for name in exported - ours if not name.startswith(("_Z", "_init", "_fini"))}
+        self.assertEqual(foreign, set())
+
+    def test_the_command_renders_without_its_source_tree(self):
+        out = os.path.join(self.folder, "out.png")
+        done = self.run_installed(str(self.prefix / "bin/lightsheaf"), "render",
+                                  str(self.prefix / "share/lightsheaf/scenes/cornell_point.gltf"),
+                                  "-o", out, "--resolution", "32,32", "--samples", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(out, "rb") as file:
+            self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,138 @@
+"""Reads the #include lines: every layer may use those to its left, never one to its right.
+
+src/ARCHITECTURE.md says why; ALLOWED below is the whole rule.
+"""
+import os
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(os.environ["LSF_SOURCE_ROOT"])
+
+# Layer -> layers it may include besides itself and shared/ (what C and GLSL have in common).
+ALLOWED = {
+    "base": {"base"},
+    "math": {"base"},
+    "gl": {"base", "math"},
+    "scene": {"base", "math"},
+    "io": {"base", "math", "scene"},
+    "plan": {"base", "math", "gl", "scene"},
+    "passes": {"base", "math", "gl", "scene", "plan"},
+    "techniques": {"base", "math", "gl", "scene", "plan", "passes"},
+    "reference": {"base", "math", "scene"},
+    "measure": {"base", "io"},
+    "tools": {"base", "math", "gl", "scene", "io", "plan", "passes", "techniques", "measure"},
+}
+# Headers that a layer offers to one that may not see the rest of it.
+EXCEPTIONS = {
+    ("measure", "io"): {"io/io.h", "io/image.h"},
+    ("tools", "gl"): {"gl/gl.h"},
+}
+SOURCES = (".c", ".h", ".cpp", ".hpp")
+LONGEST = 600  # lines: a file is one idea
+# Work left for later, and paths of one machine; split so that this line is not found itself.
+FORBIDDEN = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b|(?<![\w.$)}\"'])/(ho" r"me|ro" r"ot|wo" r"rk)/")
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+ANY_INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.MULTILINE)
+
+
+def files(*folders, endings=SOURCES):
+    return sorted(path for folder in folders for path in (ROOT / folder).rglob("*")
+                  if path.is_file() and path.suffix in endings)
+
+
+def stem_of(name):
+    return name.split(".")[0]
+
+
+class Layers(unittest.TestCase):
+    def test_every_folder_is_a_layer(self):
+        folders = {path.name for path in (ROOT / "src").iterdir() if path.is_dir()}
+        self.assertEqual(folders, set(ALLOWED))
+
+    def test_includes_follow_the_layers(self):
+        wrong = []
+        for path in files("src"):
+            layer = path.relative_to(ROOT / "src").parts[0]
+            for name in INCLUDE.findall(path.read_text()):
+                target = name.split("/")[0]
+                if target in (layer, "shared", "glad"):
+                    continue
+                allowed = target in ALLOWED[layer]
+                only = EXCEPTIONS.get((layer, target))
+                if not allowed or (only and name not in only):
+                    wrong.append(f"{path.relative_to(ROOT)} includes {name}")
+        self.assertEqual(wrong, [])
+
+    def test_includes_name_their_layer(self):
+        bare = [f"{path.relative_to(ROOT)} includes {name}" for path in files("src")
+                for name in INCLUDE.findall(path.read_text()) if "/" not in name]
+        self.assertEqual(bare, [])
+
+    def test_passes_do_not_know_each_other(self):
+        wrong = []
+        for path in files("src/passes") + files("glsl/passes", endings=(".glsl",)):
+            for name in INCLUDE.findall(path.read_text()):
+                if name.startswith("passes/") and stem_of(name.split("/")[1]) != stem_of(path.name):
+                    wrong.append(f"{path.relative_to(ROOT)} includes {name}")
+        self.assertEqual(wrong, [])
+
+    def test_shader_parts_stand_alone(self):
+        wrong = []
+        for folder, allowed in (("glsl/shared", {"shared"}), ("glsl/lib", {"shared", "lib"}),
+                                ("glsl/passes", {"shared", "lib", "passes"})):
+            for path in files(folder, endings=(".glsl", ".h")):
+                wrong += [f"{path.relative_to(ROOT)} includes {name}"
+                          for name in INCLUDE.findall(path.read_text())
+                          if name.split("/")[0] not in allowed]
+        self.assertEqual(wrong, [])
+
+    def test_public_headers_include_public_headers_only(self):
+        wrong = []
+        for path in files("include"):
+            for name in ANY_INCLUDE.findall(path.read_text()):
+                if not name.startswith("lightsheaf/") and name not in (
+                        "stdbool.h", "stddef.h", "stdint.h"):
+                    wrong.append(f"{path.relative_to(ROOT)} includes {name}")
+        self.assertEqual(wrong, [])
+
+    def test_embree_and_openimageio_stay_in_their_modules(self):
+        for path in files("src"):
+            for name in ANY_INCLUDE.findall(path.read_text()):
+                if name.startswith("embree3/"):
+                    self.assertEqual(path.parent.name, "reference", path)
+                if name.startswith("OpenImageIO/"):
+                    self.assertEqual(path.name, "openimageio.cpp", path)
+
+
+class Files(unittest.TestCase):
+    def test_no_file_is_longer_than_one_idea(self):
+        long = [f"{path.relative_to(ROOT)}: {count} lines"
+                for path in files("src", "include", "glsl", "tests", "data", "scripts",
+                                  endings=SOURCES + (".glsl", ".py"))
+                for count in [len(path.read_text().splitlines())] if count > LONGEST]
+        self.assertEqual(long, [])
+
+    def test_nothing_is_left_for_later_or_bound_to_one_machine(self):
+        found = []
+        for path in files("src", "include", "glsl", "tests", "data", "docs", "scripts",
+                          endings=SOURCES + (".glsl", ".py", ".md", ".build")):
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                if FORBIDDEN.search(line):
+                    found.append(f"{path.relative_to(ROOT)}:{number}: {line.strip()}")
+        self.assertEqual(found, [])
+
+    def test_every_pass_has_all_its_files(self):
+        """One stem a pass: host code, header, page; its shaders begin with the stem."""
+        stems = {path.stem for path in files("src/passes", endings=(".c",))}
+        for stem in stems:
+            for ending in (".h", ".md"):
+                self.assertTrue((ROOT / "src/passes" / (stem + ending)).is_file(), stem + ending)
+        for shader in files("glsl/passes", endings=(".glsl",)):
+            name = stem_of(shader.name)
+            self.assertTrue(any(name == stem or name.startswith(stem + "_") for stem in stems),
+                            f"{shader.name} belongs to no pass")
+
+
+if __name__ == "__main__":
+    unittest.main()
