@@ -31,7 +31,7 @@ EXCEPTIONS = {
 SOURCES = (".c", ".h", ".cpp", ".hpp")
 LONGEST = 600  # lines: a file is one idea
 # Work left for later, and paths of one machine; split so that this line is not found itself.
-FORBIDDEN = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b|(?<![\w.$)}\"'])/(ho" r"me|ro" r"ot|wo" r"rk)/")
+FORBIDDEN = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b|(?<![\w.$)}])/(ho" r"me|ro" r"ot|wo" r"rk)/")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 ANY_INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.MULTILINE)
 
