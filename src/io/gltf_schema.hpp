@@ -10,7 +10,6 @@ namespace lsf
 {
 
 enum class shape {
-    anything,
     boolean,
     string,
     strings,

@@ -14,8 +14,9 @@
 extern "C" {
 #endif
 
-/* Vertex streams of all primitives, one after the other. `position` and `normal` always exist;
- * the others are NULL unless some primitive has them (then the rest hold the stated default). */
+/* Vertex streams of all primitives, one after the other. `position` and `normal` always exist.
+ * Texture coordinates exist when some material reads that set, colours when some primitive has
+ * them; where a primitive lacks them they hold the stated default. */
 typedef struct lsf_vertices {
     uint64_t count;
     float *position; /* 3 each, object space */
@@ -148,6 +149,10 @@ typedef struct lsf_environment {
     float *texels; /* 3 each, linear radiance */
 } lsf_environment;
 
+/* Only what the file's scene uses: its nodes, the lights and cameras they carry, the primitives of
+ * the meshes they place (other meshes are listed without any), the materials of those, and the
+ * textures and images that those read. Primitives that share accessors share vertices and
+ * indices. */
 struct lsf_scene {
     char *path;
     lsf_vertices vertices;
