@@ -149,14 +149,18 @@ lsf_float3 lsf_sample_ggx_visible_normal(lsf_float3 view, float alpha_t, float a
     return lsf_f3_normalize(lsf_f3(alpha_t * n.x, alpha_b * n.y, fmaxf(1e-7f, n.z)));
 }
 
-float lsf_pdf_ggx_visible_normal(lsf_float3 view, lsf_float3 normal, float alpha_t, float alpha_b)
+float lsf_pdf_ggx_reflection(lsf_float3 view, lsf_float3 normal, float alpha_t, float alpha_b)
 {
-    float vh = lsf_f3_dot(view, normal);
-    if (vh <= 0.0f || normal.z <= 0.0f || view.z <= 0.0f)
+    if (normal.z <= 0.0f || view.z <= 0.0f)
         return 0.0f;
     float d = lsf_ggx_d_anisotropic(normal.z, normal.x, normal.y, alpha_t, alpha_b);
     float vt = alpha_t * view.x, vb = alpha_b * view.y;
-    /* G1 / v.z = 2 / (v.z + sqrt(v.z^2 + alpha^2 tan^2 part)) */
-    float g1_over_vz = 2.0f / (view.z + sqrtf(view.z * view.z + vt * vt + vb * vb));
-    return g1_over_vz * vh * d;
+    /* G1 / (4 v.z) */
+    return 0.5f * d / (view.z + sqrtf(view.z * view.z + vt * vt + vb * vb));
+}
+
+float lsf_pdf_ggx_visible_normal(lsf_float3 view, lsf_float3 normal, float alpha_t, float alpha_b)
+{
+    float vh = lsf_f3_dot(view, normal);
+    return vh > 0.0f ? 4.0f * vh * lsf_pdf_ggx_reflection(view, normal, alpha_t, alpha_b) : 0.0f;
 }

@@ -89,4 +89,8 @@ lsf_float3 lsf_sample_ggx_visible_normal(lsf_float3 view, float alpha_t, float a
 /* D_v(h) = G1(v) max(0, v.h) D(h) / v.z, per steradian of `normal`. */
 float lsf_pdf_ggx_visible_normal(lsf_float3 view, lsf_float3 normal, float alpha_t, float alpha_b);
 
+/* The same per steradian of the direction that `view` is mirrored to: D_v(h) / (4 v.h), in which
+ * v.h cancels. `normal` is the half vector, so that v.h is positive. */
+float lsf_pdf_ggx_reflection(lsf_float3 view, lsf_float3 normal, float alpha_t, float alpha_b);
+
 #endif

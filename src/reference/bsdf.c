@@ -29,14 +29,17 @@ static float choose_specular_probability(const lsf_reference_surface *s, float n
     return fminf(fmaxf(specular / (specular + diffuse), 0.1f), 0.9f);
 }
 
+/* An interpolated or mapped normal may look away from a viewer who sees the surface. The view is
+ * then lifted to the horizon for all purposes: with the true one, the half vector could meet the
+ * normal in directions that reflect nothing, and the value would have no bound. */
 void lsf_reference_bsdf_init(lsf_reference_bsdf *bsdf, const lsf_reference_surface *surface)
 {
+    lsf_float3 view = lsf_basis_to_local(&surface->frame, surface->view);
+    view.z = fmaxf(view.z, LSF_COSINE_MIN);
     bsdf->surface = surface;
-    bsdf->view = lsf_basis_to_local(&surface->frame, surface->view);
-    lsf_float3 lifted = lsf_f3(bsdf->view.x, bsdf->view.y, fmaxf(bsdf->view.z, LSF_COSINE_MIN));
-    bsdf->visible_view = lsf_f3_normalize(lifted);
+    bsdf->view = lsf_f3_normalize(view);
     bsdf->specular_probability =
-        surface->reflects ? choose_specular_probability(surface, bsdf->visible_view.z) : -1.0f;
+        surface->reflects ? choose_specular_probability(surface, bsdf->view.z) : -1.0f;
 }
 
 static float ggx(const lsf_reference_surface *s, lsf_float3 view, float nv, lsf_float3 light,
@@ -51,20 +54,13 @@ static float ggx(const lsf_reference_surface *s, lsf_float3 view, float nv, lsf_
            lsf_ggx_v(nl, nv, s->alpha_b);
 }
 
-static float pdf(const lsf_reference_bsdf *bsdf, lsf_float3 light)
+static float pdf(const lsf_reference_bsdf *bsdf, lsf_float3 light, lsf_float3 half)
 {
     const lsf_reference_surface *s = bsdf->surface;
     float p = bsdf->specular_probability;
     float result = (1.0f - p) * light.z / LSF_PI;
-    if (p > 0.0f) {
-        lsf_float3 half =
-            lsf_f3_normalize_or(lsf_f3_add(bsdf->visible_view, light), lsf_f3(0.0f, 0.0f, 1.0f));
-        float vh = lsf_f3_dot(bsdf->visible_view, half);
-        float visible =
-            lsf_pdf_ggx_visible_normal(bsdf->visible_view, half, s->alpha_t, s->alpha_b);
-        if (vh > 0.0f)
-            result += p * visible / (4.0f * vh);
-    }
+    if (p > 0.0f)
+        result += p * lsf_pdf_ggx_reflection(bsdf->view, half, s->alpha_t, s->alpha_b);
     return result;
 }
 
@@ -77,20 +73,19 @@ lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *b
     if (bsdf->specular_probability < 0.0f || l.z <= 0.0f ||
         lsf_f3_dot(s->geometric_normal, light) <= 0.0f)
         return result;
-    result.pdf = pdf(bsdf, l);
+    lsf_float3 sum = lsf_f3_add(bsdf->view, l);
+    lsf_float3 half = lsf_f3_normalize_or(sum, lsf_f3(0.0f, 0.0f, 1.0f));
+    /* v.h = |v + l| / 2, which keeps its sign at grazing angles as the product would not. */
+    float vh = fminf(0.5f * lsf_f3_length(sum), 1.0f);
     float nl = fminf(l.z, 1.0f);
+    result.pdf = pdf(bsdf, l, half);
     float diffuse = (1.0f - s->metallic) * nl / LSF_PI;
-    if (!s->specular) {
-        result.diffuse = lsf_f3_scale(s->base_color, diffuse);
-        return result;
+    if (s->specular) {
+        diffuse *= 1.0f - lsf_fresnel_schlick(s->f0_dielectric, vh);
+        float specular = ggx(s, bsdf->view, fminf(bsdf->view.z, 1.0f), l, nl, half) * nl;
+        result.specular = lsf_f3_scale(fresnel(specular_f0(s), vh), specular);
     }
-    float nv = fminf(fmaxf(bsdf->view.z, LSF_COSINE_MIN), 1.0f);
-    lsf_float3 half = lsf_f3_normalize_or(lsf_f3_add(bsdf->view, l), lsf_f3(0.0f, 0.0f, 1.0f));
-    float vh = fminf(fmaxf(lsf_f3_dot(bsdf->view, half), 0.0f), 1.0f);
-    diffuse *= 1.0f - lsf_fresnel_schlick(s->f0_dielectric, vh);
     result.diffuse = lsf_f3_scale(s->base_color, diffuse);
-    result.specular =
-        lsf_f3_scale(fresnel(specular_f0(s), vh), ggx(s, bsdf->view, nv, l, nl, half) * nl);
     return result;
 }
 
@@ -100,9 +95,9 @@ lsf_float3 lsf_reference_bsdf_sample(const lsf_reference_bsdf *bsdf, float lobe,
     lsf_float3 light;
     if (lobe < bsdf->specular_probability) {
         lsf_float3 half =
-            lsf_sample_ggx_visible_normal(bsdf->visible_view, s->alpha_t, s->alpha_b, u[0], u[1]);
-        float vh = lsf_f3_dot(bsdf->visible_view, half);
-        light = lsf_f3_sub(lsf_f3_scale(half, 2.0f * vh), bsdf->visible_view);
+            lsf_sample_ggx_visible_normal(bsdf->view, s->alpha_t, s->alpha_b, u[0], u[1]);
+        float vh = lsf_f3_dot(bsdf->view, half);
+        light = lsf_f3_sub(lsf_f3_scale(half, 2.0f * vh), bsdf->view);
     } else {
         light = lsf_sample_cosine_hemisphere(u[0], u[1]);
     }

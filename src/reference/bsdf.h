@@ -7,8 +7,7 @@
 
 typedef struct lsf_reference_bsdf {
     const lsf_reference_surface *surface;
-    lsf_float3 view;            /* local to surface->frame */
-    lsf_float3 visible_view;    /* the same, lifted above the horizon: what is sampled */
+    lsf_float3 view;            /* local to surface->frame, lifted above the shading horizon */
     float specular_probability; /* of choosing the GGX lobe; negative: the surface is black */
 } lsf_reference_bsdf;
 

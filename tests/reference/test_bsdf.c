@@ -1,0 +1,215 @@
+/* The BRDF as the path tracer samples it: directions against their density, and reflected light
+ * against a quadrature that knows nothing of sampling. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "build_scene.h"
+#include "chi_square.h"
+#include "math/sampling.h"
+#include "reference/bsdf.h"
+#include "shared/brdf.h"
+
+typedef struct material_case {
+    float roughness, metallic, anisotropy, cosine, azimuth;
+} material_case;
+
+static const material_case cases[] = {
+    {1.0f, 0.0f, 0.0f, 0.9f, 0.0f}, {0.3f, 0.0f, 0.0f, 0.7f, 1.0f},
+    {0.5f, 1.0f, 0.0f, 0.8f, 2.0f}, {0.7f, 0.5f, 0.0f, 0.3f, -1.0f},
+    {0.4f, 1.0f, 0.8f, 0.6f, 0.5f}, {0.4f, 0.3f, 1.0f, 0.5f, 2.2f},
+    {0.9f, 1.0f, 0.0f, 0.1f, 0.0f}, {0.25f, 1.0f, 0.6f, 0.95f, -2.0f},
+};
+
+static lsf_reference_surface make_surface(const material_case *c)
+{
+    float sine = sqrtf(1.0f - c->cosine * c->cosine);
+    float alpha = lsf_alpha_from_roughness(c->roughness);
+    return (lsf_reference_surface){
+        .geometric_normal = {0, 0, 1},
+        .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+        .view = {sine * cosf(c->azimuth), sine * sinf(c->azimuth), c->cosine},
+        .reflects = true,
+        .specular = true,
+        .base_color = {0.8f, 0.5f, 0.2f},
+        .metallic = c->metallic,
+        .alpha_t = lsf_alpha_along_tangent(alpha, c->anisotropy),
+        .alpha_b = alpha,
+        .f0_dielectric = 0.04f,
+    };
+}
+
+static void directions_follow_density(void **unused)
+{
+    (void)unused;
+    enum { N = 100000, ROWS = 16, COLUMNS = 24, FINE = 16 };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        lsf_reference_surface surface = make_surface(&cases[k]);
+        lsf_reference_bsdf bsdf;
+        lsf_reference_bsdf_init(&bsdf, &surface);
+        /* The last bin takes what falls below the horizon. */
+        double counts[ROWS * COLUMNS + 1] = {0}, expected[ROWS * COLUMNS + 1] = {0}, above = 0.0;
+        for (uint32_t i = 0; i < N; i++) {
+            float u[2] = {lsf_random_float(41, i), lsf_random_float(42, i)};
+            lsf_float3 l = lsf_reference_bsdf_sample(&bsdf, lsf_random_float(43, i), u);
+            int row = (int)fminf(l.z * ROWS, ROWS - 1);
+            int bin = l.z > 0.0f ? row * COLUMNS + angle_bin(l.x, l.y, COLUMNS) : ROWS * COLUMNS;
+            counts[bin]++;
+        }
+        for (int row = 0; row < ROWS * FINE; row++) {
+            for (int column = 0; column < COLUMNS * FINE; column++) {
+                double z = (row + 0.5) / (ROWS * FINE), r = sqrt(1.0 - z * z);
+                double phi = (column + 0.5) / (COLUMNS * FINE) * 2.0 * M_PI - M_PI;
+                lsf_float3 l = lsf_f3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
+                double part = (double)lsf_reference_bsdf_evaluate(&bsdf, l).pdf * 2.0 * M_PI /
+                              ((double)ROWS * FINE * COLUMNS * FINE);
+                expected[row / FINE * COLUMNS + column / FINE] += part * N;
+                above += part;
+            }
+        }
+        expected[ROWS * COLUMNS] = fmax(0.0, 1.0 - above) * N;
+        double z = chi_square_z(counts, expected, ROWS * COLUMNS + 1, 8.0);
+        if (z > 4.0 || above > 1.002)
+            fail_msg("case %zu: z = %.2f, %.4f above the horizon", k, z, above);
+    }
+}
+
+/* f is symmetric: f(v, l) = f(l, v). */
+static void reciprocity(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        for (uint32_t i = 0; i < 200; i++) {
+            lsf_float3 a =
+                lsf_sample_cosine_hemisphere(lsf_random_float(51, i), lsf_random_float(52, i));
+            lsf_float3 b =
+                lsf_sample_cosine_hemisphere(lsf_random_float(53, i), lsf_random_float(54, i));
+            if (a.z < 0.01f || b.z < 0.01f)
+                continue;
+            lsf_reference_surface surface = make_surface(&cases[k]);
+            lsf_reference_bsdf bsdf;
+            surface.view = a;
+            lsf_reference_bsdf_init(&bsdf, &surface);
+            lsf_reference_reflection ab = lsf_reference_bsdf_evaluate(&bsdf, b);
+            surface.view = b;
+            lsf_reference_bsdf_init(&bsdf, &surface);
+            lsf_reference_reflection ba = lsf_reference_bsdf_evaluate(&bsdf, a);
+            float f = (ab.diffuse.x + ab.specular.x) / b.z;
+            float g = (ba.diffuse.x + ba.specular.x) / a.z;
+            assert_true(fabsf(f - g) <= 2e-4f * fmaxf(f, g));
+        }
+    }
+}
+
+/* A black or mirror-like surface, and light and view at the horizon, stay finite. */
+static void extremes_are_finite(void **unused)
+{
+    (void)unused;
+    static const float roughnesses[] = {0.0f, 0.01f, 1.0f}, cosines[] = {-0.5f, 0.0f, 1e-6f, 1.0f};
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 4; c++) {
+            for (uint32_t i = 0; i < 500; i++) {
+                material_case what = {roughnesses[r], i & 1 ? 1.0f : 0.0f, i & 2 ? 1.0f : 0.0f,
+                                      cosines[c], 0.3f};
+                lsf_reference_surface surface = make_surface(&what);
+                if (i & 4)
+                    surface.base_color = lsf_f3(0, 0, 0);
+                lsf_reference_bsdf bsdf;
+                lsf_reference_bsdf_init(&bsdf, &surface);
+                float u[2] = {lsf_random_float(61, i), lsf_random_float(62, i)};
+                lsf_float3 l = lsf_reference_bsdf_sample(&bsdf, lsf_random_float(63, i), u);
+                lsf_reference_reflection f = lsf_reference_bsdf_evaluate(&bsdf, l);
+                assert_true(fabsf(lsf_f3_length(l) - 1.0f) < 1e-4f);
+                assert_true(isfinite(f.pdf) && f.pdf >= 0.0f);
+                assert_true(isfinite(lsf_f3_max(f.diffuse)) && isfinite(lsf_f3_max(f.specular)));
+                /* Sampled by its own density, light is never blown up. */
+                if (f.pdf > 0.0f)
+                    assert_true(lsf_f3_max(lsf_f3_add(f.diffuse, f.specular)) / f.pdf < 20.0f);
+            }
+        }
+    }
+}
+
+/* What a plane reflects of a uniform environment: the integral of f cos over the hemisphere, in
+ * spherical coordinates about the mirror direction's side, in double precision, from the formulas
+ * of glTF 2.0, appendix B. */
+static double reflectance(const material_case *c, double base)
+{
+    enum { ROWS = 2000, COLUMNS = 720 };
+    double alpha = (double)lsf_alpha_from_roughness(c->roughness);
+    double at = alpha + (1.0 - alpha) * (double)(c->anisotropy * c->anisotropy), ab = alpha;
+    double nv = (double)c->cosine, sine = sqrt(1.0 - nv * nv);
+    double vx = sine * cos((double)c->azimuth), vy = sine * sin((double)c->azimuth);
+    double f0 = 0.04 * (1.0 - (double)c->metallic) + base * (double)c->metallic, sum = 0.0;
+    for (int row = 0; row < ROWS; row++) {
+        double nl = (row + 0.5) / ROWS, r = sqrt(1.0 - nl * nl);
+        for (int column = 0; column < COLUMNS; column++) {
+            double phi = (column + 0.5) / COLUMNS * 2.0 * M_PI;
+            double lx = r * cos(phi), ly = r * sin(phi);
+            double hx = vx + lx, hy = vy + ly, hz = nv + nl;
+            double length = sqrt(hx * hx + hy * hy + hz * hz);
+            hx /= length;
+            hy /= length;
+            hz /= length;
+            double m5 = pow(1.0 - (vx * hx + vy * hy + nv * hz), 5.0);
+            double e = hx * hx / (at * at) + hy * hy / (ab * ab) + hz * hz;
+            double d = 1.0 / (M_PI * at * ab * e * e);
+            double lambda_l = nv * sqrt(at * at * lx * lx + ab * ab * ly * ly + nl * nl);
+            double lambda_v = nl * sqrt(at * at * vx * vx + ab * ab * vy * vy + nv * nv);
+            double specular = (f0 + (1.0 - f0) * m5) * d * 0.5 / (lambda_l + lambda_v);
+            double diffuse = (1.0 - (double)c->metallic) * (1.0 - (0.04 + 0.96 * m5)) * base / M_PI;
+            sum += (specular + diffuse) * nl;
+        }
+    }
+    return sum * 2.0 * M_PI / ((double)ROWS * COLUMNS);
+}
+
+static void furnace_by_material(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const material_case *c = &cases[k];
+        lsf_scene *scene = build_scene();
+        scene->environment = (lsf_environment){.present = true, .radiance = {1, 1, 1}};
+        lsf_material *material = build_material(scene, 0.8f, 0.5f, 0.2f);
+        material->roughness = c->roughness;
+        material->metallic = c->metallic;
+        material->anisotropy_strength = c->anisotropy;
+        build_floor(scene, 0.0f, 1.0f);
+        /* The floor's tangents run along x and its bitangents along -z. */
+        scene->vertices.tangent = calloc(4 * scene->vertices.count, sizeof(float));
+        for (uint64_t i = 0; i < scene->vertices.count; i++) {
+            scene->vertices.tangent[4 * i] = 1.0f;
+            scene->vertices.tangent[4 * i + 3] = 1.0f;
+        }
+        finish_scene(scene);
+        float sine = sqrtf(1.0f - c->cosine * c->cosine), rgb[3];
+        render_point(scene, lsf_f3(sine * cosf(c->azimuth), c->cosine, -sine * sinf(c->azimuth)),
+                     lsf_f3(0, 0, 0), 65536, 0, rgb);
+        static const double base[3] = {0.8, 0.5, 0.2};
+        for (int channel = 0; channel < 3; channel++) {
+            double expected = reflectance(c, base[channel]);
+            double error = fabs((double)rgb[channel] / expected - 1.0);
+            print_message("case %zu, channel %d: %.5f, expected %.5f\n", k, channel,
+                          (double)rgb[channel], expected);
+            assert_true(error < 1e-3);
+        }
+        destroy_scene(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(directions_follow_density),
+        cmocka_unit_test(reciprocity),
+        cmocka_unit_test(extremes_are_finite),
+        cmocka_unit_test(furnace_by_material),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
