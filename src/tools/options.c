@@ -107,7 +107,8 @@ static const lsf_command_option options[] = {
      NULL, "leave out the pixels whose first channel is above 0.5"},
     {"threshold", 0, "METRIC=X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_THRESHOLD,
      AT(thresholds), 0, 0, NULL, NULL,
-     "end with status 5 when the metric is worse than X; repeatable"},
+     "end with status 5 when METRIC (rmse, rmse_relative, relmse, bias, ssim, psnr) is worse "
+     "than X; repeatable"},
     {"difference", 0, "OUT", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(difference), 0,
      0, NULL, NULL, "write the absolute difference as a picture"},
     {"difference-gain", 0, "X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_FLOAT,
