@@ -41,7 +41,7 @@ typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 typedef struct lsf_render_params {
     const char *technique;   /* see lsf_technique_name */
     uint32_t width, height;  /* pixels */
-    uint32_t samples;        /* iterations */
+    uint32_t samples;        /* iterations; UINT32_MAX: as many as the time limit allows */
     double time_limit;       /* seconds of rendering; infinity: none */
     uint32_t bounces;        /* indirect bounces; 0: direct light only */
     uint64_t seed;

@@ -1,4 +1,5 @@
 /* The plan as text and as JSON. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/base.h"
@@ -15,8 +16,12 @@ static void add_size(lsf_string *out, double bytes)
 
 static void describe_text(const lsf_plan *plan, lsf_string *out)
 {
-    lsf_string_add(out, "technique %s, %ux%u, %u iterations, %u bounces\n", plan->technique,
-                   plan->width, plan->height, plan->samples, plan->bounces);
+    lsf_string_add(out, "technique %s, %ux%u, ", plan->technique, plan->width, plan->height);
+    if (plan->samples == UINT32_MAX)
+        lsf_string_add(out, "as many iterations as the time limit allows");
+    else
+        lsf_string_add(out, "%u iterations", plan->samples);
+    lsf_string_add(out, ", %u bounces\n", plan->bounces);
     lsf_string_add(out, "\npasses, in order\n");
     for (uint64_t i = 0; i < plan->pass_count; i++) {
         const lsf_plan_pass *pass = &plan->passes[i];
@@ -62,10 +67,10 @@ static void describe_json(const lsf_plan *plan, lsf_string *out)
 {
     lsf_string_add(out, "{\n  ");
     add_text_field(out, "technique", plan->technique);
-    lsf_string_add(out,
-                   ",\n  \"width\": %u, \"height\": %u, \"samples\": %u, \"bounces\": %u,\n"
-                   "  \"bytes\": %llu,\n  \"passes\": [",
-                   plan->width, plan->height, plan->samples, plan->bounces,
+    lsf_string_add(out, ",\n  \"width\": %u, \"height\": %u, \"samples\": ", plan->width,
+                   plan->height);
+    lsf_string_add_json_number(out, plan->samples == UINT32_MAX ? INFINITY : plan->samples);
+    lsf_string_add(out, ", \"bounces\": %u,\n  \"bytes\": %llu,\n  \"passes\": [", plan->bounces,
                    (unsigned long long)lsf_plan_bytes(plan));
     for (uint64_t i = 0; i < plan->pass_count; i++) {
         const lsf_plan_pass *pass = &plan->passes[i];

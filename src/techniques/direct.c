@@ -33,6 +33,8 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
     } else {
         lsf_plan_omit(plan, "shadow_map", "no punctual light");
         lsf_plan_omit(plan, "direct_light", "no punctual light");
+        lsf_log(LSF_LOG_WARNING, "no point, spot or directional light: the direct technique leaves "
+                                 "every surface black but for what it emits");
     }
     if (needs_compose(plan, lit))
         lsf_compose_plan(plan, lit);

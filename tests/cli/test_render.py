@@ -224,6 +224,12 @@ class WithoutGl(CommandTest):
         self.assertIn("gbuffer", self.run_without_gl(*words).stdout.decode().lower())
         self.assertIsInstance(json.loads(self.run_without_gl(*words, "--json").stdout), dict)
 
+    def test_plan_for_a_time(self):
+        words = ("plan", self.scene(), "--time-limit", "3")
+        self.assertIn("as many iterations as the time limit allows",
+                      self.run_without_gl(*words).stdout.decode())
+        self.assertIsNone(json.loads(self.run_without_gl(*words, "--json").stdout)["samples"])
+
     def test_plan_refuses_the_wrong(self):
         self.refuse("plan", self.scene(), "-o", "a.exr", status=USAGE, says=["-o"])
 

@@ -2,7 +2,6 @@
 import os
 import pty
 import subprocess
-import time
 
 from command import COMMAND, DONE, FILE, USAGE, CommandTest, main
 
@@ -39,17 +38,6 @@ class Help(CommandTest):
         options = self.run_command("plan", "--list-options").stdout.decode().splitlines()
         self.assertRegex(options[0], r"^option +type +range +default +effect$")
         self.assertTrue(any(line.startswith("shadow.filter ") for line in options), options)
-
-    def test_starts_at_once(self):
-        """The library's core does not load what only image files need."""
-        best = min(self.time_help() for _ in range(5))
-        limit = 0.5 if os.environ.get("LSF_SANITIZED") else 0.05
-        self.assertLess(best, limit)
-
-    def time_help(self):
-        start = time.monotonic()
-        self.run_command("--version")
-        return time.monotonic() - start
 
 
 class Refusals(CommandTest):
