@@ -39,7 +39,7 @@ def cornell(folder, name, emissive=False, glossy=False):
     gltf = Gltf()
     _box(gltf, glossy)
     if emissive:
-        gltf.material("lamp", (0.78, 0.78, 0.78), emission=(17.0, 12.0, 5.0))
+        gltf.material("lamp", (0.78, 0.78, 0.78), emission=(24.0, 18.5, 11.5))
         lamp = Mesh()
         lamp.quad((-0.25, 1.99, -0.22), (0.25, 1.99, -0.22), (0.25, 1.99, 0.22),
                   (-0.25, 1.99, 0.22))
