@@ -254,8 +254,12 @@ def ceiling_lamp():
 
 def pouf():
     mesh = Mesh()
-    mesh.lathe([(0, 0), (0.20, 0), (0.245, 0.03), (0.272, 0.10), (0.28, 0.18), (0.272, 0.26),
-                (0.245, 0.335), (0.20, 0.37), (0.10, 0.385), (0, 0.388)], 64, crease=80)
+    profile = [(0, 0), (0.17, 0)]
+    for i in range(25):  # a flattened round: |cos|^0.4, |sin|^0.8
+        angle = math.radians(-88 + 176 * i / 24)
+        height = math.copysign(abs(math.sin(angle)) ** 0.8, angle)
+        profile.append((0.28 * math.cos(angle) ** 0.4, 0.195 + 0.19 * height))
+    mesh.lathe([*profile, (0, 0.392)], 64, crease=80)
     return {"leather": mesh}
 
 
