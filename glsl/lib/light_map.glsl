@@ -23,20 +23,39 @@ vec3 light_map_coordinates(int face, vec3 position)
                 dot(light.map_forward[face].xyz, p));
 }
 
+/* Place on the face, -1..1, of a point with these coordinates. */
+vec2 light_map_place(int face, vec3 q)
+{
+    vec4 window = light.map_window[face];
+    vec2 place = light_map_perspective() ? q.xy / (q.z * window.zw) : (q.xy - window.xy) / window.zw;
+    return place + light.map_offset.xy;
+}
+
 vec4 light_map_clip(int face, vec3 position)
 {
     vec3 q = light_map_coordinates(face, position);
-    vec2 xy = q.xy / light.map_extent.xy;
+    vec4 window = light.map_window[face];
     if (light_map_perspective())
-        return vec4(xy + light.map_extent.zw * q.z, light.map_shape.x, q.z);
-    return vec4(xy + light.map_extent.zw,
+        return vec4(q.xy / window.zw + light.map_offset.xy * q.z, light.map_shape.x, q.z);
+    return vec4(light_map_place(face, q),
                 (light.map_shape.y - q.z) / (light.map_shape.y - light.map_shape.x), 1.0);
 }
 
-/* The face that sees the point. */
+/* The face that sees the point: of a cube by its greatest coordinate, of cascades the smallest
+ * window that holds it. */
 int light_map_face(vec3 position)
 {
-    if (light.map_origin.w == 1.0)
+    int faces = int(light.map_origin.w);
+    if (!light_map_perspective()) {
+        vec3 q = light_map_coordinates(0, position);
+        for (int face = 0; face < faces - 1; face++) {
+            vec2 place = abs(light_map_place(face, q));
+            if (max(place.x, place.y) < 1.0)
+                return face;
+        }
+        return faces - 1;
+    }
+    if (faces == 1)
         return 0;
     vec3 p = position - light.map_origin.xyz;
     vec3 c = vec3(dot(light.map_forward[0].xyz, p), dot(light.map_forward[2].xyz, p),

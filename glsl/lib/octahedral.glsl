@@ -16,9 +16,9 @@ uint octahedral_encode(vec3 n)
     return packSnorm2x16(p);
 }
 
-vec3 octahedral_decode(uint packed)
+vec3 octahedral_decode(uint bits)
 {
-    vec2 p = unpackSnorm2x16(packed);
+    vec2 p = unpackSnorm2x16(bits);
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0)
         n.xy = (1.0 - abs(n.yx)) * octahedral_sign(n.xy);

@@ -38,10 +38,21 @@ bool slot_used(lsf_texture_slot_data slot)
     return slot.row_0.w != 0.0;
 }
 
-vec2 slot_uv(lsf_texture_slot_data slot, vec2 uv0, vec2 uv1)
+/* A place on both UV sets with its change from pixel to pixel. Derivatives are taken once, before
+ * any branch or discard: after one, the other pixels of a quad may hold no values to subtract. */
+struct texture_place {
+    vec2 uv0, uv0_dx, uv0_dy;
+    vec2 uv1, uv1_dx, uv1_dy;
+};
+
+vec4 slot_sample(sampler2D image, lsf_texture_slot_data slot, texture_place place)
 {
-    vec3 uv = vec3(slot.row_1.w == 0.0 ? uv0 : uv1, 1.0);
-    return vec2(dot(slot.row_0.xyz, uv), dot(slot.row_1.xyz, uv));
+    bool first = slot.row_1.w == 0.0;
+    mat2x3 rows = mat2x3(slot.row_0.xyz, slot.row_1.xyz);
+    vec2 uv = vec3(first ? place.uv0 : place.uv1, 1.0) * rows;
+    vec2 dx = vec3(first ? place.uv0_dx : place.uv1_dx, 0.0) * rows;
+    vec2 dy = vec3(first ? place.uv0_dy : place.uv1_dy, 0.0) * rows;
+    return textureGrad(image, uv, dx, dy);
 }
 
 #endif

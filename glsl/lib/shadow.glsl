@@ -40,22 +40,19 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     vec3 q = light_map_coordinates(r.face, position);
     vec3 n = vec3(dot(light.map_right[r.face].xyz, normal), dot(light.map_up[r.face].xyz, normal),
                   dot(light.map_forward[r.face].xyz, normal));
-    vec2 extent = light.map_extent.xy;
-    vec2 xy;
+    vec2 extent = light.map_window[r.face].zw;
     if (light_map_perspective()) {
-        /* On the plane n.q = c, near / q.z = near / c (n.z + extent n.xy (x, y)). */
-        xy = q.xy / (q.z * extent);
+        /* On the plane n.q = c, near / q.z = near / c (n.z + n.xy extent (x, y)). */
         r.depth = light.map_shape.x / q.z;
         r.gradient = light.map_shape.x / dot(n, q) * extent * n.xy;
     } else {
-        /* q.z = (c - extent n.xy (x, y)) / n.z */
-        xy = q.xy / extent;
+        /* q.z = (c - n.xy extent (x, y)) / n.z */
         float range = light.map_shape.y - light.map_shape.x;
         r.depth = (light.map_shape.y - q.z) / range;
         r.gradient = extent * n.xy / (n.z * range);
     }
     float texels = light.map_shape.z;
-    r.texel = ((xy + light.map_extent.zw) * 0.5 + 0.5) * texels;
+    r.texel = (light_map_place(r.face, q) * 0.5 + 0.5) * texels;
     r.gradient *= 2.0 / texels;
     return r;
 }

@@ -10,13 +10,9 @@ in vec4 vertex_tangent;
 #endif
 #if LSF_TEXTURED
 in vec2 vertex_uv0;
-#else
-const vec2 vertex_uv0 = vec2(0.0);
 #endif
 #if LSF_SECOND_UV
 in vec2 vertex_uv1;
-#else
-#define vertex_uv1 vertex_uv0
 #endif
 #if LSF_VERTEX_COLOR
 in vec4 vertex_color;
@@ -40,13 +36,32 @@ layout(location = LSF_GLOSS_TARGET) out uvec2 gloss_out;
 layout(location = LSF_EMISSION_TARGET) out vec4 emission_out;
 #endif
 
-vec4 base_color(lsf_material_data material)
+texture_place place_on_textures()
+{
+    texture_place place;
+#if LSF_TEXTURED
+    place.uv0 = vertex_uv0;
+    place.uv0_dx = dFdx(vertex_uv0);
+    place.uv0_dy = dFdy(vertex_uv0);
+#endif
+#if LSF_SECOND_UV
+    place.uv1 = vertex_uv1;
+    place.uv1_dx = dFdx(vertex_uv1);
+    place.uv1_dy = dFdy(vertex_uv1);
+#elif LSF_TEXTURED
+    place.uv1 = place.uv0;
+    place.uv1_dx = place.uv0_dx;
+    place.uv1_dy = place.uv0_dy;
+#endif
+    return place;
+}
+
+vec4 base_color(lsf_material_data material, texture_place place)
 {
     vec4 color = material.base_color;
 #if LSF_BASE_COLOR_TEXTURE
     if (slot_used(material.base_color_slot))
-        color *= texture(base_color_texture,
-                         slot_uv(material.base_color_slot, vertex_uv0, vertex_uv1));
+        color *= slot_sample(base_color_texture, material.base_color_slot, place);
 #endif
 #if LSF_VERTEX_COLOR
     color *= vertex_color;
@@ -78,7 +93,9 @@ void main()
 {
     lsf_instance_data instance = instances[vertex_instance];
     lsf_material_data material = materials[uint(instance.normal_0.w)];
-    vec4 color = base_color(material);
+    texture_place place = place_on_textures();
+    vec3 position_dx = dFdx(vertex_position), position_dy = dFdy(vertex_position);
+    vec4 color = base_color(material, place);
 #if LSF_MASK
     if (color.a < material.emission.w)
         discard;
@@ -88,7 +105,7 @@ void main()
     surface s;
     /* The triangle's own plane, for interpolation over it is affine. Each derivative is scaled
      * to unit length first, so that the smallest of triangles does not underflow. */
-    vec3 face = cross(unit_or_zero(dFdx(vertex_position)), unit_or_zero(dFdy(vertex_position)));
+    vec3 face = cross(unit_or_zero(position_dx), unit_or_zero(position_dy));
     vec3 vertex_n = normalize(vertex_normal);
     s.geometric_normal = dot(face, face) > 0.0 ? normalize(face) : vertex_n;
 #if LSF_ORTHOGRAPHIC
@@ -106,8 +123,7 @@ void main()
 #endif
 #if LSF_NORMAL_TEXTURE
     if (slot_used(material.normal_slot)) {
-        vec3 mapped = texture(normal_texture, slot_uv(material.normal_slot, vertex_uv0, vertex_uv1))
-                              .xyz * 2.0 - 1.0;
+        vec3 mapped = slot_sample(normal_texture, material.normal_slot, place).xyz * 2.0 - 1.0;
         mapped.xy *= material.surface.z;
         n = normalize(mapped.x * t + mapped.y * b + mapped.z * n);
     }
@@ -125,8 +141,8 @@ void main()
     s.roughness = material.surface.y;
 #if LSF_METALLIC_ROUGHNESS_TEXTURE
     if (slot_used(material.metallic_roughness_slot)) {
-        vec4 texel = texture(metallic_roughness_texture,
-                             slot_uv(material.metallic_roughness_slot, vertex_uv0, vertex_uv1));
+        vec4 texel =
+            slot_sample(metallic_roughness_texture, material.metallic_roughness_slot, place);
         s.metallic *= texel.b;
         s.roughness *= texel.g;
     }
@@ -136,8 +152,7 @@ void main()
     s.anisotropy = material.anisotropy.x;
 #if LSF_ANISOTROPY_TEXTURE
     if (slot_used(material.anisotropy_slot)) {
-        vec3 texel = texture(anisotropy_texture,
-                             slot_uv(material.anisotropy_slot, vertex_uv0, vertex_uv1)).xyz;
+        vec3 texel = slot_sample(anisotropy_texture, material.anisotropy_slot, place).xyz;
         vec2 d = texel.xy * 2.0 - 1.0;
         turn = vec2(d.x * turn.x - d.y * turn.y, d.x * turn.y + d.y * turn.x);
         s.anisotropy *= texel.z;
@@ -156,8 +171,7 @@ void main()
     vec3 emission = front || material.flags.x != 0.0 ? material.emission.rgb : vec3(0.0);
 #if LSF_EMISSIVE_TEXTURE
     if (slot_used(material.emissive_slot))
-        emission *= texture(emissive_texture,
-                            slot_uv(material.emissive_slot, vertex_uv0, vertex_uv1)).rgb;
+        emission *= slot_sample(emissive_texture, material.emissive_slot, place).rgb;
 #endif
     if (s.unlit)
         emission = color.rgb;

@@ -5,13 +5,9 @@ flat in uint vertex_instance;
 layout(binding = LSF_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
 #if LSF_TEXTURED
 in vec2 vertex_uv0;
-#else
-const vec2 vertex_uv0 = vec2(0.0);
 #endif
 #if LSF_SECOND_UV
 in vec2 vertex_uv1;
-#else
-#define vertex_uv1 vertex_uv0
 #endif
 #if LSF_VERTEX_COLOR
 in float vertex_alpha;
@@ -31,9 +27,15 @@ void main()
     lsf_material_data material = materials[uint(instances[vertex_instance].normal_0.w)];
     float alpha = material.base_color.a;
 #if LSF_TEXTURED
-    if (slot_used(material.base_color_slot))
-        alpha *= textureLod(base_color_texture,
-                            slot_uv(material.base_color_slot, vertex_uv0, vertex_uv1), 0.0).a;
+    if (slot_used(material.base_color_slot)) {
+        /* No footprint: the sharpest level. */
+        texture_place place = texture_place(vertex_uv0, vec2(0.0), vec2(0.0), vertex_uv0,
+                                            vec2(0.0), vec2(0.0));
+#if LSF_SECOND_UV
+        place.uv1 = vertex_uv1;
+#endif
+        alpha *= slot_sample(base_color_texture, material.base_color_slot, place).a;
+    }
 #endif
 #if LSF_VERTEX_COLOR
     alpha *= vertex_alpha;

@@ -25,10 +25,25 @@ const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
      "texels of a shadow map, all its faces together, for each pixel of the picture"},
 };
 
-static bool needs_cube(const lsf_light_state *light)
+/* Each cascade sees this many times farther than the one before. */
+#define CASCADE_RATIO 3.0f
+
+static const struct {
+    const char *name;
+    uint32_t faces;
+    const char *omitted;
+} kinds[LSF_SHADOW_MAP_KINDS] = {
+    {"cube", 6, "no point light and no wide spot"},
+    {"spot", 1, "no narrow spot"},
+    {"cascades", 4, "no directional light"},
+};
+
+static lsf_shadow_map_kind kind_of(const lsf_light_state *light)
 {
-    return light->type == LSF_LIGHT_POINT ||
-           (light->type == LSF_LIGHT_SPOT && light->cos_outer < WIDE_SPOT_COSINE);
+    if (light->type == LSF_LIGHT_DIRECTIONAL)
+        return LSF_SHADOW_MAP_CASCADES;
+    bool narrow = light->type == LSF_LIGHT_SPOT && light->cos_outer >= WIDE_SPOT_COSINE;
+    return narrow ? LSF_SHADOW_MAP_SPOT : LSF_SHADOW_MAP_CUBE;
 }
 
 static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const char *name,
@@ -54,9 +69,9 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
 void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                          const lsf_state *state)
 {
-    bool cube = false, single = false;
+    bool needed[LSF_SHADOW_MAP_KINDS] = {false};
     for (uint32_t i = 0; i < state->light_count; i++)
-        *(needs_cube(&state->lights[i]) ? &cube : &single) = true;
+        needed[kind_of(&state->lights[i])] = true;
     lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s see", state->light_count,
                       state->light_count == 1 ? "" : "s");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", params->filter == LSF_SHADOW_FILTER_NONE,
@@ -72,14 +87,14 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     lsf_plan_switch_add(plan, "LSF_VERTEX_COLOR",
                         plan->requirements.masked && plan->requirements.vertex_colored,
                         "vertex colours have alpha");
-    if (cube)
-        plan_map(plan, params, "cube", 6);
-    else
-        lsf_plan_omit(plan, "shadow_map.cube_depth", "no point light and no wide spot");
-    if (single)
-        plan_map(plan, params, "single", 1);
-    else
-        lsf_plan_omit(plan, "shadow_map.single_depth", "no directional light and no narrow spot");
+    for (int kind = 0; kind < LSF_SHADOW_MAP_KINDS; kind++) {
+        char name[64];
+        snprintf(name, sizeof name, "shadow_map.%s", kinds[kind].name);
+        if (needed[kind])
+            plan_map(plan, params, kinds[kind].name, kinds[kind].faces);
+        else
+            lsf_plan_omit(plan, name, "%s", kinds[kind].omitted);
+    }
     lsf_plan_buffer_add(plan, "shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
 }
@@ -117,9 +132,10 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
     static const char *const files[5] = {"passes/shadow_map.vert.glsl",
                                          "passes/shadow_map.frag.glsl"};
     *pass = (lsf_shadow_map){.context = context};
-    if (!create_target(&pass->cube, context, plan, "cube", error) ||
-        !create_target(&pass->single, context, plan, "single", error) ||
-        !lsf_plan_create_buffer(plan, context, "shadow_map.light", NULL, GL_DYNAMIC_STORAGE_BIT,
+    for (int kind = 0; kind < LSF_SHADOW_MAP_KINDS; kind++)
+        if (!create_target(&pass->targets[kind], context, plan, kinds[kind].name, error))
+            return false;
+    if (!lsf_plan_create_buffer(plan, context, "shadow_map.light", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->outputs.light_buffer, error))
         return false;
     pass->program = lsf_plan_program(plan, context, "shadow_map", files, error);
@@ -150,7 +166,8 @@ static void project_cube(struct lsf_light_data *data, const float rotation[9])
         set_face(data, 2 * axis, right, up, forward);
         set_face(data, 2 * axis + 1, right, up, lsf_f3_scale(forward, -1.0f));
     }
-    data->map_extent = (lsf_vec4){1.0f, 1.0f, 0.0f, 0.0f};
+    for (uint32_t face = 0; face < 6; face++)
+        data->map_window[face] = (lsf_vec4){0.0f, 0.0f, 1.0f, 1.0f};
 }
 
 /* right and up of a map that looks along `forward`, turned by `angle` about it. */
@@ -163,42 +180,98 @@ static void turned_axes(const lsf_light_state *light, float angle, lsf_float3 *r
     *up = lsf_f3_cross(forward, *right);
 }
 
-/* The window that holds the whole scene; rays start outside of its bounds. */
-static void project_directional(struct lsf_light_data *data, const lsf_state *state,
-                                lsf_float3 right, lsf_float3 up, lsf_float3 forward)
+typedef struct box {
+    float low[3], high[3];
+} box;
+
+static void box_add(box *b, const lsf_float3 axes[3], lsf_float3 p)
 {
-    lsf_float3 axes[3] = {right, up, forward};
-    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int axis = 0; axis < 3; axis++) {
+        float at = lsf_f3_dot(p, axes[axis]);
+        b->low[axis] = fminf(b->low[axis], at);
+        b->high[axis] = fmaxf(b->high[axis], at);
+    }
+}
+
+static const box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+/* Bounds of the scene along the axes; the unit box when it is empty. */
+static box scene_box(const lsf_state *state, const lsf_float3 axes[3])
+{
+    box b = empty_box;
     for (uint32_t i = 0; i < state->instance_count; i++) {
         const lsf_instance_state *instance = &state->instances[i];
-        for (int corner = 0; corner < 8 && !instance->skipped; corner++) {
-            lsf_float3 p = lsf_f3(
-                (corner & 1 ? instance->bounds_max : instance->bounds_min)[0],
-                (corner & 2 ? instance->bounds_max : instance->bounds_min)[1],
-                (corner & 4 ? instance->bounds_max : instance->bounds_min)[2]);
-            for (int axis = 0; axis < 3; axis++) {
-                float at = lsf_f3_dot(p, axes[axis]);
-                low[axis] = fminf(low[axis], at);
-                high[axis] = fmaxf(high[axis], at);
-            }
-        }
+        for (int corner = 0; corner < 8 && !instance->skipped; corner++)
+            box_add(&b, axes,
+                    lsf_f3((corner & 1 ? instance->bounds_max : instance->bounds_min)[0],
+                           (corner & 2 ? instance->bounds_max : instance->bounds_min)[1],
+                           (corner & 4 ? instance->bounds_max : instance->bounds_min)[2]));
     }
-    lsf_float3 origin = lsf_f3(0.0f, 0.0f, 0.0f);
-    float half[3] = {1.0f, 1.0f, 1.0f};
-    for (int axis = 0; axis < 3 && low[0] <= high[0]; axis++) {
-        /* A flat scene still needs a window. */
-        half[axis] = fmaxf(0.5f * (high[axis] - low[axis]), 1e-3f);
-        float start = axis < 2 ? 0.5f * (high[axis] + low[axis])
-                               : 0.5f * (high[axis] + low[axis]) - 1.01f * half[axis];
-        origin = lsf_f3_mad(origin, axes[axis], start);
+    return b.low[0] <= b.high[0] ? b : (box){{-1, -1, -1}, {1, 1, 1}};
+}
+
+/* Bounds, along the axes, of what the camera sees up to `depth`. */
+static box view_box(const lsf_camera_state *camera, const lsf_float3 axes[3], float depth)
+{
+    box b = empty_box;
+    for (int corner = 0; corner < 8; corner++) {
+        float x = corner & 1 ? 1.0f : -1.0f, y = corner & 2 ? 1.0f : -1.0f;
+        float z = corner & 4 ? depth : 0.0f;
+        lsf_float3 p = lsf_f3_load(camera->origin);
+        p = lsf_f3_mad(p, lsf_f3_load(camera->origin_dx), x);
+        p = lsf_f3_mad(p, lsf_f3_load(camera->origin_dy), y);
+        p = lsf_f3_mad(p, lsf_f3_load(camera->forward), z);
+        p = lsf_f3_mad(p, lsf_f3_load(camera->forward_dx), z * x);
+        p = lsf_f3_mad(p, lsf_f3_load(camera->forward_dy), z * y);
+        box_add(&b, axes, p);
     }
-    /* One texel more on each side is room for the sub-texel offset. */
-    float room = 1.0f + 2.0f * data->map_shape.w;
-    data->map_origin = vec4_from(origin, 1.0f);
+    return b;
+}
+
+static float farthest_depth(const lsf_state *state)
+{
+    const lsf_camera_state *camera = &state->camera;
+    float farthest = 0.0f;
+    for (int corner = 0; corner < 8; corner++) {
+        lsf_float3 p = lsf_f3((corner & 1 ? state->bounds_max : state->bounds_min)[0],
+                              (corner & 2 ? state->bounds_max : state->bounds_min)[1],
+                              (corner & 4 ? state->bounds_max : state->bounds_min)[2]);
+        farthest = fmaxf(farthest, lsf_f3_dot(lsf_f3_sub(p, lsf_f3_load(camera->origin)),
+                                              lsf_f3_load(camera->forward)));
+    }
+    return farthest;
+}
+
+/* Nested windows: each holds what is seen up to a third of the next one's depth, so that a texel
+ * is everywhere about as wide as a pixel is there; the last holds all that is seen. Along the light,
+ * each holds the whole scene, which may cast its shadow from outside the view. */
+static void project_cascades(struct lsf_light_data *data, const lsf_state *state, uint32_t faces,
+                             lsf_float3 right, lsf_float3 up, lsf_float3 forward)
+{
+    const lsf_float3 axes[3] = {right, up, forward};
+    box scene = scene_box(state, axes);
+    float half_range = fmaxf(0.5f * (scene.high[2] - scene.low[2]), 1e-3f);
+    float start = 0.5f * (scene.high[2] + scene.low[2]) - 1.01f * half_range;
+    data->map_origin = vec4_from(lsf_f3_scale(forward, start), (float)faces);
     data->map_shape.x = 0.0f;
-    data->map_shape.y = 2.02f * half[2];
-    data->map_extent.x = half[0] * room;
-    data->map_extent.y = half[1] * room;
+    data->map_shape.y = 2.02f * half_range;
+    float depth = farthest_depth(state);
+    for (uint32_t i = 0; i < faces; i++, depth /= CASCADE_RATIO) {
+        uint32_t face = faces - 1 - i;
+        box view = view_box(&state->camera, axes, depth);
+        float center[2], extent[2];
+        for (int axis = 0; axis < 2; axis++) {
+            float low = fmaxf(view.low[axis], scene.low[axis]);
+            float high = fminf(view.high[axis], scene.high[axis]);
+            bool outside = !(low <= high); /* nothing of the scene is in view */
+            center[axis] = outside ? scene.low[axis] : 0.5f * (low + high);
+            /* One texel more on each side is room for the offset. */
+            extent[axis] = fmaxf(outside ? 0.0f : 0.5f * (high - low), 1e-4f) *
+                           (1.0f + 2.0f * data->map_shape.w);
+        }
+        set_face(data, face, right, up, forward);
+        data->map_window[face] = (lsf_vec4){center[0], center[1], extent[0], extent[1]};
+    }
 }
 
 static void set_light(struct lsf_light_data *data, const lsf_light_state *light)
@@ -234,44 +307,41 @@ static void set_projection(struct lsf_light_data *data, const lsf_iteration *ite
     }
     lsf_float3 right, up, forward = lsf_f3_load(light->direction);
     turned_axes(light, turn[0] * 2.0f * LSF_PI, &right, &up);
-    set_face(data, 0, right, up, forward);
-    data->map_extent.z = (2.0f * shift[0] - 1.0f) / texels;
-    data->map_extent.w = (2.0f * shift[1] - 1.0f) / texels;
+    data->map_offset.x = (2.0f * shift[0] - 1.0f) / texels;
+    data->map_offset.y = (2.0f * shift[1] - 1.0f) / texels;
     if (light->type == LSF_LIGHT_DIRECTIONAL) {
-        project_directional(data, iteration->state, right, up, forward);
+        project_cascades(data, iteration->state, target->faces, right, up, forward);
     } else {
         float tangent = sqrtf(1.0f - light->cos_outer * light->cos_outer) / light->cos_outer;
-        data->map_extent.x = data->map_extent.y =
-            fmaxf(tangent, 1e-4f) * (1.0f + 2.0f / texels);
+        float extent = fmaxf(tangent, 1e-4f) * (1.0f + 2.0f / texels);
+        set_face(data, 0, right, up, forward);
+        data->map_window[0] = (lsf_vec4){0.0f, 0.0f, extent, extent};
     }
-}
-
-static float dot_vec4(lsf_vec4 a, lsf_vec4 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 /* The half spaces of one face's sides: x, y = +-1 on the map. */
 static void face_region(const struct lsf_light_data *data, uint32_t face, lsf_draw_region *region)
 {
+    const float window[4] = {data->map_window[face].x, data->map_window[face].y,
+                             data->map_window[face].z, data->map_window[face].w};
+    const float offset[2] = {data->map_offset.x, data->map_offset.y};
+    const float *axes[3] = {&data->map_right[face].x, &data->map_up[face].x,
+                            &data->map_forward[face].x};
+    const float *origin = &data->map_origin.x;
     bool perspective = data->map_shape.y == 0.0f;
     region->plane_count = 4;
     for (int i = 0; i < 4; i++) {
-        lsf_vec4 axis = i < 2 ? data->map_right[face] : data->map_up[face];
-        lsf_vec4 forward = data->map_forward[face];
-        float extent = i < 2 ? data->map_extent.x : data->map_extent.y;
-        float offset = i < 2 ? data->map_extent.z : data->map_extent.w;
+        int side = i / 2;
         float sign = i % 2 ? -1.0f : 1.0f;
-        /* 1 - sign (q / extent + offset) >= 0, times q.z when perspective */
-        float along = perspective ? 1.0f - sign * offset : 0.0f;
-        lsf_vec4 plane = {along * forward.x - sign * axis.x / extent,
-                          along * forward.y - sign * axis.y / extent,
-                          along * forward.z - sign * axis.z / extent, 0.0f};
-        region->planes[i][0] = plane.x;
-        region->planes[i][1] = plane.y;
-        region->planes[i][2] = plane.z;
-        region->planes[i][3] =
-            (perspective ? 0.0f : 1.0f - sign * offset) - dot_vec4(plane, data->map_origin);
+        /* 1 - sign ((q - center) / extent + offset) >= 0; when perspective, times q.z */
+        float along = perspective ? 1.0f - sign * offset[side] : 0.0f;
+        float *plane = region->planes[i];
+        plane[3] = perspective ? 0.0f
+                               : 1.0f - sign * (offset[side] - window[side] / window[2 + side]);
+        for (int axis = 0; axis < 3; axis++) {
+            plane[axis] = along * axes[2][axis] - sign * axes[side][axis] / window[2 + side];
+            plane[3] -= plane[axis] * origin[axis];
+        }
     }
 }
 
@@ -279,7 +349,7 @@ void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, ui
 {
     static const GLfloat zero[4] = {0};
     const lsf_light_state *light = &iteration->state->lights[light_index];
-    const lsf_shadow_map_target *target = needs_cube(light) ? &pass->cube : &pass->single;
+    const lsf_shadow_map_target *target = &pass->targets[kind_of(light)];
     struct lsf_light_data *data = &pass->outputs.light;
     lsf_timer_begin(pass->timer);
     set_light(data, light);
@@ -320,8 +390,8 @@ void lsf_shadow_map_destroy(lsf_shadow_map *pass)
 {
     if (!pass->context)
         return;
-    destroy_target(pass->context, &pass->cube);
-    destroy_target(pass->context, &pass->single);
+    for (int kind = 0; kind < LSF_SHADOW_MAP_KINDS; kind++)
+        destroy_target(pass->context, &pass->targets[kind]);
     lsf_buffer_destroy(pass->context, &pass->outputs.light_buffer);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

@@ -17,15 +17,22 @@ typedef struct lsf_shadow_map_params {
     float texels_per_pixel; /* of the whole map, all faces together, to the picture's pixels */
 } lsf_shadow_map_params;
 
-/* The paper's frame (Tokuyoshi and Ogaki 2012) has 6 faces of 1024^2 texels for 1920 x 1088
- * pixels: three texels a pixel. */
+/* At 1024 x 768 pixels, a cube's faces have 1024^2 texels, as Tokuyoshi and Ogaki 2012 use. */
 #define LSF_SHADOW_MAP_PARAMS_DEFAULTS                                                    \
-    .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 3.0f
+    .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 8.0f
 
 #define LSF_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT];
 
-/* Depth and its slope, valid until the next run. 2D arrays of 6 layers for a cube, else of 1. */
+/* The shapes of maps. */
+typedef enum lsf_shadow_map_kind {
+    LSF_SHADOW_MAP_CUBE,     /* 6 faces: point lights and wide spots */
+    LSF_SHADOW_MAP_SPOT,     /* 1 face */
+    LSF_SHADOW_MAP_CASCADES, /* 4 nested windows about the viewer: directional lights */
+    LSF_SHADOW_MAP_KINDS,
+} lsf_shadow_map_kind;
+
+/* Depth and its slope, valid until the next run. 2D arrays with a layer for each face. */
 typedef struct lsf_shadow_map_outputs {
     GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
     GLuint gradient;     /* RG32F: depth's change per texel along x and y; 0 (the name) with pcf */
@@ -43,13 +50,12 @@ typedef struct lsf_shadow_map_target {
 typedef struct lsf_shadow_map {
     lsf_context *context;
     lsf_shadow_map_outputs outputs;
-    lsf_shadow_map_target cube, single;
+    lsf_shadow_map_target targets[LSF_SHADOW_MAP_KINDS];
     GLuint program;
     lsf_timer *timer;
 } lsf_shadow_map;
 
-/* Lists the pass and its textures: a cube for point lights and wide spots, one map for the rest.
- * `state` tells which spots are wide. */
+/* Lists the pass and the textures of the kinds of map that the lights in `state` need. */
 void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                          const lsf_state *state);
 bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf_plan *plan,

@@ -55,7 +55,7 @@ static const shared_struct structs[] = {
      {MEMBER(lsf_light_data, position), MEMBER(lsf_light_data, direction),
       MEMBER(lsf_light_data, intensity), MEMBER(lsf_light_data, attenuation),
       MEMBER(lsf_light_data, map_origin), MEMBER(lsf_light_data, map_shape),
-      MEMBER(lsf_light_data, map_extent), MEMBER(lsf_light_data, map_right),
+      MEMBER(lsf_light_data, map_offset), MEMBER(lsf_light_data, map_window), MEMBER(lsf_light_data, map_right),
       MEMBER(lsf_light_data, map_up), MEMBER(lsf_light_data, map_forward)}},
 };
 
