@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "build_scene.h"
+#include "render_scene.h"
 
 static void assert_near(const char *what, double found, double expected, double tolerance)
 {

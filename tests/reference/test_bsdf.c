@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "build_scene.h"
+#include "render_scene.h"
 #include "chi_square.h"
 #include "math/sampling.h"
 #include "reference/bsdf.h"

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "build_scene.h"
+#include "render_scene.h"
 #include "math/sampling.h"
 
 static const float inside_eye[3] = {0.1f, 0.2f, 0.9f}, inside_target[3] = {-0.1f, -0.2f, -1.0f};
