@@ -9,10 +9,10 @@
 
 #include <cmocka.h>
 
-#include "render_scene.h"
 #include "chi_square.h"
 #include "math/sampling.h"
 #include "reference/bsdf.h"
+#include "render_scene.h"
 #include "shared/brdf.h"
 
 typedef struct material_case {

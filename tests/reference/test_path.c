@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "render_scene.h"
 #include "math/sampling.h"
+#include "render_scene.h"
 
 static const float inside_eye[3] = {0.1f, 0.2f, 0.9f}, inside_target[3] = {-0.1f, -0.2f, -1.0f};
 
