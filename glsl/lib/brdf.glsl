@@ -9,11 +9,21 @@ struct brdf_value {
     vec3 diffuse, specular; /* [1/sr] */
 };
 
-/* `view` and `light` point away from the surface; zero unless both are on the normal's side. */
-brdf_value brdf_evaluate(surface s, vec3 view, vec3 light)
+/* A bent normal may look away from the viewer; the view is then lifted to its horizon, for with a
+ * negative cosine the lobe is unbounded. */
+vec3 lift_to_horizon(vec3 view, vec3 normal)
+{
+    float nv = dot(normal, view);
+    return nv >= LSF_COSINE_MIN ? view : normalize(view + (LSF_COSINE_MIN - nv) * normal);
+}
+
+/* Both directions are unit vectors that point away from the surface; the specular lobe is zero
+ * where light comes from behind the normal. */
+brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light)
 {
     brdf_value f;
     float nl = dot(s.normal, light);
+    vec3 view = lift_to_horizon(view_direction, s.normal);
     float nv = max(dot(s.normal, view), LSF_COSINE_MIN);
     f.specular = vec3(0.0);
 #if LSF_SPECULAR

@@ -119,7 +119,9 @@ void main()
     vec3 n = vertex_n;
 #if LSF_TANGENT
     vec3 t = tangent_about(n);
-    vec3 b = cross(n, t) * vertex_tangent.w;
+    /* A mirror turns the cross product of mirrored vectors the other way. */
+    bool mirrored = instance.normal_1.w != 0.0;
+    vec3 b = cross(n, t) * (mirrored ? -vertex_tangent.w : vertex_tangent.w);
 #endif
 #if LSF_NORMAL_TEXTURE
     if (slot_used(material.normal_slot)) {

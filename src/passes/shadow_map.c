@@ -14,6 +14,11 @@
  * floats a small near plane costs no precision. */
 #define NEAR_PLANE 1e-5f
 
+/* Texels along a face's side: a small picture still deserves a shadow of the right shape, and GL 4.5
+ * promises this much. */
+#define MIN_SIDE 128
+#define MAX_SIDE 16384
+
 /* A spot wider than this half angle gets a cube: one face would spend its texels on the rim. */
 #define WIDE_SPOT_COSINE 0.5f
 
@@ -51,7 +56,7 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
 {
     double texels = (double)plan->width * plan->height * params->texels_per_pixel;
     uint32_t side = (uint32_t)ceil(sqrt(texels / faces));
-    side = side < 16 ? 16 : side > 16384 ? 16384 : side;
+    side = side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
     lsf_texture_desc desc = {NULL,  GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, side, side,
                              faces, 1};
     char full_name[64];

@@ -1,0 +1,242 @@
+/* Scenes that differ in one feature each: the plan's passes, bytes and switches differ by just what
+ * that feature needs. Needs no GL. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "../scene/build_scene.h"
+#include "plan/plan.h"
+
+enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
+
+typedef void (*feature)(lsf_scene *scene, lsf_material *material);
+
+/* A floor under one point light, with a feature added. */
+static lsf_plan *plan_with(feature add, uint32_t aovs)
+{
+    lsf_scene *scene = build_scene();
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 2, 0), lsf_f3(0, -1, 0), 1.0f);
+    lsf_material *material = build_material(scene, 0.5f, 0.5f, 0.5f);
+    if (add)
+        add(scene, material);
+    build_floor(scene, 0.0f, 1.0f);
+    finish_scene(scene);
+    lsf_scene_compute_requirements(scene);
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.width = WIDTH;
+    params.height = HEIGHT;
+    params.aovs = aovs;
+    lsf_error error = {0};
+    lsf_plan *plan = lsf_plan_create(scene, &params, &error);
+    if (!plan)
+        fail_msg("%s", error.message);
+    destroy_scene(scene);
+    return plan;
+}
+
+/* Prints and counts the resources and passes that only one plan has; checks the bytes of the rest
+ * are equal. */
+static uint64_t added(const lsf_plan *base, const lsf_plan *plan, const char *names[8])
+{
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < plan->resource_count; i++) {
+        const lsf_plan_resource *in_base = lsf_plan_find(base, plan->resources[i].name);
+        if (!in_base)
+            names[count++] = plan->resources[i].name;
+    }
+    for (uint64_t i = 0; i < base->resource_count; i++) {
+        const lsf_plan_resource *in_plan = lsf_plan_find(plan, base->resources[i].name);
+        assert_non_null(in_plan);
+        if (strcmp(base->resources[i].name, "scene.materials") != 0)
+            assert_int_equal(in_plan->bytes, base->resources[i].bytes);
+    }
+    return count;
+}
+
+/* The switches that are not equal in both plans, as "pass.NAME " in order. */
+static void changed_switches(const lsf_plan *base, const lsf_plan *plan, char *out, size_t size)
+{
+    out[0] = '\0';
+    for (uint64_t p = 0; p < plan->pass_count; p++)
+        for (uint32_t s = 0; s < plan->passes[p].switch_count; s++) {
+            const lsf_define *define = &plan->passes[p].switches[s].define;
+            const char *pass = plan->passes[p].name;
+            if (lsf_plan_find_pass(base, pass) &&
+                lsf_plan_switch_value(base, pass, define->name) != define->value) {
+                size_t length = strlen(out);
+                snprintf(out + length, size - length, "%s.%s ", pass, define->name);
+            }
+        }
+}
+
+static void check_feature(feature add, uint32_t aovs, uint64_t count, const char *const *expected,
+                          uint64_t bytes, const char *switches, int extra_passes)
+{
+    lsf_plan *base = plan_with(NULL, 0), *plan = plan_with(add, aovs);
+    const char *names[8];
+    char changed[512];
+    assert_int_equal(added(base, plan, names), count);
+    for (uint64_t i = 0; i < count; i++)
+        assert_string_equal(names[i], expected[i]);
+    assert_int_equal(lsf_plan_bytes(plan) - lsf_plan_bytes(base), bytes);
+    changed_switches(base, plan, changed, sizeof changed);
+    assert_string_equal(changed, switches);
+    assert_int_equal((int)plan->pass_count - (int)base->pass_count, extra_passes);
+    lsf_plan_destroy(base);
+    lsf_plan_destroy(plan);
+}
+
+static void make_glossy(lsf_scene *scene, lsf_material *material)
+{
+    (void)scene;
+    material->roughness = 0.5f;
+}
+
+static void gloss(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"gbuffer.gloss"};
+    check_feature(make_glossy, 0, 1, names, PIXELS * 4,
+                  "gbuffer.LSF_GLOSS gbuffer.LSF_GLOSS_TARGET direct_light.LSF_GLOSS ", 0);
+}
+
+static void make_emissive(lsf_scene *scene, lsf_material *material)
+{
+    (void)scene;
+    material->emission[0] = 1.0f;
+}
+
+static void emission(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"gbuffer.emission", "compose.radiance"};
+    check_feature(make_emissive, 0, 2, names, PIXELS * (16 + 16),
+                  "gbuffer.LSF_EMISSION gbuffer.LSF_EMISSION_TARGET ", 1);
+}
+
+static void make_sunny(lsf_scene *scene, lsf_material *material)
+{
+    (void)material;
+    build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(0, -1, 0), 1.0f);
+}
+
+static void directional_light(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"shadow_map.cascades_depth", "shadow_map.cascades_gradient"};
+    check_feature(make_sunny, 0, 2, names, (uint64_t)4 * 128 * 128 * (4 + 8),
+                  "direct_light.LSF_DIRECTIONAL_LIGHT ", 0);
+}
+
+static void make_masked(lsf_scene *scene, lsf_material *material)
+{
+    (void)scene;
+    material->alpha_mode = LSF_ALPHA_MASK;
+    material->alpha_cutoff = 0.5f;
+}
+
+static void mask(void **unused)
+{
+    (void)unused;
+    check_feature(make_masked, 0, 0, NULL, 0, "gbuffer.LSF_MASK shadow_map.LSF_MASK ", 0);
+}
+
+static void make_environment(lsf_scene *scene, lsf_material *material)
+{
+    (void)material;
+    scene->environment = (lsf_environment){.present = true, .radiance = {1, 1, 1}};
+}
+
+static void environment(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"compose.radiance"};
+    check_feature(make_environment, 0, 1, names, PIXELS * 16, "", 1);
+}
+
+static void make_textured(lsf_scene *scene, lsf_material *material)
+{
+    static const uint8_t texels[4 * 2 * 3];
+    material->base_color_texture.texture = build_texture(scene, 4, 2, 3, texels, true);
+}
+
+static void base_color_texture(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"scene.texture.0"};
+    /* 4x2 + 2x1 + 1x1 texels of RGBA16F; the UVs are counted where they are */
+    lsf_plan *plan = plan_with(make_textured, 0);
+    assert_int_equal(lsf_plan_find(plan, names[0])->bytes, (8 + 2 + 1) * 8);
+    assert_non_null(lsf_plan_find(plan, "scene.uv0"));
+    lsf_plan_destroy(plan);
+}
+
+static void layers(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"gbuffer.motion", "scene.previous_transforms"};
+    lsf_plan *plan = plan_with(NULL, LSF_AOV_MOTION | LSF_AOV_ALBEDO);
+    for (int i = 0; i < 2; i++)
+        assert_non_null(lsf_plan_find(plan, names[i]));
+    assert_non_null(lsf_plan_find(plan, "accumulate.albedo"));
+    lsf_plan_destroy(plan);
+}
+
+static void no_light_no_shadow(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 1, 1, 1);
+    build_floor(scene, 0.0f, 1.0f);
+    finish_scene(scene);
+    lsf_scene_compute_requirements(scene);
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_plan *plan = lsf_plan_create(scene, &params, NULL);
+    assert_null(lsf_plan_find_pass(plan, "shadow_map"));
+    assert_null(lsf_plan_find_pass(plan, "direct_light"));
+    lsf_plan_destroy(plan);
+    destroy_scene(scene);
+}
+
+static void bad_params(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    finish_scene(scene);
+    lsf_scene_compute_requirements(scene);
+    static const char *const bad[] = {"shadow.filter",      "shadow.filter=soft",
+                                      "shadow.nothing=1",   "shadow.texels_per_pixel=1e9",
+                                      "shadow.filter=pcf ", "shadow.texels_per_pixel=nan"};
+    for (int i = 0; i < 6; i++) {
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+        lsf_error error = {0};
+        params.options = &bad[i];
+        params.option_count = 1;
+        assert_null(lsf_plan_create(scene, &params, &error));
+        assert_int_equal(error.code, LSF_ERROR_USAGE);
+        assert_non_null(strstr(error.message, bad[i]));
+    }
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_error error = {0};
+    params.camera = "nowhere";
+    assert_null(lsf_plan_create(scene, &params, &error));
+    assert_int_equal(error.code, LSF_ERROR_USAGE);
+    destroy_scene(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gloss),       cmocka_unit_test(emission),
+        cmocka_unit_test(directional_light), cmocka_unit_test(mask),
+        cmocka_unit_test(environment), cmocka_unit_test(base_color_texture),
+        cmocka_unit_test(layers),      cmocka_unit_test(no_light_no_shadow),
+        cmocka_unit_test(bad_params),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

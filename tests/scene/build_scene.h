@@ -1,0 +1,38 @@
+/* Scenes made by hand. */
+#ifndef LSF_TESTS_SCENE_BUILD_SCENE_H
+#define LSF_TESTS_SCENE_BUILD_SCENE_H
+
+#include "math/vector.h"
+#include "scene/scene.h"
+
+/* An empty scene with one perspective camera and glTF's default material as material 0 would be
+ * too many choices: materials come from build_material. The caller destroys it. */
+lsf_scene *build_scene(void);
+void destroy_scene(lsf_scene *scene);
+
+/* A dielectric of roughness 1; change what differs. The pointer lasts until the next call. */
+lsf_material *build_material(lsf_scene *scene, float r, float g, float b);
+
+/* Adds a node at the root with these triangles in the last material made. Normals are flat. */
+lsf_node *build_triangles(lsf_scene *scene, const lsf_float3 *corners, uint32_t triangle_count);
+/* A quadrilateral a, b, c, d, anticlockwise seen from its front. */
+lsf_node *build_quad(lsf_scene *scene, lsf_float3 a, lsf_float3 b, lsf_float3 c, lsf_float3 d);
+/* The square of half width `size` in y = height that faces up. */
+lsf_node *build_floor(lsf_scene *scene, float height, float size);
+/* An axis-aligned box; its front is its inside or its outside. */
+lsf_node *build_box(lsf_scene *scene, lsf_float3 low, lsf_float3 high, bool inside);
+/* An icosphere of radius 1 with 20 * 4^levels triangles. */
+lsf_node *build_sphere(lsf_scene *scene, uint32_t levels, bool inside);
+
+/* Adds a light at the root. */
+lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 position,
+                       lsf_float3 direction, float intensity);
+
+/* A texture of `channels` bytes a texel; returns its index. */
+uint32_t build_texture(lsf_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
+                       const uint8_t *texels, bool srgb);
+
+/* Sets the normalised space from the bounds; call after the last triangle. */
+void finish_scene(lsf_scene *scene);
+
+#endif
