@@ -56,6 +56,7 @@ typedef struct lsf_requirements {
     bool moving;                 /* some node that carries geometry, a light or a camera is animated */
     uint64_t triangles;          /* of all instances */
     uint64_t unique_triangles;   /* stored once each */
+    uint64_t degenerate_triangles; /* of those, without area: nothing is drawn of them */
     uint64_t vertices;           /* stored */
     uint32_t instances, primitives, materials, textures;
     double center[3];            /* scene units (metres): centre of the normalised space */

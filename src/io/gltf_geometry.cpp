@@ -99,8 +99,7 @@ geometry_importer::geometry_importer(gltf_import &import, const stream_choice &s
 {
 }
 
-/* --- what materials ask for ----------------------------------------------------------------------
- */
+/* --- what materials ask for --- */
 
 static const lsf_material &material_of(const gltf_import &import,
                                        const tinygltf::Primitive &primitive)
@@ -170,8 +169,7 @@ void geometry_importer::count_ignored(const tinygltf::Primitive &source,
         (reads_uv(material, 1) && find_attribute(source, "TEXCOORD_1") < 0);
 }
 
-/* --- repairs
- * --------------------------------------------------------------------------------------- */
+/* --- repairs --- */
 
 void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles)
 {
@@ -222,8 +220,7 @@ void geometry_importer::compute_tangents(vertex_arrays &arrays, std::vector<uint
                       triangles.size(), arrays.tangent.data());
 }
 
-/* --- storing
- * ------------------------------------------------------------------------------------------ */
+/* --- storing --- */
 
 void geometry_importer::append_vertices(const vertex_arrays &arrays, lsf_primitive &primitive)
 {

@@ -21,7 +21,7 @@
 namespace lsf
 {
 
-/* --- failures -------------------------------------------------------------------------------- */
+/* --- failures --- */
 
 class failure : public std::exception
 {
@@ -66,7 +66,7 @@ class memory_budget
     uint64_t limit_, used_ = 0;
 };
 
-/* --- the file -------------------------------------------------------------------------------- */
+/* --- the file --- */
 
 /* The bytes of a .gltf or .glb, told apart by the magic, with the chunks of the latter. */
 struct gltf_container {
@@ -98,7 +98,7 @@ std::string uri_to_path(const std::string &folder, const std::string &uri,
 /* The whole file; fails when it is not a regular one or longer than `limit`. */
 std::vector<unsigned char> file_bytes(const std::string &path, uint64_t limit);
 
-/* --- the import ------------------------------------------------------------------------------ */
+/* --- the import --- */
 
 /* What was repaired, summed up so that a file gives one note for each kind. */
 struct gltf_repairs {
@@ -134,8 +134,7 @@ void gltf_geometry_import(gltf_import &import);   /* gltf_geometry.cpp */
 void gltf_animations_import(gltf_import &import); /* gltf_animations.cpp */
 void gltf_notes_add(gltf_import &import);         /* gltf_notes.cpp */
 
-/* --- accessors, gltf_accessor.cpp ---------------------------------------------------------------
- */
+/* --- accessors, gltf_accessor.cpp --- */
 
 /* Holds every accessor against its buffer view. */
 void accessors_check(const gltf_import &import);
@@ -146,8 +145,7 @@ void accessor_read_indices(const gltf_import &import, int accessor, uint64_t lim
                            std::vector<uint32_t> &values);
 std::string accessor_format(const tinygltf::Accessor &accessor); /* "VEC3 of FLOAT" */
 
-/* --- into the scene's C arrays
- * -------------------------------------------------------------------- */
+/* --- into the scene's C arrays --- */
 
 /* malloc'ed, freed by lsf_scene_destroy. */
 char *copy_text(const std::string &text);

@@ -14,8 +14,7 @@ namespace lsf
 
 using tinygltf::Value;
 
-/* --- textures and images -----------------------------------------------------------------------
- */
+/* --- textures and images --- */
 
 class texture_importer
 {
@@ -127,8 +126,7 @@ void texture_importer::finish()
     }
 }
 
-/* --- texture slots -------------------------------------------------------------------------------
- */
+/* --- texture slots --- */
 
 static const lsf_texture_slot empty_slot = {LSF_NONE, 0, {1, 0, 0, 0, 1, 0}};
 
@@ -199,8 +197,7 @@ static lsf_texture_slot extension_slot(texture_importer &textures, const Value &
                      (int)number_in(info, "texCoord", 0.0), false, extensions, location);
 }
 
-/* --- materials
- * ------------------------------------------------------------------------------------- */
+/* --- materials --- */
 
 static lsf_material default_material()
 {

@@ -18,8 +18,7 @@ int find_attribute(const tinygltf::Primitive &primitive, const char *name)
     return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-/* --- vertex arrays -------------------------------------------------------------------------------
- */
+/* --- vertex arrays --- */
 
 static void gather_stream(std::vector<float> &stream, size_t width,
                           const std::vector<uint32_t> &sources)
@@ -65,8 +64,7 @@ void vertex_arrays::append_copies(const uint32_t *sources, uint64_t copies)
     count += copies;
 }
 
-/* --- attributes
- * ------------------------------------------------------------------------------------ */
+/* --- attributes --- */
 
 enum format : unsigned {
     FLOAT = 1,
@@ -173,8 +171,7 @@ vertex_arrays read_vertices(gltf_import &import, const tinygltf::Primitive &prim
     return arrays;
 }
 
-/* --- triangles
- * --------------------------------------------------------------------------------------- */
+/* --- triangles --- */
 
 std::vector<uint32_t> read_triangles(gltf_import &import, const tinygltf::Primitive &primitive,
                                      uint64_t vertex_count, const std::string &location)

@@ -36,8 +36,7 @@ bool extension_is_supported(const std::string &name)
     return false;
 }
 
-/* --- parsing -------------------------------------------------------------------------------------
- */
+/* --- parsing --- */
 
 /* Builds the document as json::parse does and remembers where it failed. */
 class locating_parser : public nlohmann::detail::json_sax_dom_parser<json>
@@ -89,8 +88,7 @@ static json parse(std::string_view text, uint64_t memory_limit)
     return root;
 }
 
-/* --- checking against the tables
- * --------------------------------------------------------------------- */
+/* --- checking against the tables --- */
 
 class checker
 {
@@ -289,8 +287,7 @@ void checker::check_object(const json &value, const schema &schema, bool extensi
     }
 }
 
-/* --- what the tables cannot say
- * ------------------------------------------------------------------------ */
+/* --- what the tables cannot say --- */
 
 static void check_version(const json &root)
 {

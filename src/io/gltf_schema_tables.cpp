@@ -69,8 +69,7 @@ static constexpr rule extensions(const schema *known)
     return {"extensions", shape::extensions, OPTIONAL, 0, 0, nullptr, known};
 }
 
-/* --- data ----------------------------------------------------------------------------------------
- */
+/* --- data --- */
 
 static const rule asset_rules[] = {text("version", REQUIRED), text("minVersion"), text("generator"),
                                    text("copyright")};
@@ -111,8 +110,7 @@ static const rule accessor_rules[] = {
     text("name")};
 static const schema accessor = of(accessor_rules);
 
-/* --- geometry ------------------------------------------------------------------------------------
- */
+/* --- geometry --- */
 
 static const rule primitive_rules[] = {{"attributes", shape::attributes, REQUIRED},
                                        reference("indices", OPTIONAL, "accessors"),
@@ -125,8 +123,7 @@ static const rule mesh_rules[] = {objects("primitives", REQUIRED, &primitive),
                                   numbers("weights", 0), text("name")};
 static const schema mesh = of(mesh_rules);
 
-/* --- textures and materials
- * ------------------------------------------------------------------------ */
+/* --- textures and materials --- */
 
 static const rule image_rules[] = {reference("bufferView", OPTIONAL, "bufferViews"), text("uri"),
                                    text("mimeType"), text("name")};
@@ -194,8 +191,7 @@ static const rule material_rules[] = {text("name"),
                                       extensions(&material_extensions)};
 static const schema material = of(material_rules);
 
-/* --- cameras, lights, nodes
- * -------------------------------------------------------------------------- */
+/* --- cameras, lights, nodes --- */
 
 static const rule perspective_rules[] = {
     number("yfov", REQUIRED, POSITIVE, 3.14159), number("znear", REQUIRED, POSITIVE),
@@ -242,8 +238,7 @@ static const schema node = of(node_rules);
 static const rule scene_rules[] = {references("nodes", "nodes"), text("name")};
 static const schema scene = of(scene_rules);
 
-/* --- animations, skins
- * --------------------------------------------------------------------------------- */
+/* --- animations, skins --- */
 
 static const rule target_rules[] = {reference("node", OPTIONAL, "nodes"), text("path", REQUIRED)};
 static const schema target = of(target_rules);
@@ -264,9 +259,7 @@ static const rule skin_rules[] = {reference("inverseBindMatrices", OPTIONAL, "ac
                                   references("joints", "nodes"), text("name")};
 static const schema skin = of(skin_rules);
 
-/* --- root
- * ------------------------------------------------------------------------------------------------
- */
+/* --- root --- */
 
 static const rule lights_rules[] = {objects("lights", REQUIRED, &light)};
 static const schema lights = of(lights_rules);

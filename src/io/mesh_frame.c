@@ -129,8 +129,7 @@ void lsf_replace_zero_normals(const float *positions, uint64_t vertex_count,
     free(sums);
 }
 
-/* --- tangents ------------------------------------------------------------------------------------
- */
+/* --- tangents --- */
 
 /* Twice the signed area of the triangle in texture space, v pointing down: negative when the
  * texture is seen unmirrored from the front. */

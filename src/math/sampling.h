@@ -9,7 +9,7 @@
 
 #include "math/vector.h"
 
-/* --- hashes and plain random numbers ---------------------------------------------------------- */
+/* --- hashes and plain random numbers --- */
 
 /* A 64-bit permutation with full avalanche. */
 uint64_t lsf_hash64(uint64_t x);
@@ -38,8 +38,7 @@ static inline float lsf_random_float(uint64_t seed, uint64_t index)
     return lsf_unit_float(lsf_hash(seed, index));
 }
 
-/* --- Owen-scrambled Sobol points ---------------------------------------------------------------
- */
+/* --- Owen-scrambled Sobol points --- */
 
 /* Point `index` of a 2D (0,2)-sequence, nested-uniformly scrambled and with its order shuffled by
  * `seed`: any seed gives a sequence of its own, whose first 2^k points are stratified in every
@@ -63,8 +62,7 @@ static inline float lsf_sobol_1d(uint32_t index, uint32_t seed)
     return lsf_unit_float(lsf_sobol_1d_bits(index, seed));
 }
 
-/* --- directions; u and v are uniform in [0, 1) ---------------------------------------------------
- */
+/* --- directions; u and v are uniform in [0, 1) --- */
 
 /* Uniform on the unit disc, area-preserving and continuous. */
 void lsf_sample_disc(float u, float v, float point[2]);

@@ -6,7 +6,7 @@
 void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const *layer_names)
 {
     lsf_plan_pass_add(plan, "accumulate", "the mean over iterations");
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera's projection");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     for (uint32_t i = 0; i < layer_count; i++) {
         char name[64];
         snprintf(name, sizeof name, "accumulate.%s", layer_names[i]);

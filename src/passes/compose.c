@@ -8,12 +8,12 @@ void lsf_compose_plan(lsf_plan *plan, bool direct)
 {
     const lsf_requirements *r = &plan->requirements;
     lsf_plan_pass_add(plan, "compose", "adds up what is seen itself and what is reflected");
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera's projection");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_find(plan, "gbuffer.emission") != NULL,
                         "some material emits or is unlit");
     lsf_plan_switch_add(plan, "LSF_DIRECT", direct, "there are punctual lights");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment is seen");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map, "it is a map");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map, "the environment is a map");
     lsf_plan_texture_add(plan, "compose.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the iteration's picture");
     lsf_plan_switch_add(plan, "LSF_SEEN", (plan->aovs & LSF_AOV_EMISSION) != 0,

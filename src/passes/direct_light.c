@@ -9,16 +9,16 @@ void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
     lsf_plan_pass_add(plan, "direct_light", "one reflection of each punctual light");
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera's projection");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
-    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "%u spot lights",
+    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
                         r->spot_lights);
     lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
-                        "%u directional lights", r->directional_lights);
-    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf, "shadow.filter");
+                        "there are directional lights (%u)", r->directional_lights);
+    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf, "shadow.filter is pcf");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the sum over lights");
 }

@@ -28,11 +28,11 @@ static void plan_switches(lsf_plan *plan)
         bool on;
         const char *why;
     } switches[] = {
-        {"LSF_ORTHOGRAPHIC", plan->orthographic, "the camera's projection"},
+        {"LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic"},
         {"LSF_TEXTURED", textured, "some material has a texture"},
         {"LSF_SECOND_UV", r->second_uv, "some texture reads TEXCOORD_1"},
         {"LSF_VERTEX_COLOR", r->vertex_colored, "some primitive has colours"},
-        {"LSF_TANGENT", tangent, "normal maps or anisotropy"},
+        {"LSF_TANGENT", tangent, "there are normal maps or anisotropy"},
         {"LSF_BASE_COLOR_TEXTURE", r->base_color_textured, "some base colour is a texture"},
         {"LSF_NORMAL_TEXTURE", r->normal_mapped, "some material has a normal map"},
         {"LSF_MASK", r->masked, "some material is alpha-masked"},
@@ -51,11 +51,11 @@ static void plan_switches(lsf_plan *plan)
     /* Colour attachments are numbered without gaps. */
     int target = 1;
     if (gloss)
-        lsf_plan_switch_add(plan, "LSF_GLOSS_TARGET", target++, "its colour attachment");
+        lsf_plan_switch_add(plan, "LSF_GLOSS_TARGET", target++, "its colour attachment is numbered");
     if (emission)
-        lsf_plan_switch_add(plan, "LSF_EMISSION_TARGET", target++, "its colour attachment");
+        lsf_plan_switch_add(plan, "LSF_EMISSION_TARGET", target++, "its colour attachment is numbered");
     if (motion)
-        lsf_plan_switch_add(plan, "LSF_MOTION_TARGET", target++, "its colour attachment");
+        lsf_plan_switch_add(plan, "LSF_MOTION_TARGET", target++, "its colour attachment is numbered");
 }
 
 void lsf_gbuffer_plan(lsf_plan *plan)

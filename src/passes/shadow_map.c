@@ -23,7 +23,7 @@
 #define WIDE_SPOT_COSINE 0.5f
 
 const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
-    {"shadow.filter", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0, "none|pcf",
+    {"shadow.filter is pcf", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0, "none|pcf",
      "", "pcf: 16-tap percentage-closer filter, for single frames"},
     {"shadow.texels_per_pixel", LSF_OPTION_FLOAT,
      offsetof(lsf_shadow_map_params, texels_per_pixel), 0.01, 64.0, NULL, "",
@@ -80,7 +80,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s see", state->light_count,
                       state->light_count == 1 ? "" : "s");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", params->filter == LSF_SHADOW_FILTER_NONE,
-                        "planes are compared, not depths");
+                        "shadow.filter is none: planes are compared");
     lsf_plan_switch_add(plan, "LSF_MASK", plan->requirements.masked,
                         "some material is alpha-masked");
     lsf_plan_switch_add(plan, "LSF_TEXTURED",
@@ -91,7 +91,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                         "some texture reads TEXCOORD_1");
     lsf_plan_switch_add(plan, "LSF_VERTEX_COLOR",
                         plan->requirements.masked && plan->requirements.vertex_colored,
-                        "vertex colours have alpha");
+                        "masked primitives have vertex colours");
     for (int kind = 0; kind < LSF_SHADOW_MAP_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "shadow_map.%s", kinds[kind].name);

@@ -27,8 +27,8 @@ static void describe_text(const lsf_plan *plan, lsf_string *out)
         const lsf_plan_pass *pass = &plan->passes[i];
         lsf_string_add(out, "  %-18s %s\n", pass->name, pass->why);
         for (uint32_t k = 0; k < pass->switch_count; k++)
-            lsf_string_add(out, "    %-28s %-3d %s\n", pass->switches[k].define.name,
-                           pass->switches[k].define.value, pass->switches[k].why);
+            lsf_string_add(out, "    %-31s %-3d when %s\n", pass->switches[k].define.name,
+                           pass->switches[k].define.value, pass->switches[k].when);
     }
     lsf_string_add(out, "\nresources\n");
     for (uint64_t i = 0; i < plan->resource_count; i++) {
@@ -38,9 +38,12 @@ static void describe_text(const lsf_plan *plan, lsf_string *out)
         if (resource->is_buffer)
             lsf_string_add(&shape, "buffer");
         else
-            lsf_string_add(&shape, "%s %ux%u%s%s", lsf_format_name(texture->internal_format) + 3,
-                           texture->width, texture->height, texture->depth == 6 ? "x6" : "",
-                           texture->levels > 1 ? " mips" : "");
+            lsf_string_add(&shape, "%s %ux%u", lsf_format_name(texture->internal_format) + 3,
+                           texture->width, texture->height);
+        if (texture->depth > 1)
+            lsf_string_add(&shape, "x%u", texture->depth);
+        if (texture->levels > 1)
+            lsf_string_add(&shape, " mips");
         lsf_string size = {0};
         add_size(&size, (double)resource->bytes);
         lsf_string_add(out, "  %-26s %-34s %12s  %s\n", resource->name,
@@ -83,7 +86,7 @@ static void describe_json(const lsf_plan *plan, lsf_string *out)
             lsf_string_add(out, "%s\n      {", k ? "," : "");
             add_text_field(out, "name", pass->switches[k].define.name);
             lsf_string_add(out, ", \"value\": %d, ", pass->switches[k].define.value);
-            add_text_field(out, "why", pass->switches[k].why);
+            add_text_field(out, "when", pass->switches[k].when);
             lsf_string_add(out, "}");
         }
         lsf_string_add(out, "]}");

@@ -40,7 +40,7 @@ void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
     FORMAT_INTO(pass->why, why);
 }
 
-void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *why, ...)
+void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *when, ...)
 {
     if (plan->failed)
         return;
@@ -51,7 +51,7 @@ void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char
     }
     lsf_plan_switch *added = &pass->switches[pass->switch_count++];
     added->define = (lsf_define){name, value};
-    FORMAT_INTO(added->why, why);
+    FORMAT_INTO(added->when, when);
 }
 
 static lsf_plan_resource *add_resource(lsf_plan *plan, const char *name)

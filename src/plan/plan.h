@@ -15,7 +15,7 @@
 
 typedef struct lsf_plan_switch {
     lsf_define define; /* the name is a string literal */
-    char why[LSF_PLAN_TEXT_SIZE];
+    char when[LSF_PLAN_TEXT_SIZE]; /* it is on */
 } lsf_plan_switch;
 
 #define LSF_PLAN_MAX_SWITCHES 24
@@ -59,7 +59,8 @@ struct lsf_plan {
 /* Appends a pass in the order of execution; later lsf_plan_switch_add calls belong to it. */
 void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
     __attribute__((format(printf, 3, 4)));
-void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *why, ...)
+/* `when` says what puts it on, whether or not it is. */
+void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *when, ...)
     __attribute__((format(printf, 4, 5)));
 void lsf_plan_texture_add(lsf_plan *plan, const char *name, GLenum internal_format, uint32_t width,
                           uint32_t height, const char *why, ...)

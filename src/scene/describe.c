@@ -28,8 +28,7 @@ static double animation_duration(const lsf_scene *scene)
     return duration;
 }
 
-/* --- the requirements, once for both forms
- * -------------------------------------------------------- */
+/* --- the requirements, once for both forms --- */
 
 typedef struct flag {
     const char *name;
@@ -66,8 +65,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         flags[i] = list[i];
 }
 
-/* --- JSON
- * --------------------------------------------------------------------------------------------- */
+/* --- JSON --- */
 
 static void add_vector(lsf_string *out, const char *key, const double v[3])
 {
@@ -117,11 +115,13 @@ static void add_requirements_json(lsf_string *out, const lsf_requirements *r)
     for (int i = 0; i < FLAG_COUNT; i++)
         lsf_string_add(out, "    \"%s\": %s,\n", flags[i].name, flags[i].value ? "true" : "false");
     lsf_string_add(out,
-                   "    \"triangles\": %llu, \"unique_triangles\": %llu, \"vertices\": %llu,\n"
+                   "    \"triangles\": %llu, \"unique_triangles\": %llu, "
+                   "\"degenerate_triangles\": %llu, \"vertices\": %llu,\n"
                    "    \"instances\": %u, \"primitives\": %u, \"materials\": %u, "
                    "\"textures\": %u,\n    ",
                    (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
-                   (unsigned long long)r->vertices, r->instances, r->primitives, r->materials,
+                   (unsigned long long)r->degenerate_triangles, (unsigned long long)r->vertices,
+                   r->instances, r->primitives, r->materials,
                    r->textures);
     add_vector(out, "center", r->center);
     lsf_string_add(out, ", \"scale\": ");
@@ -164,9 +164,7 @@ static void describe_json(lsf_string *out, const lsf_scene *scene)
     lsf_string_add(out, "}\n");
 }
 
-/* --- text
- * -----------------------------------------------------------------------------------------------
- */
+/* --- text --- */
 
 static void add_images_text(lsf_string *out, const lsf_scene *scene)
 {
@@ -203,8 +201,9 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
     lsf_string_add(out, "nodes        %u\n", scene->node_count);
     lsf_string_add(out, "meshes       %u, %u primitives, %u instances\n", scene->mesh_count,
                    scene->primitive_count, scene->instance_count);
-    lsf_string_add(out, "triangles    %llu, %llu of them stored, %llu vertices\n",
+    lsf_string_add(out, "triangles    %llu, %llu of them stored, %llu of those without area, %llu vertices\n",
                    (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
+                   (unsigned long long)r->degenerate_triangles,
                    (unsigned long long)r->vertices);
     lsf_string_add(out, "materials    %u in use\n", r->materials);
     add_images_text(out, scene);

@@ -11,8 +11,7 @@
  * count with the corners of their boxes, which can only make the bounds larger. */
 #define EXACT_VISITS_MAX ((uint64_t)1 << 26)
 
-/* --- materials
- * ------------------------------------------------------------------------------------ */
+/* --- materials --- */
 
 static bool in_use(lsf_requirements *r, const lsf_texture_slot *slot)
 {
@@ -57,8 +56,7 @@ static void add_material(lsf_requirements *r, const lsf_material *material, bool
     }
 }
 
-/* --- nodes
- * ------------------------------------------------------------------------------------------ */
+/* --- nodes --- */
 
 static void add_lights(const lsf_scene *scene, lsf_requirements *r)
 {
@@ -94,8 +92,7 @@ static bool is_moving(const lsf_scene *scene)
     return found;
 }
 
-/* --- bounds
- * ------------------------------------------------------------------------------------------ */
+/* --- bounds --- */
 
 static void grow(lsf_requirements *r, const double *matrix, const double point[3])
 {
@@ -174,9 +171,26 @@ static void find_center(lsf_requirements *r)
     r->scale = normalizing_scale(largest);
 }
 
-/* --- all
- * ------------------------------------------------------------------------------------------------
- */
+/* --- all --- */
+
+static uint64_t count_degenerate(const lsf_scene *scene, const lsf_primitive *primitive)
+{
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < primitive->index_count; i += 3) {
+        const uint32_t *corner = scene->indices + primitive->first_index + i;
+        const float *a = scene->vertices.position + 3 * (size_t)corner[0];
+        const float *b = scene->vertices.position + 3 * (size_t)corner[1];
+        const float *c = scene->vertices.position + 3 * (size_t)corner[2];
+        double u[3], v[3];
+        for (int k = 0; k < 3; k++) {
+            u[k] = (double)b[k] - (double)a[k];
+            v[k] = (double)c[k] - (double)a[k];
+        }
+        count += u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] &&
+                 u[0] * v[1] == u[1] * v[0];
+    }
+    return count;
+}
 
 static void add_instances(const lsf_scene *scene, lsf_requirements *r)
 {
@@ -199,6 +213,7 @@ static void add_instances(const lsf_scene *scene, lsf_requirements *r)
             primitive_seen[instance->primitive] = true;
             r->primitives++;
             r->unique_triangles += primitive->index_count / 3;
+            r->degenerate_triangles += count_degenerate(scene, primitive);
         }
         if (!material_seen[primitive->material]) {
             material_seen[primitive->material] = true;

@@ -68,8 +68,7 @@ const lsf_command_option *lsf_command_option_at(size_t index);
 /* What an option accepts, in words, for messages: "a whole number in 1..65535". */
 char *lsf_command_option_range(const lsf_command_option *option); /* malloc'ed */
 
-/* --- values ------------------------------------------------------------------------------------
- */
+/* --- values --- */
 
 typedef struct lsf_vector_setting {
     bool given;

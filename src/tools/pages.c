@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- man page ----------------------------------------------------------------------------------
- */
+/* --- man page --- */
 
 /* Dashes that are typed, and backslashes, are escaped; a leading dot or quote would be a request.
  */
@@ -88,8 +87,7 @@ static void add_man(lsf_string *page)
                          "lightsheaf compare atrium.exr truth_a.exr truth_b.exr\n.fi\n");
 }
 
-/* --- shell completion --------------------------------------------------------------------------
- */
+/* --- shell completion --- */
 
 /* Single quotes end a quoted word in every shell; the table has none, and this keeps it so. */
 static void add_quoted(lsf_string *page, const char *text)
@@ -212,8 +210,7 @@ static void add_fish(lsf_string *page)
     }
 }
 
-/* --- docs/command.md ---------------------------------------------------------------------------
- */
+/* --- docs/command.md --- */
 
 static void add_markdown(lsf_string *page)
 {

@@ -25,8 +25,7 @@ static bool append(lsf_list_setting *list, const char *item)
     return true;
 }
 
-/* --- one value ---------------------------------------------------------------------------------
- */
+/* --- one value --- */
 
 static bool bad_value(const lsf_command_option *option, const char *text, const char *meant,
                       lsf_error *error)
@@ -235,8 +234,7 @@ static bool set_value(lsf_settings *settings, const lsf_command_option *option, 
     return good || bad_value(option, text, NULL, error);
 }
 
-/* --- the command line --------------------------------------------------------------------------
- */
+/* --- the command line --- */
 
 static const lsf_command_option *find_by_letter(const lsf_command *command, int letter)
 {
@@ -437,8 +435,7 @@ bool lsf_settings_given(const lsf_settings *settings, const char *name)
     return false;
 }
 
-/* --- what the library takes --------------------------------------------------------------------
- */
+/* --- what the library takes --- */
 
 lsf_render_params lsf_settings_render_params(const lsf_settings *settings)
 {

@@ -10,6 +10,12 @@ from command import COMMAND, DONE, RENDERING, CommandTest, exr_channels, main
 ENDLESS = ("--resolution", "32,24", "--samples", "1000000000")
 
 
+def hear_signals():
+    """A job in the background, or under nohup, inherits that some are ignored."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 class Interrupt(CommandTest):
     def start_and_interrupt(self, tool, *words, number=signal.SIGINT, again=False):
         """Starts at a terminal, waits for the progress bar, and sends the signal."""
@@ -17,7 +23,8 @@ class Interrupt(CommandTest):
         scene = self.scene()
         process = subprocess.Popen([COMMAND, tool, scene, "-o", "a.exr", *ENDLESS, *words],
                                    cwd=self.folder, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=theirs)
+                                   stdout=subprocess.PIPE, stderr=theirs,
+                                   preexec_fn=hear_signals)
         os.close(theirs)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.kill)

@@ -150,8 +150,7 @@ static void test_memory_limit(void **state)
     free(path);
 }
 
-/* --- scenes from elsewhere ---------------------------------------------------------------------
- */
+/* --- scenes from elsewhere --- */
 
 static const struct {
     const char *path, *expected, *triangles;
