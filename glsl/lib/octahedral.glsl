@@ -1,4 +1,4 @@
-/* Unit vectors in 32 bits: octahedral map, 16 bits an axis, error below 6e-5 rad.
+/* Unit vectors in 32 bits: octahedral map, 16 bits an axis, error below 6.5e-5 rad.
  * Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors". */
 #ifndef LSF_LIB_OCTAHEDRAL
 #define LSF_LIB_OCTAHEDRAL
