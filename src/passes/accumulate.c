@@ -24,8 +24,8 @@ static lsf_accumulate_source source_of(const char *layer)
     return LSF_ACCUMULATE_COLOR;
 }
 
-static bool create_program(lsf_accumulate *pass, const lsf_plan *plan,
-                           lsf_accumulate_source source, lsf_error *error)
+static bool create_program(lsf_accumulate *pass, const lsf_plan *plan, lsf_accumulate_source source,
+                           lsf_error *error)
 {
     if (pass->programs[source])
         return true;
@@ -61,8 +61,8 @@ bool lsf_accumulate_create(lsf_accumulate *pass, lsf_context *context, const lsf
     return pass->timer != NULL;
 }
 
-void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration, const GLuint *textures,
-                        GLuint depth)
+void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
+                        const GLuint *textures, GLuint depth)
 {
     lsf_timer_begin(pass->timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);

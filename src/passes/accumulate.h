@@ -30,8 +30,8 @@ void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const
 bool lsf_accumulate_create(lsf_accumulate *pass, lsf_context *context, const lsf_plan *plan,
                            uint32_t layer_count, const char *const *layer_names, lsf_error *error);
 /* Adds one texture a layer to the means; `depth` is the G-buffer's. */
-void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration, const GLuint *textures,
-                        GLuint depth);
+void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
+                        const GLuint *textures, GLuint depth);
 void lsf_accumulate_destroy(lsf_accumulate *pass);
 
 #endif

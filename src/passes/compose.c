@@ -13,7 +13,8 @@ void lsf_compose_plan(lsf_plan *plan, bool direct)
                         "some material emits or is unlit");
     lsf_plan_switch_add(plan, "LSF_DIRECT", direct, "there are punctual lights");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment is seen");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map, "the environment is a map");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
+                        "the environment is a map");
     lsf_plan_texture_add(plan, "compose.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the iteration's picture");
     lsf_plan_switch_add(plan, "LSF_SEEN", (plan->aovs & LSF_AOV_EMISSION) != 0,
@@ -41,7 +42,8 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
     return pass->framebuffer && pass->program && pass->timer;
 }
 
-void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration, const lsf_compose_inputs *inputs)
+void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
+                     const lsf_compose_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);

@@ -20,7 +20,8 @@ typedef struct lsf_compose {
 void lsf_compose_plan(lsf_plan *plan, bool direct);
 bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan *plan,
                         lsf_error *error);
-void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration, const lsf_compose_inputs *inputs);
+void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
+                     const lsf_compose_inputs *inputs);
 void lsf_compose_destroy(lsf_compose *pass);
 
 #endif

@@ -31,10 +31,8 @@ bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const
     *pass = (lsf_direct_light){.context = context};
     if (!lsf_plan_create_texture(plan, context, "direct_light.radiance", &pass->radiance, error))
         return false;
-    lsf_framebuffer_desc desc = {.label = "direct_light",
-                                 .color_count = 1,
-                                 .colors = {pass->radiance},
-                                 .layer = -1};
+    lsf_framebuffer_desc desc = {
+        .label = "direct_light", .color_count = 1, .colors = {pass->radiance}, .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "direct_light", files, error);
     pass->timer = lsf_timer_create(context, "direct_light", error);

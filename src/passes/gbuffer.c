@@ -40,8 +40,7 @@ static void plan_switches(lsf_plan *plan)
         {"LSF_METALLIC_ROUGHNESS_TEXTURE", gloss && r->metallic_roughness_textured,
          "some roughness or metallic is a texture"},
         {"LSF_ANISOTROPY", gloss && r->anisotropic, "some material is anisotropic"},
-        {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured,
-         "some anisotropy is a texture"},
+        {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured, "some anisotropy is a texture"},
         {"LSF_EMISSION", emission, "some material emits or is unlit"},
         {"LSF_EMISSIVE_TEXTURE", emission && r->emissive_textured, "some emission is a texture"},
         {"LSF_MOTION", motion, "motion is asked for"},
@@ -51,11 +50,14 @@ static void plan_switches(lsf_plan *plan)
     /* Colour attachments are numbered without gaps. */
     int target = 1;
     if (gloss)
-        lsf_plan_switch_add(plan, "LSF_GLOSS_TARGET", target++, "its colour attachment is numbered");
+        lsf_plan_switch_add(plan, "LSF_GLOSS_TARGET", target++,
+                            "its colour attachment is numbered");
     if (emission)
-        lsf_plan_switch_add(plan, "LSF_EMISSION_TARGET", target++, "its colour attachment is numbered");
+        lsf_plan_switch_add(plan, "LSF_EMISSION_TARGET", target++,
+                            "its colour attachment is numbered");
     if (motion)
-        lsf_plan_switch_add(plan, "LSF_MOTION_TARGET", target++, "its colour attachment is numbered");
+        lsf_plan_switch_add(plan, "LSF_MOTION_TARGET", target++,
+                            "its colour attachment is numbered");
 }
 
 void lsf_gbuffer_plan(lsf_plan *plan)
@@ -144,7 +146,7 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
     glUseProgram(pass->program);
     lsf_draw_region region;
     lsf_iteration_region(iteration, &region);
-    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region);
+    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region, pass->counts);
     lsf_timer_end(pass->timer);
 }
 

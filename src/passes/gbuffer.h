@@ -30,6 +30,7 @@ typedef struct lsf_gbuffer {
     lsf_gbuffer_outputs outputs;
     GLuint framebuffer, program;
     uint32_t color_count;
+    uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;
 } lsf_gbuffer;
 

@@ -14,8 +14,8 @@
  * floats a small near plane costs no precision. */
 #define NEAR_PLANE 1e-5f
 
-/* Texels along a face's side: a small picture still deserves a shadow of the right shape, and GL 4.5
- * promises this much. */
+/* Texels along a face's side: a small picture still deserves a shadow of the right shape, and
+ * GL 4.5 promises this much. */
 #define MIN_SIDE 128
 #define MAX_SIDE 16384
 
@@ -23,10 +23,10 @@
 #define WIDE_SPOT_COSINE 0.5f
 
 const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
-    {"shadow.filter is pcf", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0, "none|pcf",
-     "", "pcf: 16-tap percentage-closer filter, for single frames"},
-    {"shadow.texels_per_pixel", LSF_OPTION_FLOAT,
-     offsetof(lsf_shadow_map_params, texels_per_pixel), 0.01, 64.0, NULL, "",
+    {"shadow.filter is pcf", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0,
+     "none|pcf", "", "pcf: 16-tap percentage-closer filter, for single frames"},
+    {"shadow.texels_per_pixel", LSF_OPTION_FLOAT, offsetof(lsf_shadow_map_params, texels_per_pixel),
+     0.01, 64.0, NULL, "",
      "texels of a shadow map, all its faces together, for each pixel of the picture"},
 };
 
@@ -57,8 +57,8 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
     double texels = (double)plan->width * plan->height * params->texels_per_pixel;
     uint32_t side = (uint32_t)ceil(sqrt(texels / faces));
     side = side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
-    lsf_texture_desc desc = {NULL,  GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, side, side,
-                             faces, 1};
+    lsf_texture_desc desc = {NULL, GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, side, side, faces,
+                             1};
     char full_name[64];
     snprintf(full_name, sizeof full_name, "shadow_map.%s_depth", name);
     lsf_plan_texture_desc_add(plan, full_name, &desc, "%g texels a pixel",
@@ -104,8 +104,8 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                         "the light in turn and its map's projection");
 }
 
-static bool create_target(lsf_shadow_map_target *target, lsf_context *context,
-                          const lsf_plan *plan, const char *name, lsf_error *error)
+static bool create_target(lsf_shadow_map_target *target, lsf_context *context, const lsf_plan *plan,
+                          const char *name, lsf_error *error)
 {
     char depth_name[64], gradient_name[64];
     snprintf(depth_name, sizeof depth_name, "shadow_map.%s_depth", name);
@@ -248,8 +248,8 @@ static float farthest_depth(const lsf_state *state)
 }
 
 /* Nested windows: each holds what is seen up to a third of the next one's depth, so that a texel
- * is everywhere about as wide as a pixel is there; the last holds all that is seen. Along the light,
- * each holds the whole scene, which may cast its shadow from outside the view. */
+ * is everywhere about as wide as a pixel is there; the last holds all that is seen. Along the
+ * light, each holds the whole scene, which may cast its shadow from outside the view. */
 static void project_cascades(struct lsf_light_data *data, const lsf_state *state, uint32_t faces,
                              lsf_float3 right, lsf_float3 up, lsf_float3 forward)
 {
@@ -341,8 +341,8 @@ static void face_region(const struct lsf_light_data *data, uint32_t face, lsf_dr
         /* 1 - sign ((q - center) / extent + offset) >= 0; when perspective, times q.z */
         float along = perspective ? 1.0f - sign * offset[side] : 0.0f;
         float *plane = region->planes[i];
-        plane[3] = perspective ? 0.0f
-                               : 1.0f - sign * (offset[side] - window[side] / window[2 + side]);
+        plane[3] =
+            perspective ? 0.0f : 1.0f - sign * (offset[side] - window[side] / window[2 + side]);
         for (int axis = 0; axis < 3; axis++) {
             plane[axis] = along * axes[2][axis] - sign * axes[side][axis] / window[2 + side];
             plane[3] -= plane[axis] * origin[axis];
@@ -376,7 +376,8 @@ void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, ui
         glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[face]);
         glClearNamedFramebufferfv(target->framebuffers[face], GL_DEPTH, 0, zero);
         glUniform1i(0, (GLint)face);
-        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POSITIONS, &region);
+        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POSITIONS, &region,
+                           pass->counts);
     }
     pass->outputs.depth = target->depth;
     pass->outputs.gradient = target->gradient;

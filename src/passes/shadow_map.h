@@ -18,8 +18,7 @@ typedef struct lsf_shadow_map_params {
 } lsf_shadow_map_params;
 
 /* At 1024 x 768 pixels, a cube's faces have 1024^2 texels, as Tokuyoshi and Ogaki 2012 use. */
-#define LSF_SHADOW_MAP_PARAMS_DEFAULTS                                                    \
-    .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 8.0f
+#define LSF_SHADOW_MAP_PARAMS_DEFAULTS .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 8.0f
 
 #define LSF_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT];
@@ -52,6 +51,7 @@ typedef struct lsf_shadow_map {
     lsf_shadow_map_outputs outputs;
     lsf_shadow_map_target targets[LSF_SHADOW_MAP_KINDS];
     GLuint program;
+    uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;
 } lsf_shadow_map;
 

@@ -17,10 +17,8 @@ bool lsf_tonemap_create(lsf_tonemap *pass, lsf_context *context, const lsf_plan 
     *pass = (lsf_tonemap){.context = context, .width = plan->width, .height = plan->height};
     if (!lsf_plan_create_texture(plan, context, "tonemap.display", &pass->display, error))
         return false;
-    lsf_framebuffer_desc desc = {.label = "tonemap",
-                                 .color_count = 1,
-                                 .colors = {pass->display},
-                                 .layer = -1};
+    lsf_framebuffer_desc desc = {
+        .label = "tonemap", .color_count = 1, .colors = {pass->display}, .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "tonemap", files, error);
     pass->timer = lsf_timer_create(context, "tonemap", error);

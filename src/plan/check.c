@@ -41,8 +41,7 @@ bool lsf_plan_check(const lsf_plan *plan, const lsf_context *context, lsf_error 
         return lsf_error_set(error, LSF_ERROR_RENDER,
                              "a picture of %ux%u is more than this device draws; the largest is "
                              "--resolution %u,%u",
-                             plan->width, plan->height,
-                             plan->width < widest ? plan->width : widest,
+                             plan->width, plan->height, plan->width < widest ? plan->width : widest,
                              plan->height < highest ? plan->height : highest);
     double fixed = 0.0, scaling = 0.0; /* bytes that do not, and do, grow with the resolution */
     for (uint64_t i = 0; i < plan->resource_count; i++) {

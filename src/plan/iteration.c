@@ -74,14 +74,11 @@ static void set_view(struct lsf_view_data *view, const lsf_plan *plan, const lsf
 }
 
 bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, const lsf_plan *plan,
-                      lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
-                      uint64_t seed, lsf_error *error)
+                          lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
+                          uint64_t seed, lsf_error *error)
 {
-    *iteration = (lsf_iteration){.context = context,
-                         .plan = plan,
-                         .state = state,
-                         .scene = scene,
-                         .seed = seed};
+    *iteration = (lsf_iteration){
+        .context = context, .plan = plan, .state = state, .scene = scene, .seed = seed};
     set_view(&iteration->view, plan, state);
     iteration->previous_camera = previous ? previous->camera : state->camera;
     return lsf_plan_create_buffer(plan, context, "view", NULL, GL_DYNAMIC_STORAGE_BIT,

@@ -11,8 +11,8 @@ typedef struct lsf_iteration {
     const lsf_state *state;
     lsf_scene_gpu *scene;
     uint64_t seed;
-    uint32_t index;           /* from 0 */
-    GLuint view_buffer;       /* struct lsf_view_data */
+    uint32_t index;     /* from 0 */
+    GLuint view_buffer; /* struct lsf_view_data */
     struct lsf_view_data view;
     lsf_camera_state previous_camera; /* for motion */
 } lsf_iteration;
@@ -20,11 +20,12 @@ typedef struct lsf_iteration {
 void lsf_iteration_plan(lsf_plan *plan);
 /* `previous` is the state that motion is measured from, NULL without motion. */
 bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, const lsf_plan *plan,
-                      lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
-                      uint64_t seed, lsf_error *error);
+                          lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
+                          uint64_t seed, lsf_error *error);
 void lsf_iteration_destroy(lsf_iteration *iteration);
 
-/* Jitters the pixel for iteration `index` (uniform over the pixel: a box filter) and uploads the view. */
+/* Jitters the pixel for iteration `index` (uniform over the pixel: a box filter) and uploads the
+ * view. */
 void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index);
 
 /* The half spaces of the view's four sides and its near plane. */

@@ -67,8 +67,8 @@ static bool set_value(const lsf_option_row *row, void *value, const char *text)
             *(int32_t *)value = choice;
         return choice >= 0;
     }
-    double number = row->type == LSF_OPTION_INT ? (double)strtoll(text, &end, 10)
-                                                : strtod(text, &end);
+    double number =
+        row->type == LSF_OPTION_INT ? (double)strtoll(text, &end, 10) : strtod(text, &end);
     if (end == text || *end || !isfinite(number) || number < row->minimum || number > row->maximum)
         return false;
     if (row->type == LSF_OPTION_INT)

@@ -17,11 +17,11 @@ typedef enum lsf_option_type {
 } lsf_option_type;
 
 typedef struct lsf_option_row {
-    const char *key;     /* "pass.key" */
+    const char *key; /* "pass.key" */
     lsf_option_type type;
-    size_t offset;       /* of the value in the pass's params */
+    size_t offset;           /* of the value in the pass's params */
     double minimum, maximum; /* inclusive; int and float */
-    const char *choices; /* "none|pcf"; enum */
+    const char *choices;     /* "none|pcf"; enum */
     const char *unit;
     const char *help;
 } lsf_option_row;

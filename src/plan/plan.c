@@ -6,12 +6,12 @@
 
 #include "base/base.h"
 
-#define FORMAT_INTO(buffer, format)                                                       \
-    do {                                                                                  \
-        va_list arguments;                                                                \
-        va_start(arguments, format);                                                      \
-        vsnprintf(buffer, sizeof(buffer), format, arguments);                             \
-        va_end(arguments);                                                                \
+#define FORMAT_INTO(buffer, format)                                                                \
+    do {                                                                                           \
+        va_list arguments;                                                                         \
+        va_start(arguments, format);                                                               \
+        vsnprintf(buffer, sizeof(buffer), format, arguments);                                      \
+        va_end(arguments);                                                                         \
     } while (0)
 
 /* A zeroed new element at the end of one of the plan's lists, or NULL. */
@@ -26,8 +26,8 @@ static void *append(lsf_plan *plan, void **list, uint64_t *count, uint64_t *capa
     return element;
 }
 
-#define APPEND(plan, singular)                                                            \
-    append(plan, (void **)&(plan)->singular##s, &(plan)->singular##_count,                \
+#define APPEND(plan, singular)                                                                     \
+    append(plan, (void **)&(plan)->singular##s, &(plan)->singular##_count,                         \
            &(plan)->singular##_capacity, sizeof *(plan)->singular##s)
 
 void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
@@ -68,8 +68,8 @@ void lsf_plan_texture_add(lsf_plan *plan, const char *name, GLenum internal_form
     lsf_plan_resource *resource = add_resource(plan, name);
     if (!resource)
         return;
-    resource->texture = (lsf_texture_desc){NULL, GL_TEXTURE_2D, internal_format, width, height,
-                                           1,    1};
+    resource->texture =
+        (lsf_texture_desc){NULL, GL_TEXTURE_2D, internal_format, width, height, 1, 1};
     resource->bytes = lsf_texture_bytes(&resource->texture);
     FORMAT_INTO(resource->why, why);
 }

@@ -14,7 +14,7 @@
 #define LSF_PLAN_TEXT_SIZE 200
 
 typedef struct lsf_plan_switch {
-    lsf_define define; /* the name is a string literal */
+    lsf_define define;             /* the name is a string literal */
     char when[LSF_PLAN_TEXT_SIZE]; /* it is on */
 } lsf_plan_switch;
 
@@ -28,7 +28,7 @@ typedef struct lsf_plan_pass {
 } lsf_plan_pass;
 
 typedef struct lsf_plan_resource {
-    char name[64];     /* also the GL label */
+    char name[64]; /* also the GL label */
     bool is_buffer;
     lsf_texture_desc texture; /* without label: the resource's name */
     uint64_t bytes;
@@ -73,8 +73,7 @@ void lsf_plan_buffer_add(lsf_plan *plan, const char *name, uint64_t bytes, const
 /* Something the technique knows and left out. */
 void lsf_plan_omit(lsf_plan *plan, const char *name, const char *why, ...)
     __attribute__((format(printf, 3, 4)));
-void lsf_plan_remark(lsf_plan *plan, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+void lsf_plan_remark(lsf_plan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* NULL when the plan does not list it. */
 const lsf_plan_pass *lsf_plan_find_pass(const lsf_plan *plan, const char *name);

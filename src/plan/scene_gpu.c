@@ -12,6 +12,9 @@
 typedef struct lsf_instance_data instance_data;
 typedef struct lsf_material_data material_data;
 
+const char *const lsf_draw_count_names[LSF_DRAW_COUNTS] = {"instances_drawn", "instances_culled",
+                                                           "triangles"};
+
 static bool any_texture(const lsf_requirements *requirements)
 {
     return requirements->base_color_textured || requirements->metallic_roughness_textured ||
@@ -31,8 +34,7 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
         lsf_plan_buffer_add(plan, "scene.indices", scene->index_count * 4, "32 bits each");
         lsf_plan_buffer_add(plan, "scene.instance_ids", (uint64_t)scene->instance_count * 4,
                             "names the instance of a draw");
-        lsf_plan_buffer_add(plan, "scene.instances",
-                            scene->instance_count * sizeof(instance_data),
+        lsf_plan_buffer_add(plan, "scene.instances", scene->instance_count * sizeof(instance_data),
                             "transforms and material of %u instances", scene->instance_count);
         lsf_plan_buffer_add(plan, "scene.materials", scene->material_count * sizeof(material_data),
                             "%u materials", scene->material_count);
@@ -185,8 +187,8 @@ static bool order_draws(lsf_scene_gpu *gpu, const lsf_state *state, lsf_error *e
 }
 
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
-                          const lsf_scene *scene, const lsf_state *state,
-                          const lsf_state *previous, lsf_error *error)
+                          const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
+                          lsf_error *error)
 {
     const lsf_vertices *v = &scene->vertices;
     memset(gpu, 0, sizeof *gpu);
@@ -226,10 +228,17 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
 {
     if (!gpu->context)
         return;
-    GLuint *buffers[] = {&gpu->positions,    &gpu->normals,   &gpu->tangents,
-                         &gpu->uv0,          &gpu->uv1,       &gpu->colors,
-                         &gpu->indices,      &gpu->materials, &gpu->instances,
-                         &gpu->instance_ids, &gpu->previous_transforms};
+    GLuint *buffers[] = {&gpu->positions,
+                         &gpu->normals,
+                         &gpu->tangents,
+                         &gpu->uv0,
+                         &gpu->uv1,
+                         &gpu->colors,
+                         &gpu->indices,
+                         &gpu->materials,
+                         &gpu->instances,
+                         &gpu->instance_ids,
+                         &gpu->previous_transforms};
     for (size_t i = 0; i < LSF_COUNT(buffers); i++)
         lsf_buffer_destroy(gpu->context, buffers[i]);
     lsf_texture_upload_destroy(gpu);
@@ -246,8 +255,8 @@ static bool inside(const lsf_draw_region *region, const lsf_instance_state *inst
         const float *plane = region->planes[i];
         float farthest = plane[3];
         for (int axis = 0; axis < 3; axis++)
-            farthest += plane[axis] * (plane[axis] > 0.0f ? instance->bounds_max
-                                                          : instance->bounds_min)[axis];
+            farthest += plane[axis] *
+                        (plane[axis] > 0.0f ? instance->bounds_max : instance->bounds_min)[axis];
         if (farthest < 0.0f)
             return false;
     }
@@ -276,7 +285,7 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
 }
 
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
-                        const lsf_draw_region *region)
+                        const lsf_draw_region *region, uint64_t *counts)
 {
     uint32_t bound = LSF_NONE;
     glBindVertexArray(mode == LSF_DRAW_SHADING ? gpu->shading_array : gpu->position_array);
@@ -287,11 +296,15 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
                          gpu->previous_transforms);
     for (uint32_t i = 0; i < gpu->draw_count; i++) {
         const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
-        if (instance->skipped || (region && !inside(region, instance)))
+        if (instance->skipped || (region && !inside(region, instance))) {
+            counts[LSF_DRAW_CULLED]++;
             continue;
+        }
         if (instance->material != bound)
             bind_material(gpu, &gpu->scene->materials[bound = instance->material], mode);
         const lsf_primitive *primitive = &gpu->scene->primitives[instance->primitive];
+        counts[LSF_DRAW_INSTANCES]++;
+        counts[LSF_DRAW_TRIANGLES] += primitive->index_count / 3;
         glDrawElementsInstancedBaseInstance(
             GL_TRIANGLES, (GLsizei)primitive->index_count, GL_UNSIGNED_INT,
             (const void *)(uintptr_t)(primitive->first_index * 4), 1, gpu->draw_order[i]);

@@ -11,13 +11,13 @@ typedef struct lsf_scene_gpu {
     const lsf_scene *scene;
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
     GLuint instance_ids, instances, previous_transforms, materials, environment;
-    GLuint *textures;         /* one for each image and colour space in use */
+    GLuint *textures; /* one for each image and colour space in use */
     uint32_t gl_texture_count;
-    uint32_t *texture_of;     /* scene texture to an entry of `textures` */
-    GLuint samplers[18];      /* wrap s, wrap t, nearest: 3 x 3 x 2; 0 until needed */
-    GLuint shading_array;     /* vertex array with every stream */
-    GLuint position_array;    /* positions (and UVs where masks need them) */
-    uint32_t *draw_order;     /* instances, grouped by material */
+    uint32_t *texture_of;  /* scene texture to an entry of `textures` */
+    GLuint samplers[18];   /* wrap s, wrap t, nearest: 3 x 3 x 2; 0 until needed */
+    GLuint shading_array;  /* vertex array with every stream */
+    GLuint position_array; /* positions (and UVs where masks need them) */
+    uint32_t *draw_order;  /* instances, grouped by material */
     uint32_t draw_count;
     struct lsf_instance_data *instance_data; /* staging, one an instance */
 } lsf_scene_gpu;
@@ -27,8 +27,8 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene);
 
 /* `previous` is the state that motion is measured from, NULL without motion. */
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
-                          const lsf_scene *scene, const lsf_state *state,
-                          const lsf_state *previous, lsf_error *error);
+                          const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
+                          lsf_error *error);
 void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
 
 typedef enum lsf_draw_mode {
@@ -43,8 +43,13 @@ typedef struct lsf_draw_region {
     float planes[6][4];
 } lsf_draw_region;
 
-/* Draws every instance inside `region` (NULL: all) with the bound program and framebuffer. */
+/* What a pass drew since it was made. */
+enum { LSF_DRAW_INSTANCES, LSF_DRAW_CULLED, LSF_DRAW_TRIANGLES, LSF_DRAW_COUNTS };
+extern const char *const lsf_draw_count_names[LSF_DRAW_COUNTS];
+
+/* Draws every instance inside `region` (NULL: all) with the bound program and framebuffer, and
+ * adds to `counts` (LSF_DRAW_COUNTS of them). */
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
-                        const lsf_draw_region *region);
+                        const lsf_draw_region *region, uint64_t *counts);
 
 #endif

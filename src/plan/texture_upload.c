@@ -97,8 +97,12 @@ void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
     for (uint32_t i = 0; i < count; i++) {
         const lsf_texture *texture = &scene->textures[representative[i]];
         const lsf_texture_image *image = &scene->images[texture->image];
-        lsf_texture_desc desc = {NULL,          GL_TEXTURE_2D, choose_storage(image, texture->srgb).internal_format,
-                                 image->width,  image->height, 1,
+        lsf_texture_desc desc = {NULL,
+                                 GL_TEXTURE_2D,
+                                 choose_storage(image, texture->srgb).internal_format,
+                                 image->width,
+                                 image->height,
+                                 1,
                                  level_count(image->width, image->height)};
         char name[64];
         texture_name(name, i);

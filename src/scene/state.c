@@ -84,9 +84,8 @@ static void update_instance(lsf_instance_state *out, const lsf_state *state, con
 {
     vec3d x = column(world, 0), y = column(world, 1), z = column(world, 2);
     vec3d position = normalised_position(state, column(world, 3));
-    const double rows[3][4] = {{x.x, y.x, z.x, position.x},
-                               {x.y, y.y, z.y, position.y},
-                               {x.z, y.z, z.z, position.z}};
+    const double rows[3][4] = {
+        {x.x, y.x, z.x, position.x}, {x.y, y.y, z.y, position.y}, {x.z, y.z, z.z, position.z}};
     for (int row = 0; row < 3; row++) {
         for (int axis = 0; axis < 3; axis++)
             out->transform[4 * row + axis] = (float)(rows[row][axis] * state->scale);
@@ -98,8 +97,8 @@ static void update_instance(lsf_instance_state *out, const lsf_state *state, con
     double determinant = dot(x, cofactor[0]);
     double largest = 0.0;
     for (int i = 0; i < 3; i++)
-        largest = fmax(largest, fmax(fabs(cofactor[i].x),
-                                     fmax(fabs(cofactor[i].y), fabs(cofactor[i].z))));
+        largest = fmax(largest,
+                       fmax(fabs(cofactor[i].x), fmax(fabs(cofactor[i].y), fabs(cofactor[i].z))));
     double sign = determinant < 0.0 ? -1.0 : 1.0;
     double factor = largest > 0.0 && isfinite(largest) ? sign / largest : 0.0;
     for (int axis = 0; axis < 3; axis++) {
@@ -252,9 +251,10 @@ bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_p
 {
     int camera_index = find_camera(scene, params->camera);
     if (camera_index < 0)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "camera '%s' is not in the scene; it has %u, listed by `lightsheaf info`",
-                             params->camera, scene->camera_count);
+        return lsf_error_set(
+            error, LSF_ERROR_USAGE,
+            "camera '%s' is not in the scene; it has %u, listed by `lightsheaf info`",
+            params->camera, scene->camera_count);
     double *worlds = lsf_alloc(scene->node_count, 16 * sizeof *worlds);
     if (!state->instances)
         state->instances = lsf_alloc(scene->instance_count, sizeof *state->instances);

@@ -48,7 +48,7 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
                               "bidirectional technique");
     if (r->transmissive)
         lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
-    if (plan->bounces > 0)
+    if (plan->bounces > 1)
         lsf_plan_remark(plan, "the direct technique has no bounces; %u asked for", plan->bounces);
     if (plan->aovs & (LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR))
         lsf_plan_remark(plan, "the direct technique has no indirect light; its layers are black");
@@ -115,17 +115,19 @@ static void destroy_direct(void *self)
     free(d);
 }
 
-static uint32_t direct_timers(void *self, lsf_timer *timers[LSF_TECHNIQUE_MAX_TIMERS])
+static uint32_t report_direct(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES])
 {
     direct *d = self;
     uint32_t count = 0;
-    timers[count++] = d->gbuffer.timer;
+    reports[count++] = (lsf_pass_report){d->gbuffer.timer, LSF_DRAW_COUNTS, lsf_draw_count_names,
+                                         d->gbuffer.counts};
     if (d->lit) {
-        timers[count++] = d->shadow_map.timer;
-        timers[count++] = d->direct_light.timer;
+        reports[count++] = (lsf_pass_report){d->shadow_map.timer, LSF_DRAW_COUNTS,
+                                             lsf_draw_count_names, d->shadow_map.counts};
+        reports[count++] = (lsf_pass_report){.timer = d->direct_light.timer};
     }
     if (d->composed)
-        timers[count++] = d->compose.timer;
+        reports[count++] = (lsf_pass_report){.timer = d->compose.timer};
     return count;
 }
 
@@ -136,5 +138,5 @@ const lsf_technique lsf_technique_direct = {
     .create = create_direct,
     .run = run_direct,
     .destroy = destroy_direct,
-    .timers = direct_timers,
+    .report = report_direct,
 };

@@ -7,8 +7,10 @@ static const lsf_technique *const techniques[] = {&lsf_technique_direct};
 
 static const lsf_pass_params defaults = {LSF_PASS_PARAMS_DEFAULTS};
 
-#define TABLE(pass, rows)                                                                 \
-    {lsf_##pass##_options, rows, &defaults.pass, offsetof(lsf_pass_params, pass)}
+#define TABLE(pass, rows)                                                                          \
+    {                                                                                              \
+        lsf_##pass##_options, rows, &defaults.pass, offsetof(lsf_pass_params, pass)                \
+    }
 
 const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(gbuffer, LSF_GBUFFER_OPTION_COUNT),

@@ -10,7 +10,7 @@
 #include "passes/tonemap.h"
 #include "techniques/setup.h"
 
-#define MAX_PASSES (LSF_TECHNIQUE_MAX_TIMERS + 2)
+#define MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 2)
 
 struct lsf_renderer {
     lsf_context *context;
@@ -40,8 +40,8 @@ static bool create_resources(lsf_renderer *renderer, const lsf_scene *scene,
     if (!lsf_plan_check(setup->plan, context, error) ||
         !lsf_scene_gpu_create(&renderer->scene, context, setup->plan, scene, &setup->state,
                               previous, error) ||
-        !lsf_iteration_create(&renderer->iteration, context, setup->plan, &renderer->scene, &setup->state,
-                          previous, params->seed, error))
+        !lsf_iteration_create(&renderer->iteration, context, setup->plan, &renderer->scene,
+                              &setup->state, previous, params->seed, error))
         return false;
     double uploaded = lsf_now();
     if (!setup->technique->create(&renderer->technique, context, setup->plan, &setup->pass_params,
@@ -132,7 +132,8 @@ bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
     setup->technique->run(renderer->technique, &renderer->iteration, &renderer->outputs);
     for (uint32_t i = 0; i < setup->layer_count; i++)
         layers[i] = layer_texture(&renderer->outputs, setup->layer_aovs[i]);
-    lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers, renderer->outputs.depth);
+    lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers,
+                       renderer->outputs.depth);
     renderer->samples++;
     renderer->render_seconds += lsf_now() - start;
     return lsf_context_check(renderer->context, error);
@@ -197,8 +198,7 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
     for (uint32_t i = 0; i < channel_count; i++)
         name_list[i] = names[i];
     uint64_t texel_bytes = (uint64_t)plan->width * plan->height * 16;
-    lsf_image *image =
-        lsf_image_create(plan->width, plan->height, channel_count, name_list, error);
+    lsf_image *image = lsf_image_create(plan->width, plan->height, channel_count, name_list, error);
     float *texels = lsf_alloc(texel_bytes, 1);
     if (!image || !texels || texel_bytes > INT32_MAX) {
         lsf_error_set(error, LSF_ERROR_RENDER, "%ux%u is too large to read back", plan->width,
@@ -241,18 +241,21 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb
 
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
 {
-    lsf_timer *timers[MAX_PASSES];
-    uint32_t count = renderer->setup.technique->timers(renderer->technique, timers);
-    timers[count++] = renderer->accumulate.timer;
+    lsf_pass_report reports[MAX_PASSES];
+    uint32_t count = renderer->setup.technique->report(renderer->technique, reports);
+    reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
     if (renderer->tonemap.timer)
-        timers[count++] = renderer->tonemap.timer;
-    for (uint32_t i = 0; i < count; i++) {
-        double iterations = renderer->samples ? renderer->samples : 1;
-        renderer->pass_stats[i] =
-            (lsf_pass_stats){.name = lsf_timer_name(timers[i]),
-                             .runs = lsf_timer_runs(timers[i]),
-                             .milliseconds = lsf_timer_milliseconds(timers[i]) / iterations};
-    }
+        reports[count++] = (lsf_pass_report){.timer = renderer->tonemap.timer};
+    double iterations = renderer->samples ? renderer->samples : 1;
+    for (uint32_t i = 0; i < count; i++)
+        renderer->pass_stats[i] = (lsf_pass_stats){
+            .name = lsf_timer_name(reports[i].timer),
+            .runs = lsf_timer_runs(reports[i].timer),
+            .milliseconds = lsf_timer_milliseconds(reports[i].timer) / iterations,
+            .count_count = reports[i].count_count,
+            .count_names = reports[i].count_names,
+            .counts = reports[i].counts,
+        };
     return (lsf_renderer_stats){.samples = renderer->samples,
                                 .compile_seconds = renderer->compile_seconds,
                                 .upload_seconds = renderer->upload_seconds,

@@ -134,8 +134,7 @@ void lsf_setup_finish(lsf_setup *setup)
     setup->plan = NULL;
 }
 
-lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params,
-                          lsf_error *error)
+lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params, lsf_error *error)
 {
     lsf_setup setup;
     lsf_plan *plan = NULL;

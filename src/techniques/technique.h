@@ -12,7 +12,7 @@ typedef struct lsf_pass_params {
     lsf_shadow_map_params shadow_map;
 } lsf_pass_params;
 
-#define LSF_PASS_PARAMS_DEFAULTS                                                          \
+#define LSF_PASS_PARAMS_DEFAULTS                                                                   \
     .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS}, .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
@@ -20,13 +20,21 @@ extern const uint32_t lsf_pass_option_table_count;
 
 /* What an iteration left, valid until the next; 0 where the technique has none. */
 typedef struct lsf_technique_outputs {
-    GLuint picture;           /* RGBA32F radiance */
-    GLuint depth, surface;    /* of the G-buffer */
+    GLuint picture;                                               /* RGBA32F radiance */
+    GLuint depth, surface;                                        /* of the G-buffer */
     GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
     GLuint motion;
 } lsf_technique_outputs;
 
-#define LSF_TECHNIQUE_MAX_TIMERS 32
+/* A pass as statistics show it. */
+typedef struct lsf_pass_report {
+    lsf_timer *timer;
+    uint32_t count_count;
+    const char *const *count_names;
+    const uint64_t *counts;
+} lsf_pass_report;
+
+#define LSF_TECHNIQUE_MAX_PASSES 32
 
 typedef struct lsf_technique {
     const char *name, *help;
@@ -38,8 +46,8 @@ typedef struct lsf_technique {
                    const lsf_pass_params *params, const lsf_scene_gpu *scene, lsf_error *error);
     void (*run)(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs);
     void (*destroy)(void *self); /* NULL allowed */
-    /* Timers of its passes in order; returns their number. */
-    uint32_t (*timers)(void *self, lsf_timer *timers[LSF_TECHNIQUE_MAX_TIMERS]);
+    /* Its passes in order; returns their number. */
+    uint32_t (*report)(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES]);
 } lsf_technique;
 
 extern const lsf_technique lsf_technique_direct;

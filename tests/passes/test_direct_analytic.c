@@ -70,8 +70,8 @@ static void spot_penumbra(void **unused)
             double ramp = (cosine - cos((double)outers[wide])) /
                           (cos((double)0.2f) - cos((double)outers[wide]));
             ramp = fmin(fmax(ramp, 0.0), 1.0);
-            assert_near("spot", (double)rgb[0],
-                        4.0 / M_PI * pow(cosine, 3.0) / 4.0 * ramp * ramp, 1e-3);
+            assert_near("spot", (double)rgb[0], 4.0 / M_PI * pow(cosine, 3.0) / 4.0 * ramp * ramp,
+                        1e-3);
         }
         float rgb[3];
         render_gl_point(scene, lsf_f3(0, 6, 5), lsf_f3(2.0f * tanf(outers[wide] + 0.05f), 0, 0), 8,

@@ -232,10 +232,14 @@ static void bad_params(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gloss),       cmocka_unit_test(emission),
-        cmocka_unit_test(directional_light), cmocka_unit_test(mask),
-        cmocka_unit_test(environment), cmocka_unit_test(base_color_texture),
-        cmocka_unit_test(layers),      cmocka_unit_test(no_light_no_shadow),
+        cmocka_unit_test(gloss),
+        cmocka_unit_test(emission),
+        cmocka_unit_test(directional_light),
+        cmocka_unit_test(mask),
+        cmocka_unit_test(environment),
+        cmocka_unit_test(base_color_texture),
+        cmocka_unit_test(layers),
+        cmocka_unit_test(no_light_no_shadow),
         cmocka_unit_test(bad_params),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
