@@ -23,7 +23,7 @@
 #define WIDE_SPOT_COSINE 0.5f
 
 const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
-    {"shadow.filter is pcf", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0,
+    {"shadow.filter", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0,
      "none|pcf", "", "pcf: 16-tap percentage-closer filter, for single frames"},
     {"shadow.texels_per_pixel", LSF_OPTION_FLOAT, offsetof(lsf_shadow_map_params, texels_per_pixel),
      0.01, 64.0, NULL, "",
