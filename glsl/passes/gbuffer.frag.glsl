@@ -4,18 +4,28 @@
 
 in vec3 vertex_position;
 in vec3 vertex_normal;
-flat in uint vertex_instance;
+flat in vec4 vertex_base_color;
+flat in vec4 vertex_emission; /* w: alpha cutoff */
+flat in vec4 vertex_surface;  /* metallic, roughness, normal scale, f0 */
+flat in vec4 vertex_flags;    /* mirrored, double-sided, unlit */
 #if LSF_TANGENT
 in vec4 vertex_tangent;
 #endif
 #if LSF_TEXTURED
 in vec2 vertex_uv0;
+flat in uint vertex_material;
 #endif
 #if LSF_SECOND_UV
 in vec2 vertex_uv1;
 #endif
 #if LSF_VERTEX_COLOR
 in vec4 vertex_color;
+#endif
+#if LSF_BASE_COLOR_TEXTURE
+flat in vec4 vertex_base_color_row_0, vertex_base_color_row_1;
+#endif
+#if LSF_ANISOTROPY
+flat in vec4 vertex_anisotropy;
 #endif
 #if LSF_MOTION
 in vec4 vertex_clip, vertex_previous_clip;
@@ -56,12 +66,14 @@ texture_place place_on_textures()
     return place;
 }
 
-vec4 base_color(lsf_material_data material, texture_place place)
+vec4 base_color(texture_place place)
 {
-    vec4 color = material.base_color;
+    vec4 color = vertex_base_color;
 #if LSF_BASE_COLOR_TEXTURE
-    if (slot_used(material.base_color_slot))
-        color *= slot_sample(base_color_texture, material.base_color_slot, place);
+    lsf_texture_slot_data slot =
+        lsf_texture_slot_data(vertex_base_color_row_0, vertex_base_color_row_1);
+    if (slot_used(slot))
+        color *= slot_sample(base_color_texture, slot, place);
 #endif
 #if LSF_VERTEX_COLOR
     color *= vertex_color;
@@ -91,16 +103,14 @@ vec3 tangent_about(vec3 n)
 
 void main()
 {
-    lsf_instance_data instance = instances[vertex_instance];
-    lsf_material_data material = materials[uint(instance.normal_0.w)];
     texture_place place = place_on_textures();
     vec3 position_dx = dFdx(vertex_position), position_dy = dFdy(vertex_position);
-    vec4 color = base_color(material, place);
+    vec4 color = base_color(place);
 #if LSF_MASK
-    if (color.a < material.emission.w)
+    if (color.a < vertex_emission.w)
         discard;
 #endif
-    bool front = gl_FrontFacing != (instance.normal_1.w != 0.0);
+    bool front = gl_FrontFacing != (vertex_flags.x != 0.0);
 
     surface s;
     /* The triangle's own plane, for interpolation over it is affine. Each derivative is scaled
@@ -119,14 +129,13 @@ void main()
     vec3 n = vertex_n;
 #if LSF_TANGENT
     vec3 t = tangent_about(n);
-    /* A mirror turns the cross product of mirrored vectors the other way. */
-    bool mirrored = instance.normal_1.w != 0.0;
-    vec3 b = cross(n, t) * (mirrored ? -vertex_tangent.w : vertex_tangent.w);
+    vec3 b = cross(n, t) * vertex_tangent.w;
 #endif
 #if LSF_NORMAL_TEXTURE
-    if (slot_used(material.normal_slot)) {
-        vec3 mapped = slot_sample(normal_texture, material.normal_slot, place).xyz * 2.0 - 1.0;
-        mapped.xy *= material.surface.z;
+    lsf_texture_slot_data normal_slot = materials[vertex_material].normal_slot;
+    if (slot_used(normal_slot)) {
+        vec3 mapped = slot_sample(normal_texture, normal_slot, place).xyz * 2.0 - 1.0;
+        mapped.xy *= vertex_surface.z;
         n = normalize(mapped.x * t + mapped.y * b + mapped.z * n);
     }
 #endif
@@ -134,27 +143,29 @@ void main()
     s.base_color = clamp(color.rgb, 0.0, 1.0);
     s.metallic = 0.0;
     s.roughness = 1.0;
-    s.f0 = material.surface.w;
+    s.f0 = vertex_surface.w;
     s.anisotropy = 0.0;
     s.anisotropy_turn = 0.0;
-    s.unlit = material.flags.y != 0.0;
+    s.unlit = vertex_flags.z != 0.0;
 #if LSF_GLOSS
-    s.metallic = material.surface.x;
-    s.roughness = material.surface.y;
+    s.metallic = vertex_surface.x;
+    s.roughness = vertex_surface.y;
 #if LSF_METALLIC_ROUGHNESS_TEXTURE
-    if (slot_used(material.metallic_roughness_slot)) {
+    lsf_texture_slot_data gloss_slot = materials[vertex_material].metallic_roughness_slot;
+    if (slot_used(gloss_slot)) {
         vec4 texel =
-            slot_sample(metallic_roughness_texture, material.metallic_roughness_slot, place);
+            slot_sample(metallic_roughness_texture, gloss_slot, place);
         s.metallic *= texel.b;
         s.roughness *= texel.g;
     }
 #endif
 #if LSF_ANISOTROPY
-    vec2 turn = material.anisotropy.yz;
-    s.anisotropy = material.anisotropy.x;
+    vec2 turn = vertex_anisotropy.yz;
+    s.anisotropy = vertex_anisotropy.x;
 #if LSF_ANISOTROPY_TEXTURE
-    if (slot_used(material.anisotropy_slot)) {
-        vec3 texel = slot_sample(anisotropy_texture, material.anisotropy_slot, place).xyz;
+    lsf_texture_slot_data anisotropy_slot = materials[vertex_material].anisotropy_slot;
+    if (slot_used(anisotropy_slot)) {
+        vec3 texel = slot_sample(anisotropy_texture, anisotropy_slot, place).xyz;
         vec2 d = texel.xy * 2.0 - 1.0;
         turn = vec2(d.x * turn.x - d.y * turn.y, d.x * turn.y + d.y * turn.x);
         s.anisotropy *= texel.z;
@@ -170,10 +181,11 @@ void main()
     gloss_out = gloss_pack(s);
 #endif
 #if LSF_EMISSION
-    vec3 emission = front || material.flags.x != 0.0 ? material.emission.rgb : vec3(0.0);
+    vec3 emission = front || vertex_flags.y != 0.0 ? vertex_emission.rgb : vec3(0.0);
 #if LSF_EMISSIVE_TEXTURE
-    if (slot_used(material.emissive_slot))
-        emission *= slot_sample(emissive_texture, material.emissive_slot, place).rgb;
+    lsf_texture_slot_data emissive_slot = materials[vertex_material].emissive_slot;
+    if (slot_used(emissive_slot))
+        emission *= slot_sample(emissive_texture, emissive_slot, place).rgb;
 #endif
     if (s.unlit)
         emission = color.rgb;

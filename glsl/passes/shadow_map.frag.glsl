@@ -1,7 +1,7 @@
 #include "lib/scene.glsl"
 
 #if LSF_MASK
-flat in uint vertex_instance;
+flat in uint vertex_material;
 layout(binding = LSF_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
 #if LSF_TEXTURED
 in vec2 vertex_uv0;
@@ -24,7 +24,7 @@ void main()
     gradient = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));
 #endif
 #if LSF_MASK
-    lsf_material_data material = materials[uint(instances[vertex_instance].normal_0.w)];
+    lsf_material_data material = materials[vertex_material];
     float alpha = material.base_color.a;
 #if LSF_TEXTURED
     if (slot_used(material.base_color_slot)) {

@@ -1,11 +1,10 @@
+#include "lib/instance.glsl"
 #include "lib/light_map.glsl"
-#include "lib/scene.glsl"
 
 layout(location = 0) uniform int face;
 layout(location = LSF_ATTRIBUTE_POSITION) in vec3 position;
-layout(location = LSF_ATTRIBUTE_INSTANCE) in uint instance_id;
 #if LSF_MASK
-flat out uint vertex_instance;
+flat out uint vertex_material;
 #if LSF_TEXTURED
 layout(location = LSF_ATTRIBUTE_UV0) in vec2 uv0;
 out vec2 vertex_uv0;
@@ -22,9 +21,9 @@ out float vertex_alpha;
 
 void main()
 {
-    gl_Position = light_map_clip(face, instance_position(instances[instance_id], position));
+    gl_Position = light_map_clip(face, instance_position(position));
 #if LSF_MASK
-    vertex_instance = instance_id;
+    vertex_material = instance_material();
 #if LSF_TEXTURED
     vertex_uv0 = uv0;
 #endif

@@ -4,7 +4,9 @@
 
 #include "shared/shared.h"
 
-/* One primitive placed by one node; transforms go from object to normalised space. */
+/* One primitive placed by one node; transforms go from object to normalised space. Vertex shaders
+ * read it as attributes that advance once a draw, which software GL fetches once for all vertices.
+ */
 struct lsf_instance_data {
     vec4 transform_0, transform_1, transform_2; /* rows of the 3x4 matrix */
     vec4 normal_0, normal_1, normal_2;          /* rows of the normals' 3x3 matrix in x y z;
@@ -37,12 +39,12 @@ struct lsf_material_data {
 #define LSF_ATTRIBUTE_UV0 3
 #define LSF_ATTRIBUTE_UV1 4
 #define LSF_ATTRIBUTE_COLOR 5
-#define LSF_ATTRIBUTE_INSTANCE 6
+#define LSF_ATTRIBUTE_TRANSFORM 6           /* 3 rows */
+#define LSF_ATTRIBUTE_NORMAL_TRANSFORM 9    /* 3 rows */
+#define LSF_ATTRIBUTE_PREVIOUS_TRANSFORM 12 /* 3 rows */
 
 /* Bindings: storage buffers and texture units of the scene, the same in every pass. */
-#define LSF_BINDING_INSTANCES 0
-#define LSF_BINDING_MATERIALS 1
-#define LSF_BINDING_PREVIOUS_TRANSFORMS 2
+#define LSF_BINDING_MATERIALS 0
 #define LSF_UNIT_BASE_COLOR 0
 #define LSF_UNIT_METALLIC_ROUGHNESS 1
 #define LSF_UNIT_NORMAL 2

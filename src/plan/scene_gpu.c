@@ -32,8 +32,6 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
         lsf_plan_buffer_add(plan, "scene.positions", vertices * 12, "3 floats a vertex");
         lsf_plan_buffer_add(plan, "scene.normals", vertices * 12, "3 floats a vertex");
         lsf_plan_buffer_add(plan, "scene.indices", scene->index_count * 4, "32 bits each");
-        lsf_plan_buffer_add(plan, "scene.instance_ids", (uint64_t)scene->instance_count * 4,
-                            "names the instance of a draw");
         lsf_plan_buffer_add(plan, "scene.instances", scene->instance_count * sizeof(instance_data),
                             "transforms and material of %u instances", scene->instance_count);
         lsf_plan_buffer_add(plan, "scene.materials", scene->material_count * sizeof(material_data),
@@ -100,9 +98,8 @@ static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
 {
     uint32_t count = gpu->scene->instance_count;
     gpu->instance_data = lsf_alloc(count, sizeof *gpu->instance_data);
-    uint32_t *ids = lsf_alloc(count, sizeof *ids);
     float *transforms = lsf_alloc(count, 12 * sizeof *transforms);
-    bool ok = gpu->instance_data && ids && transforms;
+    bool ok = gpu->instance_data && transforms;
     if (!ok)
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances", count);
     for (uint32_t i = 0; ok && i < count; i++) {
@@ -114,18 +111,14 @@ static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
                                                 {n[0], n[1], n[2], (float)instance->material},
                                                 {n[3], n[4], n[5], instance->mirrored},
                                                 {n[6], n[7], n[8], 0.0f}};
-        ids[i] = i;
         if (previous)
             memcpy(transforms + 12 * (size_t)i, previous->instances[i].transform, 48);
     }
     ok = ok &&
          lsf_plan_create_buffer(plan, gpu->context, "scene.instances", gpu->instance_data, 0,
                                 &gpu->instances, error) &&
-         lsf_plan_create_buffer(plan, gpu->context, "scene.instance_ids", ids, 0,
-                                &gpu->instance_ids, error) &&
          lsf_plan_create_buffer(plan, gpu->context, "scene.previous_transforms", transforms, 0,
                                 &gpu->previous_transforms, error);
-    free(ids);
     free(transforms);
     return ok;
 }
@@ -138,6 +131,20 @@ static void add_attribute(GLuint array, GLuint location, GLuint buffer, GLint co
     glVertexArrayAttribFormat(array, location, components, GL_FLOAT, GL_FALSE, 0);
     glVertexArrayAttribBinding(array, location, location);
     glEnableVertexArrayAttrib(array, location);
+}
+
+/* Three rows of four floats that advance once an instance. */
+static void add_instance_rows(GLuint array, GLuint location, GLuint buffer, size_t stride,
+                              size_t offset)
+{
+    glVertexArrayVertexBuffer(array, location, buffer, (GLintptr)offset, (GLsizei)stride);
+    glVertexArrayBindingDivisor(array, location, 1);
+    for (GLuint row = 0; row < 3; row++) {
+        glVertexArrayAttribFormat(array, location + row, 4, GL_FLOAT, GL_FALSE,
+                                  row * 4 * (GLuint)sizeof(float));
+        glVertexArrayAttribBinding(array, location + row, location);
+        glEnableVertexArrayAttrib(array, location + row);
+    }
 }
 
 static GLuint create_array(const lsf_scene_gpu *gpu, const char *label, bool shading, bool masked)
@@ -156,11 +163,13 @@ static GLuint create_array(const lsf_scene_gpu *gpu, const char *label, bool sha
         add_attribute(array, LSF_ATTRIBUTE_UV1, gpu->uv1, 2);
         add_attribute(array, LSF_ATTRIBUTE_COLOR, gpu->colors, 4);
     }
-    glVertexArrayVertexBuffer(array, LSF_ATTRIBUTE_INSTANCE, gpu->instance_ids, 0, 4);
-    glVertexArrayAttribIFormat(array, LSF_ATTRIBUTE_INSTANCE, 1, GL_UNSIGNED_INT, 0);
-    glVertexArrayAttribBinding(array, LSF_ATTRIBUTE_INSTANCE, LSF_ATTRIBUTE_INSTANCE);
-    glVertexArrayBindingDivisor(array, LSF_ATTRIBUTE_INSTANCE, 1);
-    glEnableVertexArrayAttrib(array, LSF_ATTRIBUTE_INSTANCE);
+    add_instance_rows(array, LSF_ATTRIBUTE_TRANSFORM, gpu->instances, sizeof(instance_data),
+                      offsetof(instance_data, transform_0));
+    add_instance_rows(array, LSF_ATTRIBUTE_NORMAL_TRANSFORM, gpu->instances, sizeof(instance_data),
+                      offsetof(instance_data, normal_0));
+    if (shading && gpu->previous_transforms)
+        add_instance_rows(array, LSF_ATTRIBUTE_PREVIOUS_TRANSFORM, gpu->previous_transforms,
+                          12 * sizeof(float), 0);
     return array;
 }
 
@@ -237,7 +246,7 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
                          &gpu->indices,
                          &gpu->materials,
                          &gpu->instances,
-                         &gpu->instance_ids,
+
                          &gpu->previous_transforms};
     for (size_t i = 0; i < LSF_COUNT(buffers); i++)
         lsf_buffer_destroy(gpu->context, buffers[i]);
@@ -289,11 +298,7 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
 {
     uint32_t bound = LSF_NONE;
     glBindVertexArray(mode == LSF_DRAW_SHADING ? gpu->shading_array : gpu->position_array);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_INSTANCES, gpu->instances);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
-    if (gpu->previous_transforms)
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_PREVIOUS_TRANSFORMS,
-                         gpu->previous_transforms);
     for (uint32_t i = 0; i < gpu->draw_count; i++) {
         const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
         if (instance->skipped || (region && !inside(region, instance))) {

@@ -10,7 +10,7 @@ typedef struct lsf_scene_gpu {
     lsf_context *context;
     const lsf_scene *scene;
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
-    GLuint instance_ids, instances, previous_transforms, materials, environment;
+    GLuint instances, previous_transforms, materials, environment;
     GLuint *textures; /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* scene texture to an entry of `textures` */
