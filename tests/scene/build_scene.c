@@ -51,6 +51,7 @@ void destroy_scene(lsf_scene *scene)
     free(scene->vertices.normal);
     free(scene->vertices.tangent);
     free(scene->vertices.uv0);
+    free(scene->vertices.uv1);
     free(scene->vertices.color);
     free(scene->indices);
     free(scene->primitives);
