@@ -19,7 +19,8 @@ against_reference against_reference_render(const char *name, const lsf_scene *sc
 void against_reference_destroy(against_reference *pictures);
 
 /* Asserts on the three channels that begin with `channel`: the means agree within 0.3 %, and the
- * root of the mean squared error, both noises taken out, is at most 2 % of the mean. Pixels with a
+ * root of the mean squared error, both noises taken out, is at most 2 % of the mean; both but for
+ * what few samples leave uncertain. Pixels with a
  * value above `limit`, and those beside them, are left out: a highlight narrower than any pixel's
  * samples is noise alone. */
 void against_reference_check(const char *name, const against_reference *pictures,
