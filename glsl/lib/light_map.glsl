@@ -15,6 +15,13 @@ bool light_map_perspective()
     return light.map_shape.y == 0.0;
 }
 
+/* What a stored gradient is relative to: the depth itself when perspective, where depths span many
+ * magnitudes, so that half floats hold it. */
+float light_map_depth_unit(float depth)
+{
+    return light_map_perspective() ? depth : 1.0;
+}
+
 /* Coordinates of a point along right, up and forward of a face. */
 vec3 light_map_coordinates(int face, vec3 position)
 {

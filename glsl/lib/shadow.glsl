@@ -59,7 +59,7 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
 
 float shadow_tolerance(shadow_receiver r)
 {
-    return LSF_SHADOW_EPSILON * (light_map_perspective() ? r.depth : 1.0);
+    return LSF_SHADOW_EPSILON * light_map_depth_unit(r.depth);
 }
 
 #if LSF_SHADOW_PCF
@@ -89,7 +89,7 @@ float shadow_visibility(vec3 position, vec3 normal)
     int last = int(light.map_shape.z) - 1;
     ivec2 at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(last));
     float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
-    vec2 gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg;
+    vec2 gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_map_depth_unit(depth);
     vec2 to_center = vec2(at) + 0.5 - r.texel;
     float occluder_at_receiver = depth - dot(gradient, to_center);
     float receiver_at_center = r.depth + dot(r.gradient, to_center);

@@ -1,3 +1,4 @@
+#include "lib/light_map.glsl"
 #include "lib/scene.glsl"
 
 #if LSF_MASK
@@ -21,7 +22,8 @@ void main()
 {
 #if LSF_GRADIENT
     /* Before any discard, while the whole quad is alive. */
-    gradient = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));
+    float z = gl_FragCoord.z;
+    gradient = vec2(dFdx(z), dFdy(z)) / light_map_depth_unit(z);
 #endif
 #if LSF_MASK
     lsf_material_data material = materials[vertex_material];

@@ -23,8 +23,8 @@
 #define WIDE_SPOT_COSINE 0.5f
 
 const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
-    {"shadow.filter", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0,
-     "none|pcf", "", "pcf: 16-tap percentage-closer filter, for single frames"},
+    {"shadow.filter", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0, "none|pcf",
+     "", "pcf: 16-tap percentage-closer filter, for single frames"},
     {"shadow.texels_per_pixel", LSF_OPTION_FLOAT, offsetof(lsf_shadow_map_params, texels_per_pixel),
      0.01, 64.0, NULL, "",
      "texels of a shadow map, all its faces together, for each pixel of the picture"},
@@ -64,7 +64,7 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
     lsf_plan_texture_desc_add(plan, full_name, &desc, "%g texels a pixel",
                               (double)params->texels_per_pixel);
     snprintf(full_name, sizeof full_name, "shadow_map.%s_gradient", name);
-    desc.internal_format = GL_RG32F;
+    desc.internal_format = GL_RG16F;
     if (params->filter == LSF_SHADOW_FILTER_NONE)
         lsf_plan_texture_desc_add(plan, full_name, &desc, "the plane of each texel's surface");
     else
@@ -233,22 +233,26 @@ static box view_box(const lsf_camera_state *camera, const lsf_float3 axes[3], fl
     return b;
 }
 
-static float farthest_depth(const lsf_state *state)
+/* View depths between which the scene lies, from the viewer on. */
+static void scene_depths(const lsf_state *state, float *nearest, float *farthest)
 {
     const lsf_camera_state *camera = &state->camera;
-    float farthest = 0.0f;
+    *nearest = INFINITY;
+    *farthest = 0.0f;
     for (int corner = 0; corner < 8; corner++) {
         lsf_float3 p = lsf_f3((corner & 1 ? state->bounds_max : state->bounds_min)[0],
                               (corner & 2 ? state->bounds_max : state->bounds_min)[1],
                               (corner & 4 ? state->bounds_max : state->bounds_min)[2]);
-        farthest = fmaxf(farthest, lsf_f3_dot(lsf_f3_sub(p, lsf_f3_load(camera->origin)),
-                                              lsf_f3_load(camera->forward)));
+        float depth =
+            lsf_f3_dot(lsf_f3_sub(p, lsf_f3_load(camera->origin)), lsf_f3_load(camera->forward));
+        *nearest = fminf(*nearest, depth);
+        *farthest = fmaxf(*farthest, depth);
     }
-    return farthest;
+    *nearest = fminf(fmaxf(*nearest, 0.0f), *farthest); /* an empty scene: nothing to see */
 }
 
-/* Nested windows: each holds what is seen up to a third of the next one's depth, so that a texel
- * is everywhere about as wide as a pixel is there; the last holds all that is seen. Along the
+/* Nested windows: each reaches a third as deep into the scene as the next one, so that a texel is
+ * everywhere about as wide as a pixel is there; the last holds all that is seen. Along the
  * light, each holds the whole scene, which may cast its shadow from outside the view. */
 static void project_cascades(struct lsf_light_data *data, const lsf_state *state, uint32_t faces,
                              lsf_float3 right, lsf_float3 up, lsf_float3 forward)
@@ -260,10 +264,12 @@ static void project_cascades(struct lsf_light_data *data, const lsf_state *state
     data->map_origin = vec4_from(lsf_f3_scale(forward, start), (float)faces);
     data->map_shape.x = 0.0f;
     data->map_shape.y = 2.02f * half_range;
-    float depth = farthest_depth(state);
-    for (uint32_t i = 0; i < faces; i++, depth /= CASCADE_RATIO) {
+    float nearest, farthest;
+    scene_depths(state, &nearest, &farthest);
+    float reach = farthest - nearest;
+    for (uint32_t i = 0; i < faces; i++, reach /= CASCADE_RATIO) {
         uint32_t face = faces - 1 - i;
-        box view = view_box(&state->camera, axes, depth);
+        box view = view_box(&state->camera, axes, nearest + reach);
         float center[2], extent[2];
         for (int axis = 0; axis < 2; axis++) {
             float low = fmaxf(view.low[axis], scene.low[axis]);

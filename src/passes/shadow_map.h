@@ -17,8 +17,10 @@ typedef struct lsf_shadow_map_params {
     float texels_per_pixel; /* of the whole map, all faces together, to the picture's pixels */
 } lsf_shadow_map_params;
 
-/* At 1024 x 768 pixels, a cube's faces have 1024^2 texels, as Tokuyoshi and Ogaki 2012 use. */
-#define LSF_SHADOW_MAP_PARAMS_DEFAULTS .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 8.0f
+/* A cascade spans about the picture's width at its far end; at the geometric mean of its depths a
+ * pixel is sqrt(3) narrower than there, so sqrt(3) width texels a side match it: four cascades of
+ * them are 12 width / height texels a pixel, 16 for a picture of 4:3. */
+#define LSF_SHADOW_MAP_PARAMS_DEFAULTS .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 16.0f
 
 #define LSF_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT];
@@ -34,7 +36,8 @@ typedef enum lsf_shadow_map_kind {
 /* Depth and its slope, valid until the next run. 2D arrays with a layer for each face. */
 typedef struct lsf_shadow_map_outputs {
     GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
-    GLuint gradient;     /* RG32F: depth's change per texel along x and y; 0 (the name) with pcf */
+    GLuint gradient;     /* RG16F: depth's change per texel along x and y, relative to the
+                          * depth in perspective maps; 0 (the name) with pcf */
     GLuint light_buffer; /* struct lsf_light_data */
     struct lsf_light_data light;
 } lsf_shadow_map_outputs;

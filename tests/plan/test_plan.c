@@ -129,7 +129,7 @@ static void directional_light(void **unused)
 {
     (void)unused;
     const char *const names[] = {"shadow_map.cascades_depth", "shadow_map.cascades_gradient"};
-    check_feature(make_sunny, 0, 2, names, (uint64_t)4 * 128 * 128 * (4 + 8),
+    check_feature(make_sunny, 0, 2, names, (uint64_t)4 * 128 * 128 * (4 + 4),
                   "direct_light.LSF_DIRECTIONAL_LIGHT ", 0);
 }
 
