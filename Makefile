@@ -3,7 +3,7 @@
 BUILD ?= build
 MESON_OPTIONS ?=
 PREFIX ?= /usr/local
-RENDER_OPTIONS ?= --resolution 1200,750 --samples 32 --exposure 0.5 --environment 0.9,1.1,1.4
+RENDER_OPTIONS ?= --resolution 1200,750 --samples 16 --exposure 0.5 --environment 0.9,1.1,1.4
 JOBS := $(shell nproc)
 
 .PHONY: all
