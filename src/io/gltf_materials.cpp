@@ -6,6 +6,8 @@
 #include <memory>
 #include <tuple>
 
+#include <glm/glm.hpp>
+
 /* Materials that the scene's meshes use, then glTF's default; and the textures and images that
  * those materials read. */
 
@@ -144,7 +146,7 @@ static void apply_transform(const tinygltf::ExtensionMap &extensions, lsf_textur
         return;
     const Value &transform = found->second;
     double angle = number_in(transform, "rotation", 0.0);
-    double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0};
+    glm::dvec2 offset(0.0), scale(1.0);
     for (int i = 0; i < 2; i++) {
         if (transform.Has("offset"))
             offset[i] = transform.Get("offset").Get(i).GetNumberAsDouble();
@@ -152,10 +154,13 @@ static void apply_transform(const tinygltf::ExtensionMap &extensions, lsf_textur
             scale[i] = transform.Get("scale").Get(i).GetNumberAsDouble();
     }
     double c = std::cos(angle), s = std::sin(angle);
-    double values[6] = {c * scale[0],  s * scale[1], offset[0],
-                        -s * scale[0], c * scale[1], offset[1]};
-    for (int i = 0; i < 6; i++)
-        slot.transform[i] = (float)values[i];
+    glm::dmat2 rotation(c, -s, s, c); /* by columns */
+    glm::dmat2 matrix = rotation * glm::dmat2(scale.x, 0.0, 0.0, scale.y);
+    for (int row = 0; row < 2; row++) {
+        slot.transform[3 * row] = (float)matrix[0][row];
+        slot.transform[3 * row + 1] = (float)matrix[1][row];
+        slot.transform[3 * row + 2] = (float)offset[row];
+    }
     slot.uv_set = (uint32_t)number_in(transform, "texCoord", slot.uv_set);
 }
 

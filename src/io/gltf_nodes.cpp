@@ -1,6 +1,10 @@
 #include "io/gltf_import.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 /* The node hierarchy, walked without recursion: a chain may be a million nodes long. */
 
@@ -86,18 +90,16 @@ static void set_transform(gltf_import &import, const tinygltf::Node &source,
         node.translation[i] = source.translation.empty() ? 0.0 : source.translation[(size_t)i];
         node.scale[i] = source.scale.empty() ? 1.0 : source.scale[(size_t)i];
     }
-    double length = 0.0;
-    for (int i = 0; i < 4; i++) {
-        double q = source.rotation.empty() ? (i == 3 ? 1.0 : 0.0) : source.rotation[(size_t)i];
-        node.rotation[i] = q;
-        length += q * q;
-    }
-    length = std::sqrt(length);
+    glm::dquat rotation = glm::identity<glm::dquat>();
+    if (!source.rotation.empty())
+        rotation = glm::dquat(source.rotation[3], source.rotation[0], source.rotation[1],
+                              source.rotation[2]); /* w first */
     /* Files hold rotations as floats: up to 1e-6 is rounding. */
-    if (std::fabs(length - 1.0) > 1e-4)
+    if (std::fabs(glm::length(rotation) - 1.0) > 1e-4)
         import.repairs.rotations_scaled++;
-    for (int i = 0; i < 4; i++)
-        node.rotation[i] = length > 0.0 ? node.rotation[i] / length : (i == 3 ? 1.0 : 0.0);
+    rotation = glm::normalize(rotation); /* of no length: the identity */
+    const double components[4] = {rotation.x, rotation.y, rotation.z, rotation.w};
+    std::copy(components, components + 4, node.rotation);
 
     node.has_matrix = !source.matrix.empty();
     if (!node.has_matrix)
