@@ -97,28 +97,29 @@ static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
                              const lsf_state *previous, lsf_error *error)
 {
     uint32_t count = gpu->scene->instance_count;
-    gpu->instance_data = lsf_alloc(count, sizeof *gpu->instance_data);
+    instance_data *data = lsf_alloc(count, sizeof *data);
     float *transforms = lsf_alloc(count, 12 * sizeof *transforms);
-    bool ok = gpu->instance_data && transforms;
+    bool ok = data && transforms;
     if (!ok)
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances", count);
     for (uint32_t i = 0; ok && i < count; i++) {
         const lsf_instance_state *instance = &state->instances[i];
         const float *t = instance->transform, *n = instance->normal_transform;
-        gpu->instance_data[i] = (instance_data){{t[0], t[1], t[2], t[3]},
-                                                {t[4], t[5], t[6], t[7]},
-                                                {t[8], t[9], t[10], t[11]},
-                                                {n[0], n[1], n[2], (float)instance->material},
-                                                {n[3], n[4], n[5], instance->mirrored},
-                                                {n[6], n[7], n[8], 0.0f}};
+        data[i] = (instance_data){{t[0], t[1], t[2], t[3]},
+                                  {t[4], t[5], t[6], t[7]},
+                                  {t[8], t[9], t[10], t[11]},
+                                  {n[0], n[1], n[2], (float)instance->material},
+                                  {n[3], n[4], n[5], instance->mirrored},
+                                  {n[6], n[7], n[8], 0.0f}};
         if (previous)
             memcpy(transforms + 12 * (size_t)i, previous->instances[i].transform, 48);
     }
     ok = ok &&
-         lsf_plan_create_buffer(plan, gpu->context, "scene.instances", gpu->instance_data, 0,
-                                &gpu->instances, error) &&
+         lsf_plan_create_buffer(plan, gpu->context, "scene.instances", data, 0, &gpu->instances,
+                                error) &&
          lsf_plan_create_buffer(plan, gpu->context, "scene.previous_transforms", transforms, 0,
                                 &gpu->previous_transforms, error);
+    free(data);
     free(transforms);
     return ok;
 }
@@ -253,7 +254,6 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
     lsf_texture_upload_destroy(gpu);
     glDeleteVertexArrays(1, &gpu->shading_array);
     glDeleteVertexArrays(1, &gpu->position_array);
-    free(gpu->instance_data);
     free(gpu->draw_order);
     memset(gpu, 0, sizeof *gpu);
 }

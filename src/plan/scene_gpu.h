@@ -19,7 +19,6 @@ typedef struct lsf_scene_gpu {
     GLuint position_array; /* positions (and UVs where masks need them) */
     uint32_t *draw_order;  /* instances, grouped by material */
     uint32_t draw_count;
-    struct lsf_instance_data *instance_data; /* staging, one an instance */
 } lsf_scene_gpu;
 
 /* Lists what lsf_scene_gpu_create will create. */
