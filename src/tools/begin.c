@@ -74,3 +74,14 @@ char *lsf_tool_scene_path(const lsf_settings *settings, lsf_error *error)
                   settings->command->name);
     return NULL;
 }
+
+lsf_scene *lsf_tool_load_scene(const lsf_settings *settings, char **path, double *seconds,
+                               lsf_error *error)
+{
+    lsf_scene_params params = lsf_settings_scene_params(settings);
+    double start = lsf_now();
+    *path = lsf_tool_scene_path(settings, error);
+    lsf_scene *scene = *path ? lsf_scene_load(*path, &params, error) : NULL;
+    *seconds = lsf_now() - start;
+    return scene;
+}

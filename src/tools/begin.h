@@ -13,4 +13,8 @@ int lsf_tool_begin(lsf_settings *settings, lsf_command_bit command, int argc, ch
 /* The operand, or the scene that comes with Lightsheaf. malloc'ed; NULL: LSF_ERROR_USAGE. */
 char *lsf_tool_scene_path(const lsf_settings *settings, lsf_error *error);
 
+/* Loads that scene; its path is malloc'ed into *path in either case. NULL on failure. */
+lsf_scene *lsf_tool_load_scene(const lsf_settings *settings, char **path, double *seconds,
+                               lsf_error *error);
+
 #endif

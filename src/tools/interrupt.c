@@ -1,6 +1,7 @@
 #include "tools/interrupt.h"
 
 #include "base/base.h"
+#include "tools/report.h"
 
 #include <lightsheaf/image.h>
 
@@ -47,4 +48,19 @@ void lsf_interrupt_end_iterations(void)
 bool lsf_interrupted(void)
 {
     return asked_to_stop;
+}
+
+bool lsf_interrupt_progress(uint32_t done, uint32_t total, void *bar)
+{
+    lsf_progress_bar_draw(bar, done, total);
+    return !lsf_interrupted();
+}
+
+bool lsf_interrupt_may_save(const lsf_settings *settings, uint32_t samples, lsf_error *error)
+{
+    if (!lsf_interrupted() || (settings->keep_partial && samples > 0))
+        return true;
+    return lsf_error_set(
+        error, LSF_ERROR_RENDER, "interrupted after %u samples; nothing was written%s", samples,
+        settings->keep_partial ? "" : " (--keep-partial saves what has converged)");
 }

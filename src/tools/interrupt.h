@@ -4,6 +4,8 @@
 #ifndef LSF_TOOLS_INTERRUPT_H
 #define LSF_TOOLS_INTERRUPT_H
 
+#include "tools/options.h"
+
 #include <stdbool.h>
 
 void lsf_interrupt_install(void);
@@ -14,5 +16,11 @@ void lsf_interrupt_end_iterations(void);
 
 /* Whether a signal asked to stop. */
 bool lsf_interrupted(void);
+
+/* An lsf_progress that draws the lsf_progress_bar `bar` and stops when a signal asked to. */
+bool lsf_interrupt_progress(uint32_t done, uint32_t total, void *bar);
+
+/* Fails when a signal stopped the iterations and what has converged is not to be kept. */
+bool lsf_interrupt_may_save(const lsf_settings *settings, uint32_t samples, lsf_error *error);
 
 #endif

@@ -21,12 +21,6 @@ typedef struct reference_job {
     double start, load_seconds, save_seconds;
 } reference_job;
 
-static bool on_progress(uint32_t done, uint32_t total, void *user)
-{
-    lsf_progress_bar_draw(user, done, total);
-    return !lsf_interrupted();
-}
-
 static void warn_of_options_without_effect(const lsf_settings *settings)
 {
     static const char *const names[] = {"technique", "define", "backend", "shader-dir", "gl-debug"};
@@ -37,13 +31,7 @@ static void warn_of_options_without_effect(const lsf_settings *settings)
 
 static bool load(reference_job *job, lsf_error *error)
 {
-    lsf_scene_params params = lsf_settings_scene_params(&job->settings);
-    double start = lsf_now();
-    job->scene_path = lsf_tool_scene_path(&job->settings, error);
-    if (!job->scene_path)
-        return false;
-    job->scene = lsf_scene_load(job->scene_path, &params, error);
-    job->load_seconds = lsf_now() - start;
+    job->scene = lsf_tool_load_scene(&job->settings, &job->scene_path, &job->load_seconds, error);
     return job->scene != NULL;
 }
 
@@ -52,7 +40,7 @@ static bool trace(reference_job *job, lsf_error *error)
     job->half_count = job->settings.halves ? 2 : 1;
     lsf_render_params params = lsf_settings_render_params(&job->settings);
     params.time_limit /= job->half_count;
-    params.progress = on_progress;
+    params.progress = lsf_interrupt_progress;
     params.progress_user = &job->bar;
     lsf_interrupt_begin_iterations();
     bool good = true;
@@ -98,10 +86,8 @@ static bool take_mean(reference_job *job, lsf_error *error)
 static bool save(reference_job *job, lsf_error *error)
 {
     uint32_t samples = job->results[0].samples + job->results[1].samples;
-    if (lsf_interrupted() && (!job->settings.keep_partial || samples == 0))
-        return lsf_error_set(
-            error, LSF_ERROR_RENDER, "interrupted after %u samples; nothing was written%s", samples,
-            job->settings.keep_partial ? "" : " (--keep-partial saves what has converged)");
+    if (!lsf_interrupt_may_save(&job->settings, samples, error))
+        return false;
     double start = lsf_now();
     bool good;
     if (job->half_count == 2 && job->results[1].samples > 0) {

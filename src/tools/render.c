@@ -21,21 +21,9 @@ typedef struct render_job {
     double load_seconds, context_seconds, save_seconds;
 } render_job;
 
-static bool on_progress(uint32_t done, uint32_t total, void *user)
-{
-    lsf_progress_bar_draw(user, done, total);
-    return !lsf_interrupted();
-}
-
 static bool load(render_job *job, lsf_error *error)
 {
-    lsf_scene_params params = lsf_settings_scene_params(&job->settings);
-    double start = lsf_now();
-    job->scene_path = lsf_tool_scene_path(&job->settings, error);
-    if (!job->scene_path)
-        return false;
-    job->scene = lsf_scene_load(job->scene_path, &params, error);
-    job->load_seconds = lsf_now() - start;
+    job->scene = lsf_tool_load_scene(&job->settings, &job->scene_path, &job->load_seconds, error);
     return job->scene != NULL;
 }
 
@@ -52,7 +40,7 @@ static bool converge(render_job *job, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(&job->settings);
     params.rgb8 = job->destination.format == LSF_IMAGE_FORMAT_PNG;
-    params.progress = on_progress;
+    params.progress = lsf_interrupt_progress;
     params.progress_user = &job->bar;
     job->renderer = lsf_renderer_create(job->context, job->scene, &params, error);
     if (!job->renderer)
@@ -89,11 +77,8 @@ static bool save_rgb8(render_job *job, lsf_error *error)
 
 static bool save(render_job *job, lsf_error *error)
 {
-    if (lsf_interrupted() && (!job->settings.keep_partial || job->stats.samples == 0))
-        return lsf_error_set(
-            error, LSF_ERROR_RENDER, "interrupted after %u samples; nothing was written%s",
-            job->stats.samples,
-            job->settings.keep_partial ? "" : " (--keep-partial saves what has converged)");
+    if (!lsf_interrupt_may_save(&job->settings, job->stats.samples, error))
+        return false;
     double start = lsf_now();
     bool good = job->destination.format == LSF_IMAGE_FORMAT_PNG ? save_rgb8(job, error)
                                                                 : save_float(job, error);
