@@ -5,7 +5,7 @@
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
 
-layout(location = 10) uniform vec3 environment_uniform; /* radiance, without a map */
+layout(location = LSF_LOCATION_ENVIRONMENT) uniform vec3 environment_uniform; /* radiance, without a map */
 #if LSF_ENVIRONMENT_MAP
 layout(binding = LSF_UNIT_ENVIRONMENT) uniform sampler2D environment_texture;
 #endif

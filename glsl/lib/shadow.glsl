@@ -13,9 +13,6 @@
 
 #include "lib/light_map.glsl"
 
-#define LSF_UNIT_SHADOW_DEPTH 6
-#define LSF_UNIT_SHADOW_GRADIENT 7
-
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform sampler2DArray shadow_depth;
 #if !LSF_SHADOW_PCF
 layout(binding = LSF_UNIT_SHADOW_GRADIENT) uniform sampler2DArray shadow_gradient;

@@ -52,6 +52,13 @@ struct lsf_material_data {
 #define LSF_UNIT_ANISOTROPY 4
 #define LSF_UNIT_ENVIRONMENT 5
 
+/* Texture units of the light in turn. */
+#define LSF_UNIT_SHADOW_DEPTH 6
+#define LSF_UNIT_SHADOW_GRADIENT 7
+
+/* Location of the radiance of an environment without a map. */
+#define LSF_LOCATION_ENVIRONMENT 10
+
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0
 #define LSF_BINDING_LIGHT 1

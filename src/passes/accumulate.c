@@ -46,7 +46,6 @@ bool lsf_accumulate_create(lsf_accumulate *pass, lsf_context *context, const lsf
     for (uint32_t i = 0; i < layer_count; i++) {
         char name[64];
         snprintf(name, sizeof name, "accumulate.%s", layer_names[i]);
-        pass->layer_names[i] = layer_names[i];
         pass->sources[i] = source_of(layer_names[i]);
         if (!lsf_plan_create_texture(plan, context, name, &pass->means[i], error) ||
             !create_program(pass, plan, pass->sources[i], error))
@@ -71,6 +70,8 @@ void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     for (uint32_t i = 0; i < pass->layer_count; i++) {
+        if (!textures[i])
+            continue;
         glUseProgram(pass->programs[pass->sources[i]]);
         glUniform1f(0, 1.0f / ((float)iteration->index + 1.0f));
         glBindTextureUnit(0, textures[i]);

@@ -17,7 +17,6 @@ typedef enum lsf_accumulate_source {
 typedef struct lsf_accumulate {
     lsf_context *context;
     uint32_t layer_count;
-    const char *layer_names[LSF_ACCUMULATE_MAX_LAYERS];
     lsf_accumulate_source sources[LSF_ACCUMULATE_MAX_LAYERS];
     GLuint means[LSF_ACCUMULATE_MAX_LAYERS]; /* outputs: RGBA32F */
     GLuint programs[LSF_ACCUMULATE_SOURCES];
@@ -29,7 +28,7 @@ typedef struct lsf_accumulate {
 void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const *layer_names);
 bool lsf_accumulate_create(lsf_accumulate *pass, lsf_context *context, const lsf_plan *plan,
                            uint32_t layer_count, const char *const *layer_names, lsf_error *error);
-/* Adds one texture a layer to the means; `depth` is the G-buffer's. */
+/* Adds one texture a layer to the means (0: nothing); `depth` is the G-buffer's. */
 void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
                         const GLuint *textures, GLuint depth);
 void lsf_accumulate_destroy(lsf_accumulate *pass);

@@ -59,7 +59,7 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
     const lsf_environment *environment = &iteration->scene->scene->environment;
     if (environment->present && !environment->width)
-        glUniform3fv(10, 1, environment->radiance);
+        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

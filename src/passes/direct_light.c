@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/base.h"
+#include "shared/scene_data.h"
 
 void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
 {
@@ -61,8 +61,8 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     glBindTextureUnit(0, inputs->depth);
     glBindTextureUnit(1, inputs->surface);
     glBindTextureUnit(2, inputs->gloss);
-    glBindTextureUnit(6, inputs->shadow_depth);
-    glBindTextureUnit(7, inputs->shadow_gradient);
+    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
+    glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
     glUseProgram(pass->program);
     lsf_draw_fullscreen(pass->context);
     glDisable(GL_BLEND);

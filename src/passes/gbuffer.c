@@ -108,7 +108,6 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
     for (size_t i = 0; i < LSF_COUNT(colors); i++)
         if (colors[i])
             desc.colors[desc.color_count++] = colors[i];
-    pass->color_count = desc.color_count;
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "gbuffer", files, error);
     pass->timer = lsf_timer_create(context, "gbuffer", error);

@@ -29,7 +29,6 @@ typedef struct lsf_gbuffer {
     lsf_context *context;
     lsf_gbuffer_outputs outputs;
     GLuint framebuffer, program;
-    uint32_t color_count;
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;
 } lsf_gbuffer;

@@ -125,7 +125,7 @@ static GLuint layer_texture(const lsf_technique_outputs *outputs, uint32_t aov)
 
 bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
 {
-    GLuint layers[LSF_SETUP_MAX_LAYERS];
+    GLuint layers[LSF_ACCUMULATE_MAX_LAYERS];
     const lsf_setup *setup = &renderer->setup;
     double start = lsf_now();
     lsf_iteration_begin(&renderer->iteration, renderer->samples);
@@ -139,19 +139,33 @@ bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
     return lsf_context_check(renderer->context, error);
 }
 
+/* Until the GPU is done: what was handed to it so far counts as rendered. */
+static void wait_for_gpu(lsf_renderer *renderer)
+{
+    double start = lsf_now();
+    glFinish();
+    renderer->render_seconds += lsf_now() - start;
+}
+
 bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
 {
     double start = lsf_now();
+    bool limited = isfinite(renderer->time_limit);
     while (renderer->samples < renderer->samples_wanted) {
         if (!lsf_renderer_iterate(renderer, error))
             return false;
         if (renderer->progress && !renderer->progress(renderer->samples, renderer->samples_wanted,
                                                       renderer->progress_user))
             break;
+        /* A GPU takes commands faster than it runs them: without this, the limit would be one on
+         * commands given. */
+        if (limited)
+            wait_for_gpu(renderer);
         if (lsf_now() - start >= renderer->time_limit)
             break;
     }
-    return true;
+    wait_for_gpu(renderer);
+    return lsf_context_check(renderer->context, error);
 }
 
 /* Names of an image's channels: those of the picture, then of each layer. */
@@ -192,8 +206,8 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
 {
     const lsf_setup *setup = &renderer->setup;
     const lsf_plan *plan = setup->plan;
-    char names[3 * LSF_SETUP_MAX_LAYERS][LSF_CHANNEL_NAME_SIZE];
-    const char *name_list[3 * LSF_SETUP_MAX_LAYERS];
+    char names[3 * LSF_ACCUMULATE_MAX_LAYERS][LSF_CHANNEL_NAME_SIZE];
+    const char *name_list[3 * LSF_ACCUMULATE_MAX_LAYERS];
     uint32_t channel_count = name_channels(setup, names);
     for (uint32_t i = 0; i < channel_count; i++)
         name_list[i] = names[i];

@@ -2,10 +2,9 @@
 #ifndef LSF_TECHNIQUES_SETUP_H
 #define LSF_TECHNIQUES_SETUP_H
 
+#include "passes/accumulate.h"
 #include "scene/state.h"
 #include "techniques/technique.h"
-
-#define LSF_SETUP_MAX_LAYERS 9
 
 typedef struct lsf_setup {
     const lsf_technique *technique;
@@ -13,9 +12,9 @@ typedef struct lsf_setup {
     lsf_state state;
     lsf_state previous; /* that motion is measured from; only when motion is asked for */
     lsf_plan *plan;
-    uint32_t layer_count;                          /* of the result; the first is the picture */
-    const char *layer_names[LSF_SETUP_MAX_LAYERS]; /* "picture", "albedo", ... */
-    uint32_t layer_aovs[LSF_SETUP_MAX_LAYERS];     /* 0 for the picture */
+    uint32_t layer_count; /* of the result; the first is the picture */
+    const char *layer_names[LSF_ACCUMULATE_MAX_LAYERS]; /* "picture", "albedo", ... */
+    uint32_t layer_aovs[LSF_ACCUMULATE_MAX_LAYERS];     /* 0 for the picture */
 } lsf_setup;
 
 /* LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case. */
