@@ -58,10 +58,20 @@ struct lsf_material_data {
 
 /* Location of the radiance of an environment without a map. */
 #define LSF_LOCATION_ENVIRONMENT 10
+/* Location of the region in turn; see lib/region.glsl. */
+#define LSF_LOCATION_REGION 11
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0
-#define LSF_BINDING_LIGHT 1
+#define LSF_BINDING_LIGHT 1 /* the light in turn, or the VPL in turn as a light with a map */
+#define LSF_BINDING_BUNDLE 2
+
+/* Storage buffers. */
+#define LSF_BINDING_VPL 1          /* the VPLs of an iteration */
+#define LSF_BINDING_BUNDLE_NODES 2 /* 2 to 7: the nodes of the bundle in turn */
+
+/* A ray-bundle search that met nothing. */
+#define LSF_NO_NODE 0xffffffffu
 
 #include "shared/shared_end.h"
 #endif

@@ -16,37 +16,12 @@ const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
 
 static void plan_switches(lsf_plan *plan)
 {
-    const lsf_requirements *r = &plan->requirements;
-    bool tangent = r->normal_mapped || r->anisotropic;
     bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
     bool emission = lsf_plan_find(plan, "gbuffer.emission") != NULL;
     bool motion = lsf_plan_find(plan, "gbuffer.motion") != NULL;
-    bool textured = r->base_color_textured || r->metallic_roughness_textured || r->normal_mapped ||
-                    r->emissive_textured || r->anisotropy_textured;
-    const struct {
-        const char *name;
-        bool on;
-        const char *why;
-    } switches[] = {
-        {"LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic"},
-        {"LSF_TEXTURED", textured, "some material has a texture"},
-        {"LSF_SECOND_UV", r->second_uv, "some texture reads TEXCOORD_1"},
-        {"LSF_VERTEX_COLOR", r->vertex_colored, "some primitive has colours"},
-        {"LSF_TANGENT", tangent, "there are normal maps or anisotropy"},
-        {"LSF_BASE_COLOR_TEXTURE", r->base_color_textured, "some base colour is a texture"},
-        {"LSF_NORMAL_TEXTURE", r->normal_mapped, "some material has a normal map"},
-        {"LSF_MASK", r->masked, "some material is alpha-masked"},
-        {"LSF_GLOSS", gloss, "roughness or metallic vary"},
-        {"LSF_METALLIC_ROUGHNESS_TEXTURE", gloss && r->metallic_roughness_textured,
-         "some roughness or metallic is a texture"},
-        {"LSF_ANISOTROPY", gloss && r->anisotropic, "some material is anisotropic"},
-        {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured, "some anisotropy is a texture"},
-        {"LSF_EMISSION", emission, "some material emits or is unlit"},
-        {"LSF_EMISSIVE_TEXTURE", emission && r->emissive_textured, "some emission is a texture"},
-        {"LSF_MOTION", motion, "motion is asked for"},
-    };
-    for (size_t i = 0; i < LSF_COUNT(switches); i++)
-        lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_scene_gpu_material_switches(plan, gloss, emission);
+    lsf_plan_switch_add(plan, "LSF_MOTION", motion, "motion is asked for");
     /* Colour attachments are numbered without gaps. */
     int target = 1;
     if (gloss)

@@ -6,6 +6,12 @@
 #include "math/sampling.h"
 #include "shared/scene_data.h"
 
+void lsf_region_set(const lsf_region *region)
+{
+    glViewport(region->x, region->y, region->width, region->height);
+    glUniform4i(LSF_LOCATION_REGION, region->x, region->y, region->tile_x, region->tile_y);
+}
+
 void lsf_iteration_plan(lsf_plan *plan)
 {
     lsf_plan_buffer_add(plan, "view", sizeof(struct lsf_view_data),

@@ -17,6 +17,16 @@ typedef struct lsf_iteration {
     lsf_camera_state previous_camera; /* for motion */
 } lsf_iteration;
 
+/* A part of the picture to work on: a viewport, and with interleaved sampling the tile whose pixels
+ * it holds; see lib/region.glsl. */
+typedef struct lsf_region {
+    int32_t x, y, width, height;
+    int32_t tile_x, tile_y;
+} lsf_region;
+
+/* Sets the viewport and, for the program in use, the region. */
+void lsf_region_set(const lsf_region *region);
+
 void lsf_iteration_plan(lsf_plan *plan);
 /* `previous` is the state that motion is measured from, NULL without motion. */
 bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, const lsf_plan *plan,

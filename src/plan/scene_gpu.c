@@ -56,6 +56,33 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
     lsf_texture_upload_plan(plan, scene);
 }
 
+void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
+{
+    const lsf_requirements *r = &plan->requirements;
+    const struct {
+        const char *name;
+        bool on;
+        const char *why;
+    } switches[] = {
+        {"LSF_TEXTURED", any_texture(r), "some material has a texture"},
+        {"LSF_SECOND_UV", r->second_uv, "some texture reads TEXCOORD_1"},
+        {"LSF_VERTEX_COLOR", r->vertex_colored, "some primitive has colours"},
+        {"LSF_TANGENT", r->normal_mapped || r->anisotropic, "there are normal maps or anisotropy"},
+        {"LSF_BASE_COLOR_TEXTURE", r->base_color_textured, "some base colour is a texture"},
+        {"LSF_NORMAL_TEXTURE", r->normal_mapped, "some material has a normal map"},
+        {"LSF_MASK", r->masked, "some material is alpha-masked"},
+        {"LSF_GLOSS", gloss, "roughness or metallic vary"},
+        {"LSF_METALLIC_ROUGHNESS_TEXTURE", gloss && r->metallic_roughness_textured,
+         "some roughness or metallic is a texture"},
+        {"LSF_ANISOTROPY", gloss && r->anisotropic, "some material is anisotropic"},
+        {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured, "some anisotropy is a texture"},
+        {"LSF_EMISSION", emission, "some material emits or is unlit"},
+        {"LSF_EMISSIVE_TEXTURE", emission && r->emissive_textured, "some emission is a texture"},
+    };
+    for (size_t i = 0; i < LSF_COUNT(switches); i++)
+        lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
+}
+
 static struct lsf_texture_slot_data slot_data(const lsf_texture_slot *slot)
 {
     const float *t = slot->transform;

@@ -24,6 +24,10 @@ typedef struct lsf_scene_gpu {
 /* Lists what lsf_scene_gpu_create will create. */
 void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene);
 
+/* Adds to the pass in turn the switches of lib/material.glsl; gloss and emission are evaluated only
+ * where asked for. */
+void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission);
+
 /* `previous` is the state that motion is measured from, NULL without motion. */
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
                           const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,

@@ -2,9 +2,11 @@
  * std430 and std140 blocks, and the stride of an array. */
 #include "shader_folder.h"
 
+#include "shared/bundle_data.h"
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 #include "shared/view.h"
+#include "shared/vpl_data.h"
 
 typedef struct member {
     const char *name;
@@ -57,6 +59,17 @@ static const shared_struct structs[] = {
       MEMBER(lsf_light_data, map_origin), MEMBER(lsf_light_data, map_shape),
       MEMBER(lsf_light_data, map_offset), MEMBER(lsf_light_data, map_window), MEMBER(lsf_light_data, map_right),
       MEMBER(lsf_light_data, map_up), MEMBER(lsf_light_data, map_forward)}},
+    {"shared/bundle_data.h",
+     "lsf_bundle_data",
+     sizeof(struct lsf_bundle_data),
+     {MEMBER(lsf_bundle_data, right), MEMBER(lsf_bundle_data, up), MEMBER(lsf_bundle_data, forward),
+      MEMBER(lsf_bundle_data, window), MEMBER(lsf_bundle_data, range)}},
+    {"shared/vpl_data.h",
+     "lsf_vpl_data",
+     sizeof(struct lsf_vpl_data),
+     {MEMBER(lsf_vpl_data, position), MEMBER(lsf_vpl_data, geometric_normal),
+      MEMBER(lsf_vpl_data, normal), MEMBER(lsf_vpl_data, base_color), MEMBER(lsf_vpl_data, gloss),
+      MEMBER(lsf_vpl_data, to_light), MEMBER(lsf_vpl_data, intensity)}},
 };
 
 static GLuint block_program(lsf_context *context, const shader_folder *folder,

@@ -1,0 +1,89 @@
+/* Global ray-bundles: every fragment of the scene along a direction, in lists for each texel. See
+ * ray_bundle.md. */
+#ifndef LSF_PASSES_RAY_BUNDLE_H
+#define LSF_PASSES_RAY_BUNDLE_H
+
+#include "plan/iteration.h"
+#include "plan/option.h"
+#include "shared/bundle_data.h"
+
+typedef enum lsf_ray_bundle_window {
+    LSF_RAY_BUNDLE_WINDOW_AUTO, /* the scene's when bundles are continued with, else the view's */
+    LSF_RAY_BUNDLE_WINDOW_VISIBLE, /* fitted to the visible points: no continuing */
+    LSF_RAY_BUNDLE_WINDOW_SCENE,   /* all of the scene */
+} lsf_ray_bundle_window;
+
+typedef struct lsf_ray_bundle_params {
+    int32_t count;            /* bundles an iteration */
+    int32_t resolution;       /* texels along a map's side */
+    int32_t window;           /* lsf_ray_bundle_window */
+    int32_t slices;           /* fragments of a texel with a place of their own; more are chained */
+    float environment_offset; /* L_u, in mean luminances of the environment */
+} lsf_ray_bundle_params;
+
+#define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
+    .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 8,              \
+    .environment_offset = 1.0f
+
+#define LSF_RAY_BUNDLE_OPTION_COUNT 5
+extern const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT];
+
+/* What the technique needs of it. */
+typedef struct lsf_ray_bundle_use {
+    uint32_t count;      /* bundles aimed at once */
+    uint32_t slots;      /* bundles held at once; bundle i is held in slot i % slots */
+    bool whole_scene;    /* else windows are fitted to the visible points */
+    uint32_t interleave; /* size of the interleaving pattern, 1: none */
+    bool deep_vertices;  /* searches start from positions too, not from the G-buffer alone */
+} lsf_ray_bundle_use;
+
+typedef struct lsf_ray_bundle_direction {
+    float direction[3]; /* unit */
+    float pdf;          /* [1/sr], p_r */
+} lsf_ray_bundle_direction;
+
+/* Where rays start. From the G-buffer: depth and surface. From other vertices: position and
+ * surface; surfaces are as in lib/gbuffer.glsl. */
+typedef struct lsf_ray_bundle_origins {
+    GLuint depth;    /* G-buffer depth, or its split copy (R32F); 0: position is used */
+    GLuint position; /* RGBA32F: xyz; w 0: no vertex */
+    GLuint surface;  /* its geometric normal turns the ray: +direction or -direction */
+} lsf_ray_bundle_origins;
+
+enum {
+    LSF_RAY_BUNDLE_NODES,    /* fragments kept, over all bundles so far */
+    LSF_RAY_BUNDLE_OVERFLOW, /* of these, chained beyond the slices */
+    LSF_RAY_BUNDLE_REGROWN,  /* times a buffer was too small and the bundle was drawn again */
+    LSF_RAY_BUNDLE_COUNTS,
+};
+extern const char *const lsf_ray_bundle_count_names[LSF_RAY_BUNDLE_COUNTS];
+
+typedef struct lsf_ray_bundle lsf_ray_bundle;
+
+/* Lists passes "ray_bundle_bounds" (where the window is fitted), "ray_bundle_build" and
+ * "ray_bundle_search". */
+void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
+                         const lsf_ray_bundle_use *use);
+bool lsf_ray_bundle_create(lsf_ray_bundle **pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_ray_bundle_params *params, const lsf_ray_bundle_use *use,
+                           lsf_error *error);
+/* Sets the projections of this iteration's bundles, `use.count` of them: a random turn about the
+ * axis and a random place of the texels' grid for each; fits the windows to what `depth` (of the
+ * G-buffer, not split) shows. */
+void lsf_ray_bundle_aim(lsf_ray_bundle *pass, const lsf_iteration *iteration,
+                        const lsf_ray_bundle_direction *directions, GLuint depth);
+/* Draws the scene into the lists of a bundle. */
+void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle);
+/* Binds a bundle's projection and nodes for readers of lib/ray_bundle.glsl. */
+void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle);
+/* The nearest fragment beyond each origin. RG32UI of the picture's size, valid until the next
+ * search: x the distance as float bits, y the node, LSF_NO_NODE when the ray leaves the scene. */
+GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
+                             const lsf_ray_bundle_origins *origins, const lsf_region *region);
+void lsf_ray_bundle_destroy(lsf_ray_bundle *pass); /* NULL allowed */
+
+/* Timers of bounds (NULL where there are none), build and search, in this order. */
+void lsf_ray_bundle_timers(const lsf_ray_bundle *pass, lsf_timer *timers[3]);
+const uint64_t *lsf_ray_bundle_counts(const lsf_ray_bundle *pass);
+
+#endif
