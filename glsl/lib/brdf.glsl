@@ -1,13 +1,29 @@
 /* The glTF BRDF of a G-buffer surface, split into its two lobes; formulas in shared/brdf.h.
- * Switches LSF_SPECULAR, LSF_ANISOTROPY. */
+ * Switches LSF_SPECULAR, LSF_ANISOTROPY; LSF_CLAMP_RADIANCE where samples are sparse. */
 #ifndef LSF_LIB_BRDF
 #define LSF_LIB_BRDF
 
 #include "lib/gbuffer.glsl"
 
 struct brdf_value {
-    vec3 diffuse, specular; /* [1/sr] */
+    float diffuse; /* the diffuse lobe is surface_diffuse(s) / pi times this [1] */
+    vec3 specular; /* [1/sr] */
 };
+
+/* What the diffuse lobe reflects: k_d. */
+vec3 surface_diffuse(surface s)
+{
+#if LSF_SPECULAR
+    return (1.0 - s.metallic) * s.base_color;
+#else
+    return s.base_color;
+#endif
+}
+
+vec3 brdf_sum(surface s, brdf_value f)
+{
+    return surface_diffuse(s) * (f.diffuse / LSF_PI) + f.specular;
+}
 
 /* A bent normal may look away from the viewer; the view is then lifted to its horizon, for with a
  * negative cosine the lobe is unbounded. */
@@ -17,44 +33,89 @@ vec3 lift_to_horizon(vec3 view, vec3 normal)
     return nv >= LSF_COSINE_MIN ? view : normalize(view + (LSF_COSINE_MIN - nv) * normal);
 }
 
+#if LSF_SPECULAR
+/* The specular lobe by its Fresnel term, with distribution and visibility apart. */
+struct specular_lobe {
+    vec3 normal, tangent, bitangent, h, view, light;
+    float nl, nv;
+};
+
+float lobe_distribution(specular_lobe l, float alpha_t, float alpha)
+{
+    float nh = clamp(dot(l.normal, l.h), 0.0, 1.0);
+#if LSF_ANISOTROPY
+    return lsf_ggx_d_anisotropic(nh, dot(l.tangent, l.h), dot(l.bitangent, l.h), alpha_t, alpha);
+#else
+    vec3 nxh = cross(l.normal, l.h);
+    return lsf_ggx_d(nh, dot(nxh, nxh), alpha);
+#endif
+}
+
+float lobe_visibility(specular_lobe l, float alpha_t, float alpha)
+{
+#if LSF_ANISOTROPY
+    return lsf_ggx_v_anisotropic(l.nl, l.nv, dot(l.tangent, l.light), dot(l.bitangent, l.light),
+                                 dot(l.tangent, l.view), dot(l.bitangent, l.view), alpha_t, alpha);
+#else
+    return lsf_ggx_v(l.nl, l.nv, alpha);
+#endif
+}
+#endif
+
 /* Both directions are unit vectors that point away from the surface; the specular lobe is zero
- * where light comes from behind the normal. */
-brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light)
+ * where light comes from behind the normal.
+ *
+ * `kernel` is m'/d [sr]: light comes in samples of density d, and the distribution D, taken as a
+ * density kernel over m = m' F V nl of them, must not exceed d / m (Tokuyoshi and Ogaki 2012,
+ * equation 9). For GGX, whose peak is 1 / (pi alpha_t alpha_b), roughness is raised to that; with
+ * LSF_CLAMP_RADIANCE, D is cut off there instead. 0: exact light. */
+brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kernel)
 {
     brdf_value f;
-    float nl = dot(s.normal, light);
-    vec3 view = lift_to_horizon(view_direction, s.normal);
-    float nv = max(dot(s.normal, view), LSF_COSINE_MIN);
     f.specular = vec3(0.0);
 #if LSF_SPECULAR
-    vec3 h = normalize(view + light);
-    float vh = clamp(dot(view, h), 0.0, 1.0);
-    f.diffuse = (1.0 - s.metallic) * (1.0 - lsf_fresnel_schlick(s.f0, vh)) / LSF_PI * s.base_color;
-    if (nl > 0.0) {
+    specular_lobe l;
+    l.normal = s.normal;
+    l.light = light;
+    l.view = lift_to_horizon(view_direction, s.normal);
+    l.nl = dot(s.normal, light);
+    l.nv = max(dot(s.normal, l.view), LSF_COSINE_MIN);
+    l.h = normalize(l.view + light);
+    float vh = clamp(dot(l.view, l.h), 0.0, 1.0);
+    f.diffuse = 1.0 - lsf_fresnel_schlick(s.f0, vh);
+    if (l.nl > 0.0) {
         float alpha = lsf_alpha_from_roughness(s.roughness);
-        float nh = clamp(dot(s.normal, h), 0.0, 1.0);
-        float dv;
+        float alpha_t = alpha;
 #if LSF_ANISOTROPY
         vec3 basis_t, basis_b;
         orthonormal_basis(s.normal, basis_t, basis_b);
         float angle = 2.0 * LSF_PI * s.anisotropy_turn;
-        vec3 t = cos(angle) * basis_t + sin(angle) * basis_b;
-        vec3 b = cross(s.normal, t);
-        float alpha_t = lsf_alpha_along_tangent(alpha, s.anisotropy);
-        dv = lsf_ggx_d_anisotropic(nh, dot(t, h), dot(b, h), alpha_t, alpha) *
-             lsf_ggx_v_anisotropic(nl, nv, dot(t, light), dot(b, light), dot(t, view),
-                                   dot(b, view), alpha_t, alpha);
-#else
-        vec3 nxh = cross(s.normal, h);
-        dv = lsf_ggx_d(nh, dot(nxh, nxh), alpha) * lsf_ggx_v(nl, nv, alpha);
+        l.tangent = cos(angle) * basis_t + sin(angle) * basis_b;
+        l.bitangent = cross(s.normal, l.tangent);
+        alpha_t = lsf_alpha_along_tangent(alpha, s.anisotropy);
 #endif
         vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
         vec3 fresnel = vec3(lsf_fresnel_schlick(f0.r, vh), lsf_fresnel_schlick(f0.g, vh),
                             lsf_fresnel_schlick(f0.b, vh));
-        f.specular = dv * fresnel;
+        float v = lobe_visibility(l, alpha_t, alpha);
+        float sharpest = kernel * max(fresnel.r, max(fresnel.g, fresnel.b)) * v * l.nl / LSF_PI;
+#if defined(LSF_CLAMP_RADIANCE) && LSF_CLAMP_RADIANCE
+        float d = lobe_distribution(l, alpha_t, alpha);
+        d = sharpest > 0.0 ? min(d, 1.0 / (LSF_PI * sharpest)) : d;
+#else
+        /* 1 is the roughest; a kernel that stays too narrow then has too few samples anyhow. */
+        float floor_alpha = min(sqrt(sharpest), 1.0);
+        if (floor_alpha > min(alpha, alpha_t)) {
+            alpha = max(alpha, floor_alpha);
+            alpha_t = max(alpha_t, floor_alpha);
+            v = lobe_visibility(l, alpha_t, alpha);
+        }
+        float d = lobe_distribution(l, alpha_t, alpha);
+#endif
+        f.specular = d * v * fresnel;
     }
 #else
-    f.diffuse = s.base_color / LSF_PI;
+    f.diffuse = 1.0;
 #endif
     return f;
 }

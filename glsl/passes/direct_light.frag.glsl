@@ -1,8 +1,8 @@
 /* Light that one punctual light sends to the eye by one reflection: f V E, added to the target. */
 #include "lib/brdf.glsl"
+#include "lib/light.glsl"
 #include "lib/shadow.glsl"
 #include "lib/view.glsl"
-#include "shared/light.h"
 
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform usampler2D surface_texture;
@@ -11,25 +11,6 @@ layout(binding = 2) uniform usampler2D gloss_texture;
 #endif
 
 layout(location = 0) out vec4 radiance_out;
-
-/* Direction to the light and the irradiance [W/m^2] on a plane that faces it. */
-vec3 light_direction(vec3 position, out vec3 irradiance)
-{
-    irradiance = light.intensity.rgb;
-#if LSF_DIRECTIONAL_LIGHT
-    if (light.attenuation.w == LSF_LIGHT_TYPE_DIRECTIONAL)
-        return -light.direction.xyz;
-#endif
-    vec3 to_light = light.position.xyz - position;
-    float distance2 = dot(to_light, to_light);
-    vec3 direction = to_light * inversesqrt(max(distance2, 1e-30));
-    irradiance *= lsf_distance_attenuation(distance2, light.attenuation.x);
-#if LSF_SPOT_LIGHT
-    irradiance *= lsf_spot_attenuation(-dot(light.direction.xyz, direction), light.attenuation.y,
-                                       light.attenuation.z);
-#endif
-    return direction;
-}
 
 void main()
 {
@@ -48,7 +29,8 @@ void main()
     vec3 position = position_from_depth(ndc, depth);
     vec3 view_direction = -normalize(view_ray_direction(ndc));
     vec3 irradiance;
-    vec3 direction = light_direction(position, irradiance);
+    float distance2;
+    vec3 direction = light_direction(position, irradiance, distance2);
     float cosine = dot(s.normal, direction);
     if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
         max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0)
@@ -56,6 +38,6 @@ void main()
     float visibility = shadow_visibility(position, s.geometric_normal);
     if (visibility == 0.0)
         return;
-    brdf_value f = brdf_evaluate(s, view_direction, direction);
-    radiance_out.rgb = (f.diffuse + f.specular) * irradiance * (cosine * visibility);
+    brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
+    radiance_out.rgb = brdf_sum(s, f) * irradiance * (cosine * visibility);
 }
