@@ -13,6 +13,7 @@ static const lsf_pass_params defaults = {LSF_PASS_PARAMS_DEFAULTS};
     }
 
 const lsf_option_table lsf_pass_option_tables[] = {
+    TABLE(tessellation, LSF_TESSELLATION_OPTION_COUNT),
     TABLE(gbuffer, LSF_GBUFFER_OPTION_COUNT),
     TABLE(shadow_map, LSF_SHADOW_MAP_OPTION_COUNT),
 };

@@ -30,15 +30,15 @@ struct lsf_renderer {
     lsf_pass_stats pass_stats[MAX_PASSES];
 };
 
-static bool create_resources(lsf_renderer *renderer, const lsf_scene *scene,
-                             const lsf_render_params *params, lsf_error *error)
+static bool create_resources(lsf_renderer *renderer, const lsf_render_params *params,
+                             lsf_error *error)
 {
     lsf_setup *setup = &renderer->setup;
     lsf_context *context = renderer->context;
     const lsf_state *previous = params->aovs & LSF_AOV_MOTION ? &setup->previous : NULL;
     double start = lsf_now();
     if (!lsf_plan_check(setup->plan, context, error) ||
-        !lsf_scene_gpu_create(&renderer->scene, context, setup->plan, scene, &setup->state,
+        !lsf_scene_gpu_create(&renderer->scene, context, setup->plan, setup->scene, &setup->state,
                               previous, error) ||
         !lsf_iteration_create(&renderer->iteration, context, setup->plan, &renderer->scene,
                               &setup->state, previous, params->seed, error))
@@ -69,8 +69,7 @@ lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
     renderer->progress = params->progress;
     renderer->progress_user = params->progress_user;
     if (!lsf_setup_init(&renderer->setup, scene, params, error) ||
-        !lsf_context_make_current(context, error) ||
-        !create_resources(renderer, scene, params, error)) {
+        !lsf_context_make_current(context, error) || !create_resources(renderer, params, error)) {
         lsf_renderer_destroy(renderer);
         return NULL;
     }

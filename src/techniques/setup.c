@@ -7,6 +7,7 @@
 #include "base/base.h"
 #include "passes/accumulate.h"
 #include "passes/tonemap.h"
+#include "scene/tessellate.h"
 
 static const struct {
     uint32_t bit;
@@ -69,18 +70,39 @@ static void set_layers(lsf_setup *setup, uint32_t aovs)
     }
 }
 
-static void fill_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params)
+static bool tessellate(lsf_setup *setup, const lsf_scene *scene, lsf_error *error)
+{
+    const lsf_tessellation_params *params = &setup->pass_params.tessellation;
+    setup->scene = scene;
+    if (params->factor == 1)
+        return true;
+    setup->tessellated =
+        lsf_scene_tessellate(scene, (uint32_t)params->factor, params->shape, error);
+    setup->scene = setup->tessellated;
+    return setup->tessellated != NULL;
+}
+
+static void remark_tessellation(lsf_setup *setup, const lsf_scene *scene)
+{
+    if (setup->tessellated)
+        lsf_plan_remark(setup->plan, "tessellation.factor=%d: %llu triangles became %llu",
+                        setup->pass_params.tessellation.factor,
+                        (unsigned long long)scene->requirements.triangles,
+                        (unsigned long long)setup->tessellated->requirements.triangles);
+}
+
+static void fill_plan(lsf_setup *setup, const lsf_render_params *params)
 {
     lsf_plan *plan = setup->plan;
     plan->technique = setup->technique->name;
-    plan->requirements = *lsf_scene_get_requirements(scene);
+    plan->requirements = setup->scene->requirements;
     plan->width = params->width;
     plan->height = params->height;
     plan->samples = params->samples;
     plan->bounces = params->bounces;
     plan->aovs = params->aovs;
     plan->orthographic = setup->state.camera.orthographic;
-    lsf_scene_gpu_plan(plan, scene);
+    lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);
     setup->technique->plan(plan, &setup->pass_params, &setup->state);
     lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
@@ -105,22 +127,26 @@ bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_p
         if (!lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count,
                             &setup->pass_params, params->options[i], error))
             return false;
+    if (!tessellate(setup, scene, error))
+        return false;
     lsf_view_params view = {.time = params->time,
                             .camera = params->camera,
                             .position = params->camera_position,
                             .target = params->camera_target,
                             .fov_y = params->fov_y,
                             .aspect = (float)params->width / (float)params->height};
-    if (!lsf_state_update(&setup->state, scene, &view, error))
+    if (!lsf_state_update(&setup->state, setup->scene, &view, error))
         return false;
     view.time = params->time - (double)setup->pass_params.gbuffer.frame_time;
-    if ((params->aovs & LSF_AOV_MOTION) && !lsf_state_update(&setup->previous, scene, &view, error))
+    if ((params->aovs & LSF_AOV_MOTION) &&
+        !lsf_state_update(&setup->previous, setup->scene, &view, error))
         return false;
     setup->plan = lsf_alloc(1, sizeof *setup->plan);
     if (!setup->plan)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
     set_layers(setup, params->aovs);
-    fill_plan(setup, scene, params);
+    fill_plan(setup, params);
+    remark_tessellation(setup, scene);
     if (setup->plan->failed)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
     return true;
@@ -131,7 +157,9 @@ void lsf_setup_finish(lsf_setup *setup)
     lsf_state_finish(&setup->state);
     lsf_state_finish(&setup->previous);
     lsf_plan_destroy(setup->plan);
+    lsf_scene_tessellated_destroy(setup->tessellated);
     setup->plan = NULL;
+    setup->tessellated = NULL;
 }
 
 lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params, lsf_error *error)

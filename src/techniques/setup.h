@@ -9,6 +9,8 @@
 typedef struct lsf_setup {
     const lsf_technique *technique;
     lsf_pass_params pass_params;
+    const lsf_scene *scene; /* that is drawn: the caller's, or `tessellated` */
+    lsf_scene *tessellated; /* NULL unless tessellation.factor is above 1 */
     lsf_state state;
     lsf_state previous; /* that motion is measured from; only when motion is asked for */
     lsf_plan *plan;
@@ -17,7 +19,7 @@ typedef struct lsf_setup {
     uint32_t layer_aovs[LSF_ACCUMULATE_MAX_LAYERS];     /* 0 for the picture */
 } lsf_setup;
 
-/* LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case. */
+/* LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case, before `scene`. */
 bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
                     lsf_error *error);
 void lsf_setup_finish(lsf_setup *setup);

@@ -5,15 +5,18 @@
 #include "passes/gbuffer.h"
 #include "passes/shadow_map.h"
 #include "plan/iteration.h"
+#include "plan/tessellation.h"
 
-/* The params of every pass that takes options; lsf_pass_option_tables names them. */
+/* The params of everything that takes options; lsf_pass_option_tables names them. */
 typedef struct lsf_pass_params {
+    lsf_tessellation_params tessellation;
     lsf_gbuffer_params gbuffer;
     lsf_shadow_map_params shadow_map;
 } lsf_pass_params;
 
 #define LSF_PASS_PARAMS_DEFAULTS                                                                   \
-    .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS}, .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS}
+    .tessellation = {LSF_TESSELLATION_PARAMS_DEFAULTS}, .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS},  \
+    .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;
