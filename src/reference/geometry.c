@@ -12,14 +12,20 @@
  * what it uses while building. */
 #define TREE_BYTES_PER_TRIANGLE 220u
 
-/* Only single rays are traced here, for which a hit's layout is that of struct RTCHit. */
+/* struct RTCHitN is arrays of N values: the normal's x, y and z, u, v, the triangle's number, ...;
+ * Embree offers its names for them to C++ only. */
 static void reject_cut_out(const struct RTCFilterFunctionNArguments *arguments)
 {
     const lsf_reference_mesh *mesh = arguments->geometryUserPtr;
-    const struct RTCHit *found = (const struct RTCHit *)arguments->hit;
-    lsf_reference_hit hit = {mesh->instance, found->primID, found->u, found->v, 0.0f};
-    if (lsf_reference_cut_out(mesh->geometry, &hit))
-        arguments->valid[0] = 0;
+    const float *values = (const float *)arguments->hit;
+    const unsigned *numbers = (const unsigned *)arguments->hit;
+    size_t count = arguments->N;
+    for (size_t i = 0; i < count; i++) {
+        lsf_reference_hit hit = {mesh->instance, numbers[5 * count + i], values[3 * count + i],
+                                 values[4 * count + i], 0.0f};
+        if (arguments->valid[i] != 0 && lsf_reference_cut_out(mesh->geometry, &hit))
+            arguments->valid[i] = 0;
+    }
 }
 
 static bool transform_positions(lsf_reference_mesh *mesh, const lsf_scene *scene,
@@ -105,7 +111,7 @@ static bool fits_in_memory(const lsf_scene *scene, const lsf_state *state, lsf_e
 }
 
 bool lsf_reference_geometry_init(lsf_reference_geometry *geometry, const lsf_scene *scene,
-                                 const lsf_state *state, lsf_error *error)
+                                 const lsf_state *state, lsf_reference_use use, lsf_error *error)
 {
     memset(geometry, 0, sizeof *geometry);
     geometry->scene = scene;
@@ -121,8 +127,10 @@ bool lsf_reference_geometry_init(lsf_reference_geometry *geometry, const lsf_sce
     bool ok = geometry->tree != NULL && geometry->meshes != NULL && geometry->indices != NULL;
     if (ok) {
         /* Robust: no ray slips between two triangles that share an edge. */
-        rtcSetSceneFlags(geometry->tree, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(geometry->tree, RTC_BUILD_QUALITY_MEDIUM);
+        bool fast = use == LSF_REFERENCE_USE_SPEED;
+        rtcSetSceneFlags(geometry->tree, fast ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(geometry->tree,
+                                fast ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
     }
     for (uint32_t i = 0; ok && i < state->instance_count; i++)
         ok = add_instance(geometry, i);

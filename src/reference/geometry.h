@@ -27,9 +27,14 @@ typedef struct lsf_reference_geometry {
     uint32_t **indices;         /* one list for each primitive in use */
 } lsf_reference_geometry;
 
+typedef enum lsf_reference_use {
+    LSF_REFERENCE_USE_PICTURE, /* watertight */
+    LSF_REFERENCE_USE_SPEED,   /* the tree that rays go through fastest */
+} lsf_reference_use;
+
 /* Borrows scene and state. False leaves nothing to finish. */
 bool lsf_reference_geometry_init(lsf_reference_geometry *geometry, const lsf_scene *scene,
-                                 const lsf_state *state, lsf_error *error);
+                                 const lsf_state *state, lsf_reference_use use, lsf_error *error);
 void lsf_reference_geometry_finish(lsf_reference_geometry *geometry);
 
 typedef struct lsf_reference_hit {

@@ -37,4 +37,33 @@ typedef bool (*lsf_reference_module_function)(lsf_reference_job *job, lsf_error 
 __attribute__((visibility("default"))) bool lsf_reference_module_render(lsf_reference_job *job,
                                                                         lsf_error *error);
 
+/* --- closest hits, as fast as Embree finds them */
+
+#define LSF_REFERENCE_RAYS_ENTRY "lsf_reference_module_rays"
+
+typedef struct lsf_reference_ray {
+    float origin[3], direction[3]; /* normalised space, unit */
+} lsf_reference_ray;
+
+typedef struct lsf_reference_tracer lsf_reference_tracer;
+
+typedef struct lsf_reference_ray_functions {
+    /* Builds the tree. Borrows scene and state. */
+    lsf_reference_tracer *(*create)(const lsf_scene *scene, const lsf_state *state,
+                                    lsf_error *error);
+    void (*destroy)(lsf_reference_tracer *tracer); /* NULL allowed */
+    /* The nearest hit beyond `near` of each ray, infinity where there is none, on all cores; and
+     * how long that took [s]. Rays that follow each other should be alike. The first call tries
+     * every way in which Embree takes rays; the fastest serves from then on. */
+    bool (*trace)(lsf_reference_tracer *tracer, const lsf_reference_ray *rays, uint64_t count,
+                  float near, float *distances, double *seconds, lsf_error *error);
+    const char *(*kernel)(const lsf_reference_tracer *tracer); /* "rtcIntersect16" */
+} lsf_reference_ray_functions;
+
+extern const lsf_reference_ray_functions lsf_reference_module_rays
+    __attribute__((visibility("default")));
+
+/* Of the module, loaded on first use; NULL when it is not there. */
+const lsf_reference_ray_functions *lsf_reference_load_rays(lsf_error *error);
+
 #endif

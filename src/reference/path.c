@@ -67,7 +67,8 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
 {
     memset(world, 0, sizeof *world);
     world->bounces = bounces;
-    if (!lsf_reference_geometry_init(&world->geometry, scene, state, error))
+    if (!lsf_reference_geometry_init(&world->geometry, scene, state, LSF_REFERENCE_USE_PICTURE,
+                                     error))
         return false;
     if (lsf_reference_emitters_init(&world->emitters, &world->geometry, error) &&
         lsf_reference_sky_init(&world->sky, &scene->environment, error) &&

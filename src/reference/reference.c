@@ -69,7 +69,7 @@ static void warn_of_motion(const lsf_render_params *params)
                                  "layer; it is left out");
 }
 
-static lsf_reference_module_function load_module(lsf_error *error)
+static void *load_symbol(const char *name, lsf_error *error)
 {
     static const char hint[] = "the reference is built where libembree-dev is installed";
     lsf_error cause;
@@ -78,16 +78,17 @@ static lsf_reference_module_function load_module(lsf_error *error)
         lsf_error_set(error, LSF_ERROR_USAGE, "%s", cause.message);
         return NULL;
     }
-    void *symbol = dlsym(module, LSF_REFERENCE_MODULE_ENTRY);
-    if (symbol == NULL) {
+    void *symbol = dlsym(module, name);
+    if (symbol == NULL)
         lsf_error_set(error, LSF_ERROR_USAGE,
-                      "%s.so has no function %s; install library and module of one version",
-                      LSF_REFERENCE_MODULE_NAME, LSF_REFERENCE_MODULE_ENTRY);
-        return NULL;
-    }
-    lsf_reference_module_function function;
-    memcpy(&function, &symbol, sizeof function); /* ISO C has no cast from object to function */
-    return function;
+                      "%s.so has no symbol %s; install library and module of one version",
+                      LSF_REFERENCE_MODULE_NAME, name);
+    return symbol;
+}
+
+const lsf_reference_ray_functions *lsf_reference_load_rays(lsf_error *error)
+{
+    return load_symbol(LSF_REFERENCE_RAYS_ENTRY, error);
 }
 
 lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params *params,
@@ -96,9 +97,11 @@ lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params 
     if (!check_params(params, half, error))
         return NULL;
     warn_of_motion(params);
-    lsf_reference_module_function render = load_module(error);
-    if (render == NULL)
+    void *symbol = load_symbol(LSF_REFERENCE_MODULE_ENTRY, error);
+    if (symbol == NULL)
         return NULL;
+    lsf_reference_module_function render;
+    memcpy(&render, &symbol, sizeof render); /* ISO C has no cast from object to function */
 
     lsf_state state = {0};
     lsf_reference_job job = {.scene = scene, .state = &state, .params = params, .half = half};

@@ -82,19 +82,9 @@ static bool tessellate(lsf_setup *setup, const lsf_scene *scene, lsf_error *erro
     return setup->tessellated != NULL;
 }
 
-static void remark_tessellation(lsf_setup *setup, const lsf_scene *scene)
-{
-    if (setup->tessellated)
-        lsf_plan_remark(setup->plan, "tessellation.factor=%d: %llu triangles became %llu",
-                        setup->pass_params.tessellation.factor,
-                        (unsigned long long)scene->requirements.triangles,
-                        (unsigned long long)setup->tessellated->requirements.triangles);
-}
-
-static void fill_plan(lsf_setup *setup, const lsf_render_params *params)
+static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params)
 {
     lsf_plan *plan = setup->plan;
-    plan->technique = setup->technique->name;
     plan->requirements = setup->scene->requirements;
     plan->width = params->width;
     plan->height = params->height;
@@ -104,25 +94,19 @@ static void fill_plan(lsf_setup *setup, const lsf_render_params *params)
     plan->orthographic = setup->state.camera.orthographic;
     lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);
-    setup->technique->plan(plan, &setup->pass_params, &setup->state);
-    lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
-    if (params->rgb8)
-        lsf_tonemap_plan(plan);
-    else
-        lsf_plan_omit(plan, "tonemap", "no 8-bit output is asked for");
+    if (setup->tessellated)
+        lsf_plan_remark(plan, "tessellation.factor=%d: %llu triangles became %llu",
+                        setup->pass_params.tessellation.factor,
+                        (unsigned long long)scene->requirements.triangles,
+                        (unsigned long long)setup->tessellated->requirements.triangles);
 }
 
-bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
-                    lsf_error *error)
+bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
+                     lsf_error *error)
 {
     *setup = (lsf_setup){.pass_params = {LSF_PASS_PARAMS_DEFAULTS}};
     if (!check_params(params, error))
         return false;
-    setup->technique = lsf_technique_find(params->technique);
-    if (!setup->technique)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "technique '%s' does not exist; --list-techniques shows all",
-                             params->technique);
     for (uint32_t i = 0; i < params->option_count; i++)
         if (!lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count,
                             &setup->pass_params, params->options[i], error))
@@ -144,9 +128,34 @@ bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_p
     setup->plan = lsf_alloc(1, sizeof *setup->plan);
     if (!setup->plan)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
+    begin_plan(setup, scene, params);
+    return true;
+}
+
+static void plan_technique(lsf_setup *setup, const lsf_render_params *params)
+{
+    lsf_plan *plan = setup->plan;
+    plan->technique = setup->technique->name;
     set_layers(setup, params->aovs);
-    fill_plan(setup, params);
-    remark_tessellation(setup, scene);
+    setup->technique->plan(plan, &setup->pass_params, &setup->state);
+    lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
+    if (params->rgb8)
+        lsf_tonemap_plan(plan);
+    else
+        lsf_plan_omit(plan, "tonemap", "no 8-bit output is asked for");
+}
+
+bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
+                    lsf_error *error)
+{
+    if (!lsf_setup_begin(setup, scene, params, error))
+        return false;
+    setup->technique = lsf_technique_find(params->technique);
+    if (!setup->technique)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "technique '%s' does not exist; --list-techniques shows all",
+                             params->technique);
+    plan_technique(setup, params);
     if (setup->plan->failed)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
     return true;

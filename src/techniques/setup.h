@@ -19,7 +19,11 @@ typedef struct lsf_setup {
     uint32_t layer_aovs[LSF_ACCUMULATE_MAX_LAYERS];     /* 0 for the picture */
 } lsf_setup;
 
-/* LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case, before `scene`. */
+/* Options, scene, state, and a plan that lists what the scene takes, without a technique.
+ * LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case, before `scene`. */
+bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
+                     lsf_error *error);
+/* The same with the technique's whole plan. */
 bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
                     lsf_error *error);
 void lsf_setup_finish(lsf_setup *setup);
