@@ -1,37 +1,12 @@
 #include "lib/instance.glsl"
 #include "lib/light_map.glsl"
+#include "lib/mask_vertex.glsl"
 
 layout(location = 0) uniform int face;
 layout(location = LSF_ATTRIBUTE_POSITION) in vec3 position;
-#if LSF_MASK
-flat out uint vertex_material;
-#if LSF_TEXTURED
-layout(location = LSF_ATTRIBUTE_UV0) in vec2 uv0;
-out vec2 vertex_uv0;
-#endif
-#if LSF_SECOND_UV
-layout(location = LSF_ATTRIBUTE_UV1) in vec2 uv1;
-out vec2 vertex_uv1;
-#endif
-#if LSF_VERTEX_COLOR
-layout(location = LSF_ATTRIBUTE_COLOR) in vec4 color;
-out float vertex_alpha;
-#endif
-#endif
 
 void main()
 {
     gl_Position = light_map_clip(face, instance_position(position));
-#if LSF_MASK
-    vertex_material = instance_material();
-#if LSF_TEXTURED
-    vertex_uv0 = uv0;
-#endif
-#if LSF_SECOND_UV
-    vertex_uv1 = uv1;
-#endif
-#if LSF_VERTEX_COLOR
-    vertex_alpha = color.a;
-#endif
-#endif
+    mask_vertex();
 }

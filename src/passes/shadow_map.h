@@ -2,9 +2,8 @@
 #ifndef LSF_PASSES_SHADOW_MAP_H
 #define LSF_PASSES_SHADOW_MAP_H
 
-#include "plan/iteration.h"
+#include "plan/light_map.h"
 #include "plan/option.h"
-#include "shared/light_data.h"
 
 typedef enum lsf_shadow_filter {
     LSF_SHADOW_FILTER_NONE, /* one texel's plane against the receiver's; the borders converge over
@@ -25,14 +24,6 @@ typedef struct lsf_shadow_map_params {
 #define LSF_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT];
 
-/* The shapes of maps. */
-typedef enum lsf_shadow_map_kind {
-    LSF_SHADOW_MAP_CUBE,     /* 6 faces: point lights and wide spots */
-    LSF_SHADOW_MAP_SPOT,     /* 1 face */
-    LSF_SHADOW_MAP_CASCADES, /* 4 nested windows about the viewer: directional lights */
-    LSF_SHADOW_MAP_KINDS,
-} lsf_shadow_map_kind;
-
 /* Depth and its slope, valid until the next run. 2D arrays with a layer for each face. */
 typedef struct lsf_shadow_map_outputs {
     GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
@@ -52,7 +43,7 @@ typedef struct lsf_shadow_map_target {
 typedef struct lsf_shadow_map {
     lsf_context *context;
     lsf_shadow_map_outputs outputs;
-    lsf_shadow_map_target targets[LSF_SHADOW_MAP_KINDS];
+    lsf_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
     GLuint program;
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;

@@ -83,6 +83,18 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
 }
 
+void lsf_scene_gpu_mask_switches(lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    lsf_plan_switch_add(plan, "LSF_MASK", r->masked, "some material is alpha-masked");
+    lsf_plan_switch_add(plan, "LSF_TEXTURED", r->masked && r->base_color_textured,
+                        "masks are textures");
+    lsf_plan_switch_add(plan, "LSF_SECOND_UV", r->masked && r->second_uv,
+                        "some texture reads TEXCOORD_1");
+    lsf_plan_switch_add(plan, "LSF_VERTEX_COLOR", r->masked && r->vertex_colored,
+                        "masked primitives have vertex colours");
+}
+
 static struct lsf_texture_slot_data slot_data(const lsf_texture_slot *slot)
 {
     const float *t = slot->transform;

@@ -28,6 +28,9 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene);
  * where asked for. */
 void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission);
 
+/* Adds those of lib/mask.glsl. */
+void lsf_scene_gpu_mask_switches(lsf_plan *plan);
+
 /* `previous` is the state that motion is measured from, NULL without motion. */
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
                           const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,

@@ -1,0 +1,48 @@
+/* Alpha masks for passes that draw the scene's depth only. Switches LSF_MASK, LSF_TEXTURED,
+ * LSF_SECOND_UV, LSF_VERTEX_COLOR; lsf_scene_gpu_mask_switches adds them. */
+#ifndef LSF_LIB_MASK
+#define LSF_LIB_MASK
+
+#include "lib/scene.glsl"
+
+#if LSF_MASK
+flat in uint vertex_material;
+layout(binding = LSF_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
+#if LSF_TEXTURED
+in vec2 vertex_uv0;
+#endif
+#if LSF_SECOND_UV
+in vec2 vertex_uv1;
+#endif
+#if LSF_VERTEX_COLOR
+in float vertex_alpha;
+#endif
+#endif
+
+/* Whether an alpha mask cuts the fragment out. */
+bool masked_out()
+{
+#if LSF_MASK
+    lsf_material_data material = materials[vertex_material];
+    float alpha = material.base_color.a;
+#if LSF_TEXTURED
+    if (slot_used(material.base_color_slot)) {
+        /* No footprint: the sharpest level. */
+        texture_place place = texture_place(vertex_uv0, vec2(0.0), vec2(0.0), vertex_uv0,
+                                            vec2(0.0), vec2(0.0));
+#if LSF_SECOND_UV
+        place.uv1 = vertex_uv1;
+#endif
+        alpha *= slot_sample(base_color_texture, material.base_color_slot, place).a;
+    }
+#endif
+#if LSF_VERTEX_COLOR
+    alpha *= vertex_alpha;
+#endif
+    return alpha < material.emission.w;
+#else
+    return false;
+#endif
+}
+
+#endif

@@ -1,0 +1,36 @@
+/* How lights see the scene: the shapes of their maps and the projections onto them. See
+ * shared/light_data.h and lib/light_map.glsl. */
+#ifndef LSF_PLAN_LIGHT_MAP_H
+#define LSF_PLAN_LIGHT_MAP_H
+
+#include "plan/iteration.h"
+#include "shared/light_data.h"
+
+typedef enum lsf_light_map_kind {
+    LSF_LIGHT_MAP_CUBE,    /* 6 faces: point lights and wide spots */
+    LSF_LIGHT_MAP_SPOT,    /* 1 face: narrow spots */
+    LSF_LIGHT_MAP_WINDOWS, /* nested windows: directional lights */
+    LSF_LIGHT_MAP_KINDS,
+} lsf_light_map_kind;
+
+lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light);
+
+/* A map to project on. */
+typedef struct lsf_light_map_layout {
+    uint32_t faces; /* of a directional light: one window holds the whole scene, several are nested
+                     * about what the camera sees */
+    uint32_t resolution; /* texels along a face's side */
+    uint32_t purpose;    /* its random turn and shift are of lsf_iteration_seed's purposes from
+                          * here on, two for each light */
+} lsf_light_map_layout;
+
+/* Describes state->lights[light_index] and the projection onto its map, which is turned and
+ * shifted at random for this iteration. */
+void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *iteration,
+                           uint32_t light_index, const lsf_light_map_layout *layout);
+
+/* The half spaces of one face's sides. */
+void lsf_light_map_region(const struct lsf_light_data *data, uint32_t face,
+                          lsf_draw_region *region);
+
+#endif
