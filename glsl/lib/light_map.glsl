@@ -38,6 +38,22 @@ vec2 light_map_place(int face, vec3 q)
     return place + light.map_offset.xy;
 }
 
+/* The point at a place on a face with this depth. */
+vec3 light_map_position(int face, vec2 place, float depth)
+{
+    vec4 window = light.map_window[face];
+    vec3 q;
+    if (light_map_perspective()) {
+        q.z = light.map_shape.x / depth;
+        q.xy = (place - light.map_offset.xy) * window.zw * q.z;
+    } else {
+        q.z = light.map_shape.y - depth * (light.map_shape.y - light.map_shape.x);
+        q.xy = (place - light.map_offset.xy) * window.zw + window.xy;
+    }
+    return light.map_origin.xyz + q.x * light.map_right[face].xyz + q.y * light.map_up[face].xyz +
+           q.z * light.map_forward[face].xyz;
+}
+
 vec4 light_map_clip(int face, vec3 position)
 {
     vec3 q = light_map_coordinates(face, position);

@@ -1,4 +1,5 @@
-/* Visibility from the light's map. Switch LSF_SHADOW_PCF.
+/* Visibility from the light's map. Switches LSF_SHADOW_PCF, and LSF_SHADOW_HEMISPHERE for the map of
+ * a VPL (see lib/hemisphere.glsl).
  *
  * A texel knows the depth of the surface at its centre; the receiver lies elsewhere in the texel.
  * Depth is affine over a plane, so either surface can be continued to the other's place:
@@ -11,6 +12,7 @@
 #ifndef LSF_LIB_SHADOW
 #define LSF_LIB_SHADOW
 
+#include "lib/hemisphere.glsl"
 #include "lib/light_map.glsl"
 
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform sampler2DArray shadow_depth;
@@ -27,8 +29,36 @@ struct shadow_receiver {
     vec2 texel;    /* continuous texel coordinates */
     float depth;
     vec2 gradient; /* change of depth per texel over the receiver's plane */
+    ivec2 at;      /* the texel that holds it */
     int face;
 };
+
+#if LSF_SHADOW_HEMISPHERE
+
+/* A VPL may be close to what it lights, and rounding of positions (1e-6 of the scene's half extent)
+ * large beside their distance: the receiver is lifted off its surface by as much. */
+#define LSF_SHADOW_LIFT 1e-6
+
+/* In the octant of the texel's centre: the texel's plane is known there. */
+shadow_receiver shadow_project(vec3 position, vec3 normal)
+{
+    shadow_receiver r;
+    vec3 local = hemisphere_local(position + LSF_SHADOW_LIFT * normal - light.map_origin.xyz);
+    float texels = light.map_shape.z;
+    vec3 q = hemisphere_project(hemisphere_octant(local), local);
+    r.at = clamp(ivec2((q.xy / q.z * 0.5 + 0.5) * texels), ivec2(0), ivec2(int(texels) - 1));
+    vec2 octant = hemisphere_octant_of_texel(r.at, int(texels));
+    q = hemisphere_project(octant, local);
+    vec3 local_normal = hemisphere_local(normal);
+    vec3 n = hemisphere_project_normal(octant, local_normal);
+    r.face = 0;
+    r.texel = (q.xy / q.z * 0.5 + 0.5) * texels;
+    r.depth = light.map_shape.x / q.z;
+    r.gradient = light.map_shape.x * 2.0 / (texels * dot(local_normal, local)) * n.xy;
+    return r;
+}
+
+#else
 
 shadow_receiver shadow_project(vec3 position, vec3 normal)
 {
@@ -51,8 +81,11 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     float texels = light.map_shape.z;
     r.texel = (light_map_place(r.face, q) * 0.5 + 0.5) * texels;
     r.gradient *= 2.0 / texels;
+    r.at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(int(texels) - 1));
     return r;
 }
+
+#endif
 
 float shadow_tolerance(shadow_receiver r)
 {
@@ -83,11 +116,10 @@ float shadow_visibility(vec3 position, vec3 normal)
 float shadow_visibility(vec3 position, vec3 normal)
 {
     shadow_receiver r = shadow_project(position, normal);
-    int last = int(light.map_shape.z) - 1;
-    ivec2 at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(last));
-    float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
-    vec2 gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_map_depth_unit(depth);
-    vec2 to_center = vec2(at) + 0.5 - r.texel;
+    float depth = texelFetch(shadow_depth, ivec3(r.at, r.face), 0).r;
+    vec2 gradient =
+        texelFetch(shadow_gradient, ivec3(r.at, r.face), 0).rg * light_map_depth_unit(depth);
+    vec2 to_center = vec2(r.at) + 0.5 - r.texel;
     float occluder_at_receiver = depth - dot(gradient, to_center);
     float receiver_at_center = r.depth + dot(r.gradient, to_center);
     float tolerance = shadow_tolerance(r);

@@ -2,6 +2,7 @@
 #ifndef LSF_SHARED_LIGHT_H
 #define LSF_SHARED_LIGHT_H
 
+#include "shared/brdf.h"
 #include "shared/shared.h"
 
 /* Squared distance below which 1/d^2 is held, in normalised units: a light that touches a surface
@@ -29,6 +30,39 @@ LSF_SHARED_FUNCTION float lsf_spot_attenuation(float cosine, float scale, float 
 LSF_SHARED_FUNCTION float lsf_spot_scale(float cos_inner, float cos_outer)
 {
     return 1.0f / max(0.001f, cos_inner - cos_outer);
+}
+
+/* What of the ramp the cone's axis reaches: 1 unless the cone is narrower than lsf_spot_scale can
+ * tell apart. */
+LSF_SHARED_FUNCTION float lsf_spot_axis(float scale, float offset)
+{
+    return max(min(scale + offset, 1.0f), 0.0f);
+}
+
+/* Solid angle of the cone inside the ramp. */
+LSF_SHARED_FUNCTION float lsf_spot_inner(float scale, float offset)
+{
+    return 2.0f * LSF_PI * max(1.0f - (1.0f - offset) / scale, 0.0f);
+}
+
+/* Integral of lsf_spot_attenuation over all directions [sr]: with a = cosine scale + offset, the
+ * ramp gives 2 pi / scale times the integral of a^2 da. */
+LSF_SHARED_FUNCTION float lsf_spot_integral(float scale, float offset)
+{
+    float axis = lsf_spot_axis(scale, offset);
+    return lsf_spot_inner(scale, offset) + 2.0f * LSF_PI * (axis * axis * axis) / (3.0f * scale);
+}
+
+/* The cosine below which (from the axis on) a fraction u of that integral lies. */
+LSF_SHARED_FUNCTION float lsf_spot_cosine(float u, float scale, float offset)
+{
+    float solid_angle = u * lsf_spot_integral(scale, offset);
+    float inner = lsf_spot_inner(scale, offset);
+    if (solid_angle <= inner)
+        return 1.0f - solid_angle / (2.0f * LSF_PI);
+    float axis = lsf_spot_axis(scale, offset);
+    float cube = axis * axis * axis - 3.0f * scale * (solid_angle - inner) / (2.0f * LSF_PI);
+    return min((pow(max(cube, 0.0f), 1.0f / 3.0f) - offset) / scale, 1.0f);
 }
 
 #include "shared/shared_end.h"

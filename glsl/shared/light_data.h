@@ -15,7 +15,8 @@
  * relative to the origin, and (x, y) its place on the face, -1..1:
  *   perspective   (x, y) = q.xy / (q.z extent) + offset,      depth = near / q.z
  *   orthographic  (x, y) = (q.xy - center) / extent + offset, depth = (far - q.z) / (far - near)
- * Depth is affine in (x, y) over any plane, in both. */
+ * Depth is affine in (x, y) over any plane, in both. A VPL's map is one of a hemisphere about the
+ * forward axis; see lib/hemisphere.glsl. */
 struct lsf_light_data {
     vec4 position;    /* xyz */
     vec4 direction;   /* xyz: unit, the way the light shines */

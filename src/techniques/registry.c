@@ -16,6 +16,8 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(tessellation, LSF_TESSELLATION_OPTION_COUNT),
     TABLE(gbuffer, LSF_GBUFFER_OPTION_COUNT),
     TABLE(shadow_map, LSF_SHADOW_MAP_OPTION_COUNT),
+    TABLE(reflective_shadow_map, LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT),
+    TABLE(vpl, LSF_VPL_OPTION_COUNT),
 };
 const uint32_t lsf_pass_option_table_count = LSF_COUNT(lsf_pass_option_tables);
 

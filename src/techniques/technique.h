@@ -3,7 +3,9 @@
 #define LSF_TECHNIQUES_TECHNIQUE_H
 
 #include "passes/gbuffer.h"
+#include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
+#include "passes/vpl.h"
 #include "plan/iteration.h"
 #include "plan/tessellation.h"
 
@@ -12,11 +14,15 @@ typedef struct lsf_pass_params {
     lsf_tessellation_params tessellation;
     lsf_gbuffer_params gbuffer;
     lsf_shadow_map_params shadow_map;
+    lsf_reflective_shadow_map_params reflective_shadow_map;
+    lsf_vpl_params vpl;
 } lsf_pass_params;
 
 #define LSF_PASS_PARAMS_DEFAULTS                                                                   \
     .tessellation = {LSF_TESSELLATION_PARAMS_DEFAULTS}, .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS},  \
-    .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS}
+    .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS},                                                \
+    .reflective_shadow_map = {LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS},                          \
+    .vpl = {LSF_VPL_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;

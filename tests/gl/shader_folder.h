@@ -1,5 +1,5 @@
-/* A shader folder of a test's own: glsl/shared and glsl/lib of the source tree, and files that the
- * test writes beside them. */
+/* A shader folder of a test's own: the folders of glsl in the source tree, and files that the test
+ * writes beside them. */
 #ifndef LSF_TESTS_SHADER_FOLDER_H
 #define LSF_TESTS_SHADER_FOLDER_H
 
@@ -20,10 +20,10 @@ static inline void shader_folder_create(shader_folder *folder)
     const char *root = getenv("LSF_SOURCE_ROOT");
     strcpy(folder->path, "lsf-shaders-XXXXXX");
     assert_non_null(mkdtemp(folder->path));
-    for (int i = 0; root && i < 2; i++) {
-        const char *name = i ? "lib" : "shared";
-        char *target = lsf_format("%s/glsl/%s", root, name);
-        char *link = lsf_format("%s/%s", folder->path, name);
+    static const char *const names[] = {"shared", "lib", "passes"};
+    for (size_t i = 0; root && i < LSF_COUNT(names); i++) {
+        char *target = lsf_format("%s/glsl/%s", root, names[i]);
+        char *link = lsf_format("%s/%s", folder->path, names[i]);
         assert_int_equal(symlink(target, link), 0);
         free(target);
         free(link);

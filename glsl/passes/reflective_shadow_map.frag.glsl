@@ -1,0 +1,25 @@
+#include "lib/light_map.glsl"
+#include "lib/material.glsl"
+
+layout(location = 0) out vec2 gradient_out;
+layout(location = 1) out uvec4 surface_out;
+#if LSF_GLOSS
+layout(location = 2) out uvec2 gloss_out;
+#endif
+
+void main()
+{
+    /* Before any discard, while the whole quad is alive. */
+    float z = gl_FragCoord.z;
+    gradient_out = vec2(dFdx(z), dFdy(z)) / light_map_depth_unit(z);
+    surface s;
+    vec3 emission;
+    bool front;
+    if (!material_evaluate(light_map_perspective() ? -vertex_position : -light.direction.xyz, s,
+                           emission, front))
+        discard;
+    surface_out = surface_pack(s);
+#if LSF_GLOSS
+    gloss_out = gloss_pack(s);
+#endif
+}

@@ -1,0 +1,11 @@
+#include "lib/light_map.glsl"
+#include "lib/material_vertex.glsl"
+
+layout(location = 0) uniform int face;
+
+void main()
+{
+    vec3 p = instance_position(position);
+    gl_Position = light_map_clip(face, p);
+    material_vertex(p - light.map_origin.xyz);
+}

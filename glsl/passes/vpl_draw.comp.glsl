@@ -1,0 +1,234 @@
+/* Draws virtual point lights from a light's reflective shadow map: a direction is drawn exactly, the
+ * texel that holds it says which plane the ray meets. */
+#include "lib/emission_pdf.glsl"
+#include "lib/gbuffer.glsl"
+#include "shared/vpl_data.h"
+
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform sampler2DArray depth_texture;
+layout(binding = 1) uniform usampler2DArray surface_texture;
+#if LSF_GLOSS
+layout(binding = 2) uniform usampler2DArray gloss_texture;
+#endif
+
+layout(location = 0) uniform uvec2 range; /* the first VPL, and how many */
+layout(location = 1) uniform float shadow_texels;
+
+struct map_slot {
+    lsf_light_data map;
+    vec4 unused; /* a multiple of a uniform buffer's alignment */
+};
+layout(std430, binding = LSF_BINDING_VPL) writeonly buffer lsf_vpl_block
+{
+    lsf_vpl_data vpls[];
+};
+layout(std430, binding = 2) writeonly buffer map_block
+{
+    map_slot maps[];
+};
+layout(std430, binding = 3) readonly buffer random_block
+{
+    vec4 random[]; /* two numbers for the direction, one for the map's turn; the probability of
+                    * having picked the light */
+};
+
+/* Nearest occluder of a VPL's map. */
+#define NEAR_PLANE 1e-5
+
+/* How far a VPL may be off its surface: rounding of positions, 1e-6 of the scene's half extent,
+ * and the error of an octahedral normal (see lib/octahedral.glsl) on the way from the texel's
+ * centre. Its map starts that far above, or the surface would shade its own light. */
+#define POSITION_ERROR 1e-6
+#define NORMAL_ERROR 1e-4
+
+struct ray {
+    vec3 origin, direction; /* unit */
+    int face;
+    vec2 texel; /* continuous texel coordinates where it goes through the map */
+};
+
+struct met_plane {
+    vec3 point, normal;
+    bool exists;
+};
+
+ray ray_through(vec3 origin, vec3 direction)
+{
+    ray r;
+    r.origin = origin;
+    r.direction = direction;
+    r.face = light_map_perspective() ? light_map_face(origin + direction) : 0;
+    vec3 q = light_map_coordinates(r.face, origin + direction);
+    r.texel = (light_map_place(r.face, q) * 0.5 + 0.5) * light.map_shape.z;
+    return r;
+}
+
+/* A ray from the light with density emission_pdf. */
+ray emit_ray(vec2 u)
+{
+#if LSF_DIRECTIONAL_LIGHT
+    if (light.attenuation.w == LSF_LIGHT_TYPE_DIRECTIONAL)
+        return ray_through(light_map_position(0, 2.0 * u - 1.0, 1.0), light.direction.xyz);
+#endif
+    float cosine = 1.0 - 2.0 * u.x;
+    vec3 axis = vec3(0.0, 0.0, 1.0);
+#if LSF_SPOT_LIGHT
+    if (light.attenuation.w == LSF_LIGHT_TYPE_SPOT) {
+        cosine = lsf_spot_cosine(u.x, light.attenuation.y, light.attenuation.z);
+        axis = light.direction.xyz;
+    }
+#endif
+    vec3 t, b;
+    orthonormal_basis(axis, t, b);
+    float angle = 2.0 * LSF_PI * u.y;
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    vec3 direction = sine * (cos(angle) * t + sin(angle) * b) + cosine * axis;
+    return ray_through(light.position.xyz, normalize(direction));
+}
+
+ray ray_of_center(int face, ivec2 at)
+{
+    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
+    vec3 point = light_map_position(face, place, 1.0);
+    return light_map_perspective()
+               ? ray_through(light.map_origin.xyz, normalize(point - light.map_origin.xyz))
+               : ray_through(point, light.direction.xyz);
+}
+
+met_plane plane_at(int face, ivec2 at)
+{
+    met_plane p;
+    p.exists = false;
+    p.point = p.normal = vec3(0.0);
+    ivec2 last = ivec2(int(light.map_shape.z) - 1);
+    if (clamp(at, ivec2(0), last) != at)
+        return p;
+    float depth = texelFetch(depth_texture, ivec3(at, face), 0).r;
+    if (depth == 0.0)
+        return p;
+    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
+    p.exists = true;
+    p.point = light_map_position(face, place, depth);
+    p.normal = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0)).geometric_normal;
+    return p;
+}
+
+/* Distance along the ray to the plane. A surface so steep that its depth doubles within a texel is
+ * not resolved by the map: the plane is left where it would lead out of the texel's surroundings. */
+float distance_to(ray r, met_plane p)
+{
+    float along = dot(p.point - r.origin, r.direction);
+    float bound = 0.5 * (light_map_perspective() ? along : light.map_shape.y);
+    float towards = dot(p.normal, r.direction);
+    if (towards >= 0.0)
+        return along + bound;
+    return clamp(dot(p.normal, p.point - r.origin) / towards, along - bound, along + bound);
+}
+
+/* The texel whose plane the ray meets: the one that holds it, or, where the surface beside it bends
+ * towards the light within the texel (an inner corner), the neighbour. The planes then cross
+ * between the texel's centre and the ray, which the neighbour's plane meets first. */
+ivec2 find_texel(ray r, out met_plane met)
+{
+    ivec2 last = ivec2(int(light.map_shape.z) - 1);
+    ivec2 own = clamp(ivec2(floor(r.texel)), ivec2(0), last);
+    ivec2 step_to = ivec2(r.texel.x - float(own.x) >= 0.5 ? 1 : -1,
+                          r.texel.y - float(own.y) >= 0.5 ? 1 : -1);
+    met_plane own_plane = plane_at(r.face, own);
+    met = own_plane;
+    if (!met.exists)
+        return own;
+    ray center = ray_of_center(r.face, own);
+    float own_at_center = dot(own_plane.point - center.origin, center.direction);
+    float nearest = distance_to(r, own_plane) * (1.0 - 2e-5); /* closer is the same plane */
+    ivec2 found = own;
+    for (int i = 1; i < 4; i++) {
+        ivec2 at = own + step_to * ivec2(i & 1, i >> 1);
+        met_plane p = plane_at(r.face, at);
+        float here = distance_to(r, p);
+        if (!p.exists || here >= nearest || distance_to(center, p) <= own_at_center)
+            continue;
+        nearest = here;
+        met = p;
+        found = at;
+    }
+    return found;
+}
+
+surface surface_at(int face, ivec2 at)
+{
+    surface s = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0));
+#if LSF_GLOSS
+    gloss_unpack(texelFetch(gloss_texture, ivec3(at, face), 0).xy, s);
+#endif
+    return s;
+}
+
+bool reflects(surface s)
+{
+#if LSF_SPECULAR
+    bool specular = s.f0 > 0.0;
+#else
+    const bool specular = false;
+#endif
+    return !s.unlit && (specular || max(s.base_color.r, max(s.base_color.g, s.base_color.b)) > 0.0);
+}
+
+lsf_light_data map_over(vec3 origin, vec3 normal, float turn)
+{
+    lsf_light_data map;
+    vec3 t, b;
+    orthonormal_basis(normal, t, b);
+    float angle = 2.0 * LSF_PI * turn;
+    map.position = vec4(origin, 0.0);
+    map.direction = vec4(normal, 0.0);
+    map.intensity = map.attenuation = map.map_offset = vec4(0.0);
+    map.map_origin = vec4(origin, 1.0);
+    map.map_shape = vec4(NEAR_PLANE, 0.0, shadow_texels, 1.0 / shadow_texels);
+    map.map_window[0] = vec4(0.0, 0.0, 1.0, 1.0);
+    map.map_right[0] = vec4(cos(angle) * t + sin(angle) * b, 0.0);
+    map.map_up[0] = vec4(cos(angle) * b - sin(angle) * t, 0.0);
+    map.map_forward[0] = vec4(normal, 0.0);
+    for (int face = 1; face < 6; face++)
+        map.map_window[face] = map.map_right[face] = map.map_up[face] = map.map_forward[face] =
+            vec4(0.0);
+    return map;
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= range.y)
+        return;
+    uint index = range.x + gl_GlobalInvocationID.x;
+    vec4 drawn = random[index];
+    ray r = emit_ray(drawn.xy);
+    met_plane met;
+    ivec2 at = find_texel(r, met);
+    surface s = surface_at(r.face, at);
+    bool directional = !light_map_perspective();
+    float distance = distance_to(r, met);
+    vec3 position = r.origin + distance * r.direction;
+    float distance2 = directional ? 1.0 : max(distance * distance, LSF_LIGHT_DISTANCE2_MIN);
+    vec3 intensity = light.intensity.rgb;
+    if (!directional) {
+        intensity *= lsf_distance_attenuation(distance2, light.attenuation.x) * distance2;
+#if LSF_SPOT_LIGHT
+        if (light.attenuation.w == LSF_LIGHT_TYPE_SPOT)
+            intensity *= lsf_spot_attenuation(dot(r.direction, light.direction.xyz),
+                                              light.attenuation.y, light.attenuation.z);
+#endif
+    }
+    float pdf = emission_pdf(directional ? r.origin : position);
+    bool lit = met.exists && reflects(s) && pdf > 0.0 &&
+               max(intensity.r, max(intensity.g, intensity.b)) > 0.0 &&
+               dot(s.geometric_normal, r.direction) < 0.0 && dot(s.normal, r.direction) < 0.0;
+    vpls[index] = lsf_vpl_data(
+        vec4(position, lit ? 1.0 : 0.0), vec4(s.geometric_normal, pdf * drawn.w),
+        vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
+        vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_turn), vec4(-r.direction, distance2),
+        vec4(intensity, 0.0));
+    float clearance = POSITION_ERROR + NORMAL_ERROR * length(position - met.point);
+    maps[index].map = map_over(position + clearance * s.geometric_normal, s.geometric_normal,
+                               drawn.z);
+}

@@ -1,0 +1,64 @@
+/* What punctual lights see and which surface reflects it: where virtual point lights are drawn
+ * from. See reflective_shadow_map.md. */
+#ifndef LSF_PASSES_REFLECTIVE_SHADOW_MAP_H
+#define LSF_PASSES_REFLECTIVE_SHADOW_MAP_H
+
+#include "plan/light_map.h"
+#include "plan/option.h"
+
+typedef enum lsf_reflective_shadow_map_pdf {
+    LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM,  /* as the light shines */
+    LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE, /* as what it meets reflects */
+} lsf_reflective_shadow_map_pdf;
+
+typedef struct lsf_reflective_shadow_map_params {
+    int32_t resolution; /* texels along a face's side */
+    int32_t pdf;        /* lsf_reflective_shadow_map_pdf */
+} lsf_reflective_shadow_map_params;
+
+#define LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS                                                  \
+    .resolution = 256, .pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM
+
+#define LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT 2
+extern const lsf_option_row
+    lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT];
+
+/* Valid until the next run. 2D arrays with a layer for each face. Depth and gradient are those of
+ * a shadow map, for readers of lib/shadow.glsl. */
+typedef struct lsf_reflective_shadow_map_outputs {
+    GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
+    GLuint gradient;     /* RG16F */
+    GLuint surface;      /* RGBA32UI as in lib/gbuffer.glsl, normals towards the light */
+    GLuint gloss;        /* R32UI or RG32UI, likewise; 0 when the scene does not require it */
+    GLuint light_buffer; /* struct lsf_light_data */
+    struct lsf_light_data light;
+} lsf_reflective_shadow_map_outputs;
+
+/* One set of textures for maps of the same shape; lights take turns. */
+typedef struct lsf_reflective_shadow_map_target {
+    GLuint depth, gradient, surface, gloss;
+    GLuint framebuffers[6];
+    uint32_t faces, resolution;
+} lsf_reflective_shadow_map_target;
+
+typedef struct lsf_reflective_shadow_map {
+    lsf_context *context;
+    lsf_reflective_shadow_map_outputs outputs;
+    lsf_reflective_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
+    GLuint program;
+    uint64_t counts[LSF_DRAW_COUNTS];
+    lsf_timer *timer;
+} lsf_reflective_shadow_map;
+
+/* Lists the pass and the textures of the kinds of map that the lights in `state` need. */
+void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
+                                    const lsf_state *state);
+bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
+                                      const lsf_plan *plan, lsf_error *error);
+/* Draws the map of state->lights[light_index], randomly turned and shifted for this iteration, and
+ * leaves light_buffer bound to LSF_BINDING_LIGHT. */
+void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
+                                   uint32_t light_index);
+void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass);
+
+#endif
