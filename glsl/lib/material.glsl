@@ -94,9 +94,16 @@ vec3 tangent_about(vec3 n)
     return t;
 }
 
+/* Whether the front, or the back, emits. */
+bool material_emits(bool front)
+{
+    return front || vertex_flags.y != 0.0 || vertex_flags.z != 0.0;
+}
+
 /* False where an alpha mask cuts the fragment out. Normals are turned to the side that `to_viewer`
- * points to (any length); `front` says whether that is the front. Emission is that of the side seen,
- * and the base colour of an unlit surface. Call it first, while the whole quad is alive. */
+ * points to (any length); `front` says whether that is the front. Emission is that of the sides that
+ * material_emits names; of an unlit surface it is the base colour. Call it first, while the whole
+ * quad is alive. */
 bool material_evaluate(vec3 to_viewer, out surface s, out vec3 emission, out bool front)
 {
     front = gl_FrontFacing != (vertex_flags.x != 0.0);
@@ -170,7 +177,7 @@ bool material_evaluate(vec3 to_viewer, out surface s, out vec3 emission, out boo
 #endif
 #endif
 #if LSF_EMISSION
-    emission = front || vertex_flags.y != 0.0 ? vertex_emission.rgb : vec3(0.0);
+    emission = vertex_emission.rgb;
 #if LSF_EMISSIVE_TEXTURE
     lsf_texture_slot_data emissive_slot = materials[vertex_material].emissive_slot;
     if (slot_used(emissive_slot))

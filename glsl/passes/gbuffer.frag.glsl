@@ -29,7 +29,7 @@ void main()
     gloss_out = gloss_pack(s);
 #endif
 #if LSF_EMISSION
-    emission_out = vec4(emission, 1.0);
+    emission_out = vec4(material_emits(front) ? emission : vec3(0.0), 1.0);
 #endif
 #if LSF_MOTION
     /* Without the jitter, which both have alike. In pixels, y up as on the image plane. */

@@ -7,13 +7,31 @@
 /* With q = (right, up, forward) . p of a point p, its place on the map, 0..texels, and its depth,
  * 0..1 over the whole scene, are
  *   place = ((q.xy - center) / extent * 0.5 + 0.5) * texels,   depth = (q.z - start) / length
- * Both are affine in p. */
+ * Both are affine in p. right x up = -forward: seen along forward, x is right and y up. */
 struct lsf_bundle_data {
     vec4 right, up; /* unit axes */
     vec4 forward;   /* unit: the bundle's direction; w: its density [1/sr], p_r in the paper */
     vec4 window;    /* xy: center, zw: extent (half width and height) */
     vec4 range;     /* start, length (along forward), texels along a side, 1 / texels */
 };
+
+/* In an array, at 256 bytes each: GL's largest alignment of ranges bound as uniform buffers. */
+struct lsf_bundle_slot_data {
+    LSF_SHARED_STRUCT(lsf_bundle_data) data;
+    vec4 unused[11];
+};
+
+/* Tiles of pixels that a window is fitted to, and invocations that fit one. */
+#define LSF_BUNDLE_TILE 8
+#define LSF_BUNDLE_FIT_SIZE 256
+
+/* Half width of a window that holds low..high wherever its grid is shifted within half a texel: one
+ * texel more on each side. Texels are not smaller than four roundings of a position (2^-24). */
+LSF_SHARED_FUNCTION float lsf_bundle_extent(float low, float high, float texels)
+{
+    float inside = max(0.5f * (high - low), (texels - 2.0f) * 1.1920929e-7f);
+    return inside * texels / (texels - 2.0f);
+}
 
 #include "shared/shared_end.h"
 #endif

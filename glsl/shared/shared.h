@@ -4,11 +4,13 @@
  * come at multiples of 16); functions use scalars only, and literals end in f. */
 #ifdef GL_core_profile
 #define LSF_SHARED_FUNCTION
+#define LSF_SHARED_STRUCT(name) name
 #else
 #ifndef LSF_SHARED_TYPES
 #define LSF_SHARED_TYPES
 #include <math.h>
 #define LSF_SHARED_FUNCTION static inline
+#define LSF_SHARED_STRUCT(name) struct name
 typedef unsigned int lsf_uint;
 typedef struct lsf_vec2 {
     float x, y;

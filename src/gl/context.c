@@ -261,6 +261,12 @@ static const char *reset_description(GLenum status)
     }
 }
 
+void lsf_context_fail(lsf_context *context, const lsf_error *error)
+{
+    if (!context->failure.code)
+        context->failure = *error;
+}
+
 bool lsf_context_check(lsf_context *context, lsf_error *error)
 {
     GLenum status = context->robust ? glGetGraphicsResetStatus() : GL_NO_ERROR;
@@ -270,6 +276,11 @@ bool lsf_context_check(lsf_context *context, lsf_error *error)
                              "or a lower resolution if it happens again",
                              reset_description(status));
     lsf_debug_take_errors(context);
+    if (context->failure.code) {
+        lsf_error failure = context->failure;
+        context->failure = (lsf_error){0};
+        return lsf_error_set(error, failure.code, "%s", failure.message);
+    }
     bool failed = context->fail_on_gl_error && context->error_seen;
     context->error_seen = false;
     if (failed)

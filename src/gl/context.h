@@ -48,6 +48,7 @@ struct lsf_context {
     bool software, robust;
     char *shader_dir; /* NULL: the embedded files */
 
+    lsf_error failure; /* lsf_context_fail; code 0: none */
     bool fail_on_gl_error;
     bool error_expected; /* an allocation is being tried: its failure is reported by its caller */
     bool error_seen;

@@ -54,6 +54,11 @@ GLuint lsf_framebuffer_create(lsf_context *context, const lsf_framebuffer_desc *
     glNamedFramebufferDrawBuffers(framebuffer, desc->color_count ? (GLsizei)desc->color_count : 1,
                                   buffers);
     glNamedFramebufferReadBuffer(framebuffer, buffers[0]);
+    if (desc->width) {
+        glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, (GLint)desc->width);
+        glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT,
+                                     (GLint)desc->height);
+    }
     GLenum status = glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER);
     if (!lsf_memory_end(context, GL_FRAMEBUFFER, framebuffer, 0, what, error)) {
         glDeleteFramebuffers(1, &framebuffer);

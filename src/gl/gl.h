@@ -42,6 +42,7 @@ typedef struct lsf_framebuffer_desc {
     GLuint colors[8]; /* textures */
     GLuint depth;     /* texture, 0: none */
     int32_t layer;    /* -1: whole textures (layered rendering); else one layer of each */
+    uint32_t width, height; /* of one without attachments, whose shaders write buffers; else 0 */
 } lsf_framebuffer_desc;
 GLuint lsf_framebuffer_create(lsf_context *context, const lsf_framebuffer_desc *desc,
                               lsf_error *error);
@@ -50,6 +51,10 @@ void lsf_framebuffer_destroy(lsf_context *context, GLuint *framebuffer);
 /* For tests: the n-th texture, buffer, framebuffer, program or timer created from now on fails (1:
  * the next); 0 turns it off. A program from the cache does not count. */
 void lsf_context_fail_allocation(lsf_context *context, uint64_t n);
+
+/* What a pass could not do while it ran, where nothing can be returned: the next lsf_context_check
+ * fails with it. The first one counts. */
+void lsf_context_fail(lsf_context *context, const lsf_error *error);
 
 /* --- programs --- */
 

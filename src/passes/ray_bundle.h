@@ -18,14 +18,15 @@ typedef struct lsf_ray_bundle_params {
     int32_t resolution;       /* texels along a map's side */
     int32_t window;           /* lsf_ray_bundle_window */
     int32_t slices;           /* fragments of a texel with a place of their own; more are chained */
+    float room;               /* for chained fragments at first, for each texel; it grows */
     float environment_offset; /* L_u, in mean luminances of the environment */
 } lsf_ray_bundle_params;
 
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
     .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 8,              \
-    .environment_offset = 1.0f
+    .room = 1.0f, .environment_offset = 1.0f
 
-#define LSF_RAY_BUNDLE_OPTION_COUNT 5
+#define LSF_RAY_BUNDLE_OPTION_COUNT 6
 extern const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT];
 
 /* What the technique needs of it. */
@@ -76,10 +77,13 @@ void lsf_ray_bundle_aim(lsf_ray_bundle *pass, const lsf_iteration *iteration,
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle);
 /* Binds a bundle's projection and nodes for readers of lib/ray_bundle.glsl. */
 void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle);
-/* The nearest fragment beyond each origin. RG32UI of the picture's size, valid until the next
- * search: x the distance as float bits, y the node, LSF_NO_NODE when the ray leaves the scene. */
+/* The nearest fragment beyond each origin in the region. RG32UI of the picture's size, valid until
+ * the next search: x the distance as float bits, y the node, LSF_NO_NODE when the ray leaves the
+ * scene. */
 GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
                              const lsf_ray_bundle_origins *origins, const lsf_region *region);
+/* Adds to the pass in turn the switches of lib/ray_bundle.glsl, for passes that read nodes. */
+void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params);
 void lsf_ray_bundle_destroy(lsf_ray_bundle *pass); /* NULL allowed */
 
 /* Timers of bounds (NULL where there are none), build and search, in this order. */

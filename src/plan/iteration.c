@@ -79,7 +79,7 @@ static void set_view(struct lsf_view_data *view, const lsf_plan *plan, const lsf
                              (float)(1.0 / state->scale), 0.0f};
 }
 
-bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, const lsf_plan *plan,
+bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_plan *plan,
                           lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
                           uint64_t seed, lsf_error *error)
 {

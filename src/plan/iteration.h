@@ -7,7 +7,7 @@
 
 typedef struct lsf_iteration {
     lsf_context *context;
-    const lsf_plan *plan;
+    lsf_plan *plan; /* passes change the size of what grows while rendering, nothing else */
     const lsf_state *state;
     lsf_scene_gpu *scene;
     uint64_t seed;
@@ -29,7 +29,7 @@ void lsf_region_set(const lsf_region *region);
 
 void lsf_iteration_plan(lsf_plan *plan);
 /* `previous` is the state that motion is measured from, NULL without motion. */
-bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, const lsf_plan *plan,
+bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_plan *plan,
                           lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
                           uint64_t seed, lsf_error *error);
 void lsf_iteration_destroy(lsf_iteration *iteration);

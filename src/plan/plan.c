@@ -186,6 +186,23 @@ bool lsf_plan_create_buffer(const lsf_plan *plan, lsf_context *context, const ch
     return *buffer != 0;
 }
 
+bool lsf_plan_resize_buffer(lsf_plan *plan, lsf_context *context, const char *name, uint64_t bytes,
+                            GLbitfield flags, GLuint *buffer, lsf_error *error)
+{
+    for (uint64_t i = 0; i < plan->resource_count; i++) {
+        lsf_plan_resource *resource = &plan->resources[i];
+        if (strcmp(resource->name, name) != 0)
+            continue;
+        lsf_buffer_destroy(context, buffer);
+        resource->bytes = 0;
+        *buffer = lsf_buffer_create(context, name, bytes, NULL, flags, error);
+        if (!*buffer)
+            return false;
+        resource->bytes = bytes;
+    }
+    return true;
+}
+
 GLuint lsf_plan_program(const lsf_plan *plan, lsf_context *context, const char *pass_name,
                         const char *const files[5], lsf_error *error)
 {

@@ -87,6 +87,10 @@ bool lsf_plan_create_texture(const lsf_plan *plan, lsf_context *context, const c
 /* The same for a buffer; `data` holds the planned bytes or is NULL. */
 bool lsf_plan_create_buffer(const lsf_plan *plan, lsf_context *context, const char *name,
                             const void *data, GLbitfield flags, GLuint *buffer, lsf_error *error);
+/* Replaces the buffer by one of `bytes`, without its contents, and lists it as that large; for what
+ * is known only while rendering. On failure *buffer is 0. */
+bool lsf_plan_resize_buffer(lsf_plan *plan, lsf_context *context, const char *name, uint64_t bytes,
+                            GLbitfield flags, GLuint *buffer, lsf_error *error);
 /* Compiles `files` (up to five, NULL-terminated) with the pass's switches. 0 on failure. */
 GLuint lsf_plan_program(const lsf_plan *plan, lsf_context *context, const char *pass,
                         const char *const files[5], lsf_error *error);

@@ -283,6 +283,32 @@ no_memory:
                          scene->instance_count);
 }
 
+bool lsf_state_bounds_along(const lsf_state *state, const lsf_float3 axes[3], float low[3],
+                            float high[3])
+{
+    float least[3] = {INFINITY, INFINITY, INFINITY}, most[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < state->instance_count; i++) {
+        const lsf_instance_state *instance = &state->instances[i];
+        for (int corner = 0; corner < 8 && !instance->skipped; corner++) {
+            lsf_float3 p = lsf_f3((corner & 1 ? instance->bounds_max : instance->bounds_min)[0],
+                                  (corner & 2 ? instance->bounds_max : instance->bounds_min)[1],
+                                  (corner & 4 ? instance->bounds_max : instance->bounds_min)[2]);
+            for (int axis = 0; axis < 3; axis++) {
+                float at = lsf_f3_dot(p, axes[axis]);
+                least[axis] = fminf(least[axis], at);
+                most[axis] = fmaxf(most[axis], at);
+            }
+        }
+    }
+    if (least[0] > most[0])
+        return false;
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = least[axis];
+        high[axis] = most[axis];
+    }
+    return true;
+}
+
 void lsf_state_finish(lsf_state *state)
 {
     free(state->instances);

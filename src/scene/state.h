@@ -7,6 +7,7 @@
 #ifndef LSF_SCENE_STATE_H
 #define LSF_SCENE_STATE_H
 
+#include "math/vector.h"
 #include "scene/scene.h"
 
 #ifdef __cplusplus
@@ -66,6 +67,9 @@ typedef struct lsf_view_params {
  * zeroed before the first call. LSF_ERROR_USAGE when the camera does not exist. */
 bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_params *params,
                       lsf_error *error);
+/* Bounds of the scene along three axes; false, and nothing set, when it is empty. */
+bool lsf_state_bounds_along(const lsf_state *state, const lsf_float3 axes[3], float low[3],
+                            float high[3]);
 void lsf_state_finish(lsf_state *state);
 
 #ifdef __cplusplus

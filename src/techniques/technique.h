@@ -3,6 +3,7 @@
 #define LSF_TECHNIQUES_TECHNIQUE_H
 
 #include "passes/gbuffer.h"
+#include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
 #include "passes/vpl.h"
@@ -16,13 +17,14 @@ typedef struct lsf_pass_params {
     lsf_shadow_map_params shadow_map;
     lsf_reflective_shadow_map_params reflective_shadow_map;
     lsf_vpl_params vpl;
+    lsf_ray_bundle_params ray_bundle;
 } lsf_pass_params;
 
 #define LSF_PASS_PARAMS_DEFAULTS                                                                   \
     .tessellation = {LSF_TESSELLATION_PARAMS_DEFAULTS}, .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS},  \
     .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS},                                                \
     .reflective_shadow_map = {LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS},                          \
-    .vpl = {LSF_VPL_PARAMS_DEFAULTS}
+    .vpl = {LSF_VPL_PARAMS_DEFAULTS}, .ray_bundle = {LSF_RAY_BUNDLE_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;

@@ -41,8 +41,12 @@ def files(*folders, endings=SOURCES):
                   if path.is_file() and path.suffix in endings)
 
 
-def stem_of(name):
-    return name.split(".")[0]
+def pass_of(name):
+    """The pass a file belongs to: its page's stem, alone or before _part."""
+    stem = name.split(".")[0]
+    pages = [path.stem for path in (ROOT / "src/passes").glob("*.md")]
+    return max((page for page in pages if stem == page or stem.startswith(page + "_")), key=len,
+               default=stem)
 
 
 class Layers(unittest.TestCase):
@@ -73,7 +77,7 @@ class Layers(unittest.TestCase):
         wrong = []
         for path in files("src/passes") + files("glsl/passes", endings=(".glsl",)):
             for name in INCLUDE.findall(path.read_text()):
-                if name.startswith("passes/") and stem_of(name.split("/")[1]) != stem_of(path.name):
+                if name.startswith("passes/") and pass_of(name.split("/")[1]) != pass_of(path.name):
                     wrong.append(f"{path.relative_to(ROOT)} includes {name}")
         self.assertEqual(wrong, [])
 
@@ -124,14 +128,12 @@ class Files(unittest.TestCase):
 
     def test_every_pass_has_all_its_files(self):
         """One stem a pass: host code, header, page; its shaders begin with the stem."""
-        stems = {path.stem for path in files("src/passes", endings=(".c",))}
+        stems = {pass_of(path.name) for path in files("src/passes", endings=(".c",))}
         for stem in stems:
             for ending in (".h", ".md"):
                 self.assertTrue((ROOT / "src/passes" / (stem + ending)).is_file(), stem + ending)
         for shader in files("glsl/passes", endings=(".glsl",)):
-            name = stem_of(shader.name)
-            self.assertTrue(any(name == stem or name.startswith(stem + "_") for stem in stems),
-                            f"{shader.name} belongs to no pass")
+            self.assertIn(pass_of(shader.name), stems, f"{shader.name} belongs to no pass")
 
 
 if __name__ == "__main__":

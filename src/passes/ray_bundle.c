@@ -1,0 +1,251 @@
+#include "passes/ray_bundle.h"
+
+#include <stdlib.h>
+
+#include "base/base.h"
+#include "passes/ray_bundle_parts.h"
+#include "shared/scene_data.h"
+
+/* The search walks slices in one loop of this many steps; see LSF_STEPS there. */
+#define MAX_SLICES 64
+
+const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT] = {
+    {"bundle.count", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, count), 1, 4096, NULL, "",
+     "ray-bundles an iteration"},
+    {"bundle.resolution", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, resolution), 16, 4096,
+     NULL, "texels", "width and height of a bundle's map"},
+    {"bundle.window", LSF_OPTION_ENUM, offsetof(lsf_ray_bundle_params, window), 0, 0,
+     "auto|visible|scene", "",
+     "what a bundle covers; auto: the scene when paths go on from its hits, else what is seen"},
+    {"bundle.slices", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, slices), 0, MAX_SLICES, NULL,
+     "", "fragments of a texel with a place of their own, the others are chained; 0: chain all"},
+    {"bundle.room", LSF_OPTION_FLOAT, offsetof(lsf_ray_bundle_params, room), 0.0, 1024.0, NULL, "",
+     "room for chained fragments for each texel; it grows where it does not do"},
+    {"bundle.environment_offset", LSF_OPTION_FLOAT,
+     offsetof(lsf_ray_bundle_params, environment_offset), 1e-3, 1e6, NULL, "",
+     "radiance added to the environment map when directions are drawn from it, in its means"},
+};
+
+const char *const lsf_ray_bundle_count_names[LSF_RAY_BUNDLE_COUNTS] = {"nodes", "chained",
+                                                                       "regrown"};
+
+static bool window_is_fitted(const lsf_ray_bundle_params *params, const lsf_ray_bundle_use *use)
+{
+    return params->window == LSF_RAY_BUNDLE_WINDOW_VISIBLE ||
+           (params->window == LSF_RAY_BUNDLE_WINDOW_AUTO && !use->whole_scene);
+}
+
+void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params)
+{
+    bool gloss = lsf_ray_bundle_has_gloss(plan);
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", params->slices, "bundle.slices");
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", gloss && plan->requirements.anisotropic,
+                        "some material is anisotropic");
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_EMISSION", lsf_ray_bundle_has_emission(plan),
+                        "some material emits or is unlit");
+}
+
+void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
+                         const lsf_ray_bundle_use *use)
+{
+    lsf_plan_buffer_add(plan, "ray_bundle.projections",
+                        use->count * sizeof(struct lsf_bundle_slot_data),
+                        "projections of %u bundles", use->count);
+    if (window_is_fitted(params, use))
+        lsf_ray_bundle_aim_plan(plan);
+    else
+        lsf_plan_omit(plan, "ray_bundle_bounds", "bundles hold the whole scene");
+    lsf_plan_pass_add(plan, "ray_bundle_build", "every fragment of the scene along %u direction%s",
+                      use->count, use->count == 1 ? "" : "s");
+    lsf_ray_bundle_reader_switches(plan, params);
+    lsf_scene_gpu_material_switches(plan, lsf_ray_bundle_has_gloss(plan),
+                                    lsf_ray_bundle_has_emission(plan));
+    lsf_ray_bundle_nodes_plan(plan, params, use->slots);
+    lsf_plan_buffer_add(plan, "ray_bundle.readback", 4, "how many nodes were chained");
+    lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
+    lsf_ray_bundle_reader_switches(plan, params);
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
+                        "size of the interleaving pattern");
+    lsf_plan_switch_add(plan, "LSF_DEEP", use->deep_vertices, "paths go on from hits");
+    lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, plan->width, plan->height,
+                         "distance and node of each ray's hit");
+}
+
+static bool create_resources(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
+{
+    lsf_context *context = pass->context;
+    pass->projections = lsf_alloc(pass->use.count, sizeof *pass->projections);
+    if (!pass->projections)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
+                             pass->use.count);
+    if (!lsf_ray_bundle_nodes_create(pass, plan, error) ||
+        !lsf_plan_create_buffer(plan, context, "ray_bundle.projections", NULL,
+                                GL_DYNAMIC_STORAGE_BIT, &pass->projection_buffer, error) ||
+        !lsf_plan_create_buffer(plan, context, "ray_bundle.readback", NULL, 0, &pass->readback,
+                                error) ||
+        !lsf_plan_create_texture(plan, context, "ray_bundle.hits", &pass->hits, error))
+        return false;
+    glCreateQueries(GL_SAMPLES_PASSED, 1, &pass->samples_query);
+    uint32_t side = (uint32_t)pass->params.resolution;
+    lsf_framebuffer_desc build = {
+        .label = "ray_bundle.build", .layer = -1, .width = side, .height = side};
+    lsf_framebuffer_desc hits = {
+        .label = "ray_bundle.hits", .color_count = 1, .colors = {pass->hits}, .layer = -1};
+    pass->build_framebuffer = lsf_framebuffer_create(context, &build, error);
+    if (!pass->build_framebuffer)
+        return false;
+    pass->hits_framebuffer = lsf_framebuffer_create(context, &hits, error);
+    return pass->hits_framebuffer != 0;
+}
+
+bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf_plan *plan,
+                           const lsf_ray_bundle_params *params, const lsf_ray_bundle_use *use,
+                           lsf_error *error)
+{
+    static const char *const build_files[5] = {"passes/ray_bundle_build.vert.glsl",
+                                               "passes/ray_bundle_build.frag.glsl"};
+    static const char *const search_files[5] = {"lib/fullscreen.vert.glsl",
+                                                "passes/ray_bundle_search.frag.glsl"};
+    lsf_ray_bundle *pass = *out = lsf_alloc(1, sizeof *pass);
+    if (!pass)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+    pass->context = context;
+    pass->params = *params;
+    pass->use = *use;
+    pass->fitted = window_is_fitted(params, use);
+    if (!create_resources(pass, plan, error) ||
+        (pass->fitted && !lsf_ray_bundle_aim_create(pass, plan, error)))
+        return false;
+    pass->build_program = lsf_plan_program(plan, context, "ray_bundle_build", build_files, error);
+    pass->search_program =
+        lsf_plan_program(plan, context, "ray_bundle_search", search_files, error);
+    pass->build_timer = lsf_timer_create(context, "ray_bundle_build", error);
+    pass->search_timer = lsf_timer_create(context, "ray_bundle_search", error);
+    return pass->build_program && pass->search_program && pass->build_timer && pass->search_timer;
+}
+
+void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle)
+{
+    glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_BUNDLE, pass->projection_buffer,
+                      (GLintptr)(bundle * sizeof *pass->projections),
+                      sizeof(struct lsf_bundle_data));
+    lsf_ray_bundle_nodes_bind(&pass->slots[bundle % pass->use.slots]);
+}
+
+static uint64_t texel_count(const lsf_ray_bundle *pass)
+{
+    return (uint64_t)pass->params.resolution * (uint64_t)pass->params.resolution;
+}
+
+static void clear_texels(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *slot)
+{
+    static const GLuint zero = 0;
+    glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], GL_R32UI, 0,
+                              (GLsizeiptr)(4 * (texel_count(pass) + 1)), GL_RED_INTEGER,
+                              GL_UNSIGNED_INT, &zero);
+}
+
+/* Returns how many nodes were chained, or would have been with enough room. Waits for the draw. */
+static uint32_t draw(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
+{
+    const lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
+    clear_texels(pass, slot);
+    lsf_ray_bundle_bind(pass, bundle);
+    glUseProgram(pass->build_program);
+    glUniform1ui(0, slot->room);
+    glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
+    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, NULL,
+                       pass->draw_counts);
+    glEndQuery(GL_SAMPLES_PASSED);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glCopyNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], pass->readback,
+                             (GLintptr)(4 * texel_count(pass)), 0, 4);
+    uint32_t chained = 0;
+    glGetNamedBufferSubData(pass->readback, 0, sizeof chained, &chained);
+    return chained;
+}
+
+void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
+{
+    lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
+    GLsizei side = pass->params.resolution;
+    lsf_timer_begin(pass->build_timer);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->build_framebuffer);
+    glViewport(0, 0, side, side);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_DEPTH_CLAMP); /* rounding must not clip what lies on the range's ends */
+    uint32_t chained = draw(pass, iteration, bundle);
+    if (chained > slot->room) {
+        lsf_error error = {0};
+        pass->counts[LSF_RAY_BUNDLE_REGROWN]++;
+        if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, slot, chained, &error)) {
+            draw(pass, iteration, bundle);
+        } else {
+            lsf_context_fail(pass->context, &error);
+            clear_texels(pass, slot); /* nobody may follow links that were never written */
+        }
+    }
+    glDisable(GL_DEPTH_CLAMP);
+    GLuint64 nodes = 0;
+    glGetQueryObjectui64v(pass->samples_query, GL_QUERY_RESULT, &nodes);
+    pass->counts[LSF_RAY_BUNDLE_NODES] += nodes;
+    pass->counts[LSF_RAY_BUNDLE_OVERFLOW] += chained;
+    lsf_timer_end(pass->build_timer);
+}
+
+GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
+                             const lsf_ray_bundle_origins *origins, const lsf_region *region)
+{
+    (void)iteration;
+    lsf_timer_begin(pass->search_timer);
+    lsf_ray_bundle_bind(pass, bundle);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->hits_framebuffer);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glBindTextureUnit(0, origins->depth);
+    glBindTextureUnit(1, origins->surface);
+    glBindTextureUnit(2, origins->position);
+    glUseProgram(pass->search_program);
+    if (pass->use.deep_vertices)
+        glUniform1i(0, origins->depth == 0);
+    lsf_region_set(region);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->search_timer);
+    return pass->hits;
+}
+
+void lsf_ray_bundle_timers(const lsf_ray_bundle *pass, lsf_timer *timers[3])
+{
+    timers[0] = pass->bounds_timer;
+    timers[1] = pass->build_timer;
+    timers[2] = pass->search_timer;
+}
+
+const uint64_t *lsf_ray_bundle_counts(const lsf_ray_bundle *pass)
+{
+    return pass->counts;
+}
+
+void lsf_ray_bundle_destroy(lsf_ray_bundle *pass)
+{
+    if (!pass)
+        return;
+    lsf_ray_bundle_nodes_destroy(pass);
+    lsf_buffer_destroy(pass->context, &pass->projection_buffer);
+    lsf_buffer_destroy(pass->context, &pass->readback);
+    lsf_texture_destroy(pass->context, &pass->tiles);
+    lsf_texture_destroy(pass->context, &pass->hits);
+    lsf_framebuffer_destroy(pass->context, &pass->tiles_framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->build_framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->hits_framebuffer);
+    glDeleteQueries(1, &pass->samples_query);
+    lsf_timer_destroy(pass->bounds_timer);
+    lsf_timer_destroy(pass->build_timer);
+    lsf_timer_destroy(pass->search_timer);
+    free(pass->projections);
+    free(pass);
+}

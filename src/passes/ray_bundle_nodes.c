@@ -1,0 +1,162 @@
+/* The arrays that hold a bundle's nodes: what the scene requires, how large, and how they grow. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/base.h"
+#include "passes/ray_bundle_parts.h"
+#include "shared/scene_data.h"
+
+/* A slot that was too small gets a quarter more than it needed: directions differ. */
+#define GROWTH_MARGIN 4
+
+static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"texels", "keys",     "surfaces",
+                                                               "gloss",  "emission", "next"};
+
+bool lsf_ray_bundle_has_gloss(const lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    return r->specular && (r->glossy || r->variable_ior || r->anisotropic);
+}
+
+bool lsf_ray_bundle_has_emission(const lsf_plan *plan)
+{
+    return plan->requirements.emissive || plan->requirements.unlit;
+}
+
+static uint64_t texel_count(const lsf_ray_bundle_params *params)
+{
+    return (uint64_t)params->resolution * (uint64_t)params->resolution;
+}
+
+/* Bytes of an array with room for `room` chained nodes; 0 when the scene does not need it. */
+static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *params, int array,
+                            uint64_t room)
+{
+    uint64_t texels = texel_count(params);
+    uint64_t nodes = texels * (uint64_t)params->slices + room;
+    switch (array) {
+    case LSF_RAY_BUNDLE_TEXELS:
+        return 4 * (2 * texels + 1);
+    case LSF_RAY_BUNDLE_KEYS:
+        return 4 * nodes;
+    case LSF_RAY_BUNDLE_SURFACES:
+        return 8 * nodes;
+    case LSF_RAY_BUNDLE_GLOSS:
+        return lsf_ray_bundle_has_gloss(plan) ? (plan->requirements.anisotropic ? 8 : 4) * nodes
+                                              : 0;
+    case LSF_RAY_BUNDLE_EMISSION:
+        return lsf_ray_bundle_has_emission(plan) ? 8 * nodes : 0;
+    default:
+        return 4 * room;
+    }
+}
+
+static void array_name(char name[64], int array, uint32_t slot)
+{
+    snprintf(name, 64, "ray_bundle.%s_%u", array_names[array], slot);
+}
+
+static uint32_t first_room(const lsf_ray_bundle_params *params)
+{
+    double room = ceil((double)texel_count(params) * (double)params->room);
+    return (uint32_t)fmax(room, 1.0);
+}
+
+void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params, uint32_t slots)
+{
+    static const char *const why[LSF_RAY_BUNDLE_ARRAYS] = {
+        "a counter and a chain's head for each texel",
+        "depth and slopes, 4 bytes a node",
+        "shading normal and base colour, 8 bytes a node",
+        "roughness, metallic and f0 of a node",
+        "radiance of a node, 8 bytes",
+        "links of chained nodes, 4 bytes each"};
+    for (uint32_t slot = 0; slot < slots; slot++)
+        for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
+            char name[64];
+            array_name(name, array, slot);
+            uint64_t bytes = array_bytes(plan, params, array, first_room(params));
+            if (bytes)
+                lsf_plan_buffer_add(plan, name, bytes, "%s", why[array]);
+        }
+    if (!lsf_ray_bundle_has_gloss(plan))
+        lsf_plan_omit(plan, "ray_bundle.gloss", "nothing is glossy");
+    if (!lsf_ray_bundle_has_emission(plan))
+        lsf_plan_omit(plan, "ray_bundle.emission", "nothing emits");
+}
+
+/* GL promises storage blocks of 2^27 bytes only, and software GL has no larger ones. */
+static bool check_size(const char *name, uint64_t bytes, const lsf_ray_bundle_params *params,
+                       lsf_error *error)
+{
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    if (bytes <= (uint64_t)most)
+        return true;
+    return lsf_error_set(error, LSF_ERROR_RENDER,
+                         "%s takes %.0f MiB and this device reads %.0f at once; lower "
+                         "bundle.resolution (%d) or bundle.slices (%d)",
+                         name, (double)bytes / 1048576.0, (double)most / 1048576.0,
+                         params->resolution, params->slices);
+}
+
+bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
+{
+    pass->slots = lsf_alloc(pass->use.slots, sizeof *pass->slots);
+    if (!pass->slots)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
+                             pass->use.slots);
+    for (uint32_t i = 0; i < pass->use.slots; i++) {
+        lsf_ray_bundle_slot *slot = &pass->slots[i];
+        slot->index = i;
+        slot->room = first_room(&pass->params);
+        for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
+            char name[64];
+            array_name(name, array, i);
+            uint64_t bytes = array_bytes(plan, &pass->params, array, slot->room);
+            if (!check_size(name, bytes, &pass->params, error) ||
+                !lsf_plan_create_buffer(plan, pass->context, name, NULL, 0, &slot->arrays[array],
+                                        error))
+                return false;
+        }
+    }
+    return true;
+}
+
+static void destroy_slot(lsf_context *context, lsf_ray_bundle_slot *slot)
+{
+    for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++)
+        lsf_buffer_destroy(context, &slot->arrays[array]);
+}
+
+bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
+                               uint32_t needed, lsf_error *error)
+{
+    uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
+    room = room > UINT32_MAX ? UINT32_MAX : room;
+    for (int array = LSF_RAY_BUNDLE_TEXELS + 1; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
+        char name[64];
+        array_name(name, array, slot->index);
+        uint64_t bytes = array_bytes(plan, &pass->params, array, room);
+        if (bytes && (!check_size(name, bytes, &pass->params, error) ||
+                      !lsf_plan_resize_buffer(plan, pass->context, name, bytes, 0,
+                                              &slot->arrays[array], error)))
+            return false;
+    }
+    slot->room = (uint32_t)room;
+    return true;
+}
+
+void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot)
+{
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_NODES, LSF_RAY_BUNDLE_ARRAYS,
+                      slot->arrays);
+}
+
+void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass)
+{
+    for (uint32_t i = 0; pass->slots && i < pass->use.slots; i++)
+        destroy_slot(pass->context, &pass->slots[i]);
+    free(pass->slots);
+}

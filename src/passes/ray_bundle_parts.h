@@ -1,0 +1,61 @@
+/* What the files of the ray-bundle pass share. */
+#ifndef LSF_PASSES_RAY_BUNDLE_PARTS_H
+#define LSF_PASSES_RAY_BUNDLE_PARTS_H
+
+#include "passes/ray_bundle.h"
+
+/* Arrays of nodes; lib/ray_bundle.glsl says what they hold. Bound from LSF_BINDING_BUNDLE_NODES on.
+ */
+enum {
+    LSF_RAY_BUNDLE_TEXELS,
+    LSF_RAY_BUNDLE_KEYS,
+    LSF_RAY_BUNDLE_SURFACES,
+    LSF_RAY_BUNDLE_GLOSS,
+    LSF_RAY_BUNDLE_EMISSION,
+    LSF_RAY_BUNDLE_NEXT,
+    LSF_RAY_BUNDLE_ARRAYS,
+};
+
+/* The nodes of one bundle. */
+typedef struct lsf_ray_bundle_slot {
+    uint32_t index;
+    uint32_t room; /* chained nodes */
+    GLuint arrays[LSF_RAY_BUNDLE_ARRAYS];
+} lsf_ray_bundle_slot;
+
+struct lsf_ray_bundle {
+    lsf_context *context;
+    lsf_ray_bundle_params params;
+    lsf_ray_bundle_use use;
+    bool fitted;
+    struct lsf_bundle_slot_data *projections; /* of this iteration's bundles */
+    GLuint projection_buffer;
+    lsf_ray_bundle_slot *slots;
+    GLuint readback; /* one counter on its way to the host */
+    GLuint samples_query;
+    GLuint tiles, tiles_framebuffer, build_framebuffer, hits, hits_framebuffer;
+    GLuint tiles_program, fit_program, build_program, search_program;
+    lsf_timer *bounds_timer, *build_timer, *search_timer;
+    uint64_t counts[LSF_RAY_BUNDLE_COUNTS];
+    uint64_t draw_counts[LSF_DRAW_COUNTS];
+};
+
+/* --- ray_bundle_nodes.c */
+
+bool lsf_ray_bundle_has_gloss(const lsf_plan *plan);
+bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
+void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params, uint32_t slots);
+bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
+/* Room for `needed` chained nodes and some more. On failure the slot has no nodes at all. */
+bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
+                               uint32_t needed, lsf_error *error);
+void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot);
+void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
+
+/* --- ray_bundle_aim.c */
+
+/* lsf_ray_bundle_aim is there, too. */
+void lsf_ray_bundle_aim_plan(lsf_plan *plan);
+bool lsf_ray_bundle_aim_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
+
+#endif
