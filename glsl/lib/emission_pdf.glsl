@@ -1,5 +1,7 @@
 /* With which density the light in turn emits VPLs towards a point. Switches LSF_SPOT_LIGHT,
- * LSF_DIRECTIONAL_LIGHT. */
+ * LSF_DIRECTIONAL_LIGHT, LSF_EMISSION_ADAPTIVE. The light block must be that of the reflective
+ * shadow map; densities are per steradian about the light, for a directional light per area of a
+ * plane across it. */
 #ifndef LSF_LIB_EMISSION_PDF
 #define LSF_LIB_EMISSION_PDF
 
@@ -7,16 +9,27 @@
 #include "shared/brdf.h"
 #include "shared/light.h"
 
-/* Per steradian about the light; for a directional light per area of a plane across it. The light
- * block must be that of the reflective shadow map. */
-float emission_pdf(vec3 position)
+/* Of places on a face, in units of -1..1, to one of directions (or areas) at this point: a face's
+ * place (x, y) = q.xy / (q.z extent) spans extent.x extent.y / (1 + (q.x^2 + q.y^2) / q.z^2)^(3/2)
+ * steradians. */
+float emission_place_density(int face, vec3 position)
+{
+    vec2 extent = light.map_window[face].zw;
+    if (!light_map_perspective())
+        return 1.0 / (extent.x * extent.y);
+    vec3 q = light_map_coordinates(face, position);
+    float secant2 = dot(q, q) / (q.z * q.z);
+    return secant2 * sqrt(secant2) / (extent.x * extent.y);
+}
+
+/* As the light shines. */
+float emission_pdf_uniform(vec3 position)
 {
     float type = light.attenuation.w;
 #if LSF_DIRECTIONAL_LIGHT
     if (type == LSF_LIGHT_TYPE_DIRECTIONAL) {
-        vec2 extent = light.map_window[0].zw;
         vec2 place = abs(light_map_place(0, light_map_coordinates(0, position)));
-        return max(place.x, place.y) <= 1.0 ? 0.25 / (extent.x * extent.y) : 0.0;
+        return max(place.x, place.y) <= 1.0 ? 0.25 * emission_place_density(0, position) : 0.0;
     }
 #endif
 #if LSF_SPOT_LIGHT
@@ -29,4 +42,40 @@ float emission_pdf(vec3 position)
     return 0.25 / LSF_PI;
 }
 
+#if LSF_EMISSION_ADAPTIVE
+
+/* The flux that each texel reflects; times light.position.w, its density over places. */
+layout(binding = LSF_UNIT_EMISSION) uniform sampler2DArray emission_importance;
+
+/* Part of the VPLs that are emitted as the light shines whatever the map shows, so that a point
+ * which its texel's centre knows nothing of has a density, too: defensive importance sampling
+ * (Hesterberg 1995, "Weighted Average Importance Sampling and Defensive Mixture Distributions"). No
+ * VPL then has more than eight times the power that it has with uniform emission. */
+#define EMISSION_DEFENSIVE 0.125
+
+float emission_pdf(vec3 position)
+{
+    float uniform_pdf = emission_pdf_uniform(position);
+    if (light.position.w == 0.0)
+        return uniform_pdf; /* the light meets nothing */
+    int face = light_map_face(position);
+    vec3 q = light_map_coordinates(face, position);
+    vec2 place = light_map_place(face, q);
+    if ((light_map_perspective() && q.z <= 0.0) || max(abs(place.x), abs(place.y)) > 1.0)
+        return EMISSION_DEFENSIVE * uniform_pdf; /* beside the map */
+    ivec2 last = ivec2(int(light.map_shape.z) - 1);
+    ivec2 at = clamp(ivec2((place * 0.5 + 0.5) * light.map_shape.z), ivec2(0), last);
+    float adaptive_pdf = texelFetch(emission_importance, ivec3(at, face), 0).r * light.position.w *
+                         emission_place_density(face, position);
+    return mix(adaptive_pdf, uniform_pdf, EMISSION_DEFENSIVE);
+}
+
+#else
+
+float emission_pdf(vec3 position)
+{
+    return emission_pdf_uniform(position);
+}
+
+#endif
 #endif

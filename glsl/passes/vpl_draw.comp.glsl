@@ -12,6 +12,13 @@ layout(binding = 1) uniform usampler2DArray surface_texture;
 layout(binding = 2) uniform usampler2DArray gloss_texture;
 #endif
 
+#if LSF_EMISSION_ADAPTIVE
+layout(std430, binding = 4) readonly buffer sum_block
+{
+    float sums[]; /* of importance: rows of running sums, then running sums of the rows */
+};
+#endif
+
 layout(location = 0) uniform uvec2 range; /* the first VPL, and how many */
 layout(location = 1) uniform float shadow_texels;
 
@@ -64,8 +71,8 @@ ray ray_through(vec3 origin, vec3 direction)
     return r;
 }
 
-/* A ray from the light with density emission_pdf. */
-ray emit_ray(vec2 u)
+/* A ray from the light with density emission_pdf_uniform. */
+ray emit_ray_uniform(vec2 u)
 {
 #if LSF_DIRECTIONAL_LIGHT
     if (light.attenuation.w == LSF_LIGHT_TYPE_DIRECTIONAL)
@@ -87,14 +94,67 @@ ray emit_ray(vec2 u)
     return ray_through(light.position.xyz, normalize(direction));
 }
 
-ray ray_of_center(int face, ivec2 at)
+ray ray_of_place(int face, vec2 place)
 {
-    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
     vec3 point = light_map_position(face, place, 1.0);
     return light_map_perspective()
                ? ray_through(light.map_origin.xyz, normalize(point - light.map_origin.xyz))
                : ray_through(point, light.direction.xyz);
 }
+
+ray ray_of_center(int face, ivec2 at)
+{
+    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
+    return ray_of_place(face, place);
+}
+
+#if LSF_EMISSION_ADAPTIVE
+
+/* The entry of an increasing run of sums that u of its last falls in, never one that adds nothing;
+ * u becomes the place in it, 0..1. */
+int find_entry(int start, int count, inout float u)
+{
+    float wanted = u * sums[start + count - 1];
+    int low = 0, high = count - 1;
+    for (int i = 0; i < 32 && low < high; i++) {
+        int middle = (low + high) / 2;
+        if (sums[start + middle] > wanted)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    float before = low > 0 ? sums[start + low - 1] : 0.0;
+    float width = sums[start + low] - before;
+    u = width > 0.0 ? clamp((wanted - before) / width, 0.0, 1.0) : 0.5;
+    return low;
+}
+
+/* A ray from the light with density emission_pdf. */
+ray emit_ray(vec2 u)
+{
+    if (u.x < EMISSION_DEFENSIVE || light.position.w == 0.0) {
+        if (light.position.w != 0.0)
+            u.x /= EMISSION_DEFENSIVE;
+        return emit_ray_uniform(u);
+    }
+    u.x = (u.x - EMISSION_DEFENSIVE) / (1.0 - EMISSION_DEFENSIVE);
+    int texels = int(light.map_shape.z);
+    int rows = texels * int(light.map_origin.w);
+    int row = find_entry(rows * texels, rows, u.x);
+    int column = find_entry(row * texels, texels, u.y);
+    int face = row / texels;
+    vec2 texel = vec2(column, row - face * texels) + u.yx;
+    return ray_of_place(face, texel * (2.0 * light.map_shape.w) - 1.0);
+}
+
+#else
+
+ray emit_ray(vec2 u)
+{
+    return emit_ray_uniform(u);
+}
+
+#endif
 
 met_plane plane_at(int face, ivec2 at)
 {

@@ -18,7 +18,7 @@
  * Depth is affine in (x, y) over any plane, in both. A VPL's map is one of a hemisphere about the
  * forward axis; see lib/hemisphere.glsl. */
 struct lsf_light_data {
-    vec4 position;    /* xyz */
+    vec4 position;    /* xyz; w: of adaptive emission, see lib/emission_pdf.glsl */
     vec4 direction;   /* xyz: unit, the way the light shines */
     vec4 intensity;   /* rgb: W/sr in normalised units; directional W/m^2 */
     vec4 attenuation; /* 1/range^2, spot scale, spot offset (light.h), type */

@@ -55,6 +55,7 @@ struct lsf_material_data {
 /* Texture units of the light in turn. */
 #define LSF_UNIT_SHADOW_DEPTH 6
 #define LSF_UNIT_SHADOW_GRADIENT 7
+#define LSF_UNIT_EMISSION 8 /* see lib/emission_pdf.glsl */
 
 /* Location of the radiance of an environment without a map. */
 #define LSF_LOCATION_ENVIRONMENT 10

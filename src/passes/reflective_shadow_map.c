@@ -10,6 +10,13 @@
 /* Of its random numbers: past those of shadow maps. */
 #define FIRST_PURPOSE 0x20000
 
+/* Of the rows' shader: an invocation a row. */
+#define GROUP_SIZE 64
+
+/* Storage buffers of the shaders that sum importance. */
+#define BINDING_SUMS 1
+#define BINDING_LIGHT 2
+
 const lsf_option_row lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT] = {
     {"rsm.resolution", LSF_OPTION_INT, offsetof(lsf_reflective_shadow_map_params, resolution), 16,
      4096, NULL, "texels", "side of each face of the maps that VPLs are drawn from"},
@@ -27,8 +34,8 @@ static const struct {
     {"window", 1, "no directional light"},
 };
 
-/* The layers of a map and how they are attached: colours in this order, then depth. */
-enum { GRADIENT, SURFACE, GLOSS, DEPTH, LAYERS };
+/* The layers of a map. */
+enum { GRADIENT, SURFACE, GLOSS, IMPORTANCE, DEPTH, LAYERS };
 
 static const struct {
     const char *name;
@@ -38,6 +45,7 @@ static const struct {
     [GRADIENT] = {"gradient", GL_RG16F, "the plane of each texel's surface"},
     [SURFACE] = {"surface", GL_RGBA32UI, "normals, base colour, metallic"},
     [GLOSS] = {"gloss", GL_R32UI, "roughness and f0"},
+    [IMPORTANCE] = {"importance", GL_R32F, "the flux that each texel reflects"},
     [DEPTH] = {"depth", GL_DEPTH_COMPONENT32F, "rsm.resolution texels a side"},
 };
 
@@ -46,10 +54,17 @@ static void name_layer(char name[64], int kind, int layer)
     snprintf(name, 64, "reflective_shadow_map.%s_%s", kinds[kind].name, layers[layer].name);
 }
 
-static void plan_map(lsf_plan *plan, int kind, uint32_t side, bool gloss)
+static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_params *params,
+                     bool gloss)
 {
+    uint32_t side = (uint32_t)params->resolution;
+    const bool present[LAYERS] = {
+        [GRADIENT] = true, [SURFACE] = true,
+        [GLOSS] = gloss,   [IMPORTANCE] = params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE,
+        [DEPTH] = true,
+    };
     for (int layer = 0; layer < LAYERS; layer++) {
-        if (layer == GLOSS && !gloss)
+        if (!present[layer])
             continue;
         char name[64];
         name_layer(name, kind, layer);
@@ -61,6 +76,20 @@ static void plan_map(lsf_plan *plan, int kind, uint32_t side, bool gloss)
     }
 }
 
+static void plan_pdf(lsf_plan *plan, uint32_t faces, uint32_t side)
+{
+    const lsf_requirements *r = &plan->requirements;
+    uint64_t rows = (uint64_t)faces * side;
+    lsf_plan_pass_add(plan, "reflective_shadow_map_pdf", "rsm.pdf is adaptive");
+    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
+                        r->spot_lights);
+    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
+                        "there are directional lights (%u)", r->directional_lights);
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    lsf_plan_buffer_add(plan, "reflective_shadow_map.sums", (rows * side + rows) * sizeof(float),
+                        "running sums of importance");
+}
+
 void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
                                     const lsf_state *state)
 {
@@ -69,19 +98,27 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     for (uint32_t i = 0; i < state->light_count; i++)
         needed[lsf_light_map_kind_of(&state->lights[i])] = true;
     bool gloss = r->specular && (r->anisotropic || r->glossy || r->variable_ior);
+    uint32_t most_faces = 1;
     lsf_plan_pass_add(plan, "reflective_shadow_map", "the surfaces that %u punctual light%s light",
                       state->light_count, state->light_count == 1 ? "" : "s");
     lsf_scene_gpu_material_switches(plan, gloss, false);
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "reflective_shadow_map.%s", kinds[kind].name);
-        if (needed[kind])
-            plan_map(plan, kind, (uint32_t)params->resolution, gloss);
-        else
+        if (!needed[kind]) {
             lsf_plan_omit(plan, name, "%s", kinds[kind].omitted);
+            continue;
+        }
+        plan_map(plan, kind, params, gloss);
+        if (kinds[kind].faces > most_faces)
+            most_faces = kinds[kind].faces;
     }
     lsf_plan_buffer_add(plan, "reflective_shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
+    if (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE)
+        plan_pdf(plan, most_faces, (uint32_t)params->resolution);
+    else
+        lsf_plan_omit(plan, "reflective_shadow_map_pdf", "rsm.pdf is uniform");
 }
 
 static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context *context,
@@ -90,6 +127,7 @@ static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context 
     GLuint *const textures[LAYERS] = {[GRADIENT] = &target->gradient,
                                       [SURFACE] = &target->surface,
                                       [GLOSS] = &target->gloss,
+                                      [IMPORTANCE] = &target->importance,
                                       [DEPTH] = &target->depth};
     char name[64];
     for (int layer = 0; layer < LAYERS; layer++) {
@@ -115,6 +153,23 @@ static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context 
     return true;
 }
 
+static bool create_pdf(lsf_reflective_shadow_map *pass, lsf_context *context, const lsf_plan *plan,
+                       lsf_error *error)
+{
+    static const char *const rows_files[5] = {"passes/reflective_shadow_map_rows.comp.glsl"};
+    static const char *const scan_files[5] = {"passes/reflective_shadow_map_scan.comp.glsl"};
+    const char *name = "reflective_shadow_map_pdf";
+    if (!lsf_plan_find_pass(plan, name))
+        return true;
+    if (!lsf_plan_create_buffer(plan, context, "reflective_shadow_map.sums", NULL, 0,
+                                &pass->outputs.sums, error))
+        return false;
+    pass->rows_program = lsf_plan_program(plan, context, name, rows_files, error);
+    pass->scan_program = lsf_plan_program(plan, context, name, scan_files, error);
+    pass->pdf_timer = lsf_timer_create(context, name, error);
+    return pass->rows_program && pass->scan_program && pass->pdf_timer;
+}
+
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error)
 {
@@ -129,7 +184,7 @@ bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_conte
         return false;
     pass->program = lsf_plan_program(plan, context, "reflective_shadow_map", files, error);
     pass->timer = lsf_timer_create(context, "reflective_shadow_map", error);
-    return pass->program && pass->timer;
+    return pass->program && pass->timer && create_pdf(pass, context, plan, error);
 }
 
 /* Materials ask which side of a triangle is seen; on a face whose axes are mirrored, windings are
@@ -140,6 +195,26 @@ static GLenum front_winding(const struct lsf_light_data *light, uint32_t face)
     lsf_float3 up = lsf_f3_load(&light->map_up[face].x);
     lsf_float3 forward = lsf_f3_load(&light->map_forward[face].x);
     return lsf_f3_dot(lsf_f3_cross(right, up), forward) > 0.0f ? GL_CW : GL_CCW;
+}
+
+/* Sums importance over the map. */
+static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_reflective_shadow_map_target *target)
+{
+    const lsf_reflective_shadow_map_outputs *out = &pass->outputs;
+    lsf_timer_begin(pass->pdf_timer);
+    glBindTextureUnit(0, target->depth);
+    glBindTextureUnit(1, target->surface);
+    glBindImageTexture(0, target->importance, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, out->sums);
+    glUseProgram(pass->rows_program);
+    glDispatchCompute((target->faces * target->resolution + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHT, out->light_buffer);
+    glUseProgram(pass->scan_program);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
+    glBindTextureUnit(LSF_UNIT_EMISSION, target->importance);
+    lsf_timer_end(pass->pdf_timer);
 }
 
 void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
@@ -179,7 +254,10 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     out->gradient = target->gradient;
     out->surface = target->surface;
     out->gloss = target->gloss;
+    out->importance = target->importance;
     lsf_timer_end(pass->timer);
+    if (pass->pdf_timer)
+        run_pdf(pass, target);
 }
 
 static void destroy_target(lsf_context *context, lsf_reflective_shadow_map_target *target)
@@ -190,6 +268,7 @@ static void destroy_target(lsf_context *context, lsf_reflective_shadow_map_targe
     lsf_texture_destroy(context, &target->gradient);
     lsf_texture_destroy(context, &target->surface);
     lsf_texture_destroy(context, &target->gloss);
+    lsf_texture_destroy(context, &target->importance);
 }
 
 void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass)
@@ -199,6 +278,8 @@ void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass)
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
     lsf_buffer_destroy(pass->context, &pass->outputs.light_buffer);
+    lsf_buffer_destroy(pass->context, &pass->outputs.sums);
     lsf_timer_destroy(pass->timer);
+    lsf_timer_destroy(pass->pdf_timer);
     memset(pass, 0, sizeof *pass);
 }

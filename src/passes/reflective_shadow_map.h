@@ -31,12 +31,15 @@ typedef struct lsf_reflective_shadow_map_outputs {
     GLuint surface;      /* RGBA32UI as in lib/gbuffer.glsl, normals towards the light */
     GLuint gloss;        /* R32UI or RG32UI, likewise; 0 when the scene does not require it */
     GLuint light_buffer; /* struct lsf_light_data */
+    GLuint importance;   /* R32F; with adaptive emission, see lib/emission_pdf.glsl */
+    GLuint sums;         /* buffer of floats: running sums of importance along each row, then over
+                          * the rows; with adaptive emission */
     struct lsf_light_data light;
 } lsf_reflective_shadow_map_outputs;
 
 /* One set of textures for maps of the same shape; lights take turns. */
 typedef struct lsf_reflective_shadow_map_target {
-    GLuint depth, gradient, surface, gloss;
+    GLuint depth, gradient, surface, gloss, importance;
     GLuint framebuffers[6];
     uint32_t faces, resolution;
 } lsf_reflective_shadow_map_target;
@@ -45,18 +48,19 @@ typedef struct lsf_reflective_shadow_map {
     lsf_context *context;
     lsf_reflective_shadow_map_outputs outputs;
     lsf_reflective_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
-    GLuint program;
+    GLuint program, rows_program, scan_program;
     uint64_t counts[LSF_DRAW_COUNTS];
-    lsf_timer *timer;
+    lsf_timer *timer, *pdf_timer; /* pdf_timer: NULL without adaptive emission */
 } lsf_reflective_shadow_map;
 
-/* Lists the pass and the textures of the kinds of map that the lights in `state` need. */
+/* Lists the pass, with adaptive emission also "reflective_shadow_map_pdf", and the textures of the
+ * kinds of map that the lights in `state` need. */
 void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
                                     const lsf_state *state);
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error);
 /* Draws the map of state->lights[light_index], randomly turned and shifted for this iteration, and
- * leaves light_buffer bound to LSF_BINDING_LIGHT. */
+ * leaves light_buffer bound to LSF_BINDING_LIGHT, importance to LSF_UNIT_EMISSION. */
 void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
                                    uint32_t light_index);
 void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass);

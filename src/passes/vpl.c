@@ -21,6 +21,7 @@ _Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_draw.c
 /* Storage buffers of vpl_draw. */
 #define BINDING_MAPS 2
 #define BINDING_RANDOM 3
+#define BINDING_SUMS 4
 
 const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT] = {
     {"vpl.count", LSF_OPTION_INT, offsetof(lsf_vpl_params, count), 0, 4096, NULL, "",
@@ -40,6 +41,9 @@ void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params)
                         r->spot_lights);
     lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
                         "there are directional lights (%u)", r->directional_lights);
+    lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE",
+                        lsf_plan_find_pass(plan, "reflective_shadow_map_pdf") != NULL,
+                        "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_buffer_add(plan, "vpl.vpls", count * sizeof(struct lsf_vpl_data), "vpl.count is %u",
@@ -118,6 +122,9 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
     glBindTextureUnit(0, inputs->depth);
     glBindTextureUnit(1, inputs->surface);
     glBindTextureUnit(2, inputs->gloss);
+    glBindTextureUnit(LSF_UNIT_EMISSION, inputs->importance);
+    if (inputs->sums)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
     glUseProgram(pass->draw_program);
     glUniform2ui(0, first, count);
     glUniform1f(1, (float)pass->shadow_resolution);

@@ -20,6 +20,7 @@ extern const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT];
 typedef struct lsf_vpl_inputs {
     GLuint depth, surface, gloss; /* gloss 0 where the scene does not require it */
     GLuint light_buffer;
+    GLuint importance, sums; /* with adaptive emission */
 } lsf_vpl_inputs;
 
 typedef struct lsf_vpl_outputs {
@@ -39,7 +40,8 @@ typedef struct lsf_vpl {
     lsf_timer *draw_timer, *map_timer;
 } lsf_vpl;
 
-/* Lists passes "vpl_draw" and "vpl_shadow_map" for params->count VPLs, which must not be 0. */
+/* Lists passes "vpl_draw" and "vpl_shadow_map" for params->count VPLs, which must not be 0; the
+ * reflective shadow map is planned first. */
 void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params);
 bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
                     const lsf_vpl_params *params, lsf_error *error);

@@ -5,6 +5,34 @@
 #include "math/sampling.h"
 #include "shared/scene_data.h"
 
+const light_case light_cases[LIGHT_CASES] = {
+    {"point", LSF_LIGHT_POINT, {0.1f, 0.5f, 0.2f}, {0, -1, 0}, 0, 0},
+    {"narrow spot", LSF_LIGHT_SPOT, {0.1f, 0.7f, 0.2f}, {-0.3f, -1, 0.2f}, 0.3f, 0.8f},
+    {"wide spot", LSF_LIGHT_SPOT, {0.1f, 0.5f, 0.2f}, {-0.3f, -1, 0.2f}, 0.9f, 1.4f},
+    {"hard spot", LSF_LIGHT_SPOT, {0.1f, 0.7f, 0.2f}, {-0.3f, -1, 0.2f}, 0.5f, 0.5f},
+    {"sun", LSF_LIGHT_DIRECTIONAL, {0, 0, 0}, {0.4f, -1, 0.3f}, 0, 0},
+};
+
+lsf_scene *light_case_scene(const light_case *c)
+{
+    lsf_scene *scene = build_scene();
+    scene->diffuse_only = true;
+    build_material(scene, 0.7f, 0.5f, 0.3f);
+    if (c->type == LSF_LIGHT_DIRECTIONAL)
+        build_floor(scene, -0.8f, 1.0f);
+    else
+        build_box(scene, lsf_f3(-1, -0.8f, -1), lsf_f3(1, 0.8f, 1), true);
+    build_material(scene, 0.1f, 0.1f, 0.2f);
+    build_box(scene, lsf_f3(-0.5f, -0.8f, -0.3f), lsf_f3(0.1f, -0.1f, 0.3f), false);
+    build_quad(scene, lsf_f3(0.4f, -0.5f, -0.6f), lsf_f3(0.9f, -0.5f, -0.4f),
+               lsf_f3(0.8f, 0.2f, 0.4f), lsf_f3(0.3f, 0.2f, 0.2f));
+    lsf_light *light = build_light(scene, c->type, c->position, c->direction, 3.0f);
+    light->inner_cone = c->inner;
+    light->outer_cone = c->outer;
+    finish_gl_scene(scene);
+    return scene;
+}
+
 static void collect_triangles(light_passes *p)
 {
     const lsf_scene *scene = p->scene;
@@ -31,9 +59,11 @@ static void require(bool ok, const lsf_error *error)
         fail_msg("%s", error->message);
 }
 
-void light_passes_init(light_passes *p, const lsf_scene *scene,
-                       const lsf_reflective_shadow_map_params *rsm, const lsf_vpl_params *vpl)
+void light_passes_init(light_passes *p, const lsf_scene *scene, int32_t rsm_resolution, int32_t pdf,
+                       int32_t vpl_count)
 {
+    const lsf_reflective_shadow_map_params rsm = {.resolution = rsm_resolution, .pdf = pdf};
+    const lsf_vpl_params vpl = {.count = vpl_count, .shadow_resolution = 256};
     lsf_error error = {0};
     memset(p, 0, sizeof *p);
     shader_folder_create(&p->folder);
@@ -48,15 +78,14 @@ void light_passes_init(light_passes *p, const lsf_scene *scene,
                          .samples = 1};
     lsf_scene_gpu_plan(&p->plan, scene);
     lsf_iteration_plan(&p->plan);
-    lsf_reflective_shadow_map_plan(&p->plan, rsm, &p->state);
-    if (vpl)
-        lsf_vpl_plan(&p->plan, vpl);
+    lsf_reflective_shadow_map_plan(&p->plan, &rsm, &p->state);
+    lsf_vpl_plan(&p->plan, &vpl);
     require(
         lsf_scene_gpu_create(&p->scene_gpu, p->context, &p->plan, scene, &p->state, NULL, &error) &&
             lsf_iteration_create(&p->iteration, p->context, &p->plan, &p->scene_gpu, &p->state,
                                  NULL, 5, &error) &&
             lsf_reflective_shadow_map_create(&p->rsm, p->context, &p->plan, &error) &&
-            (!vpl || lsf_vpl_create(&p->vpl, p->context, &p->plan, vpl, &error)),
+            lsf_vpl_create(&p->vpl, p->context, &p->plan, &vpl, &error),
         &error);
     assert_int_equal(lsf_context_get_info(p->context).gl_bytes, lsf_plan_bytes(&p->plan));
     collect_triangles(p);
@@ -89,9 +118,10 @@ void light_passes_run(light_passes *p, uint32_t iteration, uint32_t light)
     const lsf_vpl_inputs inputs = {.depth = out->depth,
                                    .surface = out->surface,
                                    .gloss = out->gloss,
-                                   .light_buffer = out->light_buffer};
-    if (p->vpl.count)
-        lsf_vpl_draw(&p->vpl, &p->iteration, 0, p->vpl.count, 1.0f, &inputs);
+                                   .light_buffer = out->light_buffer,
+                                   .importance = out->importance,
+                                   .sums = out->sums};
+    lsf_vpl_draw(&p->vpl, &p->iteration, 0, p->vpl.count, 1.0f, &inputs);
     gl_test_check(p->context);
 }
 

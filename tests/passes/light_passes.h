@@ -8,6 +8,20 @@
 #include "passes/vpl.h"
 #include "render_gl.h"
 
+typedef struct light_case {
+    const char *name;
+    lsf_light_type type;
+    lsf_float3 position, direction;
+    float inner, outer; /* half angles of a spot */
+} light_case;
+
+#define LIGHT_CASES 5
+extern const light_case light_cases[LIGHT_CASES];
+
+/* A room with a dark box and a slanted board in it; under the sun without walls. The last two
+ * triangles are the board's; everything else is closed. */
+lsf_scene *light_case_scene(const light_case *c);
+
 typedef struct light_passes {
     shader_folder folder;
     lsf_context *context;
@@ -24,9 +38,9 @@ typedef struct light_passes {
     lsf_float3 *corners; /* of the scene's triangles */
 } light_passes;
 
-/* `finish_gl_scene` comes first. Zero `vpl_count`: no VPLs. */
-void light_passes_init(light_passes *p, const lsf_scene *scene,
-                       const lsf_reflective_shadow_map_params *rsm, const lsf_vpl_params *vpl);
+/* `finish_gl_scene` comes first. `pdf`: lsf_reflective_shadow_map_pdf. */
+void light_passes_init(light_passes *p, const lsf_scene *scene, int32_t rsm_resolution, int32_t pdf,
+                       int32_t vpl_count);
 void light_passes_finish(light_passes *p);
 
 /* The reflective shadow map of a light, then all VPLs from it. */
