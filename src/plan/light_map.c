@@ -80,16 +80,8 @@ static const box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFIN
 /* Bounds of the scene along the axes; the unit box when it is empty. */
 static box scene_box(const lsf_state *state, const lsf_float3 axes[3])
 {
-    box b = empty_box;
-    for (uint32_t i = 0; i < state->instance_count; i++) {
-        const lsf_instance_state *instance = &state->instances[i];
-        for (int corner = 0; corner < 8 && !instance->skipped; corner++)
-            box_add(&b, axes,
-                    lsf_f3((corner & 1 ? instance->bounds_max : instance->bounds_min)[0],
-                           (corner & 2 ? instance->bounds_max : instance->bounds_min)[1],
-                           (corner & 4 ? instance->bounds_max : instance->bounds_min)[2]));
-    }
-    return b.low[0] <= b.high[0] ? b : (box){{-1, -1, -1}, {1, 1, 1}};
+    box b;
+    return lsf_state_bounds_along(state, axes, b.low, b.high) ? b : (box){{-1, -1, -1}, {1, 1, 1}};
 }
 
 /* Bounds, along the axes, of what the camera sees up to `depth`. */
