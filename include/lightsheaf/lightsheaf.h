@@ -2,6 +2,7 @@
 #ifndef LIGHTSHEAF_H
 #define LIGHTSHEAF_H
 
+#include <lightsheaf/bench.h>
 #include <lightsheaf/compare.h>
 #include <lightsheaf/context.h>
 #include <lightsheaf/error.h>

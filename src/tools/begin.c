@@ -46,8 +46,9 @@ int lsf_tool_begin(lsf_settings *settings, lsf_command_bit command, int argc, ch
 char *lsf_tool_scene_path(const lsf_settings *settings, lsf_error *error)
 {
     char *path = NULL;
-    if (settings->operands.count) {
-        path = strdup(settings->operands.items[0]);
+    uint32_t operand = settings->command->operands_min; /* behind those that have to be there */
+    if (settings->operands.count > operand) {
+        path = strdup(settings->operands.items[operand]);
         if (!path)
             lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
         return path;

@@ -15,6 +15,7 @@ typedef enum lsf_command_bit {
     LSF_COMMAND_INFO = 1 << 3,
     LSF_COMMAND_PLAN = 1 << 4,
     LSF_COMMAND_HELP = 1 << 5,
+    LSF_COMMAND_BENCH = 1 << 6,
 } lsf_command_bit;
 
 typedef struct lsf_command {
@@ -91,7 +92,7 @@ typedef struct lsf_settings {
     lsf_list_setting operands;
 
     bool help, version, list_options, list_techniques, quiet, verbose;
-    bool print_json;       /* info, plan, compare: JSON on stdout */
+    bool print_json;       /* info, plan, compare, bench: JSON on stdout */
     const char *json_path; /* render, reference; NULL: none */
 
     const char *output; /* NULL: not given */

@@ -1,6 +1,5 @@
 #include "tools/summary.h"
 
-#include "tools/json.h"
 #include "tools/number.h"
 
 #include <float.h>
@@ -82,7 +81,7 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
     lsf_json_end(json, '}');
 }
 
-static void add_device(lsf_json *json, const lsf_context_info *device)
+void lsf_summary_add_device(lsf_json *json, const lsf_context_info *device)
 {
     lsf_json_begin(json, "device", '{');
     lsf_json_string(json, "backend", device ? device->backend : "embree");
@@ -136,7 +135,7 @@ static void add_summary(lsf_json *json, const lsf_summary *summary)
     lsf_json_integer(json, "samples", summary->samples);
     lsf_json_bool(json, "interrupted", summary->interrupted);
     add_options(json, settings);
-    add_device(json, summary->device);
+    lsf_summary_add_device(json, summary->device);
 
     lsf_json_begin(json, "seconds", '{');
     for (uint32_t i = 0; i < summary->seconds_count; i++)

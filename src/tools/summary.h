@@ -3,6 +3,7 @@
 #ifndef LSF_TOOLS_SUMMARY_H
 #define LSF_TOOLS_SUMMARY_H
 
+#include "tools/json.h"
 #include "tools/options.h"
 
 typedef struct lsf_summary_seconds {
@@ -25,6 +26,9 @@ typedef struct lsf_summary {
     uint64_t plan_bytes;
     uint64_t rays; /* the reference */
 } lsf_summary;
+
+/* The key "device"; `device` NULL: the reference. */
+void lsf_summary_add_device(lsf_json *json, const lsf_context_info *device);
 
 /* To settings->json_path, when there is one. */
 bool lsf_summary_write(const lsf_summary *summary, lsf_error *error);

@@ -5,7 +5,7 @@ import subprocess
 
 from command import COMMAND, DONE, FILE, USAGE, CommandTest, main
 
-COMMANDS = ("render", "reference", "compare", "info", "plan", "help")
+COMMANDS = ("render", "reference", "compare", "info", "plan", "bench", "help")
 
 
 class Help(CommandTest):

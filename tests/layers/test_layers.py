@@ -21,6 +21,7 @@ ALLOWED = {
     "techniques": {"base", "math", "gl", "scene", "plan", "passes"},
     "reference": {"base", "math", "scene"},
     "measure": {"base", "io"},
+    "bench": {"base", "math", "scene", "plan", "passes", "techniques", "reference"},
     "tools": {"base", "math", "gl", "scene", "io", "plan", "passes", "techniques", "measure"},
 }
 # Headers that a layer offers to one that may not see the rest of it.

@@ -1,0 +1,255 @@
+/* Table 1 of Y. Tokuyoshi and S. Ogaki, "Real-Time Bidirectional Path Tracing via Rasterization",
+ * I3D 2012, row for row: what a frame of 21 VPLs and 21 ray-bundles takes. */
+#include "tools/bench.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Triangles of the scene behind the paper's table (its figure 9). */
+#define PAPER_TRIANGLES 174e3
+
+/* Frames before the first one that counts: programs settle and lists grow to their size. */
+#define WARM_UP 2u
+#define FRAMES_SOFTWARE 3u
+#define FRAMES_GPU 32u
+
+/* Pixels that are rendered for one of the screen, along each side. */
+#define SUPERSAMPLING 2u
+
+/* As the paper's figures: light from x0 over x1 and x2 to x3. */
+#define BOUNCES 2u
+
+/* What makes a frame of the paper of it; -D on the command line comes later and wins. */
+static const char *const frame_options[] = {
+    "vpl.count=21",       "bundle.count=21",   "bundle.resolution=256", "vpl.shadow_resolution=256",
+    "rsm.resolution=256", "shadow.filter=pcf", "interleave.size=4",     "bundle.window=visible",
+};
+
+typedef struct table_row {
+    const char *title;
+    double paper_ms;
+    const char *passes[4]; /* of ours, by name */
+} table_row;
+
+static const table_row rows[] = {
+    {"Create G-Buffer", 6.0, {"gbuffer"}},
+    {"Create Reflective Shadow Maps", 2.7, {"reflective_shadow_map", "vpl_draw"}},
+    {"Create Shadow Maps", 2.9, {"shadow_map"}},
+    {"Split", 1.6, {"interleave_split"}},
+    {"Compute Bounds of Ray-bundles", 0.4, {"ray_bundle_bounds"}},
+    {"Create Ray-Bundle x21", 15.4, {"ray_bundle_build"}},
+    {"Create VPL Shadow Map x21", 29.9, {"vpl_shadow_map"}},
+    {"Compute Bidirectional Path Tracing x21", 5.5, {"ray_bundle_search", "bidirectional_shade"}},
+    {"Gather", 1.0, {"interleave_gather"}},
+    {"Filter", 8.4, {"interleave_filter"}},
+    {"Output", 3.6, {"compose", "accumulate", "tonemap"}},
+    {"Others", 0.4, {NULL}},
+};
+enum { ROWS = LSF_COUNT(rows), OTHERS = ROWS - 1 };
+#define PAPER_TOTAL 77.8
+
+typedef struct table {
+    double ms[ROWS];
+    double total_ms;
+} table;
+
+static size_t row_of(const char *pass)
+{
+    for (size_t r = 0; r < OTHERS; r++)
+        for (size_t i = 0; i < LSF_COUNT(rows[r].passes) && rows[r].passes[i]; i++)
+            if (strcmp(rows[r].passes[i], pass) == 0)
+                return r;
+    return OTHERS;
+}
+
+/* Adds all that the passes took since the renderer was made, times `sign`. */
+static void add_passes(table *t, lsf_renderer *renderer, double sign)
+{
+    lsf_renderer_stats stats = lsf_renderer_get_stats(renderer);
+    for (uint32_t i = 0; i < stats.pass_count; i++)
+        t->ms[row_of(stats.passes[i].name)] +=
+            sign * stats.passes[i].milliseconds * (double)stats.samples;
+}
+
+static bool iterate(lsf_renderer *renderer, uint32_t frames, lsf_error *error)
+{
+    for (uint32_t i = 0; i < frames; i++)
+        if (!lsf_renderer_iterate(renderer, error))
+            return false;
+    return true;
+}
+
+static double sum_of(const table *t)
+{
+    double sum = 0.0;
+    for (size_t r = 0; r < ROWS; r++)
+        sum += t->ms[r];
+    return sum;
+}
+
+/* Tone mapping belongs to the output, reading it back does not: it runs apart, by its own timer. */
+static bool measure(table *t, lsf_renderer *renderer, uint8_t *rgb, uint32_t frames,
+                    lsf_error *error)
+{
+    bool good =
+        iterate(renderer, WARM_UP, error) && lsf_renderer_read_rgb8(renderer, 0.0f, rgb, error);
+    add_passes(t, renderer, -1.0); /* which waits until all is done */
+    table before = *t;
+    double start = lsf_now();
+    good = good && iterate(renderer, frames, error);
+    add_passes(t, renderer, 1.0);
+    double milliseconds = 1e3 * (lsf_now() - start);
+    table drawn = *t;
+    for (uint32_t i = 0; good && i < frames; i++)
+        good = lsf_renderer_read_rgb8(renderer, 0.0f, rgb, error);
+    *t = before;
+    add_passes(t, renderer, 1.0);
+    milliseconds += sum_of(t) - sum_of(&drawn);
+    for (size_t r = 0; r < ROWS; r++)
+        t->ms[r] /= frames;
+    t->total_ms = milliseconds / frames;
+    t->ms[OTHERS] += t->total_ms - sum_of(t);
+    return good;
+}
+
+/* --- the scene and its frame */
+
+typedef struct frame {
+    uint32_t factor; /* of tessellation */
+    uint64_t triangles;
+    uint32_t width, height; /* of the screen */
+    uint32_t count;
+    char tessellation[40];
+    const char **options;
+    lsf_render_params params;
+} frame;
+
+/* The factor that comes closest to the paper's scene. */
+static uint32_t factor_for(uint64_t triangles)
+{
+    uint32_t best = 1;
+    for (uint32_t factor = 2; factor <= 16 && triangles > 0; factor++) {
+        double ratio = PAPER_TRIANGLES / (double)triangles;
+        if (fabs(log(factor * factor / ratio)) < fabs(log(best * best / ratio)))
+            best = factor;
+    }
+    return best;
+}
+
+static bool set_options(frame *f, const lsf_settings *settings, lsf_error *error)
+{
+    static const char key[] = "tessellation.factor=";
+    uint32_t count = 0;
+    f->options = lsf_alloc((uint64_t)LSF_COUNT(frame_options) + 1 + settings->defines.count,
+                           sizeof *f->options);
+    if (!f->options)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    for (size_t i = 0; i < LSF_COUNT(frame_options); i++)
+        f->options[count++] = frame_options[i];
+    snprintf(f->tessellation, sizeof f->tessellation, "%s%u", key, f->factor);
+    f->options[count++] = f->tessellation;
+    for (uint32_t i = 0; i < settings->defines.count; i++) {
+        f->options[count++] = settings->defines.items[i];
+        if (strncmp(settings->defines.items[i], key, strlen(key)) == 0)
+            f->factor = (uint32_t)strtoul(settings->defines.items[i] + strlen(key), NULL, 10);
+    }
+    f->params.options = f->options;
+    f->params.option_count = count;
+    return true;
+}
+
+static bool prepare(frame *f, const lsf_bench *bench, lsf_error *error)
+{
+    const lsf_settings *settings = &bench->settings;
+    bool software = bench->device.software;
+    bool given = lsf_settings_given(settings, "resolution");
+    f->width = given ? settings->resolution[0] : software ? 480 : 1920;
+    f->height = given ? settings->resolution[1] : software ? 270 : 1088;
+    f->count = settings->samples ? settings->samples : software ? FRAMES_SOFTWARE : FRAMES_GPU;
+    f->triangles = lsf_scene_get_requirements(bench->scene)->triangles;
+    f->factor = factor_for(f->triangles);
+    f->params = lsf_settings_render_params(settings);
+    if (!set_options(f, settings, error))
+        return false;
+    f->triangles *= (uint64_t)f->factor * f->factor;
+    f->params.technique = "bidirectional";
+    f->params.width = f->width * SUPERSAMPLING;
+    f->params.height = f->height * SUPERSAMPLING;
+    f->params.samples = 1;
+    f->params.time_limit = INFINITY;
+    f->params.bounces = BOUNCES;
+    f->params.rgb8 = true;
+    return true;
+}
+
+/* --- the table */
+
+static bool print_table(const lsf_bench *bench, const frame *f, const table *t, lsf_error *error)
+{
+    bool good =
+        lsf_bench_print(bench, error,
+                        "A frame of 21 VPLs and 21 ray-bundles, %u bounces, on %s\n"
+                        "%s, %llu triangles (tessellation.factor=%u)\n"
+                        "%ux%u with 2x2 supersampling (%ux%u pixels), mean of %u frames\n\n"
+                        "%-42s%10s%10s\n",
+                        BOUNCES, bench->device.renderer, bench->scene_path,
+                        (unsigned long long)f->triangles, f->factor, f->width, f->height,
+                        f->params.width, f->params.height, f->count, "procedure", "ms", "paper ms");
+    for (size_t r = 0; good && r < ROWS; r++)
+        good = lsf_bench_print(bench, error, "%-42s%10.2f%10.1f\n", rows[r].title, t->ms[r],
+                               rows[r].paper_ms);
+    return good &&
+           lsf_bench_print(bench, error,
+                           "%-42s%10.2f%10.1f\n\nThe paper's: 1920x1088, 2x2 supersampling, 174 k "
+                           "triangles, AMD Radeon HD 6990\n",
+                           "Total", t->total_ms, PAPER_TOTAL);
+}
+
+static void add_json(lsf_json *json, const frame *f, const table *t)
+{
+    lsf_json_integer(json, "triangles", f->triangles);
+    lsf_json_integer(json, "tessellation_factor", f->factor);
+    lsf_json_vector(json, "screen", (float[]){(float)f->width, (float)f->height}, 2);
+    lsf_json_integer(json, "supersampling", SUPERSAMPLING);
+    lsf_json_integer(json, "bounces", BOUNCES);
+    lsf_json_integer(json, "frames", f->count);
+    lsf_json_begin(json, "rows", '[');
+    for (size_t r = 0; r < ROWS; r++) {
+        lsf_json_begin(json, NULL, '{');
+        lsf_json_string(json, "procedure", rows[r].title);
+        lsf_json_number(json, "ms", t->ms[r]);
+        lsf_json_number(json, "paper_ms", rows[r].paper_ms);
+        lsf_json_begin(json, "passes", '[');
+        for (size_t i = 0; i < LSF_COUNT(rows[r].passes) && rows[r].passes[i]; i++)
+            lsf_json_string(json, NULL, rows[r].passes[i]);
+        lsf_json_end(json, ']');
+        lsf_json_end(json, '}');
+    }
+    lsf_json_end(json, ']');
+    lsf_json_number(json, "total_ms", t->total_ms);
+    lsf_json_number(json, "paper_total_ms", PAPER_TOTAL);
+}
+
+bool lsf_bench_bidirectional(lsf_bench *bench, lsf_error *error)
+{
+    frame f = {0};
+    table t = {0};
+    lsf_renderer *renderer = NULL;
+    uint8_t *rgb = NULL;
+    bool good = prepare(&f, bench, error);
+    if (good) {
+        rgb = lsf_alloc((uint64_t)f.params.width * f.params.height, 3);
+        renderer = rgb ? lsf_renderer_create(bench->context, bench->scene, &f.params, error) : NULL;
+        good =
+            renderer || (rgb == NULL && lsf_error_set(error, LSF_ERROR_RENDER, "no memory left"));
+    }
+    good = good && measure(&t, renderer, rgb, f.count, error) && print_table(bench, &f, &t, error);
+    if (good)
+        add_json(&bench->json, &f, &t);
+    lsf_renderer_destroy(renderer);
+    free(rgb);
+    free((void *)f.options);
+    return good;
+}
