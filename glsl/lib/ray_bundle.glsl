@@ -32,11 +32,13 @@ layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 1) LSF_BUNDLE_ACCESS buffer 
 {
     uint bundle_keys[];
 };
-/* x: shading normal on the side from which the bundle comes, octahedral; y: base colour */
+/* x: shading normal on the side from which the bundle comes, octahedral; y: base colour; z: depth of
+ * its plane at the texel's centre, a float; w: slopes, half floats. Keys are coarse to be quick to
+ * search; what a hit is lit by is looked up in maps, which takes an exact position. */
 layout(std430,
        binding = LSF_BINDING_BUNDLE_NODES + 2) LSF_BUNDLE_ACCESS buffer lsf_bundle_surface_block
 {
-    uvec2 bundle_surfaces[];
+    uvec4 bundle_surfaces[];
 };
 #if LSF_BUNDLE_ANISOTROPY
 /* x: gloss; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16 */
@@ -176,13 +178,34 @@ vec3 bundle_emission_unpack(uvec2 bits, out uint sides)
     return ldexp(vec3(m), ivec3(int(bits.y >> 22 & 0xffu) - 126 - 18));
 }
 
+vec2 bundle_plane_slope(uint node)
+{
+    return unpackHalf2x16(bundle_surfaces[node].w);
+}
+
+/* Where a ray from `origin`, along the bundle or against it, meets a node of its texel. The node's
+ * plane is known to hold the surface at the texel's centre; steep ones may leave it long before the
+ * ray, and lie outside of a closed room there, so no point is farther off the centre than the
+ * texel's half diagonal. */
+vec3 bundle_position(uint node, vec3 origin)
+{
+    vec3 q = bundle_coordinates(origin);
+    vec2 place = bundle_place(q), size = bundle_texel_size();
+    vec2 from_center = (place - floor(place) - 0.5) * size;
+    vec3 along = vec3(from_center, dot(bundle_plane_slope(node), from_center));
+    along *= min(1.0, 0.5 * length(size) / max(length(along), 1e-30));
+    float z = bundle.range.x + bundle.range.y * uintBitsToFloat(bundle_surfaces[node].z);
+    return origin + (along.x - from_center.x) * bundle.right.xyz +
+           (along.y - from_center.y) * bundle.up.xyz + (z + along.z - q.z) * bundle.forward.xyz;
+}
+
 /* The surface of a node as a ray along the bundle, or against it, sees it: normals turned against
  * the ray, emission of the side it meets. An unlit surface emits its base colour. */
 surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
 {
     surface s;
-    uvec2 bits = bundle_surfaces[node];
-    vec2 slope = bundle_key_slope(bundle_keys[node]);
+    uvec2 bits = bundle_surfaces[node].xy;
+    vec2 slope = bundle_plane_slope(node);
     float side = dot(ray_direction, bundle.forward.xyz) < 0.0 ? -1.0 : 1.0;
     s.geometric_normal = side * normalize(slope.x * bundle.right.xyz + slope.y * bundle.up.xyz -
                                           bundle.forward.xyz);

@@ -1,4 +1,5 @@
 /* The picture as the sum of its parts. */
+#include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/view.glsl"
 
@@ -9,27 +10,74 @@ layout(binding = 1) uniform sampler2D emission_texture;
 #if LSF_DIRECT
 layout(binding = 2) uniform sampler2D direct_texture;
 #endif
+#if LSF_INDIRECT
+layout(binding = 3) uniform usampler2D surface_texture;
+layout(binding = 4) uniform sampler2D irradiance_texture;
+#if LSF_SPECULAR
+layout(binding = 6) uniform sampler2D specular_texture;
+#endif
+#endif
+#if LSF_SPLIT_DIRECT
+layout(binding = 7) uniform sampler2D direct_irradiance_texture;
+#if LSF_SPECULAR
+layout(binding = 8) uniform sampler2D direct_specular_texture;
+#endif
+#endif
 layout(location = 0) out vec4 radiance_out;
 #if LSF_SEEN
-layout(location = 1) out vec4 seen_out; /* emission and environment alone */
+layout(location = LSF_SEEN) out vec4 seen_out; /* emission and environment alone */
+#endif
+#if LSF_INDIRECT_DIFFUSE
+layout(location = LSF_INDIRECT_DIFFUSE) out vec4 indirect_diffuse_out;
+#endif
+#if LSF_ALL_DIRECT
+layout(location = LSF_ALL_DIRECT) out vec4 direct_out; /* of every kind of light */
 #endif
 
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 radiance = vec3(0.0);
+    float depth = texelFetch(depth_texture, pixel, 0).r;
+    vec3 seen = vec3(0.0), direct = vec3(0.0), indirect = vec3(0.0);
+    float lost = 0.0; /* luminance that a bound took away */
 #if LSF_EMISSION
-    radiance += texelFetch(emission_texture, pixel, 0).rgb;
+    seen += texelFetch(emission_texture, pixel, 0).rgb;
 #endif
 #if LSF_ENVIRONMENT
-    if (texelFetch(depth_texture, pixel, 0).r == 0.0)
-        radiance += environment_radiance(normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy))));
-#endif
-#if LSF_SEEN
-    seen_out = vec4(radiance, 1.0);
+    if (depth == 0.0)
+        seen += environment_radiance(normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy))));
 #endif
 #if LSF_DIRECT
-    radiance += texelFetch(direct_texture, pixel, 0).rgb;
+    direct += texelFetch(direct_texture, pixel, 0).rgb;
 #endif
-    radiance_out = vec4(radiance, 1.0);
+#if LSF_INDIRECT
+    vec3 reflected = vec3(0.0); /* by an irradiance of 1 */
+    if (depth != 0.0)
+        reflected =
+            surface_diffuse(surface_unpack(texelFetch(surface_texture, pixel, 0))) / LSF_PI;
+    vec4 irradiance = texelFetch(irradiance_texture, pixel, 0);
+    indirect += reflected * irradiance.rgb;
+    lost += dot(reflected, vec3(0.2126, 0.7152, 0.0722)) * irradiance.a;
+#if LSF_INDIRECT_DIFFUSE
+    indirect_diffuse_out = vec4(indirect, 1.0);
+#endif
+#if LSF_SPECULAR
+    vec4 specular = texelFetch(specular_texture, pixel, 0);
+    indirect += specular.rgb;
+    lost += specular.a;
+#endif
+#if LSF_SPLIT_DIRECT
+    direct += reflected * texelFetch(direct_irradiance_texture, pixel, 0).rgb;
+#if LSF_SPECULAR
+    direct += texelFetch(direct_specular_texture, pixel, 0).rgb;
+#endif
+#endif
+#endif
+#if LSF_SEEN
+    seen_out = vec4(seen, 1.0);
+#endif
+#if LSF_ALL_DIRECT
+    direct_out = vec4(direct, 1.0);
+#endif
+    radiance_out = vec4(seen + direct + indirect, lost);
 }

@@ -15,7 +15,7 @@ layout(location = 0) out vec4 radiance_out;
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    radiance_out = vec4(0.0, 0.0, 0.0, 1.0);
+    radiance_out = vec4(0.0);
     float depth = texelFetch(depth_texture, pixel, 0).r;
     if (depth == 0.0)
         return;

@@ -33,9 +33,11 @@ void main()
     uint node = append_node(at.y * bundle_side() + at.x);
     if (node == LSF_NO_NODE)
         return;
-    bundle_keys[node] = bundle_key_pack(gl_FragCoord.z,
-                                        depth_change * bundle.range.y / bundle_texel_size());
-    bundle_surfaces[node] = uvec2(octahedral_encode(s.normal), bundle_color_pack(s.base_color));
+    vec2 slope = depth_change * bundle.range.y / bundle_texel_size();
+    bundle_keys[node] = bundle_key_pack(gl_FragCoord.z, slope);
+    bundle_surfaces[node] =
+        uvec4(octahedral_encode(s.normal), bundle_color_pack(s.base_color),
+              floatBitsToUint(gl_FragCoord.z), packHalf2x16(clamp(slope, -65504.0, 65504.0)));
 #if LSF_BUNDLE_ANISOTROPY
     bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0),
                                packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));

@@ -49,7 +49,7 @@ void visit(bundle_ray ray, uint node, inout bundle_hit hit)
 /* A rule between nodes of one key that does not depend on their order in the list. */
 bool comes_before(uint a, uint b)
 {
-    uvec2 x = bundle_surfaces[a], y = bundle_surfaces[b];
+    uvec2 x = bundle_surfaces[a].xy, y = bundle_surfaces[b].xy;
     if (x.x != y.x)
         return x.x < y.x;
     if (x.y != y.y)

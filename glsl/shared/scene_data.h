@@ -56,11 +56,18 @@ struct lsf_material_data {
 #define LSF_UNIT_SHADOW_DEPTH 6
 #define LSF_UNIT_SHADOW_GRADIENT 7
 #define LSF_UNIT_EMISSION 8 /* see lib/emission_pdf.glsl */
+#define LSF_UNIT_BUNDLE_PDF 9  /* density of ray-bundles by direction */
 
 /* Location of the radiance of an environment without a map. */
 #define LSF_LOCATION_ENVIRONMENT 10
 /* Location of the region in turn; see lib/region.glsl. */
 #define LSF_LOCATION_REGION 11
+/* Locations of bidirectional_shade; see lib/mis.glsl and lib/shading_vertex.glsl. */
+#define LSF_LOCATION_STRATEGY 12
+#define LSF_LOCATION_SUPPRESSION 13
+#define LSF_LOCATION_ARRIVAL 14
+#define LSF_LOCATION_VPL 15
+#define LSF_LOCATION_ADDED 16
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

@@ -9,11 +9,11 @@
  * density is per area of a plane across it, and the distance is 1: one set of formulas then serves
  * all lights. */
 struct lsf_vpl_data {
-    vec4 position;         /* xyz; w: 1, or 0 when the light met nothing */
+    vec4 position;         /* xyz; w: 1, or 0 when the light met nothing that reflects */
     vec4 geometric_normal; /* xyz: unit, towards the light; w: its emission's density, p_e [1/sr] times
                             * the probability of having picked the light */
     vec4 normal;           /* xyz: unit shading normal, the same side; w: metallic */
-    vec4 base_color;       /* rgb; w: 1 when unlit, which reflects nothing */
+    vec4 base_color;       /* rgb; w: 1 when the light is directional: its rays are parallel */
     vec4 gloss;            /* roughness, f0, anisotropy, its turn (see lib/gbuffer.glsl) */
     vec4 to_light;         /* xyz: unit, towards x0; w: squared distance */
     vec4 intensity;        /* rgb: of the light, towards x1 [W/sr] */

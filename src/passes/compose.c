@@ -4,24 +4,43 @@
 
 #include "shared/scene_data.h"
 
-void lsf_compose_plan(lsf_plan *plan, bool direct)
+/* Layers beside the picture: attachments are numbered without gaps, and a layer's switch is its
+ * number, 0 without it. */
+static void plan_layer(lsf_plan *plan, bool wanted, const char *define, const char *texture,
+                       const char *why, int *target)
+{
+    lsf_plan_switch_add(plan, define, wanted ? (*target)++ : 0, "%s; its attachment's number", why);
+    if (wanted)
+        lsf_plan_texture_add(plan, texture, GL_RGBA32F, plan->width, plan->height, "%s", why);
+}
+
+void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
     lsf_plan_pass_add(plan, "compose", "adds up what is seen itself and what is reflected");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_find(plan, "gbuffer.emission") != NULL,
                         "some material emits or is unlit");
-    lsf_plan_switch_add(plan, "LSF_DIRECT", direct, "there are punctual lights");
+    lsf_plan_switch_add(plan, "LSF_DIRECT", use->direct, "there are punctual lights");
+    lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light comes by VPLs or bundles");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", use->indirect && r->specular,
+                        "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: lobes were evaluated before");
+    lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
+                        "direct light is asked for apart");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment is seen");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
                         "the environment is a map");
     lsf_plan_texture_add(plan, "compose.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the iteration's picture");
-    lsf_plan_switch_add(plan, "LSF_SEEN", (plan->aovs & LSF_AOV_EMISSION) != 0,
-                        "the emission layer is asked for");
-    if (plan->aovs & LSF_AOV_EMISSION)
-        lsf_plan_texture_add(plan, "compose.seen", GL_RGBA32F, plan->width, plan->height,
-                             "the emission layer is asked for");
+    int target = 1;
+    plan_layer(plan, (plan->aovs & LSF_AOV_EMISSION) != 0, "LSF_SEEN", "compose.seen",
+               "the emission layer is asked for", &target);
+    plan_layer(plan, use->indirect && (plan->aovs & LSF_AOV_INDIRECT_DIFFUSE),
+               "LSF_INDIRECT_DIFFUSE", "compose.indirect_diffuse",
+               "the indirect_diffuse layer is asked for", &target);
+    plan_layer(plan, use->split_direct && (plan->aovs & LSF_AOV_DIRECT), "LSF_ALL_DIRECT",
+               "compose.direct", "the direct layer is asked for", &target);
 }
 
 bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan *plan,
@@ -30,12 +49,16 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/compose.frag.glsl"};
     *pass = (lsf_compose){.context = context};
     if (!lsf_plan_create_texture(plan, context, "compose.radiance", &pass->radiance, error) ||
-        !lsf_plan_create_texture(plan, context, "compose.seen", &pass->seen, error))
+        !lsf_plan_create_texture(plan, context, "compose.seen", &pass->seen, error) ||
+        !lsf_plan_create_texture(plan, context, "compose.indirect_diffuse", &pass->indirect_diffuse,
+                                 error) ||
+        !lsf_plan_create_texture(plan, context, "compose.direct", &pass->direct, error))
         return false;
-    lsf_framebuffer_desc desc = {.label = "compose",
-                                 .color_count = pass->seen ? 2 : 1,
-                                 .colors = {pass->radiance, pass->seen},
-                                 .layer = -1};
+    const GLuint textures[4] = {pass->radiance, pass->seen, pass->indirect_diffuse, pass->direct};
+    lsf_framebuffer_desc desc = {.label = "compose", .layer = -1};
+    for (int i = 0; i < 4; i++)
+        if (textures[i])
+            desc.colors[desc.color_count++] = textures[i];
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "compose", files, error);
     pass->timer = lsf_timer_create(context, "compose", error);
@@ -56,6 +79,11 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     glBindTextureUnit(0, inputs->depth);
     glBindTextureUnit(1, inputs->emission);
     glBindTextureUnit(2, inputs->direct);
+    glBindTextureUnit(3, inputs->surface);
+    glBindTextureUnit(4, inputs->irradiance);
+    glBindTextureUnit(6, inputs->specular);
+    glBindTextureUnit(7, inputs->direct_irradiance);
+    glBindTextureUnit(8, inputs->direct_specular);
     glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
     const lsf_environment *environment = &iteration->scene->scene->environment;
     if (environment->present && !environment->width)
@@ -71,6 +99,8 @@ void lsf_compose_destroy(lsf_compose *pass)
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_texture_destroy(pass->context, &pass->radiance);
     lsf_texture_destroy(pass->context, &pass->seen);
+    lsf_texture_destroy(pass->context, &pass->indirect_diffuse);
+    lsf_texture_destroy(pass->context, &pass->direct);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

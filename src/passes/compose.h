@@ -5,19 +5,32 @@
 #include "plan/iteration.h"
 
 typedef struct lsf_compose_inputs {
-    GLuint depth, emission; /* of the G-buffer; emission 0: none */
-    GLuint direct;          /* RGBA32F radiance; 0: none */
+    GLuint depth, emission;                    /* of the G-buffer; emission 0: none */
+    GLuint direct;                             /* RGBA32F radiance; 0: none */
+    GLuint surface;                            /* of the G-buffer; where there is irradiance */
+    GLuint irradiance, specular;               /* RGBA32F; 0: none */
+    GLuint direct_irradiance, direct_specular; /* the same of direct light; 0: none */
 } lsf_compose_inputs;
 
+/* What there is to add up. */
+typedef struct lsf_compose_use {
+    bool direct;       /* radiance of punctual lights */
+    bool indirect;     /* irradiance, and with specular lobes their radiance */
+    bool split_direct; /* the same of direct light apart */
+} lsf_compose_use;
+
+/* RGBA32F. Layers are 0 unless asked for and different from an input. */
 typedef struct lsf_compose {
     lsf_context *context;
-    GLuint radiance; /* output: RGBA32F */
-    GLuint seen;     /* output: RGBA32F, emission and environment alone; 0 unless asked for */
+    GLuint radiance;
+    GLuint seen;             /* emission and environment alone */
+    GLuint indirect_diffuse; /* irradiance reflected */
+    GLuint direct;           /* all kinds of direct light */
     GLuint framebuffer, program;
     lsf_timer *timer;
 } lsf_compose;
 
-void lsf_compose_plan(lsf_plan *plan, bool direct);
+void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use);
 bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan *plan,
                         lsf_error *error);
 void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,

@@ -41,7 +41,7 @@ bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const
 
 void lsf_direct_light_clear(lsf_direct_light *pass)
 {
-    static const GLfloat black[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    static const GLfloat black[4] = {0.0f, 0.0f, 0.0f, 0.0f};
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, 0, black);
 }

@@ -41,7 +41,7 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
     case LSF_RAY_BUNDLE_KEYS:
         return 4 * nodes;
     case LSF_RAY_BUNDLE_SURFACES:
-        return 8 * nodes;
+        return 16 * nodes;
     case LSF_RAY_BUNDLE_GLOSS:
         return lsf_ray_bundle_has_gloss(plan) ? (plan->requirements.anisotropic ? 8 : 4) * nodes
                                               : 0;
@@ -68,7 +68,7 @@ void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *para
     static const char *const why[LSF_RAY_BUNDLE_ARRAYS] = {
         "a counter and a chain's head for each texel",
         "depth and slopes, 4 bytes a node",
-        "shading normal and base colour, 8 bytes a node",
+        "plane, shading normal and base colour, 16 bytes a node",
         "roughness, metallic and f0 of a node",
         "radiance of a node, 8 bytes",
         "links of chained nodes, 4 bytes each"};

@@ -32,29 +32,13 @@ void lsf_reference_pixel_sample(const lsf_reference_sampler *sampler, float poin
     lsf_sobol_2d(sampler->index, lsf_hash(sampler->pixel_seed, 0), point);
 }
 
-/* Radiant power of a light, up to a common factor. A directional light is taken over the disc
- * that bounds normalised space, a point light over the sphere. */
-static float light_power(const lsf_light_state *light)
-{
-    float intensity = lsf_f3_luminance(lsf_f3_load(light->intensity));
-    switch (light->type) {
-    case LSF_LIGHT_DIRECTIONAL:
-        return LSF_PI * 3.0f * intensity;
-    case LSF_LIGHT_SPOT:
-        return 2.0f * LSF_PI * (1.0f - light->cos_outer) * intensity;
-    case LSF_LIGHT_POINT:
-        break;
-    }
-    return 4.0f * LSF_PI * intensity;
-}
-
 static bool init_light_power(lsf_reference_world *world, const lsf_state *state, lsf_error *error)
 {
     if (state->light_count <= LSF_REFERENCE_ALL_LIGHTS)
         return true;
     float *weights = lsf_alloc(state->light_count, sizeof *weights);
     for (uint32_t i = 0; weights != NULL && i < state->light_count; i++)
-        weights[i] = light_power(&state->lights[i]);
+        weights[i] = lsf_light_power(&state->lights[i]);
     bool ok =
         weights != NULL && lsf_distribution_init(&world->light_power, weights, state->light_count);
     free(weights);

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "math/vector.h"
 #include "scene/hierarchy.h"
+#include "shared/brdf.h"
 
 typedef struct vec3d {
     double x, y, z;
@@ -314,4 +316,18 @@ void lsf_state_finish(lsf_state *state)
     free(state->instances);
     free(state->lights);
     memset(state, 0, sizeof *state);
+}
+
+float lsf_light_power(const lsf_light_state *light)
+{
+    float intensity = lsf_f3_luminance(lsf_f3_load(light->intensity));
+    switch (light->type) {
+    case LSF_LIGHT_DIRECTIONAL:
+        return LSF_PI * 3.0f * intensity;
+    case LSF_LIGHT_SPOT:
+        return 2.0f * LSF_PI * (1.0f - light->cos_outer) * intensity;
+    case LSF_LIGHT_POINT:
+        break;
+    }
+    return 4.0f * LSF_PI * intensity;
 }

@@ -15,24 +15,24 @@ extern "C" {
 #endif
 
 typedef struct lsf_instance_state {
-    float transform[12];  /* rows of the 3x4 object-to-normalised matrix */
+    float transform[12];       /* rows of the 3x4 object-to-normalised matrix */
     float normal_transform[9]; /* rows of its inverse transpose, scaled to keep floats in range;
                                 * normals need normalising after it */
     uint32_t primitive;
     uint32_t material;
-    bool mirrored;        /* negative determinant: the winding flips */
-    bool skipped;         /* the transform collapses it: nothing to draw */
+    bool mirrored;                      /* negative determinant: the winding flips */
+    bool skipped;                       /* the transform collapses it: nothing to draw */
     float bounds_min[3], bounds_max[3]; /* normalised space */
 } lsf_instance_state;
 
 typedef struct lsf_light_state {
     lsf_light_type type;
-    uint32_t light;        /* index into scene->lights */
-    float position[3];     /* normalised space */
-    float direction[3];    /* unit, the way the light shines */
-    float tangent[3];      /* unit, perpendicular to direction */
-    float intensity[3];    /* point, spot: W/sr in normalised units; directional: W/m^2 */
-    float range;           /* normalised units; INFINITY: none */
+    uint32_t light;             /* index into scene->lights */
+    float position[3];          /* normalised space */
+    float direction[3];         /* unit, the way the light shines */
+    float tangent[3];           /* unit, perpendicular to direction */
+    float intensity[3];         /* point, spot: W/sr in normalised units; directional: W/m^2 */
+    float range;                /* normalised units; INFINITY: none */
     float cos_inner, cos_outer; /* spot only */
 } lsf_light_state;
 
@@ -56,11 +56,11 @@ typedef struct lsf_state {
 } lsf_state;
 
 typedef struct lsf_view_params {
-    double time;           /* seconds */
-    const char *camera;    /* name or index; NULL: the first */
+    double time;                    /* seconds */
+    const char *camera;             /* name or index; NULL: the first */
     const float *position, *target; /* scene units, three floats; NULL: the camera's own */
-    float fov_y;           /* degrees; NAN: the camera's own */
-    float aspect;          /* width / height of the picture; the vertical field of view is kept */
+    float fov_y;                    /* degrees; NAN: the camera's own */
+    float aspect; /* width / height of the picture; the vertical field of view is kept */
 } lsf_view_params;
 
 /* Evaluates animations, the hierarchy and the camera. Reuses the arrays in `state`, which must be
@@ -71,6 +71,10 @@ bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_p
 bool lsf_state_bounds_along(const lsf_state *state, const lsf_float3 axes[3], float low[3],
                             float high[3]);
 void lsf_state_finish(lsf_state *state);
+
+/* Radiant power of a light, up to a common factor: how often it is to be picked. A directional
+ * light is taken over the disc that bounds normalised space. */
+float lsf_light_power(const lsf_light_state *light);
 
 #ifdef __cplusplus
 }

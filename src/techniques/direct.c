@@ -4,15 +4,12 @@
 
 #include "base/base.h"
 #include "passes/compose.h"
-#include "passes/direct_light.h"
-#include "techniques/technique.h"
+#include "techniques/direct_chain.h"
 
 typedef struct direct {
-    lsf_gbuffer gbuffer;
-    lsf_shadow_map shadow_map;
-    lsf_direct_light direct_light;
+    lsf_direct_chain chain;
     lsf_compose compose;
-    bool lit, composed;
+    bool composed;
 } direct;
 
 /* The reflected light alone is the picture unless something is seen by itself. */
@@ -26,18 +23,12 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
 {
     const lsf_requirements *r = &plan->requirements;
     bool lit = state->light_count > 0;
-    lsf_gbuffer_plan(plan);
-    if (lit) {
-        lsf_shadow_map_plan(plan, &params->shadow_map, state);
-        lsf_direct_light_plan(plan, params->shadow_map.filter == LSF_SHADOW_FILTER_PCF);
-    } else {
-        lsf_plan_omit(plan, "shadow_map", "no punctual light");
-        lsf_plan_omit(plan, "direct_light", "no punctual light");
+    lsf_direct_chain_plan(plan, params, state);
+    if (!lit)
         lsf_log(LSF_LOG_WARNING, "no point, spot or directional light: the direct technique leaves "
                                  "every surface black but for what it emits");
-    }
     if (needs_compose(plan, lit))
-        lsf_compose_plan(plan, lit);
+        lsf_compose_plan(plan, &(lsf_compose_use){.direct = lit});
     else
         lsf_plan_omit(plan, "compose", "reflected light is the whole picture");
     if (r->emissive)
@@ -56,49 +47,34 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
 
 static bool create_direct(void **self, lsf_context *context, const lsf_plan *plan,
                           const lsf_pass_params *params, const lsf_scene_gpu *scene,
-                          lsf_error *error)
+                          const lsf_state *state, lsf_error *error)
 {
+    (void)state;
     direct *d = *self = lsf_alloc(1, sizeof *d);
     if (!d)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
-    d->lit = lsf_plan_find_pass(plan, "direct_light") != NULL;
     d->composed = lsf_plan_find_pass(plan, "compose") != NULL;
-    return lsf_gbuffer_create(&d->gbuffer, context, plan, &params->gbuffer, scene, error) &&
-           (!d->lit || (lsf_shadow_map_create(&d->shadow_map, context, plan, error) &&
-                        lsf_direct_light_create(&d->direct_light, context, plan, error))) &&
+    return lsf_direct_chain_create(&d->chain, context, plan, params, scene, error) &&
            (!d->composed || lsf_compose_create(&d->compose, context, plan, error));
 }
 
 static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
 {
     direct *d = self;
-    const lsf_gbuffer_outputs *gbuffer = &d->gbuffer.outputs;
-    lsf_gbuffer_run(&d->gbuffer, iteration);
-    if (d->lit)
-        lsf_direct_light_clear(&d->direct_light);
-    for (uint32_t i = 0; d->lit && i < iteration->state->light_count; i++) {
-        lsf_shadow_map_run(&d->shadow_map, iteration, i);
-        lsf_direct_light_inputs inputs = {
-            .depth = gbuffer->depth,
-            .surface = gbuffer->surface,
-            .gloss = gbuffer->gloss,
-            .shadow_depth = d->shadow_map.outputs.depth,
-            .shadow_gradient = d->shadow_map.outputs.gradient,
-        };
-        lsf_direct_light_run(&d->direct_light, iteration, &inputs);
-    }
+    const lsf_gbuffer_outputs *gbuffer = &d->chain.gbuffer.outputs;
+    lsf_direct_chain_run(&d->chain, iteration);
     if (d->composed) {
         lsf_compose_inputs inputs = {.depth = gbuffer->depth,
                                      .emission = gbuffer->emission,
-                                     .direct = d->direct_light.radiance};
+                                     .direct = d->chain.direct_light.radiance};
         lsf_compose_run(&d->compose, iteration, &inputs);
     }
     *outputs = (lsf_technique_outputs){
-        .picture = d->composed ? d->compose.radiance : d->direct_light.radiance,
+        .picture = d->composed ? d->compose.radiance : d->chain.direct_light.radiance,
         .depth = gbuffer->depth,
         .surface = gbuffer->surface,
         .emission = d->compose.seen,
-        .direct = d->direct_light.radiance,
+        .direct = d->chain.direct_light.radiance,
         .motion = gbuffer->motion,
     };
 }
@@ -109,23 +85,14 @@ static void destroy_direct(void *self)
     if (!d)
         return;
     lsf_compose_destroy(&d->compose);
-    lsf_direct_light_destroy(&d->direct_light);
-    lsf_shadow_map_destroy(&d->shadow_map);
-    lsf_gbuffer_destroy(&d->gbuffer);
+    lsf_direct_chain_destroy(&d->chain);
     free(d);
 }
 
 static uint32_t report_direct(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES])
 {
     direct *d = self;
-    uint32_t count = 0;
-    reports[count++] = (lsf_pass_report){d->gbuffer.timer, LSF_DRAW_COUNTS, lsf_draw_count_names,
-                                         d->gbuffer.counts};
-    if (d->lit) {
-        reports[count++] = (lsf_pass_report){d->shadow_map.timer, LSF_DRAW_COUNTS,
-                                             lsf_draw_count_names, d->shadow_map.counts};
-        reports[count++] = (lsf_pass_report){.timer = d->direct_light.timer};
-    }
+    uint32_t count = lsf_direct_chain_report(&d->chain, reports);
     if (d->composed)
         reports[count++] = (lsf_pass_report){.timer = d->compose.timer};
     return count;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "math/vector.h"
 #include "passes/accumulate.h"
 #include "passes/tonemap.h"
 #include "techniques/setup.h"
@@ -45,7 +46,7 @@ static bool create_resources(lsf_renderer *renderer, const lsf_render_params *pa
         return false;
     double uploaded = lsf_now();
     if (!setup->technique->create(&renderer->technique, context, setup->plan, &setup->pass_params,
-                                  &renderer->scene, error) ||
+                                  &renderer->scene, &setup->state, error) ||
         !lsf_accumulate_create(&renderer->accumulate, context, setup->plan, setup->layer_count,
                                setup->layer_names, error) ||
         (params->rgb8 && !lsf_tonemap_create(&renderer->tonemap, context, setup->plan, error)))
@@ -252,6 +253,27 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb
     return lsf_context_check(renderer->context, error);
 }
 
+/* How much of the picture's luminance bounds took away: alpha holds it. */
+static double lost_share(const lsf_renderer *renderer)
+{
+    const lsf_plan *plan = renderer->setup.plan;
+    uint64_t pixels = (uint64_t)plan->width * plan->height;
+    float *texels = renderer->outputs.bounded ? lsf_alloc(pixels, 16) : NULL;
+    if (!texels || pixels * 16 > INT32_MAX) {
+        free(texels);
+        return 0.0;
+    }
+    glGetTextureImage(renderer->accumulate.means[0], 0, GL_RGBA, GL_FLOAT, (GLsizei)(pixels * 16),
+                      texels);
+    double lost = 0.0, kept = 0.0;
+    for (uint64_t i = 0; i < pixels; i++) {
+        lost += (double)texels[4 * i + 3];
+        kept += (double)lsf_f3_luminance(lsf_f3_load(texels + 4 * i));
+    }
+    free(texels);
+    return lost > 0.0 ? lost / (lost + kept) : 0.0;
+}
+
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
 {
     lsf_pass_report reports[MAX_PASSES];
@@ -273,6 +295,7 @@ lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
                                 .compile_seconds = renderer->compile_seconds,
                                 .upload_seconds = renderer->upload_seconds,
                                 .render_seconds = renderer->render_seconds,
+                                .lost_share = lost_share(renderer),
                                 .pass_count = count,
                                 .passes = renderer->pass_stats};
 }

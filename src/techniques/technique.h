@@ -2,6 +2,7 @@
 #ifndef LSF_TECHNIQUES_TECHNIQUE_H
 #define LSF_TECHNIQUES_TECHNIQUE_H
 
+#include "passes/bidirectional_shade.h"
 #include "passes/gbuffer.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
@@ -18,21 +19,24 @@ typedef struct lsf_pass_params {
     lsf_reflective_shadow_map_params reflective_shadow_map;
     lsf_vpl_params vpl;
     lsf_ray_bundle_params ray_bundle;
+    lsf_bidirectional_shade_params bidirectional_shade;
 } lsf_pass_params;
 
 #define LSF_PASS_PARAMS_DEFAULTS                                                                   \
     .tessellation = {LSF_TESSELLATION_PARAMS_DEFAULTS}, .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS},  \
     .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS},                                                \
     .reflective_shadow_map = {LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS},                          \
-    .vpl = {LSF_VPL_PARAMS_DEFAULTS}, .ray_bundle = {LSF_RAY_BUNDLE_PARAMS_DEFAULTS}
+    .vpl = {LSF_VPL_PARAMS_DEFAULTS}, .ray_bundle = {LSF_RAY_BUNDLE_PARAMS_DEFAULTS},              \
+    .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;
 
 /* What an iteration left, valid until the next; 0 where the technique has none. */
 typedef struct lsf_technique_outputs {
-    GLuint picture;                                               /* RGBA32F radiance */
-    GLuint depth, surface;                                        /* of the G-buffer */
+    GLuint picture;        /* RGBA32F radiance */
+    bool bounded;          /* its alpha holds the luminance that a bound took away */
+    GLuint depth, surface; /* of the G-buffer */
     GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
     GLuint motion;
 } lsf_technique_outputs;
@@ -54,14 +58,15 @@ typedef struct lsf_technique {
     /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets
      * `error`; NULL without memory. */
     bool (*create)(void **self, lsf_context *context, const lsf_plan *plan,
-                   const lsf_pass_params *params, const lsf_scene_gpu *scene, lsf_error *error);
+                   const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                   const lsf_state *state, lsf_error *error);
     void (*run)(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs);
     void (*destroy)(void *self); /* NULL allowed */
     /* Its passes in order; returns their number. */
     uint32_t (*report)(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES]);
 } lsf_technique;
 
-extern const lsf_technique lsf_technique_direct;
+extern const lsf_technique lsf_technique_bidirectional, lsf_technique_direct;
 
 /* NULL when unknown. */
 const lsf_technique *lsf_technique_find(const char *name);

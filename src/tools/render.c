@@ -103,6 +103,9 @@ static bool report(render_job *job, lsf_error *error)
                     job->destination.path, job->settings.resolution[0], job->settings.resolution[1],
                     job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
                     job->settings.technique, job->stats.render_seconds, total, device.renderer);
+    if (job->stats.lost_share > 0.0)
+        lsf_report_line("%s: bounds took %.3g %% of the light away", job->destination.path,
+                        100.0 * job->stats.lost_share);
     lsf_summary summary = {
         .settings = &job->settings,
         .scene = job->scene,

@@ -134,6 +134,8 @@ static void add_summary(lsf_json *json, const lsf_summary *summary)
                     (float[]){(float)settings->resolution[0], (float)settings->resolution[1]}, 2);
     lsf_json_integer(json, "samples", summary->samples);
     lsf_json_bool(json, "interrupted", summary->interrupted);
+    if (summary->stats)
+        lsf_json_number(json, "lost_share", summary->stats->lost_share);
     add_options(json, settings);
     lsf_summary_add_device(json, summary->device);
 

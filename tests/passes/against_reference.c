@@ -32,7 +32,6 @@ against_reference against_reference_render(const char *name, const lsf_scene *sc
     against_reference pictures;
     lsf_render_params each = *params;
     lsf_error error = {0};
-    each.bounces = 0;
     each.aovs = LSF_AOV_ALBEDO | LSF_AOV_NORMAL;
     if (getenv("LSF_TEST_QUICK"))
         each.samples /= 4;
@@ -79,7 +78,8 @@ static bool left_out(const against_reference *pictures, int first, uint64_t pixe
 }
 
 void against_reference_check(const char *name, const against_reference *pictures,
-                             const char *channel, double limit)
+                             const char *channel, double limit, double bias_allowed,
+                             double error_allowed)
 {
     const lsf_image *const *gl = (const lsf_image *const *)pictures->gl;
     const lsf_image *const *reference = (const lsf_image *const *)pictures->reference;
@@ -113,8 +113,8 @@ void against_reference_check(const char *name, const against_reference *pictures
                   100.0 * error, 100.0 * sqrt(noise / (3.0 * (double)counted)) / size,
                   (unsigned long long)counted, (unsigned long long)pixels);
     for (int c = 0; c < 3; c++)
-        assert_true(fabs(bias[c]) <= 0.003 * size * (double)counted + 2.0 * fabs(spread[c]));
+        assert_true(fabs(bias[c]) <= bias_allowed * size * (double)counted + 2.0 * fabs(spread[c]));
     /* The sum of products of independent noises is off by about this much. */
-    double known = 0.02 * size;
+    double known = error_allowed * size;
     assert_true(squares <= known * known * 3.0 * (double)counted + 3.0 * sqrt(fourths));
 }

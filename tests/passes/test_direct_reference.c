@@ -8,10 +8,13 @@ enum { SAMPLES = 64 };
 static void check_scene(const char *name, const lsf_scene *scene, const lsf_render_params *params,
                         double limit)
 {
-    against_reference pictures = against_reference_render(name, scene, params);
-    against_reference_check(name, &pictures, "R", limit);
-    against_reference_check(name, &pictures, "albedo.R", INFINITY);
-    against_reference_check(name, &pictures, "normal.X", INFINITY);
+    lsf_render_params direct = *params;
+    direct.technique = "direct";
+    direct.bounces = 0;
+    against_reference pictures = against_reference_render(name, scene, &direct);
+    against_reference_check(name, &pictures, "R", limit, 0.003, 0.02);
+    against_reference_check(name, &pictures, "albedo.R", INFINITY, 0.003, 0.02);
+    against_reference_check(name, &pictures, "normal.X", INFINITY, 0.003, 0.02);
     against_reference_destroy(&pictures);
 }
 

@@ -1,0 +1,153 @@
+/* What a ray-bundle brings to the vertices from where it met the scene (x2): emission, or the
+ * environment where it met nothing, and the reflected light of the punctual light in turn. With
+ * LSF_CONTINUE the hit becomes the next vertex. */
+#include "lib/bundle_pdf.glsl"
+#include "lib/environment.glsl"
+#include "lib/mis.glsl"
+#include "lib/ray_bundle.glsl"
+#include "lib/shading_vertex.glsl"
+#if LSF_PUNCTUAL
+#include "lib/emission_pdf.glsl"
+#include "lib/light.glsl"
+#include "lib/shadow.glsl"
+#endif
+
+layout(binding = 4) uniform usampler2D hit_texture;
+/* Whether emission is added, and the light (0 or 1); how many bundles begin a path. */
+layout(location = LSF_LOCATION_ADDED) uniform vec3 added;
+
+#define DIRECT_TARGET (1 + LSF_SPECULAR)
+#define VERTEX_TARGET (DIRECT_TARGET + LSF_SPLIT_DIRECT * (1 + LSF_SPECULAR))
+
+layout(location = 0) out vec4 irradiance_out;
+#if LSF_SPECULAR
+layout(location = 1) out vec4 specular_out;
+#endif
+#if LSF_SPLIT_DIRECT
+layout(location = DIRECT_TARGET) out vec4 direct_irradiance_out;
+#if LSF_SPECULAR
+layout(location = DIRECT_TARGET + 1) out vec4 direct_specular_out;
+#endif
+#endif
+#if LSF_CONTINUE
+layout(location = VERTEX_TARGET) out vec4 position_out;
+layout(location = VERTEX_TARGET + 1) out uvec4 surface_out;
+layout(location = VERTEX_TARGET + 2) out uvec4 throughput_out;
+#if LSF_GLOSS
+layout(location = VERTEX_TARGET + 3) out uvec2 gloss_out;
+#endif
+#endif
+
+#if LSF_PUNCTUAL
+/* Light of x0 that x2 reflects to the vertex, weighed against VPLs; both parts. */
+light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3, vec3 position,
+                            surface x2, light_parts through)
+{
+    light_parts r;
+    r.irradiance = r.specular = vec3(0.0);
+    vec3 irradiance;
+    float distance2_0;
+    vec3 to_light = light_direction(position, irradiance, distance2_0);
+    float cosine_0 = dot(x2.geometric_normal, to_light);
+    float cosine_3 = -dot(x2.geometric_normal, direction);
+    float shading_cosine_0 = dot(x2.normal, to_light);
+    if (x2.unlit || cosine_0 <= 0.0 || shading_cosine_0 <= 0.0 ||
+        max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0 ||
+        shadow_visibility(position, x2.geometric_normal) == 0.0)
+        return r;
+    path_density p =
+        path_density_at(cosine_0, max(distance2_0, LSF_LIGHT_DISTANCE2_MIN), cosine_3, distance2_3,
+                        emission_pdf(position) * suppression.w,
+                        bundle_pdf(direction) * suppression.w);
+    float density = p.vpl + p.bundle;
+    float kernel_3 = suppression_kernel(density, cosine_3, distance2_3);
+    float kernel_0 = light_map_perspective()
+                         ? suppression_kernel(density, cosine_0, distance2_0)
+                         : 0.0;
+    brdf_value f_2 = brdf_evaluate(x2, -direction, to_light, kernel_0 + kernel_3);
+#if LSF_SPECULAR
+    through = vertex_reflect(v, direction, kernel_3 + suppression.z);
+#endif
+    vec3 radiance = irradiance * brdf_sum(x2, f_2) *
+                    (shading_cosine_0 * mis_weight(p.bundle, p.vpl) * strategy.w /
+                     (bundle.forward.w * suppression.w));
+    r.irradiance = through.irradiance * radiance;
+    r.specular = through.specular * radiance;
+    return r;
+}
+#endif
+
+void main()
+{
+#if LSF_CONTINUE
+    position_out = vec4(0.0);
+    surface_out = uvec4(0u);
+    throughput_out = uvec4(0u);
+#if LSF_GLOSS
+    gloss_out = uvec2(0u);
+#endif
+#endif
+    irradiance_out = vec4(0.0);
+#if LSF_SPECULAR
+    specular_out = vec4(0.0);
+#endif
+#if LSF_SPLIT_DIRECT
+    direct_irradiance_out = vec4(0.0);
+#if LSF_SPECULAR
+    direct_specular_out = vec4(0.0);
+#endif
+#endif
+    shading_vertex v;
+    if (!vertex_load(v))
+        return;
+    uvec2 hit = texelFetch(hit_texture, ivec2(gl_FragCoord.xy), 0).xy;
+    float p_r = bundle.forward.w;
+    vec3 direction = dot(v.s.geometric_normal, bundle.forward.xyz) > 0.0 ? bundle.forward.xyz
+                                                                         : -bundle.forward.xyz;
+    /* Of rays from the vertex alone the density is N p_r (equation 14). */
+    light_parts through =
+        vertex_reflect(v, direction, suppression.x / (added.z * p_r) + suppression.z);
+    vec3 arriving = vec3(0.0); /* emission */
+    light_parts reflected;
+    reflected.irradiance = reflected.specular = vec3(0.0);
+    if (hit.y == LSF_NO_NODE) {
+#if LSF_ENVIRONMENT
+        arriving = environment_radiance(direction);
+#endif
+    } else {
+        surface x2 = bundle_surface(hit.y, direction, arriving);
+        vec3 position = bundle_position(hit.y, v.position);
+        float distance_3 = distance(position, v.position);
+#if LSF_PUNCTUAL
+        if (added.y != 0.0)
+            reflected = reflected_light(v, direction, distance_3 * distance_3, position, x2, through);
+#endif
+#if LSF_CONTINUE
+        if (!x2.unlit) {
+            light_parts t;
+            t.irradiance = through.irradiance / p_r;
+            t.specular = through.specular / p_r;
+            position_out = vec4(position, 1.0);
+            surface_out = surface_pack(x2);
+            throughput_out = uvec4(throughput_pack(t), 0u);
+#if LSF_GLOSS
+            gloss_out = gloss_pack(x2);
+#endif
+        }
+#endif
+    }
+    vec3 emitted = added.x != 0.0 ? arriving * (strategy.w / p_r) : vec3(0.0);
+#if LSF_SPLIT_DIRECT
+    direct_irradiance_out.rgb = through.irradiance * emitted;
+#if LSF_SPECULAR
+    direct_specular_out.rgb = through.specular * emitted;
+#endif
+#else
+    reflected.irradiance += through.irradiance * emitted;
+    reflected.specular += through.specular * emitted;
+#endif
+    irradiance_out.rgb = reflected.irradiance;
+#if LSF_SPECULAR
+    specular_out.rgb = reflected.specular;
+#endif
+}

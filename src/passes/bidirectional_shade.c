@@ -1,0 +1,331 @@
+#include "passes/bidirectional_shade.h"
+
+#include <string.h>
+
+#include "shared/brdf.h"
+#include "shared/scene_data.h"
+
+const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT] = {
+    {"bidirectional.strategy", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, strategy),
+     0, 0, "both|vpl|bundle", "",
+     "how light of punctual lights is sampled: by VPLs and ray-bundles combined, or by one alone"},
+    {"bidirectional.suppression", LSF_OPTION_ENUM,
+     offsetof(lsf_bidirectional_shade_params, suppression), 0, 0, "roughness|clamp|none", "",
+     "against spikes on glossy surfaces: roughness follows the density of samples, or the lobe is "
+     "cut off"},
+    {"bidirectional.kernel_samples", LSF_OPTION_FLOAT,
+     offsetof(lsf_bidirectional_shade_params, kernel_samples), 0.01, 1e6, NULL, "samples",
+     "that suppression spreads a glossy lobe over; fewer: sharper and spikier"},
+    {"mis.beta", LSF_OPTION_FLOAT, offsetof(lsf_bidirectional_shade_params, mis_beta), 0.0, 100.0,
+     NULL, "", "exponent of the power heuristic; 0: equal weights"},
+    {"bidirectional.clamp_distance", LSF_OPTION_FLOAT,
+     offsetof(lsf_bidirectional_shade_params, clamp_distance), 0.0, 1.0, NULL,
+     "half extents of the scene",
+     "where VPLs alone end a path, they count as no nearer than this; 0: exact, with spikes"},
+};
+
+static const char *const vpl_names[2] = {"bidirectional_shade_vpl", "bidirectional_shade_vpl_deep"};
+static const char *const hit_names[2] = {"bidirectional_shade_hit", "bidirectional_shade_hit_deep"};
+
+/* Of lib/ray_bundle.glsl. */
+static const char *const bundle_switches[] = {"LSF_BUNDLE_SLICES", "LSF_BUNDLE_GLOSS",
+                                              "LSF_BUNDLE_ANISOTROPY", "LSF_BUNDLE_EMISSION"};
+
+static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
+                          const lsf_bidirectional_shade_use *use, bool of_vpl, bool deep)
+{
+    const lsf_requirements *r = &plan->requirements;
+    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    lsf_plan_switch_add(plan, "LSF_DEEP", deep, "vertices are hits of bundles");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
+                        "the size of the interleaving pattern, 1: none");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+                        "some material is anisotropic");
+    lsf_plan_switch_add(plan, "LSF_CLAMP_RADIANCE",
+                        params->suppression == LSF_GLOSSY_SUPPRESSION_CLAMP,
+                        "bidirectional.suppression is clamp");
+    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", 0, "never: borders converge over iterations");
+    lsf_plan_switch_add(plan, "LSF_SHADOW_HEMISPHERE", of_vpl, "the map is a VPL's");
+    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
+                        r->spot_lights);
+    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
+                        "there are directional lights (%u)", r->directional_lights);
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_IMPORTANCE", lsf_plan_find(plan, "bundle.pdf") != NULL,
+                        "bundles are drawn by the environment's light");
+}
+
+static void plan_vpl(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
+                     const lsf_bidirectional_shade_use *use, bool deep)
+{
+    lsf_plan_pass_add(plan, vpl_names[deep], "%s",
+                      deep ? "VPLs light what bundles met" : "VPLs light visible points");
+    plan_switches(plan, params, use, true, deep);
+}
+
+static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
+                     const lsf_bidirectional_shade_use *use, bool deep)
+{
+    const lsf_requirements *r = &plan->requirements;
+    lsf_plan_pass_add(plan, hit_names[deep], "%s",
+                      deep ? "what later segments of a path bring" : "what bundles bring");
+    plan_switches(plan, params, use, false, deep);
+    for (size_t i = 0; i < sizeof bundle_switches / sizeof bundle_switches[0]; i++)
+        lsf_plan_switch_add(plan, bundle_switches[i],
+                            lsf_plan_switch_value(plan, "ray_bundle_search", bundle_switches[i]),
+                            "as in ray_bundle_search");
+    lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE",
+                        lsf_plan_find_pass(plan, "reflective_shadow_map_pdf") != NULL,
+                        "rsm.pdf is adaptive");
+    lsf_plan_switch_add(plan, "LSF_PUNCTUAL", use->hit_light, "hits reflect punctual lights");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
+                        "the environment is a map");
+    lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct && !deep,
+                        "direct light is asked for apart");
+    lsf_plan_switch_add(plan, "LSF_CONTINUE", use->vertices > (deep ? 1u : 0u),
+                        "paths go on from here");
+}
+
+static void add_target(lsf_plan *plan, bool wanted, const char *name, GLenum format,
+                       const char *why)
+{
+    if (wanted)
+        lsf_plan_texture_add(plan, name, format, plan->width, plan->height, "%s", why);
+}
+
+void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
+                                  const lsf_bidirectional_shade_use *use)
+{
+    const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
+    GLenum gloss_format = gloss ? gloss->texture.internal_format : 0;
+    bool specular = plan->requirements.specular;
+    if (use->vpl)
+        plan_vpl(plan, params, use, false);
+    if (use->vpl && use->deep_vpl)
+        plan_vpl(plan, params, use, true);
+    if (use->segments > 0)
+        plan_hit(plan, params, use, false);
+    if (use->segments > 1)
+        plan_hit(plan, params, use, true);
+    bool deep = use->vertices > 0;
+    add_target(plan, true, "bidirectional_shade.irradiance", GL_RGBA32F,
+               "light for the diffuse lobe, without its albedo");
+    add_target(plan, specular, "bidirectional_shade.specular", GL_RGBA32F,
+               "light of the specular lobe");
+    add_target(plan, use->split_direct, "bidirectional_shade.direct_irradiance", GL_RGBA32F,
+               "direct light is asked for apart");
+    add_target(plan, use->split_direct && specular, "bidirectional_shade.direct_specular",
+               GL_RGBA32F, "direct light is asked for apart");
+    add_target(plan, deep, "bidirectional_shade.position", GL_RGBA32F, "vertices of paths");
+    add_target(plan, deep, "bidirectional_shade.surface", GL_RGBA32UI, "vertices of paths");
+    add_target(plan, deep, "bidirectional_shade.throughput", GL_RGBA32UI,
+               "what vertices hand on, as half floats");
+    add_target(plan, deep && gloss, "bidirectional_shade.gloss", gloss_format,
+               "roughness of vertices");
+}
+
+static GLuint create_framebuffer(lsf_context *context, const char *label, const GLuint *textures,
+                                 uint32_t count, lsf_error *error)
+{
+    lsf_framebuffer_desc desc = {.label = label, .layer = -1};
+    for (uint32_t i = 0; i < count; i++)
+        if (textures[i])
+            desc.colors[desc.color_count++] = textures[i];
+    return lsf_framebuffer_create(context, &desc, error);
+}
+
+static bool create_textures(lsf_bidirectional_shade *pass, const lsf_plan *plan, lsf_error *error)
+{
+    lsf_bidirectional_shade_outputs *out = &pass->outputs;
+    const struct {
+        const char *name;
+        GLuint *texture;
+    } textures[] = {
+        {"bidirectional_shade.irradiance", &out->irradiance},
+        {"bidirectional_shade.specular", &out->specular},
+        {"bidirectional_shade.direct_irradiance", &out->direct_irradiance},
+        {"bidirectional_shade.direct_specular", &out->direct_specular},
+        {"bidirectional_shade.position", &out->position},
+        {"bidirectional_shade.surface", &out->surface},
+        {"bidirectional_shade.throughput", &pass->throughput},
+        {"bidirectional_shade.gloss", &out->gloss},
+    };
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        if (!lsf_plan_create_texture(plan, pass->context, textures[i].name, textures[i].texture,
+                                     error))
+            return false;
+    return true;
+}
+
+static bool create_hit(lsf_bidirectional_shade *pass, const lsf_plan *plan, bool deep,
+                       lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl",
+                                         "passes/bidirectional_shade_hit.frag.glsl"};
+    if (!lsf_plan_find_pass(plan, hit_names[deep]))
+        return true;
+    const lsf_bidirectional_shade_outputs *out = &pass->outputs;
+    bool split = lsf_plan_switch_value(plan, hit_names[deep], "LSF_SPLIT_DIRECT");
+    bool onward = lsf_plan_switch_value(plan, hit_names[deep], "LSF_CONTINUE");
+    const GLuint textures[8] = {out->irradiance,
+                                out->specular,
+                                split ? out->direct_irradiance : 0,
+                                split ? out->direct_specular : 0,
+                                onward ? out->position : 0,
+                                onward ? out->surface : 0,
+                                onward ? pass->throughput : 0,
+                                onward ? out->gloss : 0};
+    for (uint32_t i = 0; i < 4; i++)
+        pass->hit_floats[deep] += textures[i] != 0;
+    pass->hit_framebuffers[deep] =
+        create_framebuffer(pass->context, hit_names[deep], textures, 8, error);
+    pass->hit_programs[deep] = lsf_plan_program(plan, pass->context, hit_names[deep], files, error);
+    return pass->hit_framebuffers[deep] && pass->hit_programs[deep];
+}
+
+bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *context,
+                                    const lsf_plan *plan,
+                                    const lsf_bidirectional_shade_params *params, lsf_error *error)
+{
+    static const char *const vpl_files[5] = {"lib/fullscreen.vert.glsl",
+                                             "passes/bidirectional_shade_vpl.frag.glsl"};
+    *pass = (lsf_bidirectional_shade){.context = context, .params = *params};
+    if (!create_textures(pass, plan, error) || !create_hit(pass, plan, false, error) ||
+        !create_hit(pass, plan, true, error))
+        return false;
+    const GLuint sums[2] = {pass->outputs.irradiance, pass->outputs.specular};
+    pass->vpl_framebuffer = create_framebuffer(context, vpl_names[0], sums, 2, error);
+    for (int deep = 0; deep < 2; deep++) {
+        if (!lsf_plan_find_pass(plan, vpl_names[deep]))
+            continue;
+        pass->vpl_programs[deep] =
+            lsf_plan_program(plan, context, vpl_names[deep], vpl_files, error);
+        if (!pass->vpl_programs[deep])
+            return false;
+    }
+    pass->vpl_timer = lsf_timer_create(context, "bidirectional_shade_vpl", error);
+    pass->hit_timer =
+        pass->vpl_timer ? lsf_timer_create(context, "bidirectional_shade_hit", error) : NULL;
+    return pass->vpl_framebuffer && pass->hit_timer;
+}
+
+void lsf_bidirectional_shade_clear(lsf_bidirectional_shade *pass)
+{
+    static const GLfloat zero[4] = {0};
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    for (int i = 0; i < (pass->outputs.specular ? 2 : 1); i++)
+        glClearNamedFramebufferfv(pass->vpl_framebuffer, GL_COLOR, i, zero);
+    if (pass->outputs.direct_irradiance)
+        for (int i = 1; i < (int)pass->hit_floats[0]; i++)
+            glClearNamedFramebufferfv(pass->hit_framebuffers[0], GL_COLOR, i, zero);
+}
+
+/* Adds to the first `blended` attachments and replaces the others. */
+static void set_state(GLuint framebuffer, uint32_t blended)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    for (uint32_t i = 0; i < blended; i++)
+        glEnablei(GL_BLEND, i);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE);
+}
+
+static void bind_vertices(const lsf_bidirectional_shade *pass,
+                          const lsf_bidirectional_shade_inputs *inputs,
+                          const lsf_bidirectional_sample *sample, bool deep)
+{
+    glBindTextureUnit(0, deep ? pass->outputs.position : inputs->depth);
+    glBindTextureUnit(1, deep ? pass->outputs.surface : inputs->surface);
+    glBindTextureUnit(2, deep ? pass->outputs.gloss : inputs->gloss);
+    if (deep) {
+        glBindTextureUnit(3, pass->throughput);
+        glUniform3fv(LSF_LOCATION_ARRIVAL, 1, sample->arrival);
+    }
+    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, inputs->map_depth);
+    glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, inputs->map_gradient);
+    glBindTextureUnit(LSF_UNIT_BUNDLE_PDF, inputs->bundle_pdf);
+}
+
+static void set_sample(const lsf_bidirectional_shade *pass, const lsf_bidirectional_sample *sample,
+                       bool deep)
+{
+    float kernel = 0.0f, before = 0.0f;
+    if (sample->iterations > 0.0f)
+        kernel = pass->params.kernel_samples / sample->iterations;
+    if (deep)
+        before = kernel / (sample->path_count * sample->arrival_pdf);
+    glUniform4f(LSF_LOCATION_STRATEGY, sample->vpl_count, sample->bundle_count,
+                pass->params.mis_beta, sample->weight);
+    glUniform4f(LSF_LOCATION_SUPPRESSION, kernel, sample->clamp_distance * sample->clamp_distance,
+                before, sample->light_probability);
+}
+
+void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
+                                 const lsf_bidirectional_shade_inputs *inputs,
+                                 const lsf_bidirectional_sample *sample, bool deep, uint32_t vpl,
+                                 const lsf_region *region)
+{
+    (void)iteration;
+    lsf_timer_begin(pass->vpl_timer);
+    set_state(pass->vpl_framebuffer, pass->outputs.specular ? 2 : 1);
+    glUseProgram(pass->vpl_programs[deep]);
+    bind_vertices(pass, inputs, sample, deep);
+    set_sample(pass, sample, deep);
+    glUniform1ui(LSF_LOCATION_VPL, vpl);
+    lsf_region_set(region);
+    lsf_draw_fullscreen(pass->context);
+    glDisable(GL_BLEND);
+    lsf_timer_end(pass->vpl_timer);
+}
+
+void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
+                                 const lsf_bidirectional_shade_inputs *inputs,
+                                 const lsf_bidirectional_sample *sample, bool deep, bool emission,
+                                 bool light, const lsf_region *region)
+{
+    lsf_timer_begin(pass->hit_timer);
+    /* Each fragment reads a vertex and then replaces it: its own texel alone, so that a barrier
+     * between draws is all it takes (OpenGL 4.5, section 9.3.1). */
+    glTextureBarrier();
+    set_state(pass->hit_framebuffers[deep], pass->hit_floats[deep]);
+    glUseProgram(pass->hit_programs[deep]);
+    bind_vertices(pass, inputs, sample, deep);
+    set_sample(pass, sample, deep);
+    glBindTextureUnit(4, inputs->hits);
+    glBindTextureUnit(LSF_UNIT_EMISSION, inputs->importance);
+    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
+    const lsf_environment *environment = &iteration->scene->scene->environment;
+    if (environment->present && !environment->width)
+        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    glUniform3f(LSF_LOCATION_ADDED, emission, light, sample->path_count);
+    lsf_region_set(region);
+    lsf_draw_fullscreen(pass->context);
+    glDisable(GL_BLEND);
+    glTextureBarrier();
+    lsf_timer_end(pass->hit_timer);
+}
+
+void lsf_bidirectional_shade_destroy(lsf_bidirectional_shade *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_bidirectional_shade_outputs *out = &pass->outputs;
+    GLuint *textures[] = {&out->irradiance,      &out->specular,   &out->direct_irradiance,
+                          &out->direct_specular, &out->position,   &out->surface,
+                          &out->gloss,           &pass->throughput};
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_framebuffer_destroy(pass->context, &pass->vpl_framebuffer);
+    for (int deep = 0; deep < 2; deep++)
+        lsf_framebuffer_destroy(pass->context, &pass->hit_framebuffers[deep]);
+    lsf_timer_destroy(pass->vpl_timer);
+    lsf_timer_destroy(pass->hit_timer);
+    memset(pass, 0, sizeof *pass);
+}

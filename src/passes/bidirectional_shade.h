@@ -1,0 +1,110 @@
+/* Joins light paths and camera paths at the vertices that the camera's paths have reached. See
+ * bidirectional_shade.md. */
+#ifndef LSF_PASSES_BIDIRECTIONAL_SHADE_H
+#define LSF_PASSES_BIDIRECTIONAL_SHADE_H
+
+#include "plan/iteration.h"
+#include "plan/option.h"
+
+typedef enum lsf_bidirectional_strategy {
+    LSF_BIDIRECTIONAL_BOTH,   /* VPLs and bundles, combined by multiple importance sampling */
+    LSF_BIDIRECTIONAL_VPL,    /* light of punctual lights arrives by VPLs alone */
+    LSF_BIDIRECTIONAL_BUNDLE, /* by bundles alone */
+} lsf_bidirectional_strategy;
+
+typedef enum lsf_glossy_suppression {
+    LSF_GLOSSY_SUPPRESSION_ROUGHNESS, /* roughness follows the density of samples */
+    LSF_GLOSSY_SUPPRESSION_CLAMP,     /* the distribution of normals is cut off instead */
+    LSF_GLOSSY_SUPPRESSION_NONE,
+} lsf_glossy_suppression;
+
+typedef struct lsf_bidirectional_shade_params {
+    int32_t strategy;     /* lsf_bidirectional_strategy */
+    int32_t suppression;  /* lsf_glossy_suppression */
+    float kernel_samples; /* m': samples that a glossy lobe is to be spread over */
+    float mis_beta;       /* exponent of the power heuristic */
+    float clamp_distance; /* 1/d^2 is held below it where only VPLs join a path [half extents of the
+                           * scene]; 0: never */
+} lsf_bidirectional_shade_params;
+
+#define LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS                                                    \
+    .strategy = LSF_BIDIRECTIONAL_BOTH, .suppression = LSF_GLOSSY_SUPPRESSION_ROUGHNESS,           \
+    .kernel_samples = 16.0f, .mis_beta = 1.0f, .clamp_distance = 0.0f
+
+#define LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT 5
+extern const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT];
+
+/* What the technique needs of it. */
+typedef struct lsf_bidirectional_shade_use {
+    uint32_t segments;   /* ray-bundles along a path; 0: VPLs light visible points only */
+    uint32_t vertices;   /* segments whose hits become vertices */
+    bool vpl;            /* there are VPLs */
+    bool hit_light;      /* hits of bundles reflect punctual lights */
+    bool deep_vpl;       /* VPLs are connected to vertices beyond the visible one */
+    bool emission;       /* surfaces or an environment shine into bundles */
+    bool split_direct;   /* what they shed on visible points is asked for apart */
+    uint32_t interleave; /* size of the pattern, 1: none */
+} lsf_bidirectional_shade_use;
+
+/* How a draw's samples count; see lib/mis.glsl. */
+typedef struct lsf_bidirectional_sample {
+    float vpl_count, bundle_count; /* that share a vertex's light by MIS; 0: not in use */
+    float weight;                  /* 1 / number of samples of the strategy in turn */
+    float path_count;              /* bundles that begin a path at a visible point */
+    float iterations;              /* that the picture will have, for suppression; 0: it is off */
+    float light_probability;       /* of having picked the light in turn */
+    float clamp_distance;          /* 0: no bound */
+    /* The bundle that found the vertices, for deep ones: its direction and density [1/sr]. */
+    const float *arrival;
+    float arrival_pdf;
+} lsf_bidirectional_sample;
+
+typedef struct lsf_bidirectional_shade_inputs {
+    GLuint depth, surface, gloss;   /* of the G-buffer, or split; not read for deep vertices */
+    GLuint hits;                    /* of the bundle in turn; hits only */
+    GLuint map_depth, map_gradient; /* of the VPL in turn, or of the light for hits */
+    GLuint importance;              /* of the light's map, with adaptive emission */
+    GLuint bundle_pdf;              /* 0: uniform */
+} lsf_bidirectional_shade_inputs;
+
+/* RGBA32F; alpha of irradiance and specular: luminance that clamp_distance took away. */
+typedef struct lsf_bidirectional_shade_outputs {
+    GLuint irradiance, specular;               /* specular 0 without specular lobes */
+    GLuint direct_irradiance, direct_specular; /* 0 unless split_direct */
+    GLuint position, surface, gloss;           /* the vertices that the last hits became */
+} lsf_bidirectional_shade_outputs;
+
+typedef struct lsf_bidirectional_shade {
+    lsf_context *context;
+    lsf_bidirectional_shade_params params;
+    lsf_bidirectional_shade_outputs outputs;
+    GLuint throughput;
+    GLuint vpl_framebuffer, hit_framebuffers[2]; /* [deep] */
+    uint32_t hit_floats[2];                      /* blended attachments of these */
+    GLuint vpl_programs[2], hit_programs[2];
+    lsf_timer *vpl_timer, *hit_timer;
+} lsf_bidirectional_shade;
+
+/* Lists "bidirectional_shade_vpl" and "bidirectional_shade_hit", and the same with "_deep". */
+void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
+                                  const lsf_bidirectional_shade_use *use);
+bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *context,
+                                    const lsf_plan *plan,
+                                    const lsf_bidirectional_shade_params *params, lsf_error *error);
+/* Empties the sums. */
+void lsf_bidirectional_shade_clear(lsf_bidirectional_shade *pass);
+/* Adds what VPL `vpl` sheds on the vertices of `region`: visible points, or deep ones. Its map must
+ * be bound as the light in turn, the VPLs at LSF_BINDING_VPL. */
+void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
+                                 const lsf_bidirectional_shade_inputs *inputs,
+                                 const lsf_bidirectional_sample *sample, bool deep, uint32_t vpl,
+                                 const lsf_region *region);
+/* Adds what the bundle in turn, which must be bound, brings to the vertices of `region`: `emission`
+ * of what it met, and the `light` in turn that this reflects. The hits then become the vertices. */
+void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
+                                 const lsf_bidirectional_shade_inputs *inputs,
+                                 const lsf_bidirectional_sample *sample, bool deep, bool emission,
+                                 bool light, const lsf_region *region);
+void lsf_bidirectional_shade_destroy(lsf_bidirectional_shade *pass);
+
+#endif

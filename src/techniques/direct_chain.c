@@ -1,0 +1,63 @@
+#include "techniques/direct_chain.h"
+
+void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
+{
+    lsf_gbuffer_plan(plan);
+    if (state->light_count > 0) {
+        lsf_shadow_map_plan(plan, &params->shadow_map, state);
+        lsf_direct_light_plan(plan, params->shadow_map.filter == LSF_SHADOW_FILTER_PCF);
+    } else {
+        lsf_plan_omit(plan, "shadow_map", "no punctual light");
+        lsf_plan_omit(plan, "direct_light", "no punctual light");
+    }
+}
+
+bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, const lsf_plan *plan,
+                             const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                             lsf_error *error)
+{
+    chain->lit = lsf_plan_find_pass(plan, "direct_light") != NULL;
+    return lsf_gbuffer_create(&chain->gbuffer, context, plan, &params->gbuffer, scene, error) &&
+           (!chain->lit || (lsf_shadow_map_create(&chain->shadow_map, context, plan, error) &&
+                            lsf_direct_light_create(&chain->direct_light, context, plan, error)));
+}
+
+void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
+{
+    const lsf_gbuffer_outputs *gbuffer = &chain->gbuffer.outputs;
+    lsf_gbuffer_run(&chain->gbuffer, iteration);
+    if (!chain->lit)
+        return;
+    lsf_direct_light_clear(&chain->direct_light);
+    for (uint32_t i = 0; i < iteration->state->light_count; i++) {
+        lsf_shadow_map_run(&chain->shadow_map, iteration, i);
+        lsf_direct_light_inputs inputs = {
+            .depth = gbuffer->depth,
+            .surface = gbuffer->surface,
+            .gloss = gbuffer->gloss,
+            .shadow_depth = chain->shadow_map.outputs.depth,
+            .shadow_gradient = chain->shadow_map.outputs.gradient,
+        };
+        lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
+    }
+}
+
+void lsf_direct_chain_destroy(lsf_direct_chain *chain)
+{
+    lsf_direct_light_destroy(&chain->direct_light);
+    lsf_shadow_map_destroy(&chain->shadow_map);
+    lsf_gbuffer_destroy(&chain->gbuffer);
+}
+
+uint32_t lsf_direct_chain_report(lsf_direct_chain *chain, lsf_pass_report *reports)
+{
+    uint32_t count = 0;
+    reports[count++] = (lsf_pass_report){chain->gbuffer.timer, LSF_DRAW_COUNTS,
+                                         lsf_draw_count_names, chain->gbuffer.counts};
+    if (chain->lit) {
+        reports[count++] = (lsf_pass_report){chain->shadow_map.timer, LSF_DRAW_COUNTS,
+                                             lsf_draw_count_names, chain->shadow_map.counts};
+        reports[count++] = (lsf_pass_report){.timer = chain->direct_light.timer};
+    }
+    return count;
+}

@@ -1,0 +1,26 @@
+/* The passes that techniques begin with: what is seen, and the light of punctual lights on it. */
+#ifndef LSF_TECHNIQUES_DIRECT_CHAIN_H
+#define LSF_TECHNIQUES_DIRECT_CHAIN_H
+
+#include "passes/direct_light.h"
+#include "passes/gbuffer.h"
+#include "passes/shadow_map.h"
+#include "techniques/technique.h"
+
+typedef struct lsf_direct_chain {
+    lsf_gbuffer gbuffer;
+    lsf_shadow_map shadow_map;
+    lsf_direct_light direct_light;
+    bool lit; /* there are punctual lights */
+} lsf_direct_chain;
+
+void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
+bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, const lsf_plan *plan,
+                             const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                             lsf_error *error);
+void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration);
+void lsf_direct_chain_destroy(lsf_direct_chain *chain);
+/* As lsf_technique's report. */
+uint32_t lsf_direct_chain_report(lsf_direct_chain *chain, lsf_pass_report *reports);
+
+#endif

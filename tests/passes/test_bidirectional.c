@@ -1,0 +1,289 @@
+/* The bidirectional technique against closed forms and by its rules: furnaces, scaling of light,
+ * additivity of lights, the same bits again, extremes. */
+#include <math.h>
+
+#include "render_gl.h"
+
+static lsf_render_params params_of(uint32_t samples, uint32_t bounces)
+{
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "bidirectional";
+    params.samples = getenv("LSF_TEST_QUICK") && samples > 16 ? samples / 4 : samples;
+    params.bounces = bounces;
+    return params;
+}
+
+static lsf_image *render(const lsf_scene *scene, lsf_render_params params, uint32_t size,
+                         lsf_float3 eye, lsf_float3 target)
+{
+    const float position[3] = {eye.x, eye.y, eye.z}, at[3] = {target.x, target.y, target.z};
+    params.width = params.height = size;
+    params.camera_position = position;
+    params.camera_target = at;
+    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+}
+
+static void mean_rgb(const lsf_image *image, double rgb[3])
+{
+    uint64_t pixels = (uint64_t)image->width * image->height;
+    rgb[0] = rgb[1] = rgb[2] = 0.0;
+    for (uint64_t i = 0; i < pixels; i++)
+        for (int c = 0; c < 3; c++) {
+            float value = image->pixels[i * image->channel_count + (uint64_t)c];
+            assert_true(isfinite(value) && value >= 0.0f);
+            rgb[c] += (double)value / (double)pixels;
+        }
+}
+
+static void same_bits(const lsf_image *a, const lsf_image *b)
+{
+    assert_memory_equal(a->pixels, b->pixels,
+                        sizeof(float) * a->width * a->height * a->channel_count);
+}
+
+/* A closed box seen from inside, every wall emitting 1 and reflecting `albedo`. */
+static lsf_scene *furnace(float albedo)
+{
+    lsf_scene *scene = build_scene();
+    lsf_material *material = build_material(scene, albedo, albedo, albedo);
+    for (int c = 0; c < 3; c++)
+        material->emission[c] = 1.0f;
+    build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
+    scene->diffuse_only = true;
+    finish_gl_scene(scene);
+    return scene;
+}
+
+/* L = Le (1 + rho + ... + rho^(N + 1)): emission seen, direct light of the walls, N bounces. */
+static void energy_in_a_furnace(void **unused)
+{
+    (void)unused;
+    static const float albedos[] = {0.0f, 0.5f, 1.0f};
+    for (int a = 0; a < 3; a++) {
+        lsf_scene *scene = furnace(albedos[a]);
+        for (uint32_t bounces = 0; bounces <= 3; bounces++) {
+            double rgb[3], expected = 1.0, power = 1.0;
+            for (uint32_t k = 0; k <= bounces; k++)
+                expected += power *= (double)albedos[a];
+            lsf_image *image = render(scene, params_of(128, bounces), 16, lsf_f3(0.2f, 0.1f, 0.7f),
+                                      lsf_f3(-0.3f, -0.2f, -1));
+            mean_rgb(image, rgb);
+            print_message("albedo %g, %u bounces: %.5f, expected %.5f\n", (double)albedos[a],
+                          bounces, rgb[1], expected);
+            for (int c = 0; c < 3; c++)
+                assert_true(fabs(rgb[c] / expected - 1.0) <= 0.01);
+            lsf_image_destroy(image);
+        }
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* A white sphere under a uniform environment cannot be seen. */
+static void white_furnace(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 1.0f, 1.0f, 1.0f);
+    build_sphere(scene, 3, false);
+    scene->diffuse_only = true;
+    scene->environment.present = true;
+    for (int c = 0; c < 3; c++)
+        scene->environment.radiance[c] = 0.5f;
+    finish_gl_scene(scene);
+    lsf_image *image = render(scene, params_of(256, 0), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
+    double rgb[3];
+    mean_rgb(image, rgb);
+    print_message("white furnace: %.5f of 0.5\n", rgb[0]);
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs(rgb[c] / 0.5 - 1.0) <= 0.01);
+    lsf_image_destroy(image);
+    lsf_scene_destroy(scene);
+}
+
+/* A room of three walls, a box and a sphere; light `which` of two, or both. */
+enum { LIGHT_A = 1, LIGHT_B = 2 };
+static lsf_scene *room(int which, float intensity)
+{
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.7f, 0.6f, 0.5f);
+    build_floor(scene, 0.0f, 2.0f);
+    build_material(scene, 0.3f, 0.6f, 0.8f);
+    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
+    build_material(scene, 0.8f, 0.3f, 0.2f);
+    build_quad(scene, lsf_f3(-2, 0, 2), lsf_f3(-2, 0, -2), lsf_f3(-2, 3, -2), lsf_f3(-2, 3, 2));
+    build_material(scene, 0.6f, 0.6f, 0.6f)->roughness = 0.5f;
+    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
+    if (which & LIGHT_A)
+        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.5f, 2, 0.5f), lsf_f3(0, -1, 0),
+                    8.0f * intensity);
+    if (which & LIGHT_B) {
+        lsf_light *spot = build_light(scene, LSF_LIGHT_SPOT, lsf_f3(1.5f, 2.5f, 1.5f),
+                                      lsf_f3(-0.7f, -0.6f, -0.6f), 20.0f * intensity);
+        spot->inner_cone = 0.3f;
+        spot->outer_cone = 0.6f;
+    }
+    finish_gl_scene(scene);
+    return scene;
+}
+
+static lsf_image *render_room(const lsf_scene *scene, lsf_render_params params, uint32_t size)
+{
+    return render(scene, params, size, lsf_f3(2.5f, 2, 3.5f), lsf_f3(-0.5f, 0.8f, -0.5f));
+}
+
+static void lights_add_up(void **unused)
+{
+    (void)unused;
+    double sum[3] = {0}, both[3];
+    for (int which = LIGHT_A; which <= (LIGHT_A | LIGHT_B); which++) {
+        lsf_scene *scene = room(which, 1.0f);
+        lsf_image *image = render_room(scene, params_of(512, 1), 24);
+        double rgb[3];
+        mean_rgb(image, rgb);
+        for (int c = 0; c < 3; c++) {
+            sum[c] += which == (LIGHT_A | LIGHT_B) ? 0.0 : rgb[c];
+            both[c] = rgb[c];
+        }
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+    print_message("A + B: %.5f %.5f %.5f, both: %.5f %.5f %.5f\n", sum[0], sum[1], sum[2], both[0],
+                  both[1], both[2]);
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs(both[c] / sum[c] - 1.0) <= 0.01);
+}
+
+/* All strategies estimate the same integral. */
+static void strategies_agree(void **unused)
+{
+    (void)unused;
+    static const char *const strategies[] = {"bidirectional.strategy=both",
+                                             "bidirectional.strategy=vpl",
+                                             "bidirectional.strategy=bundle"};
+    lsf_scene *scene = room(LIGHT_A, 1.0f);
+    for (uint32_t bounces = 1; bounces <= 2; bounces++) {
+        double rgb[3][3];
+        for (int i = 0; i < 3; i++) {
+            lsf_render_params params = params_of(1024, bounces);
+            params.options = &strategies[i];
+            params.option_count = 1;
+            lsf_image *image = render_room(scene, params, 16);
+            mean_rgb(image, rgb[i]);
+            print_message("%u bounces, %s: %.5f %.5f %.5f\n", bounces, strategies[i], rgb[i][0],
+                          rgb[i][1], rgb[i][2]);
+            lsf_image_destroy(image);
+        }
+        for (int i = 1; i < 3; i++)
+            for (int c = 0; c < 3; c++)
+                assert_true(fabs(rgb[i][c] / rgb[0][c] - 1.0) <= 0.02);
+    }
+    lsf_scene_destroy(scene);
+}
+
+/* Light times 2^k gives the picture times 2^k, to the bit. */
+static void light_scales(void **unused)
+{
+    (void)unused;
+    static const float scales[] = {0x1p-60f, 0x1p60f};
+    lsf_scene *scene = room(LIGHT_A | LIGHT_B, 1.0f);
+    lsf_image *expected = render_room(scene, params_of(4, 2), 24);
+    for (int i = 0; i < 2; i++) {
+        lsf_scene *scaled = room(LIGHT_A | LIGHT_B, scales[i]);
+        lsf_image *image = render_room(scaled, params_of(4, 2), 24);
+        for (uint64_t p = 0; p < 24 * 24 * 3; p++)
+            assert_true(image->pixels[p] == expected->pixels[p] * scales[i]);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scaled);
+    }
+    lsf_image_destroy(expected);
+    lsf_scene_destroy(scene);
+}
+
+static void same_bits_again(void **unused)
+{
+    (void)unused;
+    static const char *const threads[] = {"0", "1", "8"};
+    lsf_scene *scene = room(LIGHT_A | LIGHT_B, 1.0f);
+    lsf_image *expected = render_room(scene, params_of(3, 2), 33);
+    for (int i = 0; i < 3; i++) {
+        setenv("LP_NUM_THREADS", threads[i], 1);
+        lsf_image *image = render_room(scene, params_of(3, 2), 33);
+        same_bits(image, expected);
+        lsf_image_destroy(image);
+    }
+    unsetenv("LP_NUM_THREADS");
+    lsf_image_destroy(expected);
+    lsf_scene_destroy(scene);
+}
+
+/* Pictures of 1 x 1 and 7 x 13, an empty scene, one flat triangle, a camera in a surface, a light
+ * in a surface. */
+static void extremes(void **unused)
+{
+    (void)unused;
+    double rgb[3];
+    lsf_render_params params = params_of(4, 2);
+    for (int kind = 0; kind < 4; kind++) {
+        lsf_scene *scene = build_scene();
+        lsf_float3 light = lsf_f3(0, 1, 0);
+        if (kind > 0) {
+            build_material(scene, 0.8f, 0.8f, 0.8f)->roughness = kind == 2 ? 0.0f : 1.0f;
+            const lsf_float3 corners[3] = {lsf_f3(-1, 0, 1), lsf_f3(1, 0, 1), lsf_f3(0, 0, -1)};
+            build_triangles(scene, corners, 1);
+        }
+        if (kind == 3)
+            light.y = 0.0f;
+        build_light(scene, LSF_LIGHT_POINT, light, lsf_f3(0, -1, 0), 3.0f);
+        finish_gl_scene(scene);
+        params.width = kind == 0 ? 1 : 7;
+        params.height = kind == 0 ? 1 : 13;
+        const float eye[3] = {0, kind == 2 ? 0.0f : 0.8f, 0.9f}, target[3] = {0, 0, 0};
+        params.camera_position = eye;
+        params.camera_target = target;
+        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+        mean_rgb(image, rgb);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* Unequal numbers of samples, interleaved or not, have the same mean. */
+static void counts_do_not_change_the_mean(void **unused)
+{
+    (void)unused;
+    static const char *const options[3][3] = {
+        {"vpl.count=1", "bundle.count=1", "mis.beta=1"},
+        {"vpl.count=3", "bundle.count=1", "mis.beta=2"},
+        {"vpl.count=1", "bundle.count=4", "mis.beta=0.5"},
+    };
+    lsf_scene *scene = room(LIGHT_A, 1.0f);
+    double rgb[3][3];
+    for (int i = 0; i < 3; i++) {
+        lsf_render_params params = params_of(512, 1);
+        params.options = options[i];
+        params.option_count = 3;
+        lsf_image *image = render_room(scene, params, 24);
+        mean_rgb(image, rgb[i]);
+        lsf_image_destroy(image);
+        print_message("%s %s %s: %.5f %.5f %.5f\n", options[i][0], options[i][1], options[i][2],
+                      rgb[i][0], rgb[i][1], rgb[i][2]);
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs(rgb[i][c] / rgb[0][c] - 1.0) <= 0.01);
+    }
+    lsf_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energy_in_a_furnace),
+        cmocka_unit_test(white_furnace),
+        cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(light_scales),
+        cmocka_unit_test(same_bits_again),
+        cmocka_unit_test(extremes),
+        cmocka_unit_test(counts_do_not_change_the_mean),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
