@@ -59,7 +59,7 @@ typedef struct lsf_render_params {
 } lsf_render_params;
 
 #define LSF_RENDER_PARAMS_DEFAULTS                                                        \
-    .technique = "direct", .width = 1024, .height = 768, .samples = 64,                   \
+    .technique = "bidirectional", .width = 1024, .height = 768, .samples = 64,            \
     .time_limit = 1.0 / 0.0, .bounces = 1, .seed = 0, .camera = NULL,                     \
     .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f, .time = 0.0,    \
     .aovs = 0, .rgb8 = false, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL

@@ -82,7 +82,7 @@ static const lsf_command_option options[] = {
      "their mean"},
 
     {"technique", 't', "NAME", PLANNING, "Picture", LSF_VALUE_TECHNIQUE, AT(technique), 0, 0, NULL,
-     "direct", "how light is found; see --list-techniques"},
+     "bidirectional", "how light is found; see --list-techniques"},
     {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,
      NULL, "1024,768", "width and height in pixels; 1024x768 will do too"},
     {"resolution", 'r', "W,H", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_RESOLUTION,

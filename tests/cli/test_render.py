@@ -142,7 +142,7 @@ class Progress(CommandTest):
         self.assertIn("left", seen)
         bar_end = seen.rindex("samples\x1b[K") if "samples\x1b[K" in seen else seen.rindex("left\x1b[K")
         self.assertIn("\r\x1b[K", seen[bar_end:])
-        self.assertRegex(seen.splitlines()[-1], r"lightsheaf: a\.exr: 64x48, \d+ samples of direct")
+        self.assertRegex(seen.splitlines()[-1], r"lightsheaf: a\.exr: 64x48, \d+ samples of bidirectional")
 
     def test_quiet(self):
         self.assertEqual(self.run_at_terminal("render", self.scene(), "-o", "a.exr", *SMALL), "")
@@ -151,7 +151,7 @@ class Progress(CommandTest):
         done = self.run_command("render", self.scene(), "-o", "a.exr", "-r", "64,48", "-s", "8")
         self.assertEqual(done.text.count("\n"), 1)
         self.assertNotIn("\r", done.text)
-        self.assertTrue(done.text.startswith("lightsheaf: a.exr: 64x48, 8 samples of direct"))
+        self.assertTrue(done.text.startswith("lightsheaf: a.exr: 64x48, 8 samples of bidirectional"))
 
     def test_verbose_says_more(self):
         done = self.run_command("render", self.scene(), "-o", "a.exr", "-r", "8,8", "-s", "1", "-v")
@@ -166,9 +166,10 @@ class Json(CommandTest):
         report = self.read_json("a.json")
         self.assertEqual(set(report), {
             "lightsheaf", "command", "scene", "output", "technique", "seed", "bounces", "resolution",
+            "lost_share",
             "samples", "interrupted", "options", "device", "seconds", "passes", "gl_bytes", "notes"})
         self.assertEqual(report["command"], "render")
-        self.assertEqual(report["technique"], "direct")
+        self.assertEqual(report["technique"], "bidirectional")
         self.assertEqual(report["seed"], 18446744073709551615)
         self.assertEqual(report["resolution"], [16, 12])
         self.assertEqual(report["samples"], 2)

@@ -27,6 +27,7 @@ void render_gl_point(const lsf_scene *scene, lsf_float3 eye, lsf_float3 target, 
 {
     const float position[3] = {eye.x, eye.y, eye.z}, at[3] = {target.x, target.y, target.z};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = params.height = 1;
     params.samples = samples;
     params.camera_position = position;

@@ -34,6 +34,7 @@ static void lights_add_up(void **unused)
 {
     (void)unused;
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = 48;
     params.height = 32;
     params.samples = 8;
@@ -71,6 +72,7 @@ static lsf_image *render_moved(double x, double y, double z)
     memcpy(scene->cameras[0].matrix, camera, sizeof camera);
     finish_gl_scene(scene);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = 96;
     params.height = 64;
     params.samples = 16;
@@ -115,6 +117,7 @@ static lsf_image *render_shadow(lsf_light_type type, bool box, const char *filte
     light->outer_cone = 0.9f;
     finish_gl_scene(scene);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = params.height = SIDE;
     params.samples = 1;
     params.camera_position = position;
@@ -197,6 +200,7 @@ static void tone_curve(void **unused)
     lsf_scene *scene = bright_environment();
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = params.height = SIDE;
     params.samples = 2;
     params.rgb8 = true;

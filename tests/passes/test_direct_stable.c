@@ -38,6 +38,7 @@ static lsf_image *render_extreme(lsf_backend backend, const lsf_scene *scene, fl
 {
     const float position[3] = {scale, 3 * scale, 5 * scale}, target[3] = {0, 0.3f * scale, 0};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = width;
     params.height = height;
     params.samples = 4;
@@ -167,6 +168,7 @@ static void odd_sizes(void **unused)
     }
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = 1000000;
     params.height = 1;
     lsf_error error = {0};
@@ -256,6 +258,7 @@ static void every_allocation_may_fail(void **unused)
     lsf_scene *scene = extreme_scene(1.0f);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = params.height = 16;
     params.aovs = LSF_AOV_MOTION | LSF_AOV_EMISSION;
     params.rgb8 = true;

@@ -28,6 +28,7 @@ static lsf_plan *plan_with(feature add, uint32_t aovs)
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     params.width = WIDTH;
     params.height = HEIGHT;
     params.aovs = aovs;
@@ -196,6 +197,7 @@ static void no_light_no_shadow(void **unused)
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     lsf_plan *plan = lsf_plan_create(scene, &params, NULL);
     assert_null(lsf_plan_find_pass(plan, "shadow_map"));
     assert_null(lsf_plan_find_pass(plan, "direct_light"));
@@ -214,6 +216,7 @@ static void bad_params(void **unused)
                                       "shadow.filter=pcf ", "shadow.texels_per_pixel=nan"};
     for (int i = 0; i < 6; i++) {
         lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
         lsf_error error = {0};
         params.options = &bad[i];
         params.option_count = 1;
@@ -222,6 +225,7 @@ static void bad_params(void **unused)
         assert_non_null(strstr(error.message, bad[i]));
     }
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "direct";
     lsf_error error = {0};
     params.camera = "nowhere";
     assert_null(lsf_plan_create(scene, &params, &error));
