@@ -46,4 +46,42 @@ vec2 hemisphere_octant_of_texel(ivec2 texel, int texels)
     return vec2(texel.x + texel.y + 1 >= texels ? 1.0 : -1.0, texel.x >= texel.y ? 1.0 : -1.0);
 }
 
+/* What a texel holds of the surface nearest to the VPL: 20 bits of its depth, then 6 bits of each
+ * slope, the change of the depth's logarithm along x and y of the place. The greatest value is the
+ * nearest surface's, so that texels can be drawn in any order by an atomic maximum. 0: nothing.
+ *
+ * The depth is a float from 2^-31 on with 15 bits after the leading one, rounded: a relative error
+ * of 2^-16. A slope s is kept as s / (1 + |s|), within 1/62. */
+#define HEMISPHERE_DEPTH_ERROR 1.6e-5
+#define HEMISPHERE_DEPTH_BASE 0x30000000u /* 2^-31 */
+
+uint hemisphere_slope_pack(float s)
+{
+    float bounded = clamp(s, -1e6, 1e6);
+    return uint(int(round(bounded / (1.0 + abs(bounded)) * 31.0)) + 32);
+}
+
+float hemisphere_slope_unpack(uint code)
+{
+    float c = clamp(float(int(code & 63u) - 32) / 31.0, -0.97, 0.97);
+    return c / (1.0 - abs(c));
+}
+
+uint hemisphere_pack(float depth, vec2 slope)
+{
+    uint code = (floatBitsToUint(depth) - HEMISPHERE_DEPTH_BASE + 128u) >> 8;
+    return (min(code, 0xfffffu) << 12) | (hemisphere_slope_pack(slope.x) << 6) |
+           hemisphere_slope_pack(slope.y);
+}
+
+float hemisphere_unpack_depth(uint texel)
+{
+    return texel == 0u ? 0.0 : uintBitsToFloat(((texel >> 12) << 8) + HEMISPHERE_DEPTH_BASE);
+}
+
+vec2 hemisphere_unpack_slope(uint texel)
+{
+    return vec2(hemisphere_slope_unpack(texel >> 6), hemisphere_slope_unpack(texel));
+}
+
 #endif

@@ -15,8 +15,12 @@
 #include "lib/hemisphere.glsl"
 #include "lib/light_map.glsl"
 
+#if LSF_SHADOW_HEMISPHERE
+layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform usampler2D shadow_map;
+#else
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform sampler2DArray shadow_depth;
-#if !LSF_SHADOW_PCF
+#endif
+#if !LSF_SHADOW_PCF && !LSF_SHADOW_HEMISPHERE
 layout(binding = LSF_UNIT_SHADOW_GRADIENT) uniform sampler2DArray shadow_gradient;
 #endif
 
@@ -89,7 +93,11 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
 
 float shadow_tolerance(shadow_receiver r)
 {
+#if LSF_SHADOW_HEMISPHERE
+    return (LSF_SHADOW_EPSILON + HEMISPHERE_DEPTH_ERROR) * r.depth;
+#else
     return LSF_SHADOW_EPSILON * light_map_depth_unit(r.depth);
+#endif
 }
 
 #if LSF_SHADOW_PCF
@@ -116,9 +124,15 @@ float shadow_visibility(vec3 position, vec3 normal)
 float shadow_visibility(vec3 position, vec3 normal)
 {
     shadow_receiver r = shadow_project(position, normal);
+#if LSF_SHADOW_HEMISPHERE
+    uint texel = texelFetch(shadow_map, r.at, 0).r;
+    float depth = hemisphere_unpack_depth(texel);
+    vec2 gradient = hemisphere_unpack_slope(texel) * (depth * 2.0 * light.map_shape.w);
+#else
     float depth = texelFetch(shadow_depth, ivec3(r.at, r.face), 0).r;
     vec2 gradient =
         texelFetch(shadow_gradient, ivec3(r.at, r.face), 0).rg * light_map_depth_unit(depth);
+#endif
     vec2 to_center = vec2(r.at) + 0.5 - r.texel;
     float occluder_at_receiver = depth - dot(gradient, to_center);
     float receiver_at_center = r.depth + dot(r.gradient, to_center);

@@ -23,6 +23,11 @@ _Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_draw.c
 #define BINDING_RANDOM 3
 #define BINDING_SUMS 4
 
+/* Of vpl_small and vpl_large. */
+#define BINDING_LARGE 1
+#define BINDING_COMMAND 2
+#define BINDING_TRIANGLES 3
+
 const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT] = {
     {"vpl.count", LSF_OPTION_INT, offsetof(lsf_vpl_params, count), 0, 4096, NULL, "",
      "virtual point lights an iteration; 0: none"},
@@ -53,43 +58,53 @@ void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params)
                         "what the host draws for each");
     lsf_plan_pass_add(plan, "vpl_shadow_map", "what each virtual point light sees");
     lsf_scene_gpu_mask_switches(plan);
-    lsf_texture_desc desc = {NULL, GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, side, side, 1, 1};
-    lsf_plan_texture_desc_add(plan, "vpl.shadow_depth", &desc, "vpl.shadow_resolution is %u", side);
-    desc.internal_format = GL_RG16F;
-    lsf_plan_texture_desc_add(plan, "vpl.shadow_gradient", &desc,
-                              "the plane of each texel's surface");
+    lsf_plan_texture_add(plan, "vpl.shadow_map", GL_R32UI, side, side,
+                         "vpl.shadow_resolution is %u", side);
+    lsf_scene_gpu_plan_triangles(plan);
+    if (lsf_plan_find(plan, "scene.triangles")) {
+        lsf_plan_buffer_add(plan, "vpl.large", r->triangles * 4 * sizeof(uint32_t),
+                            "triangles that the pipeline draws, at most all in four octants");
+        lsf_plan_buffer_add(plan, "vpl.command", 4 * sizeof(uint32_t), "draws them");
+    }
 }
 
 bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
                     const lsf_vpl_params *params, lsf_error *error)
 {
     static const char *const draw_files[5] = {"passes/vpl_draw.comp.glsl"};
+    static const char *const small_files[5] = {"passes/vpl_small.comp.glsl"};
+    static const char *const large_files[5] = {"passes/vpl_large.vert.glsl",
+                                               "passes/vpl_large.frag.glsl"};
     static const char *const map_files[5] = {"passes/vpl_shadow_map.vert.glsl",
                                              "passes/vpl_shadow_map.frag.glsl"};
     lsf_vpl_outputs *out = &pass->outputs;
     *pass = (lsf_vpl){.context = context,
+                      .masked = plan->requirements.masked,
                       .count = (uint32_t)params->count,
                       .shadow_resolution = (uint32_t)params->shadow_resolution};
     if (!lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error) ||
         !lsf_plan_create_buffer(plan, context, "vpl.maps", NULL, 0, &out->maps, error) ||
         !lsf_plan_create_buffer(plan, context, "vpl.random", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->random, error) ||
-        !lsf_plan_create_texture(plan, context, "vpl.shadow_depth", &out->shadow_depth, error) ||
-        !lsf_plan_create_texture(plan, context, "vpl.shadow_gradient", &out->shadow_gradient,
-                                 error))
+        !lsf_plan_create_buffer(plan, context, "vpl.large", NULL, 0, &pass->large, error) ||
+        !lsf_plan_create_buffer(plan, context, "vpl.command", NULL, GL_DYNAMIC_STORAGE_BIT,
+                                &pass->command, error) ||
+        !lsf_plan_create_texture(plan, context, "vpl.shadow_map", &out->shadow_map, error))
         return false;
     lsf_framebuffer_desc desc = {.label = "vpl_shadow_map",
-                                 .color_count = 1,
-                                 .colors = {out->shadow_gradient},
-                                 .depth = out->shadow_depth,
-                                 .layer = 0};
+                                 .layer = -1,
+                                 .width = pass->shadow_resolution,
+                                 .height = pass->shadow_resolution};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
+    glCreateVertexArrays(1, &pass->vertex_array);
     pass->draw_program = lsf_plan_program(plan, context, "vpl_draw", draw_files, error);
+    pass->small_program = lsf_plan_program(plan, context, "vpl_shadow_map", small_files, error);
+    pass->large_program = lsf_plan_program(plan, context, "vpl_shadow_map", large_files, error);
     pass->map_program = lsf_plan_program(plan, context, "vpl_shadow_map", map_files, error);
     pass->draw_timer = lsf_timer_create(context, "vpl_draw", error);
     pass->map_timer = lsf_timer_create(context, "vpl_shadow_map", error);
-    return pass->framebuffer && pass->draw_program && pass->map_program && pass->draw_timer &&
-           pass->map_timer;
+    return pass->framebuffer && pass->draw_program && pass->small_program && pass->large_program &&
+           pass->map_program && pass->draw_timer && pass->map_timer;
 }
 
 /* The VPLs of all iterations are one low-discrepancy sequence. */
@@ -139,31 +154,55 @@ static void bind_map(const lsf_vpl *pass, uint32_t index)
                       (GLintptr)index * MAP_STRIDE, sizeof(struct lsf_light_data));
 }
 
+/* Small triangles by a compute shader, which lists the others for the pipeline. */
+static void draw_triangles(lsf_vpl *pass, const lsf_iteration *iteration)
+{
+    static const uint32_t no_vertices[4] = {0, 1, 0, 0};
+    const lsf_scene_gpu *scene = iteration->scene;
+    glNamedBufferSubData(pass->command, 0, sizeof no_vertices, no_vertices);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LARGE, pass->large);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_COMMAND, pass->command);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TRIANGLES, scene->triangles);
+    glUseProgram(pass->small_program);
+    glUniform1ui(0, scene->triangle_count);
+    glDispatchCompute((scene->triangle_count + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glUseProgram(pass->large_program);
+    glBindVertexArray(pass->vertex_array);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, pass->command);
+    glDrawArraysIndirect(GL_TRIANGLES, NULL);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    pass->counts[LSF_DRAW_TRIANGLES] += scene->triangle_count;
+}
+
 void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index)
 {
-    static const GLfloat zero[4] = {0};
+    static const GLuint nothing = 0;
     lsf_timer_begin(pass->map_timer);
     bind_map(pass, index);
+    /* Whoever reads the map before this one is done with it. */
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glClearTexImage(pass->outputs.shadow_map, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
+    glBindImageTexture(0, pass->outputs.shadow_map, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
     glViewport(0, 0, (GLsizei)pass->shadow_resolution, (GLsizei)pass->shadow_resolution);
-    glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthFunc(GL_GREATER);
-    for (GLenum plane = 0; plane < 3; plane++)
+    glDisable(GL_DEPTH_TEST);
+    for (GLenum plane = 0; plane < 2; plane++)
         glEnable(GL_CLIP_DISTANCE0 + plane);
-    glClearNamedFramebufferfv(pass->framebuffer, GL_DEPTH, 0, zero);
+    bool listed = iteration->scene->triangle_count != 0;
+    if (listed)
+        draw_triangles(pass, iteration);
     glUseProgram(pass->map_program);
-    for (GLint octant = 0; octant < 4; octant++) {
-        glUniform1i(0, octant);
-        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POSITIONS, NULL,
-                           pass->counts);
+    for (GLuint octant = 0; octant < 4 && (pass->masked || !listed); octant++) {
+        glUniform1ui(0, octant);
+        lsf_scene_gpu_draw(iteration->scene, iteration->state,
+                           listed ? LSF_DRAW_MASKED : LSF_DRAW_POSITIONS, NULL, pass->counts);
     }
-    for (GLenum plane = 0; plane < 3; plane++)
+    for (GLenum plane = 0; plane < 2; plane++)
         glDisable(GL_CLIP_DISTANCE0 + plane);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(pass->map_timer);
 }
 
@@ -171,8 +210,7 @@ void lsf_vpl_bind(const lsf_vpl *pass, uint32_t index)
 {
     bind_map(pass, index);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
-    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, pass->outputs.shadow_depth);
-    glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, pass->outputs.shadow_gradient);
+    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, pass->outputs.shadow_map);
 }
 
 void lsf_vpl_destroy(lsf_vpl *pass)
@@ -180,8 +218,10 @@ void lsf_vpl_destroy(lsf_vpl *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    lsf_texture_destroy(pass->context, &pass->outputs.shadow_depth);
-    lsf_texture_destroy(pass->context, &pass->outputs.shadow_gradient);
+    glDeleteVertexArrays(1, &pass->vertex_array);
+    lsf_texture_destroy(pass->context, &pass->outputs.shadow_map);
+    lsf_buffer_destroy(pass->context, &pass->large);
+    lsf_buffer_destroy(pass->context, &pass->command);
     lsf_buffer_destroy(pass->context, &pass->outputs.vpls);
     lsf_buffer_destroy(pass->context, &pass->outputs.maps);
     lsf_buffer_destroy(pass->context, &pass->random);

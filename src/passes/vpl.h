@@ -24,18 +24,20 @@ typedef struct lsf_vpl_inputs {
 } lsf_vpl_inputs;
 
 typedef struct lsf_vpl_outputs {
-    GLuint vpls;            /* struct lsf_vpl_data each */
-    GLuint maps;            /* struct lsf_light_data each, VPL_MAP_STRIDE bytes apart */
-    GLuint shadow_depth;    /* DEPTH_COMPONENT32F, one layer: the VPL's in turn */
-    GLuint shadow_gradient; /* RG16F */
+    GLuint vpls;       /* struct lsf_vpl_data each */
+    GLuint maps;       /* struct lsf_light_data each, 512 bytes apart */
+    GLuint shadow_map; /* R32UI, lib/hemisphere.glsl; of the VPL in turn */
 } lsf_vpl_outputs;
 
 typedef struct lsf_vpl {
     lsf_context *context;
     lsf_vpl_outputs outputs;
     uint32_t count, shadow_resolution;
-    GLuint random; /* what the host draws for each VPL */
-    GLuint framebuffer, draw_program, map_program;
+    GLuint random;         /* what the host draws for each VPL */
+    GLuint large, command; /* triangles that the pipeline draws, and the command that draws them */
+    GLuint framebuffer, vertex_array; /* without attachments, without attributes */
+    GLuint draw_program, small_program, large_program, map_program;
+    bool masked;
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *draw_timer, *map_timer;
 } lsf_vpl;

@@ -12,6 +12,9 @@
 typedef struct lsf_instance_data instance_data;
 typedef struct lsf_material_data material_data;
 
+/* That a shader can read of one storage block on every device (GL 4.5, table 23.64). */
+#define STORAGE_BLOCK_BYTES ((uint64_t)1 << 27)
+
 const char *const lsf_draw_count_names[LSF_DRAW_COUNTS] = {"instances_drawn", "instances_culled",
                                                            "triangles"};
 
@@ -95,6 +98,19 @@ void lsf_scene_gpu_mask_switches(lsf_plan *plan)
                         "masked primitives have vertex colours");
 }
 
+void lsf_scene_gpu_plan_triangles(lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    uint64_t bytes = r->triangles * 9 * sizeof(float);
+    if (r->triangles == 0)
+        lsf_plan_omit(plan, "scene.triangles", "the scene has no triangles");
+    else if (bytes > STORAGE_BLOCK_BYTES)
+        lsf_plan_omit(plan, "scene.triangles", "a block of %.0f MB is more than every shader reads",
+                      (double)bytes * 1e-6);
+    else
+        lsf_plan_buffer_add(plan, "scene.triangles", bytes, "corners in normalised space");
+}
+
 static struct lsf_texture_slot_data slot_data(const lsf_texture_slot *slot)
 {
     const float *t = slot->transform;
@@ -160,6 +176,39 @@ static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
                                 &gpu->previous_transforms, error);
     free(data);
     free(transforms);
+    return ok;
+}
+
+static bool upload_triangles(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
+                             lsf_error *error)
+{
+    const lsf_scene *scene = gpu->scene;
+    const lsf_plan_resource *resource = lsf_plan_find(plan, "scene.triangles");
+    if (!resource)
+        return true;
+    float(*data)[9] = lsf_alloc(resource->bytes, 1);
+    if (!data)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u triangles",
+                             (uint32_t)plan->requirements.triangles);
+    for (uint32_t i = 0; i < state->instance_count; i++) {
+        const lsf_instance_state *instance = &state->instances[i];
+        const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+        if (instance->skipped || scene->materials[instance->material].alpha_mode == LSF_ALPHA_MASK)
+            continue;
+        const float *m = instance->transform;
+        const uint32_t *indices = scene->indices + primitive->first_index;
+        for (uint32_t k = 0; k < primitive->index_count; k++) {
+            const float *v = scene->vertices.position + 3 * (size_t)indices[k];
+            float *corner = data[gpu->triangle_count + k / 3] + 3 * (k % 3);
+            for (int row = 0; row < 3; row++, m += 4)
+                corner[row] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2] + m[3];
+            m = instance->transform;
+        }
+        gpu->triangle_count += primitive->index_count / 3;
+    }
+    bool ok = lsf_plan_create_buffer(plan, gpu->context, "scene.triangles", data, 0,
+                                     &gpu->triangles, error);
+    free(data);
     return ok;
 }
 
@@ -265,7 +314,8 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
                                     streams[i].buffer, error))
             return false;
     if (!upload_instances(gpu, plan, state, previous, error) ||
-        !upload_materials(gpu, plan, error) || !order_draws(gpu, state, error))
+        !upload_materials(gpu, plan, error) || !upload_triangles(gpu, plan, state, error) ||
+        !order_draws(gpu, state, error))
         return false;
     gpu->shading_array = create_array(gpu, "scene.shading_array", true, false);
     gpu->position_array =
@@ -286,7 +336,7 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
                          &gpu->indices,
                          &gpu->materials,
                          &gpu->instances,
-
+                         &gpu->triangles,
                          &gpu->previous_transforms};
     for (size_t i = 0; i < LSF_COUNT(buffers); i++)
         lsf_buffer_destroy(gpu->context, buffers[i]);
@@ -340,6 +390,9 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
     for (uint32_t i = 0; i < gpu->draw_count; i++) {
         const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
+        if (mode == LSF_DRAW_MASKED &&
+            gpu->scene->materials[instance->material].alpha_mode != LSF_ALPHA_MASK)
+            continue;
         if (instance->skipped || (region && !inside(region, instance))) {
             counts[LSF_DRAW_CULLED]++;
             continue;

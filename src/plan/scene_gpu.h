@@ -11,7 +11,9 @@ typedef struct lsf_scene_gpu {
     const lsf_scene *scene;
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
     GLuint instances, previous_transforms, materials, environment;
-    GLuint *textures; /* one for each image and colour space in use */
+    GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */
+    uint32_t triangle_count; /* in it: those of materials without a mask */
+    GLuint *textures;        /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* scene texture to an entry of `textures` */
     GLuint samplers[18];   /* wrap s, wrap t, nearest: 3 x 3 x 2; 0 until needed */
@@ -31,6 +33,10 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission);
 /* Adds those of lib/mask.glsl. */
 void lsf_scene_gpu_mask_switches(lsf_plan *plan);
 
+/* Lists a table of the scene's triangles for shaders that fetch them themselves, unless the scene
+ * is larger than such shaders can read on any device. */
+void lsf_scene_gpu_plan_triangles(lsf_plan *plan);
+
 /* `previous` is the state that motion is measured from, NULL without motion. */
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
                           const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
@@ -40,6 +46,7 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
 typedef enum lsf_draw_mode {
     LSF_DRAW_SHADING,   /* all streams; material textures are bound for each draw */
     LSF_DRAW_POSITIONS, /* positions; base colour textures of masked materials are bound */
+    LSF_DRAW_MASKED,    /* the same of masked materials only */
 } lsf_draw_mode;
 
 /* A convex region: an instance wholly on the negative side of a plane is not drawn.

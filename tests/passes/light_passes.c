@@ -24,6 +24,13 @@ lsf_scene *light_case_scene(const light_case *c)
         build_box(scene, lsf_f3(-1, -0.8f, -1), lsf_f3(1, 0.8f, 1), true);
     build_material(scene, 0.1f, 0.1f, 0.2f);
     build_box(scene, lsf_f3(-0.5f, -0.8f, -0.3f), lsf_f3(0.1f, -0.1f, 0.3f), false);
+    if (c->type == LSF_LIGHT_POINT) {
+        lsf_node *sphere = build_sphere(scene, 3, false);
+        for (int axis = 0; axis < 3; axis++) {
+            sphere->translation[axis] = (const double[]){0.3, 0.1, 0.6}[axis];
+            sphere->scale[axis] = 0.25;
+        }
+    }
     build_quad(scene, lsf_f3(0.4f, -0.5f, -0.6f), lsf_f3(0.9f, -0.5f, -0.4f),
                lsf_f3(0.8f, 0.2f, 0.4f), lsf_f3(0.3f, 0.2f, 0.2f));
     lsf_light *light = build_light(scene, c->type, c->position, c->direction, 3.0f);

@@ -18,8 +18,9 @@ typedef struct light_case {
 #define LIGHT_CASES 5
 extern const light_case light_cases[LIGHT_CASES];
 
-/* A room with a dark box and a slanted board in it; under the sun without walls. The last two
- * triangles are the board's; everything else is closed. */
+/* A room with a dark box and a slanted board in it; under the sun without walls, around a point
+ * light with a sphere whose triangles take a few texels of a map each. The last two triangles are
+ * the board's; everything else is closed. */
 lsf_scene *light_case_scene(const light_case *c);
 
 typedef struct light_passes {

@@ -287,7 +287,7 @@ static void maps_see_what_rays_see(void **unused)
 }
 
 /* VPLs and a map of one of them; free both. */
-static void render_bits(const char *threads, struct lsf_vpl_data **vpls, float **depths)
+static void render_bits(const char *threads, struct lsf_vpl_data **vpls, uint32_t **maps)
 {
     lsf_scene *scene = light_case_scene(&light_cases[1]);
     light_passes p;
@@ -295,10 +295,10 @@ static void render_bits(const char *threads, struct lsf_vpl_data **vpls, float *
     light_passes_init(&p, scene, 128, LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE, COUNT);
     light_passes_run(&p, 4, 0);
     *vpls = light_passes_vpls(&p);
-    *depths = calloc(256 * 256, sizeof **depths);
+    *maps = calloc(256 * 256, sizeof **maps);
     lsf_vpl_shadow_map(&p.vpl, &p.iteration, 1);
-    glGetTextureImage(p.vpl.outputs.shadow_depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                      256 * 256 * sizeof **depths, *depths);
+    glGetTextureImage(p.vpl.outputs.shadow_map, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                      256 * 256 * sizeof **maps, *maps);
     light_passes_finish(&p);
     unsetenv("LP_NUM_THREADS");
     destroy_scene(scene);
@@ -309,15 +309,15 @@ static void same_bits_for_any_threads(void **unused)
     (void)unused;
     static const char *const threads[] = {"0", "1", "8"};
     struct lsf_vpl_data *vpls[3];
-    float *depths[3];
+    uint32_t *maps[3];
     for (int i = 0; i < 3; i++) {
-        render_bits(threads[i], &vpls[i], &depths[i]);
+        render_bits(threads[i], &vpls[i], &maps[i]);
         assert_memory_equal(vpls[0], vpls[i], COUNT * sizeof *vpls[0]);
-        assert_memory_equal(depths[0], depths[i], 256 * 256 * sizeof *depths[0]);
+        assert_memory_equal(maps[0], maps[i], 256 * 256 * sizeof *maps[0]);
     }
     for (int i = 0; i < 3; i++) {
         free(vpls[i]);
-        free(depths[i]);
+        free(maps[i]);
     }
 }
 

@@ -1,0 +1,6 @@
+#include "lib/hemisphere_texel.glsl"
+
+void main()
+{
+    draw_texel(texel_slope());
+}
