@@ -266,8 +266,8 @@ static void connect_vpl(sample_turn *turn, bool deep, const lsf_bidirectional_sa
     bidirectional *b = turn->b;
     lsf_bidirectional_shade_inputs inputs = turn->inputs;
     lsf_vpl_bind(&b->vpl, turn->vpl);
-    inputs.map_depth = b->vpl.outputs.shadow_depth;
-    inputs.map_gradient = b->vpl.outputs.shadow_gradient;
+    inputs.map_depth = b->vpl.outputs.shadow_map;
+    inputs.map_gradient = 0; /* in the same texels */
     lsf_bidirectional_shade_vpl(&b->shade, turn->iteration, &inputs, sample, deep, turn->vpl,
                                 &turn->region);
 }
