@@ -9,6 +9,7 @@
 #include "math/sampling.h"
 #include "passes/bidirectional_shade.h"
 #include "passes/compose.h"
+#include "passes/interleave.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl.h"
@@ -42,6 +43,7 @@ typedef struct bidirectional {
     lsf_ray_bundle_direction *aims; /* bundle_count of them */
     GLuint bundle_pdf;
     lsf_bidirectional_shade shade;
+    lsf_interleave interleave;
     lsf_compose compose;
     lsf_distribution light_power;
     uint32_t *lights; /* that each sample of the iteration takes */
@@ -72,8 +74,8 @@ static sampling choose_sampling(const lsf_plan *plan, const lsf_pass_params *par
                   .vpl_count = (uint32_t)params->vpl.count,
                   .bundle_count = (uint32_t)params->ray_bundle.count,
                   .emission = r->emissive || r->unlit || r->environment,
-                  .interleave = 1,
-                  .tiles = 1};
+                  .interleave = (uint32_t)params->interleave.size,
+                  .tiles = (uint32_t)(params->interleave.size * params->interleave.size)};
     s.vpl_light = punctual && strategy != LSF_BIDIRECTIONAL_BUNDLE && s.vpl_count > 0;
     s.bundle_light = punctual && strategy != LSF_BIDIRECTIONAL_VPL;
     if (s.emission)
@@ -92,10 +94,14 @@ static sampling choose_sampling(const lsf_plan *plan, const lsf_pass_params *par
         s.vertices = s.vpl_light && s.bounces > s.segments ? s.segments : s.segments - 1;
     if (s.segments == 0)
         s.bundle_count = 0;
-    else if (s.segments > s.bundle_count)
-        s.bundle_count = s.segments;
+    else
+        s.bundle_count = max_u32(s.bundle_count, max_u32(s.segments, s.tiles));
+    if (s.vpl_light)
+        s.vpl_count = max_u32(s.vpl_count, s.tiles);
+    if (!s.vpl_light && s.segments == 0)
+        s.interleave = s.tiles = 1;
     s.split_direct =
-        s.emission &&
+        s.emission && s.interleave == 1 &&
         (plan->aovs & (LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR));
     return s;
 }
@@ -109,6 +115,13 @@ static lsf_ray_bundle_use bundle_use(const sampling *s)
                                 .deep_vertices = s->segments > 1};
 }
 
+static lsf_vpl_params vpl_params(const lsf_pass_params *params, const sampling *s)
+{
+    lsf_vpl_params vpl = params->vpl;
+    vpl.count = (int32_t)s->vpl_count;
+    return vpl;
+}
+
 static void remark(lsf_plan *plan, const lsf_pass_params *params, const sampling *s)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -116,9 +129,15 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params, const sampling
         lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
     if (s->bundle_count > (uint32_t)params->ray_bundle.count)
         lsf_plan_remark(plan,
-                        "%u bundles an iteration instead of %d: a path of %u segments needs "
-                        "as many independent directions",
-                        s->bundle_count, params->ray_bundle.count, s->segments);
+                        "%u bundles an iteration instead of %d: paths of %u segments need as many "
+                        "independent directions, and each of %u tiles a sample",
+                        s->bundle_count, params->ray_bundle.count, s->segments, s->tiles);
+    if (s->vpl_light && s->vpl_count > (uint32_t)params->vpl.count)
+        lsf_plan_remark(plan, "%u VPLs an iteration instead of %d: each of %u tiles needs one",
+                        s->vpl_count, params->vpl.count, s->tiles);
+    if (s->emission && s->interleave > 1)
+        lsf_plan_remark(plan, "with interleave.size above 1, direct light of surfaces and "
+                              "environments is in the indirect layers");
     if (!s->whole_scene && plan->bounces > 2)
         lsf_plan_remark(plan,
                         "bundle.window=visible ends paths after one bundle: %u bounces are "
@@ -133,13 +152,19 @@ static void plan_bidirectional(lsf_plan *plan, const lsf_pass_params *params,
                                const lsf_state *state)
 {
     sampling s = choose_sampling(plan, params, state);
+    lsf_vpl_params vpl = vpl_params(params, &s);
     lsf_direct_chain_plan(plan, params, state);
+    if (s.interleave > 1)
+        lsf_interleave_plan(plan, &params->interleave);
+    else
+        lsf_plan_omit(plan, "interleave", "%s",
+                      params->interleave.size > 1 ? "no light bounces" : "interleave.size is 1");
     if (s.vpl_light || s.bundle_light)
         lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, state);
     else
         lsf_plan_omit(plan, "reflective_shadow_map", "no punctual light bounces");
     if (s.vpl_light)
-        lsf_vpl_plan(plan, &params->vpl);
+        lsf_vpl_plan(plan, &vpl);
     else
         lsf_plan_omit(plan, "vpl",
                       s.bundle_light ? "bidirectional.strategy is bundle"
@@ -201,6 +226,7 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
     if (!b)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     sampling s = b->sampling = choose_sampling(plan, params, state);
+    lsf_vpl_params vpl = vpl_params(params, &s);
     b->shade_params = params->bidirectional_shade;
     uint32_t draws = max_u32(max_u32(s.vpl_count, s.bundle_count), 1);
     b->lights = lsf_alloc(draws, sizeof *b->lights);
@@ -210,11 +236,13 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
            ((!s.vpl_light && !s.bundle_light) ||
             (create_light_power(b, state, error) &&
              lsf_reflective_shadow_map_create(&b->rsm, context, plan, error))) &&
-           (!s.vpl_light || lsf_vpl_create(&b->vpl, context, plan, &params->vpl, error)) &&
+           (!s.vpl_light || lsf_vpl_create(&b->vpl, context, plan, &vpl, error)) &&
            (s.segments == 0 || create_bundles(b, context, plan, params, error)) &&
            (!lsf_plan_find(plan, "bidirectional_shade.irradiance") ||
             lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
                                            error)) &&
+           (s.interleave == 1 ||
+            lsf_interleave_create(&b->interleave, context, plan, &params->interleave, error)) &&
            lsf_compose_create(&b->compose, context, plan, error);
 }
 
@@ -338,8 +366,7 @@ static void run_sample(sample_turn *turn, uint32_t i)
     bidirectional *b = turn->b;
     const sampling *s = &b->sampling;
     uint32_t tile = i % s->tiles;
-    turn->region = (lsf_region){.width = (int32_t)turn->iteration->plan->width,
-                                .height = (int32_t)turn->iteration->plan->height};
+    turn->region = lsf_interleave_region(turn->iteration->plan, s->interleave, tile);
     turn->tile_vpls = dealt(s->vpl_count, s->tiles, tile);
     turn->tile_bundles = dealt(s->bundle_count, s->tiles, tile);
     if (i < s->vpl_count) {
@@ -414,10 +441,24 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     const lsf_gbuffer_outputs *gbuffer = &b->chain.gbuffer.outputs;
     lsf_bidirectional_shade_inputs inputs = {
         .depth = gbuffer->depth, .surface = gbuffer->surface, .gloss = gbuffer->gloss};
+    const lsf_interleave_points points = {
+        .depth = gbuffer->depth, .surface = gbuffer->surface, .gloss = gbuffer->gloss};
     GLuint irradiance = b->shade.outputs.irradiance, specular = b->shade.outputs.specular;
     lsf_direct_chain_run(&b->chain, iteration);
+    if (b->sampling.interleave > 1) {
+        lsf_interleave_split(&b->interleave, iteration, &points);
+        inputs.depth = b->interleave.split.depth;
+        inputs.surface = b->interleave.split.surface;
+        inputs.gloss = b->interleave.split.gloss;
+    }
     if (irradiance)
         run_samples(b, iteration, &inputs);
+    if (b->sampling.interleave > 1) {
+        const lsf_interleave_light light = {irradiance, specular};
+        lsf_interleave_gather(&b->interleave, iteration, &points, &light);
+        irradiance = b->interleave.light.irradiance;
+        specular = b->interleave.light.specular;
+    }
     lsf_compose_inputs parts = {.depth = gbuffer->depth,
                                 .emission = gbuffer->emission,
                                 .direct = b->chain.direct_light.radiance,
@@ -446,6 +487,7 @@ static void destroy_bidirectional(void *self)
     if (!b)
         return;
     lsf_compose_destroy(&b->compose);
+    lsf_interleave_destroy(&b->interleave);
     lsf_bidirectional_shade_destroy(&b->shade);
     lsf_ray_bundle_destroy(b->bundle);
     lsf_vpl_destroy(&b->vpl);
@@ -465,6 +507,7 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
     if (b->bundle)
         lsf_ray_bundle_timers(b->bundle, bundle_timers);
     const lsf_pass_report candidates[] = {
+        {.timer = b->interleave.split_timer},
         {b->rsm.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, b->rsm.counts},
         {.timer = b->rsm.pdf_timer},
         {.timer = b->vpl.draw_timer},
@@ -475,6 +518,8 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
         {.timer = bundle_timers[2]},
         {.timer = b->shade.vpl_timer},
         {.timer = b->shade.hit_timer},
+        {.timer = b->interleave.gather_timer},
+        {.timer = b->interleave.filter_timer},
         {.timer = b->compose.timer},
     };
     for (size_t i = 0; i < LSF_COUNT(candidates); i++)

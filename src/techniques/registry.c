@@ -20,6 +20,7 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(reflective_shadow_map, LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT),
     TABLE(vpl, LSF_VPL_OPTION_COUNT),
     TABLE(ray_bundle, LSF_RAY_BUNDLE_OPTION_COUNT),
+    TABLE(interleave, LSF_INTERLEAVE_OPTION_COUNT),
     TABLE(bidirectional_shade, LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT),
 };
 const uint32_t lsf_pass_option_table_count = LSF_COUNT(lsf_pass_option_tables);

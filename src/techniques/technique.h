@@ -4,6 +4,7 @@
 
 #include "passes/bidirectional_shade.h"
 #include "passes/gbuffer.h"
+#include "passes/interleave.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
@@ -19,6 +20,7 @@ typedef struct lsf_pass_params {
     lsf_reflective_shadow_map_params reflective_shadow_map;
     lsf_vpl_params vpl;
     lsf_ray_bundle_params ray_bundle;
+    lsf_interleave_params interleave;
     lsf_bidirectional_shade_params bidirectional_shade;
 } lsf_pass_params;
 
@@ -27,6 +29,7 @@ typedef struct lsf_pass_params {
     .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS},                                                \
     .reflective_shadow_map = {LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS},                          \
     .vpl = {LSF_VPL_PARAMS_DEFAULTS}, .ray_bundle = {LSF_RAY_BUNDLE_PARAMS_DEFAULTS},              \
+    .interleave = {LSF_INTERLEAVE_PARAMS_DEFAULTS},                                                \
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];

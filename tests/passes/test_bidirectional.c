@@ -77,8 +77,8 @@ static void energy_in_a_furnace(void **unused)
             /* Rays that graze an edge of the room are lost, fewer with finer bundles. */
             lsf_render_params params = params_of(512, bounces);
             params.option_count = 0;
-            lsf_image *image = render(scene, params, 8, lsf_f3(0.2f, 0.1f, 0.7f),
-                                      lsf_f3(-0.3f, -0.2f, -1));
+            lsf_image *image =
+                render(scene, params, 8, lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
             mean_rgb(image, rgb);
             print_message("albedo %g, %u bounces: %.5f, expected %.5f\n", (double)albedos[a],
                           bounces, rgb[1], expected);
@@ -268,14 +268,15 @@ static void counts_do_not_change_the_mean(void **unused)
 {
     (void)unused;
     enum { OPTIONS = SMALL_MAP_OPTIONS + 3 };
-    static const char *const options[3][OPTIONS] = {
+    static const char *const options[4][OPTIONS] = {
         {SMALL_MAPS, "vpl.count=1", "bundle.count=1", "mis.beta=1"},
         {SMALL_MAPS, "vpl.count=3", "bundle.count=1", "mis.beta=2"},
         {SMALL_MAPS, "vpl.count=1", "bundle.count=4", "mis.beta=0.5"},
+        {SMALL_MAPS, "vpl.count=6", "interleave.size=2", "interleave.periods=0"},
     };
     lsf_scene *scene = room(LIGHT_A, 1.0f);
-    double rgb[3][3];
-    for (int i = 0; i < 3; i++) {
+    double rgb[4][3];
+    for (int i = 0; i < 4; i++) {
         lsf_render_params params = params_of(512, 1);
         params.options = options[i];
         params.option_count = OPTIONS;

@@ -1,0 +1,30 @@
+/* Where pixels lie in split order; see src/passes/interleave.md. Switch LSF_INTERLEAVE, the size of the
+ * pattern. Along an axis of `length` pixels, tile t holds the pixels t + i size: one more in the
+ * first length % size tiles than in the others. */
+#ifndef LSF_LIB_INTERLEAVE
+#define LSF_LIB_INTERLEAVE
+
+ivec2 interleave_corner(ivec2 tile, ivec2 length)
+{
+    return tile * (length / LSF_INTERLEAVE) + min(tile, length % LSF_INTERLEAVE);
+}
+
+/* The place of a pixel in split order. */
+ivec2 interleave_place(ivec2 pixel, ivec2 length)
+{
+    return interleave_corner(pixel % LSF_INTERLEAVE, length) + pixel / LSF_INTERLEAVE;
+}
+
+/* The pixel at a place of split order. */
+ivec2 interleave_pixel(ivec2 place, ivec2 length)
+{
+    ivec2 shorter = length / LSF_INTERLEAVE, longer_tiles = length % LSF_INTERLEAVE;
+    ivec2 in_longer = place / (shorter + 1);
+    ivec2 in_shorter =
+        longer_tiles + (place - longer_tiles * (shorter + 1)) / max(shorter, ivec2(1));
+    ivec2 tile = ivec2(in_longer.x < longer_tiles.x ? in_longer.x : in_shorter.x,
+                       in_longer.y < longer_tiles.y ? in_longer.y : in_shorter.y);
+    return (place - interleave_corner(tile, length)) * LSF_INTERLEAVE + tile;
+}
+
+#endif

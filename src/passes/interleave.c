@@ -1,0 +1,218 @@
+#include "passes/interleave.h"
+
+#include <string.h>
+
+const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT] = {
+    {"interleave.size", LSF_OPTION_INT, offsetof(lsf_interleave_params, size), 1, 8, NULL, "pixels",
+     "side of the pattern in which neighbouring pixels take different samples; 1: all the same"},
+    {"interleave.periods", LSF_OPTION_INT, offsetof(lsf_interleave_params, periods), 0, 8, NULL,
+     "patterns", "width of the filter that removes the pattern; 0: no filter"},
+    {"interleave.depth_weight", LSF_OPTION_FLOAT, offsetof(lsf_interleave_params, depth_weight),
+     1e-3, 1e3, NULL, "pixels",
+     "how far neighbours may be off the pixel's plane, for each pixel that they are away"},
+    {"interleave.normal_weight", LSF_OPTION_FLOAT, offsetof(lsf_interleave_params, normal_weight),
+     0.0, 1e4, NULL, "", "exponent of the cosine between the normals of neighbours"},
+};
+
+/* Pixels of a picture's axis that fall to a tile, and where they begin; see lib/interleave.glsl. */
+static int32_t tile_length(uint32_t length, uint32_t size, uint32_t tile)
+{
+    return (int32_t)(length / size + (tile < length % size));
+}
+
+static int32_t tile_corner(uint32_t length, uint32_t size, uint32_t tile)
+{
+    uint32_t longer = length % size;
+    return (int32_t)(tile * (length / size) + (tile < longer ? tile : longer));
+}
+
+lsf_region lsf_interleave_region(const lsf_plan *plan, uint32_t size, uint32_t index)
+{
+    uint32_t x = index % size, y = index / size;
+    return (lsf_region){.x = tile_corner(plan->width, size, x),
+                        .y = tile_corner(plan->height, size, y),
+                        .width = tile_length(plan->width, size, x),
+                        .height = tile_length(plan->height, size, y),
+                        .tile_x = (int32_t)x,
+                        .tile_y = (int32_t)y};
+}
+
+static void add_light(lsf_plan *plan, const char *irradiance, const char *specular, const char *why)
+{
+    lsf_plan_texture_add(plan, irradiance, GL_RGBA32F, plan->width, plan->height, "%s", why);
+    if (plan->requirements.specular)
+        lsf_plan_texture_add(plan, specular, GL_RGBA32F, plan->width, plan->height, "%s", why);
+}
+
+void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
+{
+    const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
+    bool specular = plan->requirements.specular;
+    lsf_plan_pass_add(plan, "interleave_split", "pixels that take the same samples side by side");
+    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != NULL, "roughness or metallic vary");
+    lsf_plan_texture_add(plan, "interleave.depth", GL_R32F, plan->width, plan->height,
+                         "in split order");
+    lsf_plan_texture_add(plan, "interleave.surface", GL_RGBA32UI, plan->width, plan->height,
+                         "in split order");
+    if (gloss)
+        lsf_plan_texture_add(plan, "interleave.gloss", gloss->texture.internal_format, plan->width,
+                             plan->height, "in split order");
+    lsf_plan_pass_add(plan, "interleave_gather", "light back into the picture's order");
+    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
+    add_light(plan, "interleave.irradiance", "interleave.specular", "gathered, and filtered");
+    if (params->periods == 0) {
+        lsf_plan_omit(plan, "interleave_filter", "interleave.periods is 0");
+        return;
+    }
+    lsf_plan_pass_add(plan, "interleave_filter", "removes the pattern, and noise with it");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != NULL, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
+    add_light(plan, "interleave.between_irradiance", "interleave.between_specular",
+              "filtered along x");
+}
+
+static GLuint create_framebuffer(lsf_context *context, const char *label, const GLuint textures[3],
+                                 lsf_error *error)
+{
+    lsf_framebuffer_desc desc = {.label = label, .layer = -1};
+    for (int i = 0; i < 3; i++)
+        if (textures[i])
+            desc.colors[desc.color_count++] = textures[i];
+    return lsf_framebuffer_create(context, &desc, error);
+}
+
+static bool create_filter(lsf_interleave *pass, const lsf_plan *plan, lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl",
+                                         "passes/interleave_filter.frag.glsl"};
+    if (!lsf_plan_create_texture(plan, pass->context, "interleave.between_irradiance",
+                                 &pass->between.irradiance, error) ||
+        !lsf_plan_create_texture(plan, pass->context, "interleave.between_specular",
+                                 &pass->between.specular, error))
+        return false;
+    const GLuint textures[3] = {pass->between.irradiance, pass->between.specular};
+    pass->between_framebuffer =
+        create_framebuffer(pass->context, "interleave_filter", textures, error);
+    pass->filter_program = lsf_plan_program(plan, pass->context, "interleave_filter", files, error);
+    pass->filter_timer = lsf_timer_create(pass->context, "interleave_filter", error);
+    return pass->between_framebuffer && pass->filter_program && pass->filter_timer;
+}
+
+bool lsf_interleave_create(lsf_interleave *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_interleave_params *params, lsf_error *error)
+{
+    static const char *const split_files[5] = {"lib/fullscreen.vert.glsl",
+                                               "passes/interleave_split.frag.glsl"};
+    static const char *const gather_files[5] = {"lib/fullscreen.vert.glsl",
+                                                "passes/interleave_gather.frag.glsl"};
+    *pass = (lsf_interleave){.context = context, .params = *params};
+    const struct {
+        const char *name;
+        GLuint *texture;
+    } textures[] = {
+        {"interleave.depth", &pass->split.depth},
+        {"interleave.surface", &pass->split.surface},
+        {"interleave.gloss", &pass->split.gloss},
+        {"interleave.irradiance", &pass->light.irradiance},
+        {"interleave.specular", &pass->light.specular},
+    };
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
+            return false;
+    const GLuint points[3] = {pass->split.depth, pass->split.surface, pass->split.gloss};
+    const GLuint light[3] = {pass->light.irradiance, pass->light.specular};
+    pass->split_framebuffer = create_framebuffer(context, "interleave_split", points, error);
+    pass->light_framebuffer = create_framebuffer(context, "interleave_gather", light, error);
+    if (!pass->split_framebuffer || !pass->light_framebuffer)
+        return false;
+    pass->split_program = lsf_plan_program(plan, context, "interleave_split", split_files, error);
+    pass->gather_program =
+        lsf_plan_program(plan, context, "interleave_gather", gather_files, error);
+    if (!pass->split_program || !pass->gather_program)
+        return false;
+    pass->split_timer = lsf_timer_create(context, "interleave_split", error);
+    pass->gather_timer = lsf_timer_create(context, "interleave_gather", error);
+    return pass->split_timer && pass->gather_timer &&
+           (params->periods == 0 || create_filter(pass, plan, error));
+}
+
+static void begin_draw(const lsf_iteration *iteration, GLuint framebuffer, GLuint program)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glUseProgram(program);
+}
+
+static void bind_points(const lsf_interleave_points *points)
+{
+    glBindTextureUnit(0, points->depth);
+    glBindTextureUnit(1, points->surface);
+    glBindTextureUnit(2, points->gloss);
+}
+
+void lsf_interleave_split(lsf_interleave *pass, const lsf_iteration *iteration,
+                          const lsf_interleave_points *gbuffer)
+{
+    lsf_timer_begin(pass->split_timer);
+    begin_draw(iteration, pass->split_framebuffer, pass->split_program);
+    bind_points(gbuffer);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->split_timer);
+}
+
+static void filter_along(lsf_interleave *pass, const lsf_iteration *iteration, GLuint framebuffer,
+                         const lsf_interleave_light *light, int x, int y)
+{
+    int width = pass->params.size * pass->params.periods;
+    begin_draw(iteration, framebuffer, pass->filter_program);
+    glBindTextureUnit(3, light->irradiance);
+    glBindTextureUnit(4, light->specular);
+    glUniform2i(0, x, y);
+    glUniform2i(1, width / 2, width % 2 == 0);
+    glUniform2f(2, pass->params.depth_weight, pass->params.normal_weight);
+    lsf_draw_fullscreen(pass->context);
+}
+
+void lsf_interleave_gather(lsf_interleave *pass, const lsf_iteration *iteration,
+                           const lsf_interleave_points *gbuffer,
+                           const lsf_interleave_light *split_light)
+{
+    lsf_timer_begin(pass->gather_timer);
+    begin_draw(iteration, pass->light_framebuffer, pass->gather_program);
+    glBindTextureUnit(0, split_light->irradiance);
+    glBindTextureUnit(1, split_light->specular);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->gather_timer);
+    if (!pass->filter_program)
+        return;
+    lsf_timer_begin(pass->filter_timer);
+    bind_points(gbuffer);
+    filter_along(pass, iteration, pass->between_framebuffer, &pass->light, 1, 0);
+    filter_along(pass, iteration, pass->light_framebuffer, &pass->between, 0, 1);
+    lsf_timer_end(pass->filter_timer);
+}
+
+void lsf_interleave_destroy(lsf_interleave *pass)
+{
+    if (!pass->context)
+        return;
+    GLuint *textures[] = {&pass->split.depth,      &pass->split.surface,  &pass->split.gloss,
+                          &pass->light.irradiance, &pass->light.specular, &pass->between.irradiance,
+                          &pass->between.specular};
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_framebuffer_destroy(pass->context, &pass->split_framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->light_framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->between_framebuffer);
+    lsf_timer_destroy(pass->split_timer);
+    lsf_timer_destroy(pass->gather_timer);
+    lsf_timer_destroy(pass->filter_timer);
+    memset(pass, 0, sizeof *pass);
+}
