@@ -14,15 +14,16 @@ extern "C" {
 /* From every visible point one ray, along the bundle's direction on the surface's side. Times are
  * medians over directions. */
 typedef struct lsf_ray_bench_row {
-    uint32_t width, height; /* of the screen [pixels] */
-    uint32_t bundle;        /* texels along a side of the bundle's map */
-    uint64_t rays;          /* of a direction: pixels that see a surface */
-    double build_ms;        /* fitting the window and drawing the scene into the lists */
-    double search_ms;       /* the nearest hit of every ray */
-    double mrays_per_s;     /* million rays a second, build and search together */
+    uint32_t width, height;    /* of the screen [pixels] */
+    uint32_t bundle;           /* texels along a side of the bundle's map */
+    uint32_t slices;           /* bundle.slices, or as many as the device has room for */
+    uint64_t rays;             /* of a direction: pixels that see a surface */
+    double build_ms;           /* fitting the window and drawing the scene into the lists */
+    double search_ms;          /* the nearest hit of every ray */
+    double mrays_per_s;        /* million rays a second, build and search together */
     double embree_mrays_per_s; /* on all cores; its tree is ready */
-    double agreement;       /* share of the rays that both see leave, or whose distances differ by no
-                             * more than 1 % and a texel of the bundle */
+    double agreement; /* share of the rays that both see leave, or whose distances differ by no
+                       * more than 1 % and a texel of the bundle */
 } lsf_ray_bench_row;
 
 typedef struct lsf_ray_bench lsf_ray_bench;

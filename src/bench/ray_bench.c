@@ -96,21 +96,49 @@ static void choose_directions(run *r, uint32_t count, uint64_t seed)
     }
 }
 
+static bool plan_run(run *r, lsf_ray_bench *bench, uint32_t bundle, int32_t fewer_slices,
+                     const lsf_ray_bundle_use *use, lsf_error *error)
+{
+    lsf_setup *setup = &r->setup;
+    if (!lsf_setup_begin(setup, bench->scene, &bench->params, error))
+        return false;
+    lsf_ray_bundle_params *params = &setup->pass_params.ray_bundle;
+    params->resolution = (int32_t)bundle;
+    params->count = (int32_t)use->count;
+    params->slices -= fewer_slices;
+    lsf_gbuffer_plan(setup->plan);
+    lsf_ray_bundle_plan(setup->plan, params, use);
+    return !setup->plan->failed ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
+}
+
+/* Whether shaders can reach all of each buffer: software GL has a limit of 128 MiB. */
+static bool buffers_fit(const lsf_plan *plan)
+{
+    GLint64 limit = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+    for (uint64_t i = 0; i < plan->resource_count; i++)
+        if (plan->resources[i].is_buffer && plan->resources[i].bytes > (uint64_t)limit)
+            return false;
+    return true;
+}
+
 static bool create_run(run *r, lsf_ray_bench *bench, uint32_t bundle, uint32_t directions,
                        lsf_error *error)
 {
     lsf_context *context = bench->context;
-    if (!lsf_setup_begin(&r->setup, bench->scene, &bench->params, error))
-        return false;
-    lsf_setup *setup = &r->setup;
-    lsf_ray_bundle_params *params = &setup->pass_params.ray_bundle;
-    params->resolution = (int32_t)bundle;
-    params->count = (int32_t)(directions + WARM_UP);
     lsf_ray_bundle_use use = {.count = directions + WARM_UP, .slots = 1, .interleave = 1};
-    lsf_gbuffer_plan(setup->plan);
-    lsf_ray_bundle_plan(setup->plan, params, &use);
-    if (setup->plan->failed)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
+    lsf_setup *setup = &r->setup;
+    if (!plan_run(r, bench, bundle, 0, &use, error))
+        return false;
+    /* A large bundle gives up slices rather than its size: more of its fragments are chained. */
+    for (int32_t fewer = 1; !buffers_fit(setup->plan) && setup->pass_params.ray_bundle.slices > 0;
+         fewer++) {
+        lsf_setup_finish(setup);
+        if (!plan_run(r, bench, bundle, fewer, &use, error))
+            return false;
+    }
+    const lsf_ray_bundle_params *params = &setup->pass_params.ray_bundle;
     return lsf_plan_check(setup->plan, context, error) &&
            lsf_scene_gpu_create(&r->scene, context, setup->plan, setup->scene, &setup->state, NULL,
                                 error) &&
@@ -245,6 +273,7 @@ static void fill_row(run *r, uint32_t directions, uint32_t bundle, lsf_ray_bench
         .width = r->setup.plan->width,
         .height = r->setup.plan->height,
         .bundle = bundle,
+        .slices = (uint32_t)r->setup.pass_params.ray_bundle.slices,
         .rays = r->rays.count,
         .build_ms = median(r->build_ms, directions),
         .search_ms = median(r->search_ms, directions),

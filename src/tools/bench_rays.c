@@ -15,6 +15,7 @@ static void add_json_row(lsf_json *json, const lsf_ray_bench_row *row)
     lsf_json_begin(json, NULL, '{');
     lsf_json_vector(json, "screen", (float[]){(float)row->width, (float)row->height}, 2);
     lsf_json_integer(json, "bundle", row->bundle);
+    lsf_json_integer(json, "slices", row->slices);
     lsf_json_integer(json, "rays", row->rays);
     lsf_json_number(json, "build_ms", row->build_ms);
     lsf_json_number(json, "search_ms", row->search_ms);

@@ -19,7 +19,7 @@ class Rays(CommandTest):
         self.assertRegex(report["embree_function"], "^rtcIntersect")
         self.assertEqual([row["bundle"] for row in report["rows"]], [256, 512, 1024])
         for row in report["rows"]:
-            self.assertEqual(set(row), {"screen", "bundle", "rays", "build_ms", "search_ms",
+            self.assertEqual(set(row), {"screen", "bundle", "slices", "rays", "build_ms", "search_ms",
                                         "mrays_per_s", "embree_mrays_per_s", "agreement"})
             self.assertEqual(row["screen"], [64, 48])
             self.assertLessEqual(row["rays"], 64 * 48)
@@ -49,6 +49,44 @@ class Rays(CommandTest):
     def test_nothing_to_see(self):
         self.refuse("bench", "rays", CORNELL, "-r", "8,8", "--camera-position", "0,0,90",
                     "--camera-target", "0,0,99", says=["no rays"])
+
+
+class Bidirectional(CommandTest):
+    # Small, so that it is fast; the rows are the same.
+    SMALL = ("-r", "16,12", "-s", "1", "-D", "tessellation.factor=1", "-D", "vpl.count=2", "-D",
+             "bundle.count=2")
+
+    def test_json(self):
+        done = self.run_command("bench", "bidirectional", CORNELL, "--json", *self.SMALL)
+        report = json.loads(done.stdout)
+        self.assertEqual(report["measurement"], "bidirectional")
+        self.assertEqual((report["screen"], report["supersampling"]), ([16, 12], 2))
+        self.assertEqual((report["triangles"], report["tessellation_factor"]), (34, 1))
+        self.assertEqual(report["frames"], 1)
+        self.assertIn("bundle.count=21", report["options"])
+        self.assertEqual(report["options"][-1], "bundle.count=2")
+        rows = report["rows"]
+        self.assertEqual(rows[0]["procedure"], "Create G-Buffer")
+        self.assertEqual(rows[-1]["procedure"], "Others")
+        self.assertEqual(len(rows), 12)
+        self.assertAlmostEqual(sum(row["paper_ms"] for row in rows), report["paper_total_ms"])
+        self.assertAlmostEqual(sum(row["ms"] or 0 for row in rows), report["total_ms"], places=3)
+        for row in rows:
+            if row["passes"] and not row["passes"][0].startswith("interleave"):
+                self.assertGreater(row["ms"], 0, row)
+
+    def test_table(self):
+        text = self.run_command("bench", "bidirectional", CORNELL, *self.SMALL).stdout.decode()
+        self.assertRegex(text, r"(?m)^procedure +ms +paper ms$")
+        self.assertRegex(text, r"(?m)^Create VPL Shadow Map x21 +[\d.]+ +29\.9$")
+        self.assertRegex(text, r"(?m)^Total +[\d.]+ +77\.8$")
+
+    def test_triangles_of_the_paper(self):
+        done = self.run_command("bench", "bidirectional", "--json", "-r", "4,4", "-s", "1", "-D",
+                                "vpl.count=1", "-D", "bundle.count=1")
+        triangles = json.loads(done.stdout)["triangles"]
+        self.assertGreater(triangles, 174e3 / 2)
+        self.assertLess(triangles, 174e3 * 2)
 
 
 class Usage(CommandTest):
