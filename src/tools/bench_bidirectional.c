@@ -21,11 +21,12 @@
 /* As the paper's figures: light from x0 over x1 and x2 to x3. */
 #define BOUNCES 2u
 
-/* What makes a frame of the paper of it; -D on the command line comes later and wins. */
+/* What makes a frame of the paper of it; -D on the command line comes later and wins. The pattern
+ * of interleaving is the largest whose tiles all get one of the 21. */
 static const char *const frame_options[] = {
     "vpl.count=21",          "vpl.shadow_resolution=256", "bundle.count=21",
     "bundle.resolution=256", "bundle.window=visible",     "rsm.resolution=256",
-    "shadow.filter=pcf",
+    "shadow.filter=pcf",     "interleave.size=4",
 };
 
 typedef struct table_row {
