@@ -35,13 +35,15 @@ typedef struct sampling {
 } sampling;
 
 typedef struct bidirectional {
+    lsf_context *context;
     sampling sampling;
     lsf_direct_chain chain;
     lsf_reflective_shadow_map rsm;
     lsf_vpl vpl;
     lsf_ray_bundle *bundle;         /* NULL: no bundles */
     lsf_ray_bundle_direction *aims; /* bundle_count of them */
-    GLuint bundle_pdf;
+    lsf_bundle_directions directions;
+    GLuint bundle_pdf; /* 0: uniform */
     lsf_bidirectional_shade shade;
     lsf_interleave interleave;
     lsf_compose compose;
@@ -171,6 +173,7 @@ static void plan_bidirectional(lsf_plan *plan, const lsf_pass_params *params,
                                      : "no punctual light bounces");
     if (s.segments > 0) {
         lsf_ray_bundle_use use = bundle_use(&s);
+        lsf_bundle_directions_plan(plan);
         lsf_ray_bundle_plan(plan, &params->ray_bundle, &use);
     } else {
         lsf_plan_omit(plan, "ray_bundle",
@@ -208,13 +211,20 @@ static bool create_light_power(bidirectional *b, const lsf_state *state, lsf_err
 }
 
 static bool create_bundles(bidirectional *b, lsf_context *context, const lsf_plan *plan,
-                           const lsf_pass_params *params, lsf_error *error)
+                           const lsf_pass_params *params, const lsf_scene *scene, lsf_error *error)
 {
     lsf_ray_bundle_use use = bundle_use(&b->sampling);
     b->aims = lsf_alloc(b->sampling.bundle_count, sizeof *b->aims);
     if (!b->aims)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
                              b->sampling.bundle_count);
+    if (!lsf_bundle_directions_init(&b->directions, &scene->environment,
+                                    params->ray_bundle.environment_offset, error) ||
+        !lsf_plan_create_texture(plan, context, "bundle.pdf", &b->bundle_pdf, error))
+        return false;
+    if (b->bundle_pdf)
+        glTextureSubImage2D(b->bundle_pdf, 0, 0, 0, LSF_BUNDLE_CELLS_X, LSF_BUNDLE_CELLS_Y, GL_RED,
+                            GL_FLOAT, b->directions.pdf);
     return lsf_ray_bundle_create(&b->bundle, context, plan, &params->ray_bundle, &use, error);
 }
 
@@ -225,6 +235,7 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
     bidirectional *b = *self = lsf_alloc(1, sizeof *b);
     if (!b)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+    b->context = context;
     sampling s = b->sampling = choose_sampling(plan, params, state);
     lsf_vpl_params vpl = vpl_params(params, &s);
     b->shade_params = params->bidirectional_shade;
@@ -237,7 +248,7 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
             (create_light_power(b, state, error) &&
              lsf_reflective_shadow_map_create(&b->rsm, context, plan, error))) &&
            (!s.vpl_light || lsf_vpl_create(&b->vpl, context, plan, &vpl, error)) &&
-           (s.segments == 0 || create_bundles(b, context, plan, params, error)) &&
+           (s.segments == 0 || create_bundles(b, context, plan, params, scene->scene, error)) &&
            (!lsf_plan_find(plan, "bidirectional_shade.irradiance") ||
             lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
                                            error)) &&
@@ -293,6 +304,7 @@ static void connect_vpl(sample_turn *turn, bool deep, const lsf_bidirectional_sa
 {
     bidirectional *b = turn->b;
     lsf_bidirectional_shade_inputs inputs = turn->inputs;
+    inputs.bundle_pdf = b->bundle_pdf;
     lsf_vpl_bind(&b->vpl, turn->vpl);
     inputs.map_depth = b->vpl.outputs.shadow_map;
     inputs.map_gradient = 0; /* in the same texels */
@@ -419,7 +431,8 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
                         .iterations = suppressed_iterations(b, iteration)};
     lsf_bidirectional_shade_clear(&b->shade);
     if (s->segments > 0) {
-        lsf_bundle_directions_draw(iteration, s->bundle_count, s->segments > 1, b->aims);
+        lsf_bundle_directions_draw(&b->directions, iteration, s->bundle_count, s->segments > 1,
+                                   b->aims);
         lsf_ray_bundle_aim(b->bundle, iteration, b->aims, b->chain.gbuffer.outputs.depth);
     }
     for (uint32_t i = 0; s->segments > 1 && i < s->bundle_count; i++)
@@ -490,6 +503,9 @@ static void destroy_bidirectional(void *self)
     lsf_interleave_destroy(&b->interleave);
     lsf_bidirectional_shade_destroy(&b->shade);
     lsf_ray_bundle_destroy(b->bundle);
+    if (b->bundle_pdf)
+        lsf_texture_destroy(b->context, &b->bundle_pdf);
+    lsf_bundle_directions_finish(&b->directions);
     lsf_vpl_destroy(&b->vpl);
     lsf_reflective_shadow_map_destroy(&b->rsm);
     lsf_direct_chain_destroy(&b->chain);
