@@ -62,7 +62,7 @@ typedef struct lsf_bidirectional_sample {
 typedef struct lsf_bidirectional_shade_inputs {
     GLuint depth, surface, gloss;   /* of the G-buffer, or split; not read for deep vertices */
     GLuint hits;                    /* of the bundle in turn; hits only */
-    GLuint map_depth, map_gradient; /* of the VPL in turn, or of the light for hits */
+    GLuint map_depth, map_gradient; /* of the light for hits; the map of the VPL in turn, and 0 */
     GLuint importance;              /* of the light's map, with adaptive emission */
     GLuint bundle_pdf;              /* 0: uniform */
 } lsf_bidirectional_shade_inputs;
