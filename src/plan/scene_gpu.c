@@ -317,6 +317,8 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
         !upload_materials(gpu, plan, error) || !upload_triangles(gpu, plan, state, error) ||
         !order_draws(gpu, state, error))
         return false;
+    if (!lsf_clusters_init(&gpu->clusters, scene))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the bounds of triangles");
     gpu->shading_array = create_array(gpu, "scene.shading_array", true, false);
     gpu->position_array =
         create_array(gpu, "scene.position_array", false, plan->requirements.masked);
@@ -344,21 +346,8 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
     glDeleteVertexArrays(1, &gpu->shading_array);
     glDeleteVertexArrays(1, &gpu->position_array);
     free(gpu->draw_order);
+    lsf_clusters_finish(&gpu->clusters);
     memset(gpu, 0, sizeof *gpu);
-}
-
-static bool inside(const lsf_draw_region *region, const lsf_instance_state *instance)
-{
-    for (uint32_t i = 0; i < region->plane_count; i++) {
-        const float *plane = region->planes[i];
-        float farthest = plane[3];
-        for (int axis = 0; axis < 3; axis++)
-            farthest += plane[axis] *
-                        (plane[axis] > 0.0f ? instance->bounds_max : instance->bounds_min)[axis];
-        if (farthest < 0.0f)
-            return false;
-    }
-    return true;
 }
 
 static void bind_slot(const lsf_scene_gpu *gpu, GLuint unit, const lsf_texture_slot *slot)
@@ -393,7 +382,7 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
         if (mode == LSF_DRAW_MASKED &&
             gpu->scene->materials[instance->material].alpha_mode != LSF_ALPHA_MASK)
             continue;
-        if (instance->skipped || (region && !inside(region, instance))) {
+        if (instance->skipped || (region && !lsf_clusters_inside(region, instance))) {
             counts[LSF_DRAW_CULLED]++;
             continue;
         }
@@ -401,10 +390,14 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
             bind_material(gpu, &gpu->scene->materials[bound = instance->material], mode);
         const lsf_primitive *primitive = &gpu->scene->primitives[instance->primitive];
         counts[LSF_DRAW_INSTANCES]++;
-        counts[LSF_DRAW_TRIANGLES] += primitive->index_count / 3;
-        glDrawElementsInstancedBaseInstance(
-            GL_TRIANGLES, (GLsizei)primitive->index_count, GL_UNSIGNED_INT,
-            (const void *)(uintptr_t)(primitive->first_index * 4), 1, gpu->draw_order[i]);
+        lsf_cluster_walk walk = lsf_clusters_walk(&gpu->clusters, gpu->scene, instance, region);
+        while (lsf_clusters_next(&walk)) {
+            counts[LSF_DRAW_TRIANGLES] += walk.count / 3;
+            glDrawElementsInstancedBaseInstance(
+                GL_TRIANGLES, (GLsizei)walk.count, GL_UNSIGNED_INT,
+                (const void *)(uintptr_t)((primitive->first_index + walk.first) * 4), 1,
+                gpu->draw_order[i]);
+        }
     }
     for (GLuint unit = 0; unit <= LSF_UNIT_ANISOTROPY && gpu->gl_texture_count; unit++)
         glBindSampler(unit, 0);

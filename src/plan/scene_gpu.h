@@ -3,6 +3,7 @@
 #ifndef LSF_PLAN_SCENE_GPU_H
 #define LSF_PLAN_SCENE_GPU_H
 
+#include "plan/clusters.h"
 #include "plan/plan.h"
 #include "scene/state.h"
 
@@ -19,7 +20,8 @@ typedef struct lsf_scene_gpu {
     GLuint samplers[18];   /* wrap s, wrap t, nearest: 3 x 3 x 2; 0 until needed */
     GLuint shading_array;  /* vertex array with every stream */
     GLuint position_array; /* positions (and UVs where masks need them) */
-    uint32_t *draw_order;  /* instances, grouped by material */
+    lsf_clusters clusters;
+    uint32_t *draw_order; /* instances, grouped by material */
     uint32_t draw_count;
 } lsf_scene_gpu;
 
@@ -49,19 +51,12 @@ typedef enum lsf_draw_mode {
     LSF_DRAW_MASKED,    /* the same of masked materials only */
 } lsf_draw_mode;
 
-/* A convex region: an instance wholly on the negative side of a plane is not drawn.
- * planes[i]: normal and offset, n.p + w >= 0 inside, normalised space. */
-typedef struct lsf_draw_region {
-    uint32_t plane_count;
-    float planes[6][4];
-} lsf_draw_region;
-
 /* What a pass drew since it was made. */
 enum { LSF_DRAW_INSTANCES, LSF_DRAW_CULLED, LSF_DRAW_TRIANGLES, LSF_DRAW_COUNTS };
 extern const char *const lsf_draw_count_names[LSF_DRAW_COUNTS];
 
-/* Draws every instance inside `region` (NULL: all) with the bound program and framebuffer, and
- * adds to `counts` (LSF_DRAW_COUNTS of them). */
+/* Draws what of every instance may be inside `region` (NULL: all) with the bound program and
+ * framebuffer, and adds to `counts` (LSF_DRAW_COUNTS of them). */
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
                         const lsf_draw_region *region, uint64_t *counts);
 
