@@ -53,8 +53,9 @@ typedef struct lsf_reference_ray_functions {
                                     lsf_error *error);
     void (*destroy)(lsf_reference_tracer *tracer); /* NULL allowed */
     /* The nearest hit beyond `near` of each ray, infinity where there is none, on all cores; and
-     * how long that took [s]. Rays that follow each other should be alike. The first call tries
-     * every way in which Embree takes rays; the fastest serves from then on. */
+     * how long that took [s]. Rays that follow each other should be alike. A call with more rays
+     * than those before tries every way in which Embree takes rays; the fastest serves from then
+     * on. */
     bool (*trace)(lsf_reference_tracer *tracer, const lsf_reference_ray *rays, uint64_t count,
                   float near, float *distances, double *seconds, lsf_error *error);
     const char *(*kernel)(const lsf_reference_tracer *tracer); /* "rtcIntersect16" */

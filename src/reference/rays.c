@@ -21,7 +21,7 @@
 #define CHUNK 1024u
 
 /* Times each kernel is tried. */
-#define TRIALS 2
+#define TRIALS 3
 
 typedef struct trace_job {
     RTCScene tree;
@@ -130,8 +130,8 @@ static const struct {
 
 struct lsf_reference_tracer {
     lsf_reference_geometry geometry;
-    bool chosen;
     size_t kernel;
+    uint64_t chosen_by; /* rays; 0: not chosen yet */
 };
 
 /* --- threads */
@@ -253,14 +253,14 @@ static void choose_kernel(lsf_reference_tracer *tracer, const trace_job *job)
                 tracer->kernel = k;
             }
         }
-    tracer->chosen = true;
+    tracer->chosen_by = job->count;
 }
 
 static bool trace(lsf_reference_tracer *tracer, const lsf_reference_ray *rays, uint64_t count,
                   float near, float *distances, double *seconds, lsf_error *error)
 {
     trace_job job = {tracer->geometry.tree, rays, count, near, distances};
-    if (!tracer->chosen)
+    if (count > tracer->chosen_by)
         choose_kernel(tracer, &job);
     *seconds = run(&job, kernels[tracer->kernel].trace);
     if (rtcGetDeviceError(tracer->geometry.device) == RTC_ERROR_NONE)
