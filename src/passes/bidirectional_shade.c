@@ -9,6 +9,9 @@ const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPT
     {"bidirectional.strategy", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, strategy),
      0, 0, "both|vpl|bundle", "",
      "how light of punctual lights is sampled: by VPLs and ray-bundles combined, or by one alone"},
+    {"bidirectional.sequence", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, sequence),
+     0, 0, "sobol|random", "",
+     "numbers that pick lights, VPLs and directions of bundles: low-discrepancy or plain random"},
     {"bidirectional.suppression", LSF_OPTION_ENUM,
      offsetof(lsf_bidirectional_shade_params, suppression), 0, 0, "roughness|clamp|none", "",
      "against spikes on glossy surfaces: roughness follows the density of samples, or the lobe is "

@@ -12,6 +12,11 @@ typedef enum lsf_bidirectional_strategy {
     LSF_BIDIRECTIONAL_BUNDLE, /* by bundles alone */
 } lsf_bidirectional_strategy;
 
+typedef enum lsf_bidirectional_sequence {
+    LSF_BIDIRECTIONAL_SOBOL,  /* low discrepancy over all iterations */
+    LSF_BIDIRECTIONAL_RANDOM, /* plain random numbers */
+} lsf_bidirectional_sequence;
+
 typedef enum lsf_glossy_suppression {
     LSF_GLOSSY_SUPPRESSION_ROUGHNESS, /* roughness follows the density of samples */
     LSF_GLOSSY_SUPPRESSION_CLAMP,     /* the distribution of normals is cut off instead */
@@ -20,6 +25,7 @@ typedef enum lsf_glossy_suppression {
 
 typedef struct lsf_bidirectional_shade_params {
     int32_t strategy;     /* lsf_bidirectional_strategy */
+    int32_t sequence;     /* lsf_bidirectional_sequence */
     int32_t suppression;  /* lsf_glossy_suppression */
     float kernel_samples; /* m': samples that a glossy lobe is to be spread over */
     float mis_beta;       /* exponent of the power heuristic */
@@ -28,10 +34,11 @@ typedef struct lsf_bidirectional_shade_params {
 } lsf_bidirectional_shade_params;
 
 #define LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS                                                    \
-    .strategy = LSF_BIDIRECTIONAL_BOTH, .suppression = LSF_GLOSSY_SUPPRESSION_ROUGHNESS,           \
-    .kernel_samples = 16.0f, .mis_beta = 1.0f, .clamp_distance = 0.0f
+    .strategy = LSF_BIDIRECTIONAL_BOTH, .sequence = LSF_BIDIRECTIONAL_SOBOL,                       \
+    .suppression = LSF_GLOSSY_SUPPRESSION_ROUGHNESS, .kernel_samples = 16.0f, .mis_beta = 1.0f,    \
+    .clamp_distance = 0.0f
 
-#define LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT 5
+#define LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT 6
 extern const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT];
 
 /* What the technique needs of it. */

@@ -110,10 +110,10 @@ bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
 /* The VPLs of all iterations are one low-discrepancy sequence. */
 static lsf_vec4 random_of(const lsf_iteration *iteration, uint32_t index, float light_probability)
 {
-    float point[2];
-    lsf_sobol_2d(index, lsf_iteration_seed(iteration, PURPOSE_DIRECTION), point);
+    uint32_t point[2];
+    lsf_iteration_sample(iteration, index, PURPOSE_DIRECTION, point);
     float turn = lsf_sobol_1d(index, lsf_iteration_seed(iteration, PURPOSE_TURN));
-    return (lsf_vec4){point[0], point[1], turn, light_probability};
+    return (lsf_vec4){lsf_unit_float(point[0]), lsf_unit_float(point[1]), turn, light_probability};
 }
 
 void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first, uint32_t count,

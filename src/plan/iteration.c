@@ -97,6 +97,18 @@ void lsf_iteration_destroy(lsf_iteration *iteration)
         lsf_buffer_destroy(iteration->context, &iteration->view_buffer);
 }
 
+void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32_t purpose,
+                          uint32_t bits[2])
+{
+    uint32_t seed = lsf_iteration_seed(iteration, purpose);
+    if (!iteration->plan->random_samples) {
+        lsf_sobol_2d_bits(index, seed, bits);
+        return;
+    }
+    bits[0] = lsf_hash(seed, 2 * (uint64_t)index);
+    bits[1] = lsf_hash(seed, 2 * (uint64_t)index + 1);
+}
+
 uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose)
 {
     return lsf_hash(iteration->seed, purpose);

@@ -41,6 +41,11 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index);
 /* The half spaces of the view's four sides and its near plane. */
 void lsf_iteration_region(const lsf_iteration *iteration, lsf_draw_region *region);
 
+/* Two numbers, uniform over 32 bits, that pick light sample `index` of all iterations: points of a
+ * Sobol sequence of `purpose`'s own, or plain random ones when the plan says so. */
+void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32_t purpose,
+                          uint32_t bits[2]);
+
 /* A seed of its own for each use of random numbers, named by `purpose`. */
 uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose);
 

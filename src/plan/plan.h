@@ -45,6 +45,7 @@ struct lsf_plan {
     lsf_requirements requirements;
     uint32_t width, height, samples, bounces, aovs;
     bool orthographic;
+    bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
     bool failed; /* memory ran out while it was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;

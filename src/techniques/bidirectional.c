@@ -155,6 +155,7 @@ static void plan_bidirectional(lsf_plan *plan, const lsf_pass_params *params,
 {
     sampling s = choose_sampling(plan, params, state);
     lsf_vpl_params vpl = vpl_params(params, &s);
+    plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
     lsf_direct_chain_plan(plan, params, state);
     if (s.interleave > 1)
         lsf_interleave_plan(plan, &params->interleave);
@@ -260,11 +261,11 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
 /* Each sample takes the light of one punctual light, picked by power. */
 static void pick_lights(bidirectional *b, const lsf_iteration *iteration, uint32_t count)
 {
-    uint32_t seed = lsf_iteration_seed(iteration, PURPOSE_LIGHT);
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t bits = lsf_sobol_1d_bits(iteration->index * count + i, seed);
+        uint32_t bits[2];
+        lsf_iteration_sample(iteration, iteration->index * count + i, PURPOSE_LIGHT, bits);
         b->lights[i] =
-            (uint32_t)lsf_distribution_sample(&b->light_power, lsf_unit_double(bits), NULL);
+            (uint32_t)lsf_distribution_sample(&b->light_power, lsf_unit_double(bits[0]), NULL);
     }
 }
 

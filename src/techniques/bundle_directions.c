@@ -132,7 +132,7 @@ void lsf_bundle_directions_draw(const lsf_bundle_directions *directions,
         uint32_t bits[2];
         uint32_t index = independent ? iteration->index : iteration->index * count + i;
         uint32_t purpose = PURPOSE_DIRECTION + (independent ? i : 0);
-        lsf_sobol_2d_bits(index, lsf_iteration_seed(iteration, purpose), bits);
+        lsf_iteration_sample(iteration, index, purpose, bits);
         lsf_float3 direction;
         drawn[i].pdf = 0.5f / LSF_PI;
         if (directions->pdf) {
