@@ -67,7 +67,7 @@ static void drawn_with_its_density(void **unused)
     lsf_bundle_directions directions;
     init(&directions, &environment);
     static lsf_ray_bundle_direction drawn[COUNT];
-    const lsf_plan plan = {0};
+    lsf_plan plan = {0};
     lsf_iteration iteration = {.plan = &plan, .seed = 3};
     lsf_bundle_directions_draw(&directions, &iteration, COUNT, false, drawn);
     for (int i = 0; i < COUNT; i++) {
