@@ -1,10 +1,11 @@
 /* A ray-bundle: its projection and its nodes, one for each fragment of the scene along its direction.
- * Switches LSF_BUNDLE_SLICES, LSF_BUNDLE_GLOSS, LSF_BUNDLE_ANISOTROPY, LSF_BUNDLE_EMISSION;
- * lsf_ray_bundle_reader_switches adds them. Writers define LSF_BUNDLE_ACCESS as coherent.
+ * Switches LSF_BUNDLE_SIDE (texels along a side), LSF_BUNDLE_SLICES, LSF_BUNDLE_GLOSS,
+ * LSF_BUNDLE_ANISOTROPY, LSF_BUNDLE_EMISSION; lsf_ray_bundle_reader_switches adds them. Writers define
+ * LSF_BUNDLE_ACCESS as coherent.
  *
- * The first LSF_BUNDLE_SLICES fragments of a texel lie slice by slice, fragment i of texel t in node
- * i texels^2 + t, so that neighbours in a slice are neighbours in memory; further ones are chained.
- * Which fragment comes first depends on the machine's mood: readers use rules that do not. */
+ * The first LSF_BUNDLE_SLICES (a multiple of 4) fragments of a texel have a place of their own, in
+ * slices of four that one fetch reads; further ones are chained. Which fragment comes first depends on
+ * the machine's mood: readers use rules that do not. */
 #ifndef LSF_LIB_RAY_BUNDLE
 #define LSF_LIB_RAY_BUNDLE
 
@@ -22,23 +23,28 @@ layout(std140, binding = LSF_BINDING_BUNDLE) uniform lsf_bundle_block
 };
 
 /* For each texel its number of fragments; the number of chained nodes; for each texel the last
- * chained node. */
+ * link of its chain. */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES) LSF_BUNDLE_ACCESS buffer lsf_bundle_texel_block
 {
     uint bundle_texels[];
 };
+#if LSF_BUNDLE_SLICES
 /* What a search needs of a node: depth of its plane at the texel's centre and its slopes. */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 1) LSF_BUNDLE_ACCESS buffer lsf_bundle_key_block
 {
     uint bundle_keys[];
 };
-/* x: shading normal on the side from which the bundle comes, octahedral; y: base colour; z: depth of
- * its plane at the texel's centre, a float; w: slopes, half floats. Keys are coarse to be quick to
- * search; what a hit is lit by is looked up in maps, which takes an exact position. */
+#endif
+/* Of chained nodes. x: key, y: the texel's link before this one */
+layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 5) LSF_BUNDLE_ACCESS buffer lsf_bundle_chain_block
+{
+    uvec2 bundle_chain[];
+};
+/* x: shading normal on the side from which the bundle comes, octahedral; y: base colour */
 layout(std430,
        binding = LSF_BINDING_BUNDLE_NODES + 2) LSF_BUNDLE_ACCESS buffer lsf_bundle_surface_block
 {
-    uvec4 bundle_surfaces[];
+    uvec2 bundle_surfaces[];
 };
 #if LSF_BUNDLE_ANISOTROPY
 /* x: gloss; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16 */
@@ -59,20 +65,22 @@ layout(std430,
     uvec2 bundle_emission[];
 };
 #endif
-/* For each chained node the one before it in its texel. */
-layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 5) LSF_BUNDLE_ACCESS buffer lsf_bundle_next_block
-{
-    uint bundle_next[];
-};
+#define LSF_BUNDLE_TEXELS (uint(LSF_BUNDLE_SIDE) * uint(LSF_BUNDLE_SIDE))
+#define LSF_BUNDLE_FIRST_LINK (uint(LSF_BUNDLE_SLICES) * LSF_BUNDLE_TEXELS) /* its node */
 
-uint bundle_side()
+/* The node of a texel's fragment below LSF_BUNDLE_SLICES. */
+uint bundle_slice_node(uint texel, uint fragment)
 {
-    return uint(bundle.range.z);
+    return ((fragment >> 2) * LSF_BUNDLE_TEXELS + texel) << 2 | (fragment & 3u);
 }
 
-uint bundle_texel_count()
+uint bundle_key(uint node)
 {
-    return bundle_side() * bundle_side();
+#if LSF_BUNDLE_SLICES
+    if (node < LSF_BUNDLE_FIRST_LINK)
+        return bundle_keys[node];
+#endif
+    return bundle_chain[node - LSF_BUNDLE_FIRST_LINK].x;
 }
 
 vec3 bundle_coordinates(vec3 p)
@@ -83,13 +91,13 @@ vec3 bundle_coordinates(vec3 p)
 /* Continuous texel coordinates of a point with these coordinates. */
 vec2 bundle_place(vec3 q)
 {
-    return ((q.xy - bundle.window.xy) / bundle.window.zw * 0.5 + 0.5) * bundle.range.z;
+    return ((q.xy - bundle.window.xy) / bundle.window.zw * 0.5 + 0.5) * float(LSF_BUNDLE_SIDE);
 }
 
 /* Width and height of a texel [normalised space]. */
 vec2 bundle_texel_size()
 {
-    return 2.0 * bundle.window.zw * bundle.range.w;
+    return bundle.window.zw * (2.0 / float(LSF_BUNDLE_SIDE));
 }
 
 /* --- keys: depth of 16 bits over the scene | slope along x, y of 8 bits each, as rise over run in
@@ -113,7 +121,7 @@ uint bundle_key_pack(float depth, vec2 slope)
 /* Depth in steps of the 16 bits. */
 float bundle_key_depth(uint key)
 {
-    return float(key >> 16);
+    return float(int(key >> 16)); /* signed: software GL converts those at once */
 }
 
 vec2 bundle_key_slope(uint key)
@@ -178,34 +186,13 @@ vec3 bundle_emission_unpack(uvec2 bits, out uint sides)
     return ldexp(vec3(m), ivec3(int(bits.y >> 22 & 0xffu) - 126 - 18));
 }
 
-vec2 bundle_plane_slope(uint node)
-{
-    return unpackHalf2x16(bundle_surfaces[node].w);
-}
-
-/* Where a ray from `origin`, along the bundle or against it, meets a node of its texel. The node's
- * plane is known to hold the surface at the texel's centre; steep ones may leave it long before the
- * ray, and lie outside of a closed room there, so no point is farther off the centre than the
- * texel's half diagonal. */
-vec3 bundle_position(uint node, vec3 origin)
-{
-    vec3 q = bundle_coordinates(origin);
-    vec2 place = bundle_place(q), size = bundle_texel_size();
-    vec2 from_center = (place - floor(place) - 0.5) * size;
-    vec3 along = vec3(from_center, dot(bundle_plane_slope(node), from_center));
-    along *= min(1.0, 0.5 * length(size) / max(length(along), 1e-30));
-    float z = bundle.range.x + bundle.range.y * uintBitsToFloat(bundle_surfaces[node].z);
-    return origin + (along.x - from_center.x) * bundle.right.xyz +
-           (along.y - from_center.y) * bundle.up.xyz + (z + along.z - q.z) * bundle.forward.xyz;
-}
-
 /* The surface of a node as a ray along the bundle, or against it, sees it: normals turned against
  * the ray, emission of the side it meets. An unlit surface emits its base colour. */
 surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
 {
     surface s;
-    uvec2 bits = bundle_surfaces[node].xy;
-    vec2 slope = bundle_plane_slope(node);
+    uvec2 bits = bundle_surfaces[node];
+    vec2 slope = bundle_key_slope(bundle_key(node));
     float side = dot(ray_direction, bundle.forward.xyz) < 0.0 ? -1.0 : 1.0;
     s.geometric_normal = side * normalize(slope.x * bundle.right.xyz + slope.y * bundle.up.xyz -
                                           bundle.forward.xyz);

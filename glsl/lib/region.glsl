@@ -7,14 +7,17 @@
 
 layout(location = LSF_LOCATION_REGION) uniform ivec4 region; /* its corner; its tile */
 
-/* The picture's fragment coordinates of the fragment at hand. */
-vec2 region_fragment()
+/* The picture's fragment coordinates of a place [fragment coordinates] in the region; affine. */
+vec2 region_place(vec2 fragment)
 {
 #if LSF_INTERLEAVE > 1
-    return vec2((ivec2(gl_FragCoord.xy) - region.xy) * LSF_INTERLEAVE + region.zw) + 0.5;
+    return (fragment - 0.5 - vec2(region.xy)) * float(LSF_INTERLEAVE) + vec2(region.zw) + 0.5;
 #else
-    return gl_FragCoord.xy;
+    return fragment;
 #endif
 }
+
+/* Of the fragment at hand. */
+#define region_fragment() region_place(gl_FragCoord.xy)
 
 #endif

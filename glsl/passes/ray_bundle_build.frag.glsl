@@ -6,19 +6,24 @@
 
 layout(location = 0) uniform uint chain_room; /* nodes for chaining */
 
-/* LSF_NO_NODE where there is no room left; the counter then still tells how much was needed. */
-uint append_node(uint texel)
+/* Gives the fragment a node and stores its key. LSF_NO_NODE where there is no room left; the counter
+ * then still tells how much was needed. */
+uint append_node(uint texel, uint key)
 {
-    uint slices = uint(LSF_BUNDLE_SLICES) * bundle_texel_count();
-    uint rank = atomicAdd(bundle_texels[texel], 1u);
-    if (rank < uint(LSF_BUNDLE_SLICES))
-        return rank * bundle_texel_count() + texel;
-    uint link = atomicAdd(bundle_texels[bundle_texel_count()], 1u);
+    uint fragment = atomicAdd(bundle_texels[texel], 1u);
+#if LSF_BUNDLE_SLICES
+    if (fragment < uint(LSF_BUNDLE_SLICES)) {
+        uint node = bundle_slice_node(texel, fragment);
+        bundle_keys[node] = key;
+        return node;
+    }
+#endif
+    uint link = atomicAdd(bundle_texels[LSF_BUNDLE_TEXELS], 1u);
     if (link >= chain_room)
         return LSF_NO_NODE;
-    bundle_next[link] =
-        atomicExchange(bundle_texels[bundle_texel_count() + 1u + texel], slices + link);
-    return slices + link;
+    uint before = atomicExchange(bundle_texels[LSF_BUNDLE_TEXELS + 1u + texel], link);
+    bundle_chain[link] = uvec2(key, before);
+    return LSF_BUNDLE_FIRST_LINK + link;
 }
 
 void main()
@@ -30,14 +35,12 @@ void main()
     if (!material_evaluate(-bundle.forward.xyz, s, emission, front))
         discard;
     uvec2 at = uvec2(gl_FragCoord.xy);
-    uint node = append_node(at.y * bundle_side() + at.x);
+    uint key = bundle_key_pack(gl_FragCoord.z,
+                               depth_change * bundle.range.y / bundle_texel_size());
+    uint node = append_node(at.y * uint(LSF_BUNDLE_SIDE) + at.x, key);
     if (node == LSF_NO_NODE)
         return;
-    vec2 slope = depth_change * bundle.range.y / bundle_texel_size();
-    bundle_keys[node] = bundle_key_pack(gl_FragCoord.z, slope);
-    bundle_surfaces[node] =
-        uvec4(octahedral_encode(s.normal), bundle_color_pack(s.base_color),
-              floatBitsToUint(gl_FragCoord.z), packHalf2x16(clamp(slope, -65504.0, 65504.0)));
+    bundle_surfaces[node] = uvec2(octahedral_encode(s.normal), bundle_color_pack(s.base_color));
 #if LSF_BUNDLE_ANISOTROPY
     bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0),
                                packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));

@@ -21,6 +21,11 @@ struct lsf_bundle_slot_data {
     vec4 unused[11];
 };
 
+/* Storage buffer of hits on coinciding surfaces, in the search, which reads no materials; work groups
+ * that share them. */
+#define LSF_BINDING_TIES 0
+#define LSF_BUNDLE_TIE_GROUPS 64
+
 /* Tiles of pixels that a window is fitted to, and invocations that fit one. */
 #define LSF_BUNDLE_TILE 8
 #define LSF_BUNDLE_FIT_SIZE 256

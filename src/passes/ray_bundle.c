@@ -38,7 +38,9 @@ static bool window_is_fitted(const lsf_ray_bundle_params *params, const lsf_ray_
 void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params)
 {
     bool gloss = lsf_ray_bundle_has_gloss(plan);
-    lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", params->slices, "bundle.slices");
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_SIDE", params->resolution, "bundle.resolution");
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
+                        "bundle.slices, rounded up to a multiple of 4");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", gloss && plan->requirements.anisotropic,
                         "some material is anisotropic");
@@ -69,6 +71,8 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
                         "size of the interleaving pattern");
     lsf_plan_switch_add(plan, "LSF_DEEP", use->deep_vertices, "paths go on from hits");
+    lsf_plan_buffer_add(plan, "ray_bundle.ties", 8 + 8 * (uint64_t)plan->width * plan->height,
+                        "hits on coinciding surfaces, which are chosen among by their looks");
     lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, plan->width, plan->height,
                          "distance and node of each ray's hit");
 }
@@ -85,6 +89,7 @@ static bool create_resources(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_err
                                 GL_DYNAMIC_STORAGE_BIT, &pass->projection_buffer, error) ||
         !lsf_plan_create_buffer(plan, context, "ray_bundle.readback", NULL, 0, &pass->readback,
                                 error) ||
+        !lsf_plan_create_buffer(plan, context, "ray_bundle.ties", NULL, 0, &pass->ties, error) ||
         !lsf_plan_create_texture(plan, context, "ray_bundle.hits", &pass->hits, error))
         return false;
     glCreateQueries(GL_SAMPLES_PASSED, 1, &pass->samples_query);
@@ -106,7 +111,8 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf
 {
     static const char *const build_files[5] = {"passes/ray_bundle_build.vert.glsl",
                                                "passes/ray_bundle_build.frag.glsl"};
-    static const char *const search_files[5] = {"lib/fullscreen.vert.glsl",
+    static const char *const ties_files[5] = {"passes/ray_bundle_ties.comp.glsl"};
+    static const char *const search_files[5] = {"passes/ray_bundle_search.vert.glsl",
                                                 "passes/ray_bundle_search.frag.glsl"};
     lsf_ray_bundle *pass = *out = lsf_alloc(1, sizeof *pass);
     if (!pass)
@@ -121,9 +127,11 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf
     pass->build_program = lsf_plan_program(plan, context, "ray_bundle_build", build_files, error);
     pass->search_program =
         lsf_plan_program(plan, context, "ray_bundle_search", search_files, error);
+    pass->ties_program = lsf_plan_program(plan, context, "ray_bundle_search", ties_files, error);
     pass->build_timer = lsf_timer_create(context, "ray_bundle_build", error);
     pass->search_timer = lsf_timer_create(context, "ray_bundle_search", error);
-    return pass->build_program && pass->search_program && pass->build_timer && pass->search_timer;
+    return pass->build_program && pass->search_program && pass->ties_program && pass->build_timer &&
+           pass->search_timer;
 }
 
 void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle)
@@ -197,23 +205,41 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     lsf_timer_end(pass->build_timer);
 }
 
+/* Hits on surfaces that coincide: seldom any. */
+static void settle_ties(const lsf_ray_bundle *pass)
+{
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glBindImageTexture(0, pass->hits, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RG32UI);
+    glUseProgram(pass->ties_program);
+    glDispatchCompute(LSF_BUNDLE_TIE_GROUPS, 1, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT);
+}
+
 GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
                              const lsf_ray_bundle_origins *origins, const lsf_region *region)
 {
+    static const GLuint zero = 0;
     (void)iteration;
     lsf_timer_begin(pass->search_timer);
     lsf_ray_bundle_bind(pass, bundle);
+    lsf_ray_bundle_nodes_bind_textures(&pass->slots[bundle % pass->use.slots]);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->hits_framebuffer);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     glBindTextureUnit(0, origins->depth);
     glBindTextureUnit(1, origins->surface);
     glBindTextureUnit(2, origins->position);
+    glClearNamedBufferSubData(pass->ties, GL_R32UI, 0, 4, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_TIES, pass->ties);
     glUseProgram(pass->search_program);
     if (pass->use.deep_vertices)
         glUniform1i(0, origins->depth == 0);
+    glUniform2f(1, (float)region->width, (float)region->height);
+    glUniform1i(2, lsf_ray_bundle_slices(&pass->params) / 4);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);
+    settle_ties(pass);
     lsf_timer_end(pass->search_timer);
     return pass->hits;
 }
@@ -237,6 +263,7 @@ void lsf_ray_bundle_destroy(lsf_ray_bundle *pass)
     lsf_ray_bundle_nodes_destroy(pass);
     lsf_buffer_destroy(pass->context, &pass->projection_buffer);
     lsf_buffer_destroy(pass->context, &pass->readback);
+    lsf_buffer_destroy(pass->context, &pass->ties);
     lsf_texture_destroy(pass->context, &pass->tiles);
     lsf_texture_destroy(pass->context, &pass->hits);
     lsf_framebuffer_destroy(pass->context, &pass->tiles_framebuffer);

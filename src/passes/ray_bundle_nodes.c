@@ -11,7 +11,12 @@
 #define GROWTH_MARGIN 4
 
 static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"texels", "keys",     "surfaces",
-                                                               "gloss",  "emission", "next"};
+                                                               "gloss",  "emission", "chain"};
+
+int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
+{
+    return (params->slices + 3) / 4 * 4;
+}
 
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan)
 {
@@ -34,12 +39,12 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
                             uint64_t room)
 {
     uint64_t texels = texel_count(params);
-    uint64_t nodes = texels * (uint64_t)params->slices + room;
+    uint64_t nodes = texels * (uint64_t)lsf_ray_bundle_slices(params) + room;
     switch (array) {
     case LSF_RAY_BUNDLE_TEXELS:
         return 4 * (2 * texels + 1);
     case LSF_RAY_BUNDLE_KEYS:
-        return 4 * nodes;
+        return 4 * (nodes - room);
     case LSF_RAY_BUNDLE_SURFACES:
         return 16 * nodes;
     case LSF_RAY_BUNDLE_GLOSS:
@@ -48,7 +53,7 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
     case LSF_RAY_BUNDLE_EMISSION:
         return lsf_ray_bundle_has_emission(plan) ? 8 * nodes : 0;
     default:
-        return 4 * room;
+        return 8 * room;
     }
 }
 
@@ -71,7 +76,7 @@ void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *para
         "plane, shading normal and base colour, 16 bytes a node",
         "roughness, metallic and f0 of a node",
         "radiance of a node, 8 bytes",
-        "links of chained nodes, 4 bytes each"};
+        "keys and links of chained nodes, 8 bytes each"};
     for (uint32_t slot = 0; slot < slots; slot++)
         for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
             char name[64];
@@ -101,6 +106,13 @@ static bool check_size(const char *name, uint64_t bytes, const lsf_ray_bundle_pa
                          params->resolution, params->slices);
 }
 
+static void attach_textures(lsf_ray_bundle_slot *slot)
+{
+    glTextureBuffer(slot->texel_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_TEXELS]);
+    glTextureBuffer(slot->key_fetch, GL_RGBA32UI, slot->arrays[LSF_RAY_BUNDLE_KEYS]);
+    glTextureBuffer(slot->chain_fetch, GL_RG32UI, slot->arrays[LSF_RAY_BUNDLE_CHAIN]);
+}
+
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
 {
     pass->slots = lsf_alloc(pass->use.slots, sizeof *pass->slots);
@@ -120,6 +132,10 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
                                         error))
                 return false;
         }
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->texel_fetch);
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->key_fetch);
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->chain_fetch);
+        attach_textures(slot);
     }
     return true;
 }
@@ -128,6 +144,9 @@ static void destroy_slot(lsf_context *context, lsf_ray_bundle_slot *slot)
 {
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++)
         lsf_buffer_destroy(context, &slot->arrays[array]);
+    glDeleteTextures(1, &slot->texel_fetch);
+    glDeleteTextures(1, &slot->key_fetch);
+    glDeleteTextures(1, &slot->chain_fetch);
 }
 
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
@@ -135,16 +154,18 @@ bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bun
 {
     uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
     room = room > UINT32_MAX ? UINT32_MAX : room;
-    for (int array = LSF_RAY_BUNDLE_TEXELS + 1; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
+    for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
         char name[64];
         array_name(name, array, slot->index);
         uint64_t bytes = array_bytes(plan, &pass->params, array, room);
-        if (bytes && (!check_size(name, bytes, &pass->params, error) ||
-                      !lsf_plan_resize_buffer(plan, pass->context, name, bytes, 0,
-                                              &slot->arrays[array], error)))
+        if (bytes != array_bytes(plan, &pass->params, array, slot->room) &&
+            (!check_size(name, bytes, &pass->params, error) ||
+             !lsf_plan_resize_buffer(plan, pass->context, name, bytes, 0, &slot->arrays[array],
+                                     error)))
             return false;
     }
     slot->room = (uint32_t)room;
+    attach_textures(slot);
     return true;
 }
 
@@ -152,6 +173,13 @@ void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot)
 {
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_NODES, LSF_RAY_BUNDLE_ARRAYS,
                       slot->arrays);
+}
+
+void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot)
+{
+    glBindTextureUnit(3, slot->texel_fetch);
+    glBindTextureUnit(4, slot->key_fetch);
+    glBindTextureUnit(5, slot->chain_fetch);
 }
 
 void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass)

@@ -12,7 +12,7 @@ enum {
     LSF_RAY_BUNDLE_SURFACES,
     LSF_RAY_BUNDLE_GLOSS,
     LSF_RAY_BUNDLE_EMISSION,
-    LSF_RAY_BUNDLE_NEXT,
+    LSF_RAY_BUNDLE_CHAIN,
     LSF_RAY_BUNDLE_ARRAYS,
 };
 
@@ -21,6 +21,7 @@ typedef struct lsf_ray_bundle_slot {
     uint32_t index;
     uint32_t room; /* chained nodes */
     GLuint arrays[LSF_RAY_BUNDLE_ARRAYS];
+    GLuint texel_fetch, key_fetch, chain_fetch; /* buffer textures of what the search reads */
 } lsf_ray_bundle_slot;
 
 struct lsf_ray_bundle {
@@ -34,7 +35,8 @@ struct lsf_ray_bundle {
     GLuint readback; /* one counter on its way to the host */
     GLuint samples_query;
     GLuint tiles, tiles_framebuffer, build_framebuffer, hits, hits_framebuffer;
-    GLuint tiles_program, fit_program, build_program, search_program;
+    GLuint ties; /* hits on coinciding surfaces */
+    GLuint tiles_program, fit_program, build_program, search_program, ties_program;
     lsf_timer *bounds_timer, *build_timer, *search_timer;
     uint64_t counts[LSF_RAY_BUNDLE_COUNTS];
     uint64_t draw_counts[LSF_DRAW_COUNTS];
@@ -42,6 +44,7 @@ struct lsf_ray_bundle {
 
 /* --- ray_bundle_nodes.c */
 
+int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params); /* a multiple of 4 */
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan);
 bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params, uint32_t slots);
@@ -50,6 +53,7 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
                                uint32_t needed, lsf_error *error);
 void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot);
+void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot);
 void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
 
 /* --- ray_bundle_aim.c */
