@@ -77,13 +77,6 @@ bundle_ray ray_of(ivec2 pixel, out int count)
     return ray;
 }
 
-/* From the ray's place to the node's plane, along the ray [steps]. */
-float bundle_distance(bundle_ray ray, uint key)
-{
-    float depth = bundle_key_depth(key) + dot(bundle_key_slope(key), ray.to_depth);
-    return ray.sign * (depth - ray.depth);
-}
-
 struct bundle_hit {
     float distance; /* steps */
     uint key;
@@ -95,8 +88,13 @@ struct bundle_hit {
  * that the list's order does not. */
 void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hit)
 {
-    float distance = bundle_distance(ray, key);
-    bool beyond = present && distance > ray_scale.w;
+    vec2 slope = bundle_key_slope(key);
+    float depth = bundle_key_depth(key) + dot(slope, ray.to_depth);
+    float distance = ray.sign * (depth - ray.depth);
+    /* The origin's own surface: its distance from the plane is the one along the ray over
+     * sqrt(1 + slope^2). */
+    bool beyond = present && distance > 0.0 &&
+                  distance * distance > ray_scale.w * (1.0 + dot(slope, slope));
     bool same = beyond && distance == hit.distance;
     bool nearer = (beyond && distance < hit.distance) || (same && key < hit.key);
     hit.tie = !nearer && (hit.tie || (same && key == hit.key));

@@ -15,7 +15,7 @@ flat out vec4 ray_scale; /* x, y: depth steps across a texel for a slope of 1; s
 
 /* How far off a node's plane may be at the ray's place and still be the surface that the ray left:
  * a tenth of a texel, for what curves within it, and half a step of the depth. */
-#define LSF_SELF_TEXELS 0.1
+#define LSF_SELF_TEXELS 0.2
 
 /* A vector in normalised space as texels and depth steps. */
 vec3 to_map(vec3 v)
@@ -37,5 +37,6 @@ void main()
     bundle_forward = bundle.forward.xyz;
     vec2 texel = bundle_texel_size();
     float steps = LSF_BUNDLE_DEPTH_STEPS / bundle.range.y;
-    ray_scale = vec4(texel * steps, steps, LSF_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5);
+    float self = LSF_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5;
+    ray_scale = vec4(texel * steps, steps, self * self);
 }
