@@ -29,22 +29,25 @@ layout(std430, binding = LSF_BINDING_BUNDLE_NODES) LSF_BUNDLE_ACCESS buffer lsf_
     uint bundle_texels[];
 };
 #if LSF_BUNDLE_SLICES
-/* What a search needs of a node: depth of its plane at the texel's centre and its slopes. */
+/* What a search needs of a node: its plane, coarse. Depth at the texel's centre, 16 bits | slopes along
+ * right and up, 8 bits each */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 1) LSF_BUNDLE_ACCESS buffer lsf_bundle_key_block
 {
     uint bundle_keys[];
 };
 #endif
-/* Of chained nodes. x: key, y: the texel's link before this one */
+/* Of chained nodes. x: key; y: the texel's link before this one; z: texel */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 5) LSF_BUNDLE_ACCESS buffer lsf_bundle_chain_block
 {
-    uvec2 bundle_chain[];
+    uvec4 bundle_chain[];
 };
-/* x: shading normal on the side from which the bundle comes, octahedral; y: base colour */
+/* Three words a node: shading normal on the side from which the bundle comes, octahedral; base colour;
+ * what the key leaves out of the plane, for what a hit is lit by is looked up in maps, which takes an
+ * exact position. */
 layout(std430,
        binding = LSF_BINDING_BUNDLE_NODES + 2) LSF_BUNDLE_ACCESS buffer lsf_bundle_surface_block
 {
-    uvec2 bundle_surfaces[];
+    uint bundle_surfaces[];
 };
 #if LSF_BUNDLE_ANISOTROPY
 /* x: gloss; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16 */
@@ -83,6 +86,12 @@ uint bundle_key(uint node)
     return bundle_chain[node - LSF_BUNDLE_FIRST_LINK].x;
 }
 
+uint bundle_texel(uint node)
+{
+    return node < LSF_BUNDLE_FIRST_LINK ? (node >> 2) % LSF_BUNDLE_TEXELS
+                                        : bundle_chain[node - LSF_BUNDLE_FIRST_LINK].z;
+}
+
 vec3 bundle_coordinates(vec3 p)
 {
     return vec3(dot(bundle.right.xyz, p), dot(bundle.up.xyz, p), dot(bundle.forward.xyz, p));
@@ -100,25 +109,32 @@ vec2 bundle_texel_size()
     return bundle.window.zw * (2.0 / float(LSF_BUNDLE_SIDE));
 }
 
-/* --- keys: depth of 16 bits over the scene | slope along x, y of 8 bits each, as rise over run in
- * normalised space. Steep slopes are coarse: s = c / (128 - |c|), c in -127..127, which divides the
- * angle about evenly (within 0.45 degrees) and ends at 89.5 degrees. */
+/* --- planes: depth at the texel's centre, 0..1 over the scene, and slopes as rise over run in
+ * normalised space. A slope s is kept as c = s / (1 + |s|), which divides its angle about evenly. Keys
+ * have 16 and twice 8 bits of them: slopes within 0.45 degrees, up to 89.5. The rest, 16 and twice 8
+ * bits more, lies with the surface. */
 
 #define LSF_BUNDLE_DEPTH_STEPS 65535.0
 
-uint bundle_slope_pack(float slope)
+struct bundle_plane_bits {
+    uint key, rest;
+};
+
+bundle_plane_bits bundle_plane_pack(float depth, vec2 slope)
 {
+    float steps = clamp(depth, 0.0, 1.0) * LSF_BUNDLE_DEPTH_STEPS;
+    float coarse = floor(steps + 0.5);
     slope = clamp(slope, -1e6, 1e6);
-    return uint(int(clamp(round(128.0 * slope / (1.0 + abs(slope))), -127.0, 127.0))) & 0xffu;
+    ivec2 c = ivec2(clamp(round(32768.0 * slope / (1.0 + abs(slope))), -32639.0, 32639.0));
+    ivec2 high = (c + 128) >> 8, low = c - high * 256;
+    bundle_plane_bits bits;
+    bits.key = uint(int(coarse)) << 16 | uint(high.x & 255) << 8 | uint(high.y & 255);
+    bits.rest = packSnorm2x16(vec2(0.0, 2.0 * (steps - coarse))) | uint(low.x & 255) << 8 |
+                uint(low.y & 255);
+    return bits;
 }
 
-uint bundle_key_pack(float depth, vec2 slope)
-{
-    uint steps = uint(clamp(depth, 0.0, 1.0) * LSF_BUNDLE_DEPTH_STEPS + 0.5);
-    return steps << 16 | bundle_slope_pack(slope.x) << 8 | bundle_slope_pack(slope.y);
-}
-
-/* Depth in steps of the 16 bits. */
+/* In steps. */
 float bundle_key_depth(uint key)
 {
     return float(int(key >> 16)); /* signed: software GL converts those at once */
@@ -128,6 +144,16 @@ vec2 bundle_key_slope(uint key)
 {
     vec2 c = vec2(int(key << 16) >> 24, int(key << 24) >> 24);
     return c / (128.0 - abs(c));
+}
+
+/* Depth at the texel's centre, 0..1, and slopes, as exact as they are kept. */
+vec3 bundle_plane(uint node)
+{
+    uint key = bundle_key(node), rest = bundle_surfaces[3u * node + 2u];
+    vec2 c = vec2(int(key << 16) >> 24, int(key << 24) >> 24) +
+             vec2(int(rest << 16) >> 24, int(rest << 24) >> 24) / 256.0;
+    float depth = bundle_key_depth(key) + 0.5 * unpackSnorm2x16(rest).y;
+    return vec3(depth / LSF_BUNDLE_DEPTH_STEPS, c / (128.0 - abs(c)));
 }
 
 /* --- surfaces */
@@ -186,19 +212,35 @@ vec3 bundle_emission_unpack(uvec2 bits, out uint sides)
     return ldexp(vec3(m), ivec3(int(bits.y >> 22 & 0xffu) - 126 - 18));
 }
 
+/* Where a ray from `origin`, along the bundle or against it, meets a node of its texel. The node's
+ * plane is known to hold the surface at the texel's centre; steep ones may leave it long before the
+ * ray, and lie outside of a closed room there, so no point is farther off the centre than the
+ * texel's half diagonal. */
+vec3 bundle_position(uint node, vec3 origin)
+{
+    vec3 plane = bundle_plane(node);
+    vec3 q = bundle_coordinates(origin);
+    vec2 place = bundle_place(q), size = bundle_texel_size();
+    vec2 from_center = (place - floor(place) - 0.5) * size;
+    vec3 along = vec3(from_center, dot(plane.yz, from_center));
+    along *= min(1.0, 0.5 * length(size) / max(length(along), 1e-30));
+    float z = bundle.range.x + bundle.range.y * plane.x;
+    return origin + (along.x - from_center.x) * bundle.right.xyz +
+           (along.y - from_center.y) * bundle.up.xyz + (z + along.z - q.z) * bundle.forward.xyz;
+}
+
 /* The surface of a node as a ray along the bundle, or against it, sees it: normals turned against
  * the ray, emission of the side it meets. An unlit surface emits its base colour. */
 surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
 {
     surface s;
-    uvec2 bits = bundle_surfaces[node];
-    vec2 slope = bundle_key_slope(bundle_key(node));
+    vec2 slope = bundle_plane(node).yz;
     float side = dot(ray_direction, bundle.forward.xyz) < 0.0 ? -1.0 : 1.0;
     s.geometric_normal = side * normalize(slope.x * bundle.right.xyz + slope.y * bundle.up.xyz -
                                           bundle.forward.xyz);
-    vec3 normal = octahedral_decode(bits.x);
+    vec3 normal = octahedral_decode(bundle_surfaces[3u * node]);
     s.normal = side * normal;
-    s.base_color = bundle_color_unpack(bits.y);
+    s.base_color = bundle_color_unpack(bundle_surfaces[3u * node + 1u]);
     s.metallic = 0.0;
     s.roughness = 1.0;
     s.f0 = 0.04; /* ior 1.5 */

@@ -22,7 +22,7 @@ uint append_node(uint texel, uint key)
     if (link >= chain_room)
         return LSF_NO_NODE;
     uint before = atomicExchange(bundle_texels[LSF_BUNDLE_TEXELS + 1u + texel], link);
-    bundle_chain[link] = uvec2(key, before);
+    bundle_chain[link] = uvec4(key, before, texel, 0u);
     return LSF_BUNDLE_FIRST_LINK + link;
 }
 
@@ -35,12 +35,14 @@ void main()
     if (!material_evaluate(-bundle.forward.xyz, s, emission, front))
         discard;
     uvec2 at = uvec2(gl_FragCoord.xy);
-    uint key = bundle_key_pack(gl_FragCoord.z,
-                               depth_change * bundle.range.y / bundle_texel_size());
-    uint node = append_node(at.y * uint(LSF_BUNDLE_SIDE) + at.x, key);
+    bundle_plane_bits plane =
+        bundle_plane_pack(gl_FragCoord.z, depth_change * bundle.range.y / bundle_texel_size());
+    uint node = append_node(at.y * uint(LSF_BUNDLE_SIDE) + at.x, plane.key);
     if (node == LSF_NO_NODE)
         return;
-    bundle_surfaces[node] = uvec2(octahedral_encode(s.normal), bundle_color_pack(s.base_color));
+    bundle_surfaces[3u * node] = octahedral_encode(s.normal);
+    bundle_surfaces[3u * node + 1u] = bundle_color_pack(s.base_color);
+    bundle_surfaces[3u * node + 2u] = plane.rest;
 #if LSF_BUNDLE_ANISOTROPY
     bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0),
                                packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));

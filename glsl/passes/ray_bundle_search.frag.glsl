@@ -31,7 +31,7 @@ layout(location = 0) out uvec2 hit_out; /* distance as float bits, node */
 struct bundle_ray {
     int texel;
     float depth;   /* of the origin, in steps of the keys */
-    vec2 to_depth; /* depth steps for a slope of 1: from the texel's centre to the ray */
+    vec2 to_depth; /* steps for a slope of 1: from the texel's centre to the ray */
     float sign;    /* 1 along the bundle, -1 against it */
 };
 
@@ -78,7 +78,7 @@ bundle_ray ray_of(ivec2 pixel, out int count)
 }
 
 struct bundle_hit {
-    float distance; /* steps */
+    float distance; /* steps of depth */
     uint key;
     int node;
     bool tie; /* another node has the same key */
@@ -96,7 +96,8 @@ void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hi
     bool beyond = present && distance > 0.0 &&
                   distance * distance > ray_scale.w * (1.0 + dot(slope, slope));
     bool same = beyond && distance == hit.distance;
-    bool nearer = (beyond && distance < hit.distance) || (same && key < hit.key);
+    bool nearer = (beyond && distance < hit.distance) ||
+                  (same && key < hit.key);
     hit.tie = !nearer && (hit.tie || (same && key == hit.key));
     hit.distance = nearer ? distance : hit.distance;
     hit.key = nearer ? key : hit.key;
@@ -123,7 +124,7 @@ bundle_hit search(bundle_ray ray, int count)
     int link = left > 0 ? int(texelFetch(texel_fetch, texels + 1 + ray.texel).x) : 0;
     for (uint turn = 0u; turn < LSF_TURNS && left > 0; turn++)
         for (uint i = 0u; i < LSF_STEPS && left > 0; i++) {
-            uvec2 node = texelFetch(chain_fetch, link).xy;
+            uvec4 node = texelFetch(chain_fetch, link);
             visit(ray, true, node.x, int(LSF_BUNDLE_FIRST_LINK) + link, hit);
             link = int(node.y);
             left--;
@@ -137,8 +138,7 @@ void main()
     bundle_ray ray = ray_of(ivec2(gl_FragCoord.xy), count);
     bundle_hit hit = search(ray, count);
     if (hit.tie)
-        ties[atomicAdd(tie_count, 1u)] =
-            uvec2(uint(gl_FragCoord.x) | uint(gl_FragCoord.y) << 16, uint(ray.texel));
+        ties[atomicAdd(tie_count, 1u)] = uint(gl_FragCoord.x) | uint(gl_FragCoord.y) << 16;
     /* -1 is LSF_NO_NODE */
     hit_out = uvec2(hit.node < 0 ? 0u : floatBitsToUint(hit.distance / ray_scale.z),
                     uint(hit.node));

@@ -10,11 +10,11 @@ layout(location = 1) uniform vec2 region_size;
 
 out vec3 view_start, view_along;  /* texels, texels, steps of depth */
 flat out vec3 bundle_forward;
-flat out vec4 ray_scale; /* x, y: depth steps across a texel for a slope of 1; steps for a unit of length;
-                          * steps within which a ray is still on the surface that it left */
+flat out vec4 ray_scale; /* x, y: depth steps across a texel for a slope of 1; steps of a unit of length;
+                          * square of the steps within which a ray is still on the surface it left */
 
-/* How far off a node's plane may be at the ray's place and still be the surface that the ray left:
- * a tenth of a texel, for what curves within it, and half a step of the depth. */
+/* How far a node's plane may pass from the origin of a ray and still be the surface that it left: a
+ * part of a texel, for what curves within one, and half a step of the keys' depth. */
 #define LSF_SELF_TEXELS 0.2
 
 /* A vector in normalised space as texels and depth steps. */

@@ -9,32 +9,35 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0, rg32ui) uniform uimage2D hits;
 
-bool less(uvec2 a, uvec2 b)
+/* -1, 0 or 1 */
+int compare(uint a, uint b)
 {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
+    return a < b ? -1 : int(a > b);
 }
 
 bool comes_before(uint a, uint b)
 {
-    if (bundle_surfaces[a] != bundle_surfaces[b])
-        return less(bundle_surfaces[a], bundle_surfaces[b]);
+    int order = 0;
+    for (uint i = 0u; i < 3u && order == 0; i++)
+        order = compare(bundle_surfaces[3u * a + i], bundle_surfaces[3u * b + i]);
 #if LSF_BUNDLE_ANISOTROPY
-    if (bundle_gloss[a] != bundle_gloss[b])
-        return less(bundle_gloss[a], bundle_gloss[b]);
+    for (int i = 0; i < 2 && order == 0; i++)
+        order = compare(bundle_gloss[a][i], bundle_gloss[b][i]);
 #elif LSF_BUNDLE_GLOSS
-    if (bundle_gloss[a] != bundle_gloss[b])
-        return bundle_gloss[a] < bundle_gloss[b];
+    if (order == 0)
+        order = compare(bundle_gloss[a], bundle_gloss[b]);
 #endif
 #if LSF_BUNDLE_EMISSION
-    return less(bundle_emission[a], bundle_emission[b]);
-#else
-    return false;
+    for (int i = 0; i < 2 && order == 0; i++)
+        order = compare(bundle_emission[a][i], bundle_emission[b][i]);
 #endif
+    return order < 0;
 }
 
-uint choose(uint texel, uint chosen)
+uint choose(uint chosen)
 {
-    uint key = bundle_key(chosen), count = bundle_texels[texel], link = 0u;
+    uint key = bundle_key(chosen);
+    uint texel = bundle_texel(chosen), count = bundle_texels[texel], link = 0u;
     for (uint turn = 0u; turn < LSF_TURNS && turn * LSF_STEPS < count; turn++)
         for (uint i = turn * LSF_STEPS; i < (turn + 1u) * LSF_STEPS && i < count; i++) {
             uint node = bundle_slice_node(texel, i);
@@ -53,8 +56,8 @@ void main()
 {
     uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
     for (uint i = gl_GlobalInvocationID.x; i < tie_count; i += stride) {
-        ivec2 pixel = ivec2(ties[i].x & 0xffffu, ties[i].x >> 16);
+        ivec2 pixel = ivec2(ties[i] & 0xffffu, ties[i] >> 16);
         uvec2 hit = imageLoad(hits, pixel).xy;
-        imageStore(hits, pixel, uvec4(hit.x, choose(ties[i].y, hit.y), 0u, 0u));
+        imageStore(hits, pixel, uvec4(hit.x, choose(hit.y), 0u, 0u));
     }
 }

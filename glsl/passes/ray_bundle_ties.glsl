@@ -5,7 +5,7 @@
 layout(std430, binding = LSF_BINDING_TIES) LSF_BUNDLE_TIE_ACCESS buffer lsf_tie_block
 {
     uint tie_count;
-    uvec2 ties[]; /* x of the pixel | y << 16; texel of the bundle */
+    uint ties[]; /* pixels: x | y << 16 */
 };
 
 /* Lanes without work walk through software GL's loops up to the cap: caps are low, and long lists

@@ -71,7 +71,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
                         "size of the interleaving pattern");
     lsf_plan_switch_add(plan, "LSF_DEEP", use->deep_vertices, "paths go on from hits");
-    lsf_plan_buffer_add(plan, "ray_bundle.ties", 8 + 8 * (uint64_t)plan->width * plan->height,
+    lsf_plan_buffer_add(plan, "ray_bundle.ties", 4 + 4 * (uint64_t)plan->width * plan->height,
                         "hits on coinciding surfaces, which are chosen among by their looks");
     lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, plan->width, plan->height,
                          "distance and node of each ray's hit");

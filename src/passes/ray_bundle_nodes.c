@@ -46,14 +46,14 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
     case LSF_RAY_BUNDLE_KEYS:
         return 4 * (nodes - room);
     case LSF_RAY_BUNDLE_SURFACES:
-        return 16 * nodes;
+        return 12 * nodes;
     case LSF_RAY_BUNDLE_GLOSS:
         return lsf_ray_bundle_has_gloss(plan) ? (plan->requirements.anisotropic ? 8 : 4) * nodes
                                               : 0;
     case LSF_RAY_BUNDLE_EMISSION:
         return lsf_ray_bundle_has_emission(plan) ? 8 * nodes : 0;
     default:
-        return 8 * room;
+        return 16 * room;
     }
 }
 
@@ -72,11 +72,11 @@ void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *para
 {
     static const char *const why[LSF_RAY_BUNDLE_ARRAYS] = {
         "a counter and a chain's head for each texel",
-        "depth and slopes, 4 bytes a node",
-        "plane, shading normal and base colour, 16 bytes a node",
+        "plane of a node, coarse, 4 bytes",
+        "normal, base colour and the rest of the plane of a node, 12 bytes",
         "roughness, metallic and f0 of a node",
         "radiance of a node, 8 bytes",
-        "keys and links of chained nodes, 8 bytes each"};
+        "keys and links of chained nodes, 16 bytes each"};
     for (uint32_t slot = 0; slot < slots; slot++)
         for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
             char name[64];
@@ -110,7 +110,7 @@ static void attach_textures(lsf_ray_bundle_slot *slot)
 {
     glTextureBuffer(slot->texel_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_TEXELS]);
     glTextureBuffer(slot->key_fetch, GL_RGBA32UI, slot->arrays[LSF_RAY_BUNDLE_KEYS]);
-    glTextureBuffer(slot->chain_fetch, GL_RG32UI, slot->arrays[LSF_RAY_BUNDLE_CHAIN]);
+    glTextureBuffer(slot->chain_fetch, GL_RGBA32UI, slot->arrays[LSF_RAY_BUNDLE_CHAIN]);
 }
 
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
