@@ -30,10 +30,11 @@ path_density path_density_at(float cosine_0, float distance2_0, float cosine_3, 
     return p;
 }
 
-/* Power heuristic (equation 6) by the ratio of densities, which cannot overflow to inf / inf. */
+/* Power heuristic (equation 6) by the ratio of densities, which cannot overflow to inf / inf; the ratio
+ * keeps a finite logarithm, for pow multiplies that by beta, which may be 0. */
 float mis_weight(float density, float other)
 {
-    return density > 0.0 ? 1.0 / (1.0 + pow(other / density, strategy.z)) : 0.0;
+    return density > 0.0 ? 1.0 / (1.0 + pow(clamp(other / density, 1e-30, 1e30), strategy.z)) : 0.0;
 }
 
 /* m'/d towards a vertex: as x_j moves over its surface, with this density by area, its direction
