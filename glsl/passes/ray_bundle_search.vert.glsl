@@ -15,7 +15,7 @@ flat out vec4 ray_scale; /* x, y: depth steps across a texel for a slope of 1; s
 
 /* How far a node's plane may pass from the origin of a ray and still be the surface that it left: a
  * part of a texel, for what curves within one, and half a step of the keys' depth. */
-#define LSF_SELF_TEXELS 0.2
+#define LSF_SELF_TEXELS 0.1
 
 /* A vector in normalised space as texels and depth steps. */
 vec3 to_map(vec3 v)
