@@ -39,6 +39,11 @@ uvec2 gloss_pack(surface s)
                  packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));
 }
 
+bool surface_texel_unlit(uvec4 texel)
+{
+    return (texel.w & 0x80000000u) != 0u;
+}
+
 surface surface_unpack(uvec4 texel)
 {
     surface s;
@@ -46,7 +51,7 @@ surface surface_unpack(uvec4 texel)
     s.normal = octahedral_decode(texel.y);
     s.base_color = vec3(unpackUnorm2x16(texel.z), unpackUnorm2x16(texel.w & 0xffffu).x);
     s.metallic = float((texel.w >> 16) & 0x7fffu) / 32767.0;
-    s.unlit = (texel.w & 0x80000000u) != 0u;
+    s.unlit = surface_texel_unlit(texel);
     s.roughness = 1.0;
     s.f0 = 0.04; /* ior 1.5 */
     s.anisotropy = 0.0;

@@ -67,6 +67,7 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
         return;
     }
     lsf_plan_pass_add(plan, "interleave_filter", "removes the pattern, and noise with it");
+    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != NULL, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
