@@ -46,18 +46,20 @@ static void add_light(lsf_plan *plan, const char *irradiance, const char *specul
 
 void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
 {
-    const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
+    /* Its format: the resource itself moves when others are added. */
+    const lsf_plan_resource *gbuffer_gloss = lsf_plan_find(plan, "gbuffer.gloss");
+    GLenum gloss = gbuffer_gloss ? gbuffer_gloss->texture.internal_format : GL_NONE;
     bool specular = plan->requirements.specular;
     lsf_plan_pass_add(plan, "interleave_split", "pixels that take the same samples side by side");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != NULL, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != GL_NONE, "roughness or metallic vary");
     lsf_plan_texture_add(plan, "interleave.depth", GL_R32F, plan->width, plan->height,
                          "in split order");
     lsf_plan_texture_add(plan, "interleave.surface", GL_RGBA32UI, plan->width, plan->height,
                          "in split order");
-    if (gloss)
-        lsf_plan_texture_add(plan, "interleave.gloss", gloss->texture.internal_format, plan->width,
-                             plan->height, "in split order");
+    if (gloss != GL_NONE)
+        lsf_plan_texture_add(plan, "interleave.gloss", gloss, plan->width, plan->height,
+                             "in split order");
     lsf_plan_pass_add(plan, "interleave_gather", "light back into the picture's order");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
@@ -69,7 +71,7 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
     lsf_plan_pass_add(plan, "interleave_filter", "removes the pattern, and noise with it");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != NULL, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != GL_NONE, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
     add_light(plan, "interleave.between_irradiance", "interleave.between_specular",
               "filtered along x");
