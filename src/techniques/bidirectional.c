@@ -224,8 +224,8 @@ static bool create_bundles(bidirectional *b, lsf_context *context, const lsf_pla
         !lsf_plan_create_texture(plan, context, "bundle.pdf", &b->bundle_pdf, error))
         return false;
     if (b->bundle_pdf)
-        glTextureSubImage2D(b->bundle_pdf, 0, 0, 0, LSF_BUNDLE_CELLS_X, LSF_BUNDLE_CELLS_Y, GL_RED,
-                            GL_FLOAT, b->directions.pdf);
+        glTextureSubImage2D(b->bundle_pdf, 0, 0, 0, (GLsizei)b->directions.width,
+                            (GLsizei)b->directions.height, GL_RED, GL_FLOAT, b->directions.pdf);
     return lsf_ray_bundle_create(&b->bundle, context, plan, &params->ray_bundle, &use, error);
 }
 

@@ -9,50 +9,53 @@
 
 #define PURPOSE_DIRECTION 0x30000
 
-enum { CELLS_X = LSF_BUNDLE_CELLS_X, CELLS_Y = LSF_BUNDLE_CELLS_Y, CELLS = CELLS_X * CELLS_Y };
+static uint32_t cells_around(uint32_t map_width)
+{
+    return map_width + map_width % 2;
+}
 
 void lsf_bundle_directions_plan(lsf_plan *plan)
 {
-    if (plan->requirements.environment_map)
-        lsf_plan_texture_add(plan, "bundle.pdf", GL_R32F, CELLS_X, CELLS_Y,
-                             "bundles are drawn by the environment's light");
+    const lsf_plan_resource *map = lsf_plan_find(plan, "scene.environment");
+    if (map)
+        lsf_plan_texture_add(plan, "bundle.pdf", GL_R32F, cells_around(map->texture.width),
+                             map->texture.height, "bundles are drawn by the environment's light");
     else
         lsf_plan_omit(plan, "bundle.pdf", "no environment map: bundles are drawn uniformly");
 }
 
-static double cosine_of_edge(int row)
+static double cosine_of_edge(const lsf_bundle_directions *d, uint32_t row)
 {
-    return cos(M_PI * row / CELLS_Y);
+    return cos(M_PI * row / d->height);
 }
 
-static double solid_angle(int row)
+static double solid_angle(const lsf_bundle_directions *d, uint32_t cell)
 {
-    return 2.0 * M_PI / CELLS_X * (cosine_of_edge(row) - cosine_of_edge(row + 1));
+    uint32_t row = cell / d->width;
+    return 2.0 * M_PI / d->width * (cosine_of_edge(d, row) - cosine_of_edge(d, row + 1));
 }
 
-/* Luminance of the map in each cell, averaged over points at least as close as its texels. */
-static void average_cells(const lsf_environment *map, float *luminance)
+/* Luminance of the map, which is bilinear between texel centres, over a texel: the texel itself
+ * weighs 3/4 along each axis and its neighbours 1/8. */
+static float mean_luminance(const lsf_environment *map, uint32_t x, uint32_t y)
 {
-    uint32_t nx = (map->width + CELLS_X - 1) / CELLS_X, ny = (map->height + CELLS_Y - 1) / CELLS_Y;
-    for (uint32_t cell = 0; cell < CELLS; cell++) {
-        double sum = 0.0;
-        for (uint32_t j = 0; j < ny; j++)
-            for (uint32_t i = 0; i < nx; i++) {
-                double u = (cell % CELLS_X + (i + 0.5) / nx) / CELLS_X;
-                double v = (cell / CELLS_X + (j + 0.5) / ny) / CELLS_Y;
-                uint64_t x = (uint64_t)(u * map->width), y = (uint64_t)(v * map->height);
-                const float *texel = map->texels + 3 * (y * map->width + x);
-                sum += (double)lsf_f3_luminance(lsf_f3_load(texel));
-            }
-        luminance[cell] = (float)(sum / (nx * ny));
-    }
+    static const float weights[3] = {0.125f, 0.75f, 0.125f};
+    float sum = 0.0f;
+    for (uint32_t j = 0; j < 3; j++)
+        for (uint32_t i = 0; i < 3; i++) {
+            uint32_t column = (x + map->width + i - 1) % map->width;
+            uint32_t row = y + j == 0 ? 0 : y + j - 1 >= map->height ? map->height - 1 : y + j - 1;
+            const float *texel = map->texels + 3 * ((uint64_t)row * map->width + column);
+            sum += weights[i] * weights[j] * lsf_f3_luminance(lsf_f3_load(texel));
+        }
+    return sum;
 }
 
 /* The opposite of a cell. */
-static uint32_t antipode(uint32_t cell)
+static uint32_t antipode(const lsf_bundle_directions *d, uint32_t cell)
 {
-    uint32_t x = cell % CELLS_X, y = cell / CELLS_X;
-    return (CELLS_Y - 1 - y) * CELLS_X + (x + CELLS_X / 2) % CELLS_X;
+    uint32_t x = cell % d->width, y = cell / d->width;
+    return (d->height - 1 - y) * d->width + (x + d->width / 2) % d->width;
 }
 
 bool lsf_bundle_directions_init(lsf_bundle_directions *directions,
@@ -62,25 +65,31 @@ bool lsf_bundle_directions_init(lsf_bundle_directions *directions,
     *directions = (lsf_bundle_directions){0};
     if (!environment->present || environment->width == 0)
         return true;
-    float *light = lsf_alloc(CELLS, sizeof *light), *weights = lsf_alloc(CELLS, sizeof *weights);
-    directions->pdf = lsf_alloc(CELLS, sizeof *directions->pdf);
+    directions->width = cells_around(environment->width);
+    directions->height = environment->height;
+    uint32_t width = directions->width, count = width * directions->height;
+    float *light = lsf_alloc(count, sizeof *light), *weights = lsf_alloc(count, sizeof *weights);
+    directions->pdf = lsf_alloc(count, sizeof *directions->pdf);
     bool good = light && weights && directions->pdf;
     if (good) {
         double mean = 0.0, integral = 0.0;
-        average_cells(environment, light);
-        for (uint32_t i = 0; i < CELLS; i++)
-            mean += (double)light[i] * solid_angle((int)(i / CELLS_X)) / (4.0 * M_PI);
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t x = (uint32_t)((i % width + 0.5) / width * environment->width);
+            light[i] = mean_luminance(environment, x, i / width);
+            mean += (double)light[i] * solid_angle(directions, i) / (4.0 * M_PI);
+        }
         /* A black map leaves a uniform density. */
         double offset = mean > 0.0 ? (double)environment_offset * mean : 1.0;
-        for (uint32_t i = 0; i < CELLS; i++) {
-            double of_cell = ((double)light[i] + offset) * solid_angle((int)(i / CELLS_X));
+        for (uint32_t i = 0; i < count; i++) {
+            double of_cell = ((double)light[i] + offset) * solid_angle(directions, i);
             weights[i] = (float)(of_cell / offset); /* bright maps keep in range */
             integral += of_cell;
         }
-        for (uint32_t i = 0; i < CELLS; i++)
+        for (uint32_t i = 0; i < count; i++)
             directions->pdf[i] =
-                (float)(((double)light[i] + (double)light[antipode(i)] + 2.0 * offset) / integral);
-        good = lsf_distribution_2d_init(&directions->cells, weights, CELLS_X, CELLS_Y);
+                (float)(((double)light[i] + (double)light[antipode(directions, i)] + 2.0 * offset) /
+                        integral);
+        good = lsf_distribution_2d_init(&directions->cells, weights, width, directions->height);
     }
     free(light);
     free(weights);
@@ -99,29 +108,30 @@ void lsf_bundle_directions_finish(lsf_bundle_directions *directions)
 
 /* u = 0.5 + atan(z, x) / 2 pi, v = acos(y) / pi, as in lib/environment.glsl; over a cell uniform in
  * angle and cosine, that is in solid angle. */
-static lsf_float3 direction_at(double x, double y)
+static lsf_float3 direction_at(const lsf_bundle_directions *d, double x, double y)
 {
-    int row = (int)(y * CELLS_Y);
-    double top = cosine_of_edge(row), bottom = cosine_of_edge(row + 1);
-    double cosine = top + (y * CELLS_Y - row) * (bottom - top);
+    uint32_t row = (uint32_t)(y * d->height);
+    double top = cosine_of_edge(d, row), bottom = cosine_of_edge(d, row + 1);
+    double cosine = top + (y * d->height - row) * (bottom - top);
     double angle = 2.0 * M_PI * (x - 0.5), sine = sqrt(fmax(1.0 - cosine * cosine, 0.0));
     return lsf_f3_normalize(
         lsf_f3((float)(sine * cos(angle)), (float)cosine, (float)(sine * sin(angle))));
 }
 
-static uint32_t cell_of(lsf_float3 d)
+static uint32_t cell_along(double place, uint32_t count)
 {
-    double u = 0.5 + atan2((double)d.z, (double)d.x) / (2.0 * M_PI);
-    double v = atan2(hypot((double)d.x, (double)d.z), (double)d.y) / M_PI;
-    int x = (int)(u * CELLS_X), y = (int)(v * CELLS_Y);
-    x = x < 0 ? 0 : x >= CELLS_X ? CELLS_X - 1 : x;
-    y = y < 0 ? 0 : y >= CELLS_Y ? CELLS_Y - 1 : y;
-    return (uint32_t)(y * CELLS_X + x);
+    double i = place * count;
+    return i <= 0.0 ? 0 : i >= count ? count - 1 : (uint32_t)i;
 }
 
-float lsf_bundle_directions_pdf(const lsf_bundle_directions *directions, lsf_float3 direction)
+float lsf_bundle_directions_pdf(const lsf_bundle_directions *directions, lsf_float3 d)
 {
-    return directions->pdf ? directions->pdf[cell_of(direction)] : 0.5f / LSF_PI;
+    if (!directions->pdf)
+        return 0.5f / LSF_PI;
+    double u = 0.5 + atan2((double)d.z, (double)d.x) / (2.0 * M_PI);
+    double v = atan2(hypot((double)d.x, (double)d.z), (double)d.y) / M_PI;
+    return directions->pdf[cell_along(v, directions->height) * directions->width +
+                           cell_along(u, directions->width)];
 }
 
 void lsf_bundle_directions_draw(const lsf_bundle_directions *directions,
@@ -139,7 +149,7 @@ void lsf_bundle_directions_draw(const lsf_bundle_directions *directions,
             double x, y;
             lsf_distribution_2d_sample(&directions->cells, lsf_unit_double(bits[0]),
                                        lsf_unit_double(bits[1]), &x, &y);
-            direction = direction_at(x, y);
+            direction = direction_at(directions, x, y);
             drawn[i].pdf = lsf_bundle_directions_pdf(directions, direction);
         } else {
             direction = lsf_sample_sphere(lsf_unit_float(bits[0]), lsf_unit_float(bits[1]));

@@ -127,13 +127,12 @@ static void shader_agrees(void **unused)
     lsf_texture_desc texture_desc = {.label = "pdf",
                                      .target = GL_TEXTURE_2D,
                                      .internal_format = GL_R32F,
-                                     .width = LSF_BUNDLE_CELLS_X,
-                                     .height = LSF_BUNDLE_CELLS_Y,
+                                     .width = WIDTH,
+                                     .height = HEIGHT,
                                      .depth = 1,
                                      .levels = 1};
     GLuint texture = lsf_texture_create(context, &texture_desc, &error);
-    glTextureSubImage2D(texture, 0, 0, 0, LSF_BUNDLE_CELLS_X, LSF_BUNDLE_CELLS_Y, GL_RED, GL_FLOAT,
-                        directions.pdf);
+    glTextureSubImage2D(texture, 0, 0, 0, WIDTH, HEIGHT, GL_RED, GL_FLOAT, directions.pdf);
     for (uint32_t i = 0; i < COUNT; i++) {
         float u[2];
         lsf_sobol_2d(i, 11, u);
