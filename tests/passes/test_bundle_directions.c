@@ -96,6 +96,89 @@ static void drawn_with_its_density(void **unused)
     lsf_bundle_directions_finish(&directions);
 }
 
+static float texel_at(const lsf_environment *map, int x, int y)
+{
+    y = y < 0 ? 0 : y >= HEIGHT ? HEIGHT - 1 : y;
+    return map->texels[3 * (y * WIDTH + (x + WIDTH) % WIDTH)];
+}
+
+/* Bilinear, as lib/environment.glsl reads it. */
+static float radiance(const lsf_environment *map, lsf_float3 d)
+{
+    float x = (0.5f + atan2f(d.z, d.x) / (2.0f * (float)M_PI)) * WIDTH - 0.5f;
+    float y = atan2f(hypotf(d.x, d.z), d.y) / (float)M_PI * HEIGHT - 0.5f;
+    int left = (int)floorf(x), top = (int)floorf(y);
+    float tx = x - (float)left, ty = y - (float)top;
+    return (1.0f - ty) *
+               ((1.0f - tx) * texel_at(map, left, top) + tx * texel_at(map, left + 1, top)) +
+           ty *
+               ((1.0f - tx) * texel_at(map, left, top + 1) + tx * texel_at(map, left + 1, top + 1));
+}
+
+/* Irradiance of a plane that faces up, by `count` bundles. */
+static double irradiance(const lsf_environment *map, const lsf_bundle_directions *directions,
+                         lsf_plan *plan, uint64_t seed, uint32_t count)
+{
+    static lsf_ray_bundle_direction drawn[1024];
+    const lsf_iteration iteration = {.plan = plan, .seed = seed};
+    lsf_bundle_directions_draw(directions, &iteration, count, false, drawn);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        lsf_float3 d = lsf_f3_load(drawn[i].direction);
+        d = d.y < 0.0f ? lsf_f3_scale(d, -1.0f) : d;
+        sum += (double)(radiance(map, d) * d.y / drawn[i].pdf);
+    }
+    return sum / count;
+}
+
+/* Standard deviation relative to the mean, over seeds. */
+static double deviation(const lsf_environment *map, const lsf_bundle_directions *directions,
+                        lsf_plan *plan, double *mean)
+{
+    enum { SEEDS = 256 };
+    double sum = 0.0, sum2 = 0.0;
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        double e = irradiance(map, directions, plan, seed, 1024);
+        sum += e / SEEDS;
+        sum2 += e * e / SEEDS;
+    }
+    *mean = sum;
+    return sqrt(fmax(sum2 - sum * sum, 0.0)) / sum;
+}
+
+/* The same light E with less noise: by importance rather than uniformly, and by low discrepancy
+ * rather than plain random numbers. Where the density follows L, one bundle's L cos / p_r has a
+ * mean square of at most E times the integral of L + L_u; light that bilinear filtering spreads
+ * into a cell whose density does not know of it would exceed that. */
+static void importance_and_low_discrepancy_pay(void **unused)
+{
+    (void)unused;
+    static float texels[3 * WIDTH * HEIGHT];
+    const lsf_environment environment = sunny(texels);
+    lsf_bundle_directions by_light, uniform = {0};
+    init(&by_light, &environment);
+    lsf_plan sobol = {0}, random = {.random_samples = true};
+    double means[4], integral = 0.0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        double sine = sin(M_PI * (i / WIDTH + 0.5) / HEIGHT);
+        integral += 2.0 * (double)texels[3 * i] * sine * 2.0 * M_PI * M_PI / (WIDTH * HEIGHT);
+    }
+    double of_light = deviation(&environment, &by_light, &sobol, &means[0]);
+    double random_of_light = deviation(&environment, &by_light, &random, &means[1]);
+    double of_uniform = deviation(&environment, &uniform, &sobol, &means[2]);
+    double random_of_uniform = deviation(&environment, &uniform, &random, &means[3]);
+    print_message("1024 bundles, deviation by light %.4f, plain random %.4f; uniform %.4f, plain "
+                  "random %.4f; means %.3f %.3f %.3f %.3f\n",
+                  of_light, random_of_light, of_uniform, random_of_uniform, means[0], means[1],
+                  means[2], means[3]);
+    for (int i = 1; i < 4; i++)
+        assert_true(fabs(means[i] / means[0] - 1.0) < 4.0 * random_of_uniform / 16.0);
+    assert_true(random_of_light < sqrt(integral / means[0] / 1024.0));
+    assert_true(of_light < 0.75 * random_of_light);
+    assert_true(random_of_light < 0.25 * random_of_uniform);
+    lsf_bundle_directions_finish(&by_light);
+}
+
 /* lib/bundle_pdf.glsl reads the same cells. */
 static void shader_agrees(void **unused)
 {
@@ -163,6 +246,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integrates_to_one),
         cmocka_unit_test(drawn_with_its_density),
+        cmocka_unit_test(importance_and_low_discrepancy_pay),
         cmocka_unit_test(shader_agrees),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
