@@ -22,8 +22,8 @@ layout(std140, binding = LSF_BINDING_BUNDLE) uniform lsf_bundle_block
     lsf_bundle_data bundle;
 };
 
-/* For each texel its number of fragments; the number of chained nodes; for each texel the last
- * link of its chain. */
+/* For each texel its number of fragments; the number of chained nodes; the number of nodes that a shader
+ * rasterised; for each texel the last link of its chain. */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES) LSF_BUNDLE_ACCESS buffer lsf_bundle_texel_block
 {
     uint bundle_texels[];
@@ -69,6 +69,7 @@ layout(std430,
 };
 #endif
 #define LSF_BUNDLE_TEXELS (uint(LSF_BUNDLE_SIDE) * uint(LSF_BUNDLE_SIDE))
+#define LSF_BUNDLE_FIRST_HEAD (LSF_BUNDLE_TEXELS + 2u)
 #define LSF_BUNDLE_FIRST_LINK (uint(LSF_BUNDLE_SLICES) * LSF_BUNDLE_TEXELS) /* its node */
 
 /* The node of a texel's fragment below LSF_BUNDLE_SLICES. */

@@ -121,7 +121,7 @@ bundle_hit search(bundle_ray ray, int count)
     }
 #endif
     int left = count - LSF_BUNDLE_SLICES;
-    int link = left > 0 ? int(texelFetch(texel_fetch, texels + 1 + ray.texel).x) : 0;
+    int link = left > 0 ? int(texelFetch(texel_fetch, int(LSF_BUNDLE_FIRST_HEAD) + ray.texel).x) : 0;
     for (uint turn = 0u; turn < LSF_TURNS && left > 0; turn++)
         for (uint i = 0u; i < LSF_STEPS && left > 0; i++) {
             uvec4 node = texelFetch(chain_fetch, link);

@@ -42,7 +42,7 @@ uint choose(uint chosen)
         for (uint i = turn * LSF_STEPS; i < (turn + 1u) * LSF_STEPS && i < count; i++) {
             uint node = bundle_slice_node(texel, i);
             if (i >= uint(LSF_BUNDLE_SLICES)) {
-                link = i == uint(LSF_BUNDLE_SLICES) ? bundle_texels[LSF_BUNDLE_TEXELS + 1u + texel]
+                link = i == uint(LSF_BUNDLE_SLICES) ? bundle_texels[LSF_BUNDLE_FIRST_HEAD + texel]
                                                     : bundle_chain[link].y;
                 node = LSF_BUNDLE_FIRST_LINK + link;
             }

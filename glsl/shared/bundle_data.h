@@ -26,6 +26,12 @@ struct lsf_bundle_slot_data {
 #define LSF_BINDING_TIES 0
 #define LSF_BUNDLE_TIE_GROUPS 64
 
+/* Storage buffer of triangles that are left to GL, while a bundle is built. */
+#define LSF_BINDING_BUNDLE_LARGE 1
+/* Triangles a work group rasterises, and texels of the largest one's box. */
+#define LSF_BUNDLE_SMALL_SIZE 64
+#define LSF_BUNDLE_SMALL_TEXELS 256
+
 /* Tiles of pixels that a window is fitted to, and invocations that fit one. */
 #define LSF_BUNDLE_TILE 8
 #define LSF_BUNDLE_FIT_SIZE 256

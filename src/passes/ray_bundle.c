@@ -21,6 +21,8 @@ const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT] = {
      "", "fragments of a texel with a place of their own, the others are chained; 0: chain all"},
     {"bundle.room", LSF_OPTION_FLOAT, offsetof(lsf_ray_bundle_params, room), 0.0, 1024.0, NULL, "",
      "room for chained fragments for each texel; it grows where it does not do"},
+    {"bundle.raster", LSF_OPTION_ENUM, offsetof(lsf_ray_bundle_params, raster), 0, 0, "compute|gl",
+     "", "compute: small triangles by a compute shader, large ones by GL; gl: all by GL"},
     {"bundle.environment_offset", LSF_OPTION_FLOAT,
      offsetof(lsf_ray_bundle_params, environment_offset), 1e-3, 1e6, NULL, "",
      "radiance added to the environment map when directions are drawn from it, in its means"},
@@ -63,8 +65,10 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_scene_gpu_material_switches(plan, lsf_ray_bundle_has_gloss(plan),
                                     lsf_ray_bundle_has_emission(plan));
+    lsf_ray_bundle_raster_plan(plan, params);
     lsf_ray_bundle_nodes_plan(plan, params, use->slots);
-    lsf_plan_buffer_add(plan, "ray_bundle.readback", 4, "how many nodes were chained");
+    lsf_plan_buffer_add(plan, "ray_bundle.readback", 4 * LSF_RAY_BUNDLE_COUNTERS,
+                        "how many nodes there are, and how many of them chained");
     lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
@@ -121,7 +125,7 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf
     pass->params = *params;
     pass->use = *use;
     pass->fitted = window_is_fitted(params, use);
-    if (!create_resources(pass, plan, error) ||
+    if (!create_resources(pass, plan, error) || !lsf_ray_bundle_raster_create(pass, plan, error) ||
         (pass->fitted && !lsf_ray_bundle_aim_create(pass, plan, error)))
         return false;
     pass->build_program = lsf_plan_program(plan, context, "ray_bundle_build", build_files, error);
@@ -151,28 +155,32 @@ static void clear_texels(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *
 {
     static const GLuint zero = 0;
     glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], GL_R32UI, 0,
-                              (GLsizeiptr)(4 * (texel_count(pass) + 1)), GL_RED_INTEGER,
-                              GL_UNSIGNED_INT, &zero);
+                              (GLsizeiptr)(4 * (texel_count(pass) + LSF_RAY_BUNDLE_COUNTERS)),
+                              GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
-/* Returns how many nodes were chained, or would have been with enough room. Waits for the draw. */
-static uint32_t draw(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
+/* Waits for the draw, and reads how many nodes were chained, or would have been with enough room.
+ */
+static void draw(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
+                 uint32_t counters[LSF_RAY_BUNDLE_COUNTERS])
 {
     const lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
     clear_texels(pass, slot);
     lsf_ray_bundle_bind(pass, bundle);
-    glUseProgram(pass->build_program);
-    glUniform1ui(0, slot->room);
     glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
-    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, NULL,
-                       pass->draw_counts);
+    if (pass->small_program) {
+        lsf_ray_bundle_raster_run(pass, iteration, slot->room);
+    } else {
+        glUseProgram(pass->build_program);
+        glUniform1ui(0, slot->room);
+        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
+                           pass->draw_counts);
+    }
     glEndQuery(GL_SAMPLES_PASSED);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     glCopyNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], pass->readback,
-                             (GLintptr)(4 * texel_count(pass)), 0, 4);
-    uint32_t chained = 0;
-    glGetNamedBufferSubData(pass->readback, 0, sizeof chained, &chained);
-    return chained;
+                             (GLintptr)(4 * texel_count(pass)), 0, 4 * LSF_RAY_BUNDLE_COUNTERS);
+    glGetNamedBufferSubData(pass->readback, 0, 4 * LSF_RAY_BUNDLE_COUNTERS, counters);
 }
 
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
@@ -186,12 +194,13 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP); /* rounding must not clip what lies on the range's ends */
-    uint32_t chained = draw(pass, iteration, bundle);
-    if (chained > slot->room) {
+    uint32_t counters[LSF_RAY_BUNDLE_COUNTERS];
+    draw(pass, iteration, bundle, counters);
+    if (counters[0] > slot->room) {
         lsf_error error = {0};
         pass->counts[LSF_RAY_BUNDLE_REGROWN]++;
-        if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, slot, chained, &error)) {
-            draw(pass, iteration, bundle);
+        if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, slot, counters[0], &error)) {
+            draw(pass, iteration, bundle, counters);
         } else {
             lsf_context_fail(pass->context, &error);
             clear_texels(pass, slot); /* nobody may follow links that were never written */
@@ -200,8 +209,8 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     glDisable(GL_DEPTH_CLAMP);
     GLuint64 nodes = 0;
     glGetQueryObjectui64v(pass->samples_query, GL_QUERY_RESULT, &nodes);
-    pass->counts[LSF_RAY_BUNDLE_NODES] += nodes;
-    pass->counts[LSF_RAY_BUNDLE_OVERFLOW] += chained;
+    pass->counts[LSF_RAY_BUNDLE_NODES] += nodes + counters[1];
+    pass->counts[LSF_RAY_BUNDLE_OVERFLOW] += counters[0];
     lsf_timer_end(pass->build_timer);
 }
 
@@ -261,6 +270,7 @@ void lsf_ray_bundle_destroy(lsf_ray_bundle *pass)
     if (!pass)
         return;
     lsf_ray_bundle_nodes_destroy(pass);
+    lsf_ray_bundle_raster_destroy(pass);
     lsf_buffer_destroy(pass->context, &pass->projection_buffer);
     lsf_buffer_destroy(pass->context, &pass->readback);
     lsf_buffer_destroy(pass->context, &pass->ties);

@@ -13,20 +13,26 @@ typedef enum lsf_ray_bundle_window {
     LSF_RAY_BUNDLE_WINDOW_SCENE,   /* all of the scene */
 } lsf_ray_bundle_window;
 
+typedef enum lsf_ray_bundle_raster {
+    LSF_RAY_BUNDLE_RASTER_COMPUTE, /* small triangles by a shader, large ones by GL */
+    LSF_RAY_BUNDLE_RASTER_GL,
+} lsf_ray_bundle_raster;
+
 typedef struct lsf_ray_bundle_params {
     int32_t count;            /* bundles an iteration */
     int32_t resolution;       /* texels along a map's side */
     int32_t window;           /* lsf_ray_bundle_window */
     int32_t slices;           /* fragments of a texel with a place of their own; more are chained */
     float room;               /* for chained fragments at first, for each texel; it grows */
+    int32_t raster;           /* lsf_ray_bundle_raster */
     float environment_offset; /* L_u, in mean luminances of the environment */
 } lsf_ray_bundle_params;
 
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
     .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 8,              \
-    .room = 1.0f, .environment_offset = 1.0f
+    .room = 1.0f, .raster = LSF_RAY_BUNDLE_RASTER_COMPUTE, .environment_offset = 1.0f
 
-#define LSF_RAY_BUNDLE_OPTION_COUNT 6
+#define LSF_RAY_BUNDLE_OPTION_COUNT 7
 extern const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT];
 
 /* What the technique needs of it. */

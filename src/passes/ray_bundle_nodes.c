@@ -42,7 +42,7 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
     uint64_t nodes = texels * (uint64_t)lsf_ray_bundle_slices(params) + room;
     switch (array) {
     case LSF_RAY_BUNDLE_TEXELS:
-        return 4 * (2 * texels + 1);
+        return 4 * (2 * texels + LSF_RAY_BUNDLE_COUNTERS);
     case LSF_RAY_BUNDLE_KEYS:
         return 4 * (nodes - room);
     case LSF_RAY_BUNDLE_SURFACES:

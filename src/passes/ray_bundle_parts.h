@@ -16,6 +16,9 @@ enum {
     LSF_RAY_BUNDLE_ARRAYS,
 };
 
+/* Behind the texels' counts: chained nodes; nodes that a shader rasterised. */
+#define LSF_RAY_BUNDLE_COUNTERS 2
+
 /* The nodes of one bundle. */
 typedef struct lsf_ray_bundle_slot {
     uint32_t index;
@@ -23,6 +26,13 @@ typedef struct lsf_ray_bundle_slot {
     GLuint arrays[LSF_RAY_BUNDLE_ARRAYS];
     GLuint texel_fetch, key_fetch, chain_fetch; /* buffer textures of what the search reads */
 } lsf_ray_bundle_slot;
+
+/* DrawElementsIndirectCommand */
+typedef struct lsf_ray_bundle_draw {
+    GLuint count, instance_count, first_index;
+    GLint base_vertex;
+    GLuint base_instance;
+} lsf_ray_bundle_draw;
 
 struct lsf_ray_bundle {
     lsf_context *context;
@@ -32,11 +42,17 @@ struct lsf_ray_bundle {
     struct lsf_bundle_slot_data *projections; /* of this iteration's bundles */
     GLuint projection_buffer;
     lsf_ray_bundle_slot *slots;
-    GLuint readback; /* one counter on its way to the host */
+    GLuint readback; /* counters on their way to the host */
     GLuint samples_query;
     GLuint tiles, tiles_framebuffer, build_framebuffer, hits, hits_framebuffer;
     GLuint ties; /* hits on coinciding surfaces */
     GLuint tiles_program, fit_program, build_program, search_program, ties_program;
+    /* Only where small triangles are rasterised by a shader. */
+    GLuint small_program;
+    GLuint large;      /* draws of large triangles, and their indices */
+    GLuint streams[7]; /* buffer textures of the scene's indices and vertices */
+    lsf_ray_bundle_draw *draws;
+    uint32_t draw_count;
     lsf_timer *bounds_timer, *build_timer, *search_timer;
     uint64_t counts[LSF_RAY_BUNDLE_COUNTS];
     uint64_t draw_counts[LSF_DRAW_COUNTS];
@@ -55,6 +71,14 @@ bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bun
 void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot);
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot);
 void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
+
+/* --- ray_bundle_raster.c */
+
+void lsf_ray_bundle_raster_plan(lsf_plan *plan, const lsf_ray_bundle_params *params);
+bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
+/* Appends all of the scene to the bundle that is bound, with `room` chained nodes. */
+void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t room);
+void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass);
 
 /* --- ray_bundle_aim.c */
 

@@ -119,6 +119,24 @@ static struct lsf_texture_slot_data slot_data(const lsf_texture_slot *slot)
         {t[3], t[4], t[5], (float)slot->uv_set}};
 }
 
+struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t material)
+{
+    const lsf_material *m = &scene->materials[material];
+    return (material_data){
+        .base_color = {m->base_color[0], m->base_color[1], m->base_color[2], m->base_color[3]},
+        .emission = {m->emission[0], m->emission[1], m->emission[2],
+                     m->alpha_mode == LSF_ALPHA_MASK ? m->alpha_cutoff : -1.0f},
+        .surface = {m->metallic, m->roughness, m->normal_scale, lsf_f0_from_ior(m->ior)},
+        .anisotropy = {m->anisotropy_strength, cosf(m->anisotropy_rotation),
+                       sinf(m->anisotropy_rotation), 0.0f},
+        .flags = {m->double_sided, m->unlit, 0.0f, 0.0f},
+        .base_color_slot = slot_data(&m->base_color_texture),
+        .metallic_roughness_slot = slot_data(&m->metallic_roughness_texture),
+        .normal_slot = slot_data(&m->normal_texture),
+        .emissive_slot = slot_data(&m->emissive_texture),
+        .anisotropy_slot = slot_data(&m->anisotropy_texture)};
+}
+
 static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
 {
     const lsf_scene *scene = gpu->scene;
@@ -127,20 +145,7 @@ static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u materials",
                              scene->material_count);
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lsf_material *m = &scene->materials[i];
-        data[i] = (material_data){
-            .base_color = {m->base_color[0], m->base_color[1], m->base_color[2], m->base_color[3]},
-            .emission = {m->emission[0], m->emission[1], m->emission[2],
-                         m->alpha_mode == LSF_ALPHA_MASK ? m->alpha_cutoff : -1.0f},
-            .surface = {m->metallic, m->roughness, m->normal_scale, lsf_f0_from_ior(m->ior)},
-            .anisotropy = {m->anisotropy_strength, cosf(m->anisotropy_rotation),
-                           sinf(m->anisotropy_rotation), 0.0f},
-            .flags = {m->double_sided, m->unlit, 0.0f, 0.0f},
-            .base_color_slot = slot_data(&m->base_color_texture),
-            .metallic_roughness_slot = slot_data(&m->metallic_roughness_texture),
-            .normal_slot = slot_data(&m->normal_texture),
-            .emissive_slot = slot_data(&m->emissive_texture),
-            .anisotropy_slot = slot_data(&m->anisotropy_texture)};
+        data[i] = lsf_scene_gpu_material(scene, i);
     }
     bool ok = lsf_plan_create_buffer(plan, gpu->context, "scene.materials", data, 0,
                                      &gpu->materials, error);
@@ -350,32 +355,45 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
     memset(gpu, 0, sizeof *gpu);
 }
 
-static void bind_slot(const lsf_scene_gpu *gpu, GLuint unit, const lsf_texture_slot *slot)
+static void bind_slot(const lsf_scene_gpu *gpu, GLuint unit, const lsf_texture_slot *slot,
+                      bool point)
 {
     if (slot->texture == LSF_NONE)
         return;
     glBindTextureUnit(unit, gpu->textures[gpu->texture_of[slot->texture]]);
-    glBindSampler(unit, lsf_texture_upload_sampler(gpu, slot->texture));
+    glBindSampler(unit, lsf_texture_upload_sampler(gpu, slot->texture, point));
+}
+
+static bool shades(lsf_draw_mode mode)
+{
+    return mode == LSF_DRAW_SHADING || mode == LSF_DRAW_POINTWISE;
 }
 
 static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material,
                           lsf_draw_mode mode)
 {
-    if (mode == LSF_DRAW_SHADING || material->alpha_mode == LSF_ALPHA_MASK)
-        bind_slot(gpu, LSF_UNIT_BASE_COLOR, &material->base_color_texture);
-    if (mode != LSF_DRAW_SHADING)
+    bool point = mode == LSF_DRAW_POINTWISE;
+    if (shades(mode) || material->alpha_mode == LSF_ALPHA_MASK)
+        bind_slot(gpu, LSF_UNIT_BASE_COLOR, &material->base_color_texture, point);
+    if (!shades(mode))
         return;
-    bind_slot(gpu, LSF_UNIT_METALLIC_ROUGHNESS, &material->metallic_roughness_texture);
-    bind_slot(gpu, LSF_UNIT_NORMAL, &material->normal_texture);
-    bind_slot(gpu, LSF_UNIT_EMISSIVE, &material->emissive_texture);
-    bind_slot(gpu, LSF_UNIT_ANISOTROPY, &material->anisotropy_texture);
+    bind_slot(gpu, LSF_UNIT_METALLIC_ROUGHNESS, &material->metallic_roughness_texture, point);
+    bind_slot(gpu, LSF_UNIT_NORMAL, &material->normal_texture, point);
+    bind_slot(gpu, LSF_UNIT_EMISSIVE, &material->emissive_texture, point);
+    bind_slot(gpu, LSF_UNIT_ANISOTROPY, &material->anisotropy_texture, point);
+}
+
+static void unbind_samplers(const lsf_scene_gpu *gpu)
+{
+    for (GLuint unit = 0; unit <= LSF_UNIT_ANISOTROPY && gpu->gl_texture_count; unit++)
+        glBindSampler(unit, 0);
 }
 
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
                         const lsf_draw_region *region, uint64_t *counts)
 {
     uint32_t bound = LSF_NONE;
-    glBindVertexArray(mode == LSF_DRAW_SHADING ? gpu->shading_array : gpu->position_array);
+    glBindVertexArray(shades(mode) ? gpu->shading_array : gpu->position_array);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
     for (uint32_t i = 0; i < gpu->draw_count; i++) {
         const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
@@ -399,6 +417,32 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
                 gpu->draw_order[i]);
         }
     }
-    for (GLuint unit = 0; unit <= LSF_UNIT_ANISOTROPY && gpu->gl_texture_count; unit++)
-        glBindSampler(unit, 0);
+    unbind_samplers(gpu);
+}
+
+void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material)
+{
+    bind_material(gpu, &gpu->scene->materials[material], LSF_DRAW_POINTWISE);
+}
+
+void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state, GLuint buffer)
+{
+    const size_t command_bytes = 5 * sizeof(GLuint);
+    uint32_t bound = LSF_NONE;
+    glVertexArrayElementBuffer(gpu->shading_array, buffer);
+    glBindVertexArray(gpu->shading_array);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
+    for (uint32_t i = 0; i < gpu->draw_count; i++) {
+        const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
+        if (instance->skipped)
+            continue;
+        if (instance->material != bound)
+            lsf_scene_gpu_bind_material(gpu, bound = instance->material);
+        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                               (const void *)(gpu->draw_order[i] * command_bytes));
+    }
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    glVertexArrayElementBuffer(gpu->shading_array, gpu->indices);
+    unbind_samplers(gpu);
 }

@@ -6,6 +6,7 @@
 #include "plan/clusters.h"
 #include "plan/plan.h"
 #include "scene/state.h"
+#include "shared/scene_data.h"
 
 typedef struct lsf_scene_gpu {
     lsf_context *context;
@@ -17,7 +18,7 @@ typedef struct lsf_scene_gpu {
     GLuint *textures;        /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* scene texture to an entry of `textures` */
-    GLuint samplers[18];   /* wrap s, wrap t, nearest: 3 x 3 x 2; 0 until needed */
+    GLuint samplers[27];   /* wrap s, wrap t, linear, nearest or point: 3 x 3 x 3; 0: not needed */
     GLuint shading_array;  /* vertex array with every stream */
     GLuint position_array; /* positions (and UVs where masks need them) */
     lsf_clusters clusters;
@@ -47,6 +48,8 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
 
 typedef enum lsf_draw_mode {
     LSF_DRAW_SHADING,   /* all streams; material textures are bound for each draw */
+    LSF_DRAW_POINTWISE, /* the same, but textures give the nearest texel of the nearest level, for
+                         * passes whose samples are spread at random */
     LSF_DRAW_POSITIONS, /* positions; base colour textures of masked materials are bound */
     LSF_DRAW_MASKED,    /* the same of masked materials only */
 } lsf_draw_mode;
@@ -59,5 +62,13 @@ extern const char *const lsf_draw_count_names[LSF_DRAW_COUNTS];
  * framebuffer, and adds to `counts` (LSF_DRAW_COUNTS of them). */
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
                         const lsf_draw_region *region, uint64_t *counts);
+
+/* For passes that rasterise by themselves: a material as shaders have it; its textures, bound as
+ * pointwise; and
+ * draws of triangles that such a pass lists in `buffer`: a DrawElementsIndirectCommand for each
+ * instance, and indices anywhere. */
+struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t material);
+void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material);
+void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state, GLuint buffer);
 
 #endif

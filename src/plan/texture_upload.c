@@ -218,23 +218,30 @@ static bool upload_environment(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_err
     return true;
 }
 
-static uint32_t sampler_index(const lsf_texture *texture)
+enum { LINEAR, NEAREST, POINT, FILTERS };
+
+static uint32_t sampler_index(const lsf_texture *texture, bool point)
 {
-    return (uint32_t)texture->wrap_s * 6 + (uint32_t)texture->wrap_t * 2 + texture->nearest;
+    uint32_t wraps = (uint32_t)texture->wrap_s * 3 + (uint32_t)texture->wrap_t;
+    int filter = point ? POINT : texture->nearest ? NEAREST : LINEAR;
+    return wraps * FILTERS + (uint32_t)filter;
 }
 
-static void create_sampler(lsf_scene_gpu *gpu, const lsf_texture *texture)
+static void create_sampler(lsf_scene_gpu *gpu, const lsf_texture *texture, bool point)
 {
     static const GLint wraps[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
-    GLuint *sampler = &gpu->samplers[sampler_index(texture)];
+    bool nearest = point || texture->nearest;
+    GLuint *sampler = &gpu->samplers[sampler_index(texture, point)];
     if (*sampler)
         return;
     glCreateSamplers(1, sampler);
     glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_S, wraps[texture->wrap_s]);
     glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_T, wraps[texture->wrap_t]);
-    glSamplerParameteri(*sampler, GL_TEXTURE_MAG_FILTER, texture->nearest ? GL_NEAREST : GL_LINEAR);
+    glSamplerParameteri(*sampler, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
     glSamplerParameteri(*sampler, GL_TEXTURE_MIN_FILTER,
-                        texture->nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
+                        point     ? GL_NEAREST_MIPMAP_NEAREST
+                        : nearest ? GL_NEAREST_MIPMAP_LINEAR
+                                  : GL_LINEAR_MIPMAP_LINEAR);
 }
 
 bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
@@ -252,8 +259,10 @@ bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_err
     for (uint32_t i = 0; ok && i < gpu->gl_texture_count; i++)
         ok = upload(gpu, plan, i, &scene->textures[representative[i]], error);
     for (uint32_t t = 0; ok && t < scene->texture_count; t++)
-        if (gpu->texture_of[t] != LSF_NONE)
-            create_sampler(gpu, &scene->textures[t]);
+        if (gpu->texture_of[t] != LSF_NONE) {
+            create_sampler(gpu, &scene->textures[t], false);
+            create_sampler(gpu, &scene->textures[t], true);
+        }
     free(representative);
     return ok && upload_environment(gpu, plan, error);
 }
@@ -268,9 +277,9 @@ void lsf_texture_upload_destroy(lsf_scene_gpu *gpu)
     free(gpu->texture_of);
 }
 
-GLuint lsf_texture_upload_sampler(const lsf_scene_gpu *gpu, uint32_t texture)
+GLuint lsf_texture_upload_sampler(const lsf_scene_gpu *gpu, uint32_t texture, bool point)
 {
-    return gpu->samplers[sampler_index(&gpu->scene->textures[texture])];
+    return gpu->samplers[sampler_index(&gpu->scene->textures[texture], point)];
 }
 
 void lsf_texture_upload_set_lod_bias(const lsf_scene_gpu *gpu, float bias)

@@ -110,3 +110,13 @@ uint32_t *bundle_rig_array(const bundle_rig *rig, int array)
     glGetNamedBufferSubData(buffer, 0, bytes, words);
     return words;
 }
+
+void bundle_rig_hit_words(const bundle_rig *rig, const uint32_t *surfaces, uint32_t pixel,
+                          uint32_t words[4])
+{
+    const uint32_t *hit = rig->hits + 2 * (size_t)pixel;
+    memset(words, 0, 4 * sizeof *words);
+    words[0] = hit[0];
+    if (hit[1] != UINT32_MAX)
+        memcpy(words + 1, surfaces + 3 * (size_t)hit[1], 3 * sizeof *words);
+}

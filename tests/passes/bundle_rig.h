@@ -31,6 +31,9 @@ bool bundle_rig_origin(const bundle_rig *rig, uint32_t x, uint32_t y, lsf_float3
                        lsf_float3 *normal);
 /* Distance of a pixel's hit; infinity: none. */
 float bundle_rig_distance(const bundle_rig *rig, uint32_t x, uint32_t y, uint32_t *node);
+/* What a hit is told apart by: its distance, and its surface. */
+void bundle_rig_hit_words(const bundle_rig *rig, const uint32_t *surfaces, uint32_t pixel,
+                          uint32_t words[4]);
 /* A whole array of slot 0, to be freed. */
 uint32_t *bundle_rig_array(const bundle_rig *rig, int array);
 

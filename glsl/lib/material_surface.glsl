@@ -1,0 +1,133 @@
+/* The surface of a material at a point, for fragments (lib/material.glsl) and for compute shaders that
+ * rasterise by themselves. Switches LSF_TEXTURED, LSF_SECOND_UV, LSF_VERTEX_COLOR, LSF_TANGENT,
+ * LSF_MASK, LSF_GLOSS, LSF_ANISOTROPY, LSF_EMISSION and one for each kind of texture;
+ * lsf_scene_gpu_material_switches adds them. */
+#ifndef LSF_LIB_MATERIAL_SURFACE
+#define LSF_LIB_MATERIAL_SURFACE
+
+#include "lib/gbuffer.glsl"
+#include "lib/scene.glsl"
+
+layout(binding = LSF_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
+layout(binding = LSF_UNIT_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_texture;
+layout(binding = LSF_UNIT_NORMAL) uniform sampler2D normal_texture;
+layout(binding = LSF_UNIT_EMISSIVE) uniform sampler2D emissive_texture;
+layout(binding = LSF_UNIT_ANISOTROPY) uniform sampler2D anisotropy_texture;
+
+/* What vertices hand to a point of a triangle, interpolated. */
+struct material_point {
+    vec3 normal;  /* any length */
+    vec4 tangent; /* w: the bitangent's sign */
+    vec4 color;
+    texture_place place;
+    bool front;
+};
+
+vec4 base_color(lsf_material_data material, material_point point)
+{
+    vec4 color = material.base_color;
+#if LSF_BASE_COLOR_TEXTURE
+    if (slot_used(material.base_color_slot))
+        color *= slot_sample(base_color_texture, material.base_color_slot, point.place);
+#endif
+#if LSF_VERTEX_COLOR
+    color *= point.color;
+#endif
+    return color;
+}
+
+/* Unit, perpendicular to n; the interpolated tangent where there is one. */
+vec3 tangent_about(vec3 n, vec3 tangent)
+{
+    vec3 t, b;
+    orthonormal_basis(n, t, b);
+    vec3 along = tangent - dot(tangent, n) * n;
+    float length2 = dot(along, along);
+    if (length2 > 0.0)
+        t = along * inversesqrt(length2);
+    return t;
+}
+
+/* Whether the front, or the back, emits. */
+bool material_emits(lsf_material_data material, bool front)
+{
+    return front || material.flags.x != 0.0 || material.flags.y != 0.0;
+}
+
+/* Everything but the geometric normal, which is set to the vertices'. False where an alpha mask cuts
+ * the point out. The shading normal is turned to the front or to the back, as seen. Emission is that of
+ * the sides that material_emits names; of an unlit surface it is the base colour. */
+bool material_surface(lsf_material_data material, material_point point, out surface s,
+                      out vec3 emission)
+{
+    emission = vec3(0.0);
+    vec4 color = base_color(material, point);
+#if LSF_MASK
+    if (color.a < material.emission.w)
+        return false;
+#endif
+    vec3 vertex_n = normalize(point.normal);
+    s.geometric_normal = vertex_n;
+    vec3 n = vertex_n;
+#if LSF_TANGENT
+    vec3 t = tangent_about(n, point.tangent.xyz);
+    vec3 b = cross(n, t) * point.tangent.w;
+#endif
+#if LSF_NORMAL_TEXTURE
+    if (slot_used(material.normal_slot)) {
+        vec3 mapped = slot_sample(normal_texture, material.normal_slot, point.place).xyz * 2.0 - 1.0;
+        mapped.xy *= material.surface.z;
+        n = normalize(mapped.x * t + mapped.y * b + mapped.z * n);
+    }
+#endif
+    s.normal = point.front ? n : -n;
+    s.base_color = clamp(color.rgb, 0.0, 1.0);
+    s.metallic = 0.0;
+    s.roughness = 1.0;
+    s.f0 = material.surface.w;
+    s.anisotropy = 0.0;
+    s.anisotropy_turn = 0.0;
+    s.unlit = material.flags.y != 0.0;
+#if LSF_GLOSS
+    s.metallic = material.surface.x;
+    s.roughness = material.surface.y;
+#if LSF_METALLIC_ROUGHNESS_TEXTURE
+    if (slot_used(material.metallic_roughness_slot)) {
+        vec4 texel =
+            slot_sample(metallic_roughness_texture, material.metallic_roughness_slot, point.place);
+        s.metallic *= texel.b;
+        s.roughness *= texel.g;
+    }
+#endif
+#if LSF_ANISOTROPY
+    vec2 turn = material.anisotropy.yz;
+    s.anisotropy = material.anisotropy.x;
+#if LSF_ANISOTROPY_TEXTURE
+    if (slot_used(material.anisotropy_slot)) {
+        vec3 texel = slot_sample(anisotropy_texture, material.anisotropy_slot, point.place).xyz;
+        vec2 d = texel.xy * 2.0 - 1.0;
+        turn = vec2(d.x * turn.x - d.y * turn.y, d.x * turn.y + d.y * turn.x);
+        s.anisotropy *= texel.z;
+    }
+#endif
+    /* Stored as an angle in the basis that readers rebuild from the shading normal. */
+    vec3 along = turn.x * t + turn.y * b;
+    vec3 basis_t, basis_b;
+    orthonormal_basis(s.normal, basis_t, basis_b);
+    float angle = atan(dot(along, basis_b), dot(along, basis_t));
+    s.anisotropy_turn = fract(angle / (2.0 * LSF_PI));
+#endif
+#endif
+#if LSF_EMISSION
+    emission = material.emission.rgb;
+#if LSF_EMISSIVE_TEXTURE
+    if (slot_used(material.emissive_slot))
+        emission *= slot_sample(emissive_texture, material.emissive_slot, point.place).rgb;
+#endif
+    if (s.unlit)
+        emission = color.rgb;
+#endif
+    return true;
+}
+
+#endif

@@ -1,0 +1,51 @@
+/* Appends nodes to the texels' lists, for both ways to rasterise. Switches of
+ * lib/ray_bundle.glsl. */
+#ifndef LSF_PASSES_RAY_BUNDLE_APPEND
+#define LSF_PASSES_RAY_BUNDLE_APPEND
+
+#define LSF_BUNDLE_ACCESS coherent
+#include "lib/ray_bundle.glsl"
+
+layout(location = 0) uniform uint chain_room; /* nodes for chaining */
+
+/* Gives the fragment a node and stores its key. LSF_NO_NODE where there is no room left; the counter
+ * then still tells how much was needed. */
+uint append_node(uint texel, uint key)
+{
+    uint fragment = atomicAdd(bundle_texels[texel], 1u);
+#if LSF_BUNDLE_SLICES
+    if (fragment < uint(LSF_BUNDLE_SLICES)) {
+        uint node = bundle_slice_node(texel, fragment);
+        bundle_keys[node] = key;
+        return node;
+    }
+#endif
+    uint link = atomicAdd(bundle_texels[LSF_BUNDLE_TEXELS], 1u);
+    if (link >= chain_room)
+        return LSF_NO_NODE;
+    uint before = atomicExchange(bundle_texels[LSF_BUNDLE_FIRST_HEAD + texel], link);
+    bundle_chain[link] = uvec4(key, before, texel, 0u);
+    return LSF_BUNDLE_FIRST_LINK + link;
+}
+
+/* `sides`: LSF_BUNDLE_EMITS_BACK and LSF_BUNDLE_EMITS_AHEAD. */
+void append_surface(uint texel, bundle_plane_bits plane, surface s, vec3 emission, uint sides)
+{
+    uint node = append_node(texel, plane.key);
+    if (node == LSF_NO_NODE)
+        return;
+    bundle_surfaces[3u * node] = octahedral_encode(s.normal);
+    bundle_surfaces[3u * node + 1u] = bundle_color_pack(s.base_color);
+    bundle_surfaces[3u * node + 2u] = plane.rest;
+#if LSF_BUNDLE_ANISOTROPY
+    bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0),
+                               packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));
+#elif LSF_BUNDLE_GLOSS
+    bundle_gloss[node] = bundle_gloss_pack(s.roughness, s.metallic, s.f0);
+#endif
+#if LSF_BUNDLE_EMISSION
+    bundle_emission[node] = bundle_emission_pack(emission, s.unlit ? 0u : sides);
+#endif
+}
+
+#endif

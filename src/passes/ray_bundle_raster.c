@@ -1,0 +1,139 @@
+/* Small triangles by a compute shader, the few large ones by GL. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "passes/ray_bundle_parts.h"
+#include "shared/scene_data.h"
+
+#define FIRST_STREAM_UNIT 6
+#define DRAW_WORDS 5 /* DrawElementsIndirectCommand */
+
+/* In one dispatch: GL promises 65,535 work groups. */
+#define MAX_TRIANGLES (65535u * LSF_BUNDLE_SMALL_SIZE)
+
+/* Storage blocks of GL's guaranteed size; a scene with more triangles is left to GL alone. */
+#define MAX_BYTES (UINT64_C(1) << 27)
+
+static uint64_t large_bytes(const lsf_plan *plan)
+{
+    return 4 *
+           (DRAW_WORDS * (uint64_t)plan->requirements.instances + 3 * plan->requirements.triangles);
+}
+
+void lsf_ray_bundle_raster_plan(lsf_plan *plan, const lsf_ray_bundle_params *params)
+{
+    uint64_t bytes = large_bytes(plan);
+    if (params->raster == LSF_RAY_BUNDLE_RASTER_GL)
+        lsf_plan_omit(plan, "ray_bundle.large", "bundle.raster is gl");
+    else if (plan->requirements.triangles == 0)
+        lsf_plan_omit(plan, "ray_bundle.large", "the scene has no triangles");
+    else if (bytes > MAX_BYTES)
+        lsf_plan_omit(plan, "ray_bundle.large", "the scene has too many triangles for its list");
+    else
+        lsf_plan_buffer_add(plan, "ray_bundle.large", bytes,
+                            "large triangles, which GL draws; a shader rasterises small ones");
+}
+
+bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
+{
+    static const char *const files[5] = {"passes/ray_bundle_small.comp.glsl"};
+    if (!lsf_plan_find(plan, "ray_bundle.large"))
+        return true;
+    pass->draw_count = plan->requirements.instances;
+    pass->draws = lsf_alloc(pass->draw_count, sizeof *pass->draws);
+    if (!pass->draws)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances",
+                             pass->draw_count);
+    if (!lsf_plan_create_buffer(plan, pass->context, "ray_bundle.large", NULL,
+                                GL_DYNAMIC_STORAGE_BIT, &pass->large, error))
+        return false;
+    glCreateTextures(GL_TEXTURE_BUFFER, LSF_COUNT(pass->streams), pass->streams);
+    pass->small_program = lsf_plan_program(plan, pass->context, "ray_bundle_build", files, error);
+    return pass->small_program != 0;
+}
+
+static void bind_streams(const lsf_ray_bundle *pass, const lsf_scene_gpu *scene)
+{
+    const struct {
+        GLenum format;
+        GLuint buffer;
+    } streams[] = {{GL_R32UI, scene->indices},  {GL_RGB32F, scene->positions},
+                   {GL_RGB32F, scene->normals}, {GL_RGBA32F, scene->tangents},
+                   {GL_RG32F, scene->uv0},      {GL_RG32F, scene->uv1},
+                   {GL_RGBA32F, scene->colors}};
+    for (size_t i = 0; i < LSF_COUNT(streams); i++)
+        glTextureBuffer(pass->streams[i], streams[i].format, streams[i].buffer);
+    glBindTextures(FIRST_STREAM_UNIT, LSF_COUNT(streams), pass->streams);
+}
+
+/* Draws of no triangles yet, each with room for all of its instance's. */
+static void reset_draws(lsf_ray_bundle *pass, const lsf_iteration *iteration)
+{
+    const lsf_scene *scene = iteration->scene->scene;
+    uint32_t first = DRAW_WORDS * pass->draw_count;
+    for (uint32_t i = 0; i < pass->draw_count; i++) {
+        pass->draws[i] = (lsf_ray_bundle_draw){0, 1, first, 0, i};
+        first += scene->primitives[iteration->state->instances[i].primitive].index_count;
+    }
+    glNamedBufferSubData(pass->large, 0, (GLsizeiptr)(pass->draw_count * sizeof *pass->draws),
+                         pass->draws);
+}
+
+static void set_instance(const lsf_iteration *iteration, uint32_t index)
+{
+    const lsf_instance_state *instance = &iteration->state->instances[index];
+    const lsf_scene *scene = iteration->scene->scene;
+    struct lsf_material_data material = lsf_scene_gpu_material(scene, instance->material);
+    float normal[12] = {0};
+    for (int row = 0; row < 3; row++)
+        memcpy(normal + 4 * row, instance->normal_transform + 3 * row, 3 * sizeof *normal);
+    glUniform4fv(2, 3, instance->transform);
+    glUniform4fv(5, 3, normal);
+    glUniform4fv(9, sizeof material / sizeof(lsf_vec4), &material.base_color.x);
+}
+
+void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t room)
+{
+    const lsf_scene_gpu *scene = iteration->scene;
+    GLint bits = 0;
+    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    reset_draws(pass, iteration);
+    bind_streams(pass, scene);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_LARGE, pass->large);
+    glUseProgram(pass->small_program);
+    glUniform1ui(0, room);
+    glUniform1f(8, ldexpf(1.0f, bits));
+    uint32_t bound = LSF_NONE;
+    for (uint32_t i = 0; i < scene->draw_count; i++) {
+        uint32_t index = scene->draw_order[i];
+        const lsf_instance_state *instance = &iteration->state->instances[index];
+        if (instance->skipped)
+            continue;
+        if (instance->material != bound)
+            lsf_scene_gpu_bind_material(scene, bound = instance->material);
+        set_instance(iteration, index);
+        const lsf_primitive *primitive = &scene->scene->primitives[instance->primitive];
+        for (uint32_t first = 0; first < primitive->index_count / 3; first += MAX_TRIANGLES) {
+            uint32_t triangles = primitive->index_count / 3 - first;
+            triangles = triangles < MAX_TRIANGLES ? triangles : MAX_TRIANGLES;
+            glUniform4ui(1, (GLuint)primitive->first_index + 3 * first, triangles, index,
+                         instance->mirrored);
+            glDispatchCompute((triangles + LSF_BUNDLE_SMALL_SIZE - 1) / LSF_BUNDLE_SMALL_SIZE, 1,
+                              1);
+        }
+    }
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(pass->build_program);
+    glUniform1ui(0, room);
+    lsf_scene_gpu_draw_listed(scene, iteration->state, pass->large);
+}
+
+void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass)
+{
+    lsf_buffer_destroy(pass->context, &pass->large);
+    glDeleteTextures(LSF_COUNT(pass->streams), pass->streams);
+    free(pass->draws);
+}
