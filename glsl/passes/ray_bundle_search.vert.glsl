@@ -13,10 +13,6 @@ flat out vec3 bundle_forward;
 flat out vec4 ray_scale; /* x, y: depth steps across a texel for a slope of 1; steps of a unit of length;
                           * square of the steps within which a ray is still on the surface it left */
 
-/* How far a node's plane may pass from the origin of a ray and still be the surface that it left: a
- * part of a texel, for what curves within one, and half a step of the keys' depth. */
-#define LSF_SELF_TEXELS 0.1
-
 /* A vector in normalised space as texels and depth steps. */
 vec3 to_map(vec3 v)
 {
@@ -37,6 +33,6 @@ void main()
     bundle_forward = bundle.forward.xyz;
     vec2 texel = bundle_texel_size();
     float steps = LSF_BUNDLE_DEPTH_STEPS / bundle.range.y;
-    float self = LSF_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5;
+    float self = LSF_BUNDLE_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5;
     ray_scale = vec4(texel * steps, steps, self * self);
 }

@@ -21,6 +21,11 @@ struct lsf_bundle_slot_data {
     vec4 unused[11];
 };
 
+/* How far a node's plane may pass from the origin of a ray and still be the surface that it left: a
+ * part of a texel, for what curves within one, beside half a step of the keys' depth. Measured: see
+ * ray_bundle.md. */
+#define LSF_BUNDLE_SELF_TEXELS 0.2f
+
 /* Storage buffer of hits on coinciding surfaces, in the search, which reads no materials; work groups
  * that share them. */
 #define LSF_BINDING_TIES 0

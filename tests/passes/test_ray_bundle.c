@@ -155,7 +155,7 @@ static float brute_force(const bundle_rig *rig, uint32_t *const arrays[],
     *from_border = 0.5f - fmaxf(fabsf(off[0]), fabsf(off[1]));
     float sign = lsf_f3_dot(n, lsf_f3_load(&b->forward.x)) > 0.0f ? 1.0f : -1.0f;
     float z = lsf_f3_dot(p, lsf_f3_load(&b->forward.x)) - b->range.x;
-    float tolerance = 0.1f * fmaxf(texel[0], texel[1]) + 0.5f * b->range.y / 65535.0f;
+    float tolerance = LSF_BUNDLE_SELF_TEXELS * fmaxf(texel[0], texel[1]) + 0.5f * b->range.y / 65535.0f;
     uint32_t at = (uint32_t)place[1] * (uint32_t)params->resolution + (uint32_t)place[0];
     float nearest = INFINITY;
     for (uint32_t i = 0, link = 0; i < arrays[LSF_RAY_BUNDLE_TEXELS][at]; i++) {
