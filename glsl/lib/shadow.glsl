@@ -121,25 +121,51 @@ float shadow_visibility(vec3 position, vec3 normal)
 
 #else
 
-float shadow_visibility(vec3 position, vec3 normal)
+/* A texel's surface is in front of the receiver (1) or behind it (-1) when it is so by both planes;
+ * otherwise they are the same surface (0), or meet within the texel. */
+int shadow_order(shadow_receiver r, ivec2 at)
 {
-    shadow_receiver r = shadow_project(position, normal);
 #if LSF_SHADOW_HEMISPHERE
-    uint texel = texelFetch(shadow_map, r.at, 0).r;
+    uint texel = texelFetch(shadow_map, at, 0).r;
     float depth = hemisphere_unpack_depth(texel);
     vec2 gradient = hemisphere_unpack_slope(texel) * (depth * 2.0 * light.map_shape.w);
 #else
-    float depth = texelFetch(shadow_depth, ivec3(r.at, r.face), 0).r;
+    float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
     vec2 gradient =
-        texelFetch(shadow_gradient, ivec3(r.at, r.face), 0).rg * light_map_depth_unit(depth);
+        texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_map_depth_unit(depth);
 #endif
-    vec2 to_center = vec2(r.at) + 0.5 - r.texel;
-    float occluder_at_receiver = depth - dot(gradient, to_center);
-    float receiver_at_center = r.depth + dot(r.gradient, to_center);
+    vec2 to_center = vec2(at) + 0.5 - r.texel;
+    float at_receiver = depth - dot(gradient, to_center) - r.depth;
+    float at_center = depth - r.depth - dot(r.gradient, to_center);
     float tolerance = shadow_tolerance(r);
-    bool shadowed = occluder_at_receiver > r.depth + tolerance &&
-                    depth > receiver_at_center + tolerance;
-    return shadowed ? 0.0 : 1.0;
+    if (min(at_receiver, at_center) > tolerance)
+        return 1;
+    return max(at_receiver, at_center) < -tolerance ? -1 : 0;
+}
+
+/* A texel that shows something behind the receiver knows nothing about it: its centre is past an edge,
+ * of the receiver's own surface, which is lit, or of one that hides it, as at the edges of a closed
+ * room lit from outside. The texels on the receiver's other sides tell: any of them that shows the
+ * receiver's surface proves the first, else any that shows one in front proves the second. */
+float shadow_visibility(vec3 position, vec3 normal)
+{
+    shadow_receiver r = shadow_project(position, normal);
+    int order = shadow_order(r, r.at);
+#if !LSF_SHADOW_HEMISPHERE
+    if (order < 0) {
+        ivec2 last = ivec2(int(light.map_shape.z) - 1);
+        ivec2 step_to = ivec2(r.texel.x - float(r.at.x) >= 0.5 ? 1 : -1,
+                              r.texel.y - float(r.at.y) >= 0.5 ? 1 : -1);
+        for (int i = 1; i < 4; i++) {
+            ivec2 at = clamp(r.at + step_to * ivec2(i & 1, i >> 1), ivec2(0), last);
+            int beside = shadow_order(r, at);
+            if (beside == 0)
+                return 1.0;
+            order = max(order, beside);
+        }
+    }
+#endif
+    return order > 0 ? 0.0 : 1.0;
 }
 
 #endif
