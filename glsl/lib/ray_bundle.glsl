@@ -36,10 +36,10 @@ layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 1) LSF_BUNDLE_ACCESS buffer 
     uint bundle_keys[];
 };
 #endif
-/* Of chained nodes. x: key; y: the texel's link before this one; z: texel */
+/* Of chained nodes. x: key; y: the texel's link before this one */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 5) LSF_BUNDLE_ACCESS buffer lsf_bundle_chain_block
 {
-    uvec4 bundle_chain[];
+    uvec2 bundle_chain[];
 };
 /* Three words a node: shading normal on the side from which the bundle comes, octahedral; base colour;
  * what the key leaves out of the plane, for what a hit is lit by is looked up in maps, which takes an
@@ -85,12 +85,6 @@ uint bundle_key(uint node)
         return bundle_keys[node];
 #endif
     return bundle_chain[node - LSF_BUNDLE_FIRST_LINK].x;
-}
-
-uint bundle_texel(uint node)
-{
-    return node < LSF_BUNDLE_FIRST_LINK ? (node >> 2) % LSF_BUNDLE_TEXELS
-                                        : bundle_chain[node - LSF_BUNDLE_FIRST_LINK].z;
 }
 
 vec3 bundle_coordinates(vec3 p)

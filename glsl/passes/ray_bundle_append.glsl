@@ -1,5 +1,5 @@
 /* Appends nodes to the texels' lists, for both ways to rasterise. Switches of
- * lib/ray_bundle.glsl. */
+ * lib/ray_bundle.glsl, and LSF_BUNDLE_SURFACES: not only distances are asked for. */
 #ifndef LSF_PASSES_RAY_BUNDLE_APPEND
 #define LSF_PASSES_RAY_BUNDLE_APPEND
 
@@ -24,7 +24,7 @@ uint append_node(uint texel, uint key)
     if (link >= chain_room)
         return LSF_NO_NODE;
     uint before = atomicExchange(bundle_texels[LSF_BUNDLE_FIRST_HEAD + texel], link);
-    bundle_chain[link] = uvec4(key, before, texel, 0u);
+    bundle_chain[link] = uvec2(key, before);
     return LSF_BUNDLE_FIRST_LINK + link;
 }
 
@@ -34,6 +34,7 @@ void append_surface(uint texel, bundle_plane_bits plane, surface s, vec3 emissio
     uint node = append_node(texel, plane.key);
     if (node == LSF_NO_NODE)
         return;
+#if LSF_BUNDLE_SURFACES
     bundle_surfaces[3u * node] = octahedral_encode(s.normal);
     bundle_surfaces[3u * node + 1u] = bundle_color_pack(s.base_color);
     bundle_surfaces[3u * node + 2u] = plane.rest;
@@ -45,6 +46,7 @@ void append_surface(uint texel, bundle_plane_bits plane, surface s, vec3 emissio
 #endif
 #if LSF_BUNDLE_EMISSION
     bundle_emission[node] = bundle_emission_pack(emission, s.unlit ? 0u : sides);
+#endif
 #endif
 }
 

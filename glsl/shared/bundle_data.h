@@ -26,10 +26,10 @@ struct lsf_bundle_slot_data {
  * ray_bundle.md. */
 #define LSF_BUNDLE_SELF_TEXELS 0.2f
 
-/* Storage buffer of hits on coinciding surfaces, in the search, which reads no materials; work groups
- * that share them. */
-#define LSF_BINDING_TIES 0
-#define LSF_BUNDLE_TIE_GROUPS 64
+/* Storage buffer of pixels whose search takes longer, while no materials are read; work groups that
+ * share them. */
+#define LSF_BINDING_REST 0
+#define LSF_BUNDLE_REST_GROUPS 64
 
 /* Storage buffer of triangles that are left to GL, while a bundle is built. */
 #define LSF_BINDING_BUNDLE_LARGE 1

@@ -127,7 +127,10 @@ static bool create_run(run *r, lsf_ray_bench *bench, uint32_t bundle, uint32_t d
                        lsf_error *error)
 {
     lsf_context *context = bench->context;
-    lsf_ray_bundle_use use = {.count = directions + WARM_UP, .slots = 1, .interleave = 1};
+    lsf_ray_bundle_use use = {.count = directions + WARM_UP,
+                              .slots = 1,
+                              .interleave = 1,
+                              .distances_only = true}; /* as Embree is asked */
     lsf_setup *setup = &r->setup;
     if (!plan_run(r, bench, bundle, 0, &use, error))
         return false;

@@ -9,6 +9,8 @@
 /* The search walks slices in one loop of this many steps; see LSF_STEPS there. */
 #define MAX_SLICES 64
 
+#define SURFACES "LSF_BUNDLE_SURFACES"
+
 const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT] = {
     {"bundle.count", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, count), 1, 4096, NULL, "",
      "ray-bundles an iteration"},
@@ -42,7 +44,7 @@ void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params 
     bool gloss = lsf_ray_bundle_has_gloss(plan);
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SIDE", params->resolution, "bundle.resolution");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
-                        "bundle.slices, rounded up to a multiple of 4");
+                        "bundle.slices, as a multiple of 4 that storage blocks hold");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", gloss && plan->requirements.anisotropic,
                         "some material is anisotropic");
@@ -63,10 +65,11 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_plan_pass_add(plan, "ray_bundle_build", "every fragment of the scene along %u direction%s",
                       use->count, use->count == 1 ? "" : "s");
     lsf_ray_bundle_reader_switches(plan, params);
-    lsf_scene_gpu_material_switches(plan, lsf_ray_bundle_has_gloss(plan),
-                                    lsf_ray_bundle_has_emission(plan));
+    lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
+    lsf_scene_gpu_material_switches(plan, lsf_ray_bundle_has_gloss(plan) && !use->distances_only,
+                                    lsf_ray_bundle_has_emission(plan) && !use->distances_only);
     lsf_ray_bundle_raster_plan(plan, params);
-    lsf_ray_bundle_nodes_plan(plan, params, use->slots);
+    lsf_ray_bundle_nodes_plan(plan, params, use);
     lsf_plan_buffer_add(plan, "ray_bundle.readback", 4 * LSF_RAY_BUNDLE_COUNTERS,
                         "how many nodes there are, and how many of them chained");
     lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
@@ -74,9 +77,10 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
                         "size of the interleaving pattern");
+    lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
     lsf_plan_switch_add(plan, "LSF_DEEP", use->deep_vertices, "paths go on from hits");
-    lsf_plan_buffer_add(plan, "ray_bundle.ties", 4 + 4 * (uint64_t)plan->width * plan->height,
-                        "hits on coinciding surfaces, which are chosen among by their looks");
+    lsf_plan_buffer_add(plan, "ray_bundle.rest", 4 + 4 * (uint64_t)plan->width * plan->height,
+                        "pixels whose search takes more than a look at the slices");
     lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, plan->width, plan->height,
                          "distance and node of each ray's hit");
 }
@@ -93,7 +97,7 @@ static bool create_resources(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_err
                                 GL_DYNAMIC_STORAGE_BIT, &pass->projection_buffer, error) ||
         !lsf_plan_create_buffer(plan, context, "ray_bundle.readback", NULL, 0, &pass->readback,
                                 error) ||
-        !lsf_plan_create_buffer(plan, context, "ray_bundle.ties", NULL, 0, &pass->ties, error) ||
+        !lsf_plan_create_buffer(plan, context, "ray_bundle.rest", NULL, 0, &pass->rest, error) ||
         !lsf_plan_create_texture(plan, context, "ray_bundle.hits", &pass->hits, error))
         return false;
     glCreateQueries(GL_SAMPLES_PASSED, 1, &pass->samples_query);
@@ -115,7 +119,7 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf
 {
     static const char *const build_files[5] = {"passes/ray_bundle_build.vert.glsl",
                                                "passes/ray_bundle_build.frag.glsl"};
-    static const char *const ties_files[5] = {"passes/ray_bundle_ties.comp.glsl"};
+    static const char *const rest_files[5] = {"passes/ray_bundle_rest.comp.glsl"};
     static const char *const search_files[5] = {"passes/ray_bundle_search.vert.glsl",
                                                 "passes/ray_bundle_search.frag.glsl"};
     lsf_ray_bundle *pass = *out = lsf_alloc(1, sizeof *pass);
@@ -131,10 +135,10 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf
     pass->build_program = lsf_plan_program(plan, context, "ray_bundle_build", build_files, error);
     pass->search_program =
         lsf_plan_program(plan, context, "ray_bundle_search", search_files, error);
-    pass->ties_program = lsf_plan_program(plan, context, "ray_bundle_search", ties_files, error);
+    pass->rest_program = lsf_plan_program(plan, context, "ray_bundle_search", rest_files, error);
     pass->build_timer = lsf_timer_create(context, "ray_bundle_build", error);
     pass->search_timer = lsf_timer_create(context, "ray_bundle_search", error);
-    return pass->build_program && pass->search_program && pass->ties_program && pass->build_timer &&
+    return pass->build_program && pass->search_program && pass->rest_program && pass->build_timer &&
            pass->search_timer;
 }
 
@@ -214,13 +218,25 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     lsf_timer_end(pass->build_timer);
 }
 
-/* Hits on surfaces that coincide: seldom any. */
-static void settle_ties(const lsf_ray_bundle *pass)
+static void set_ray(const lsf_ray_bundle *pass, GLuint program,
+                    const lsf_ray_bundle_origins *origins, const lsf_region *region)
+{
+    glUseProgram(program);
+    if (pass->use.deep_vertices)
+        glUniform1i(0, origins->depth == 0);
+    if (lsf_ray_bundle_slices(&pass->params) > 0)
+        glUniform1i(2, lsf_ray_bundle_slices(&pass->params) / 4);
+    lsf_region_set(region);
+}
+
+/* Chained nodes, and hits on surfaces that coincide: few. */
+static void search_rest(const lsf_ray_bundle *pass, const lsf_ray_bundle_origins *origins,
+                        const lsf_region *region)
 {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    glBindImageTexture(0, pass->hits, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RG32UI);
-    glUseProgram(pass->ties_program);
-    glDispatchCompute(LSF_BUNDLE_TIE_GROUPS, 1, 1);
+    glBindImageTexture(0, pass->hits, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32UI);
+    set_ray(pass, pass->rest_program, origins, region);
+    glDispatchCompute(LSF_BUNDLE_REST_GROUPS, 1, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
@@ -239,16 +255,12 @@ GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteratio
     glBindTextureUnit(0, origins->depth);
     glBindTextureUnit(1, origins->surface);
     glBindTextureUnit(2, origins->position);
-    glClearNamedBufferSubData(pass->ties, GL_R32UI, 0, 4, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_TIES, pass->ties);
-    glUseProgram(pass->search_program);
-    if (pass->use.deep_vertices)
-        glUniform1i(0, origins->depth == 0);
+    glClearNamedBufferSubData(pass->rest, GL_R32UI, 0, 4, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_REST, pass->rest);
+    set_ray(pass, pass->search_program, origins, region);
     glUniform2f(1, (float)region->width, (float)region->height);
-    glUniform1i(2, lsf_ray_bundle_slices(&pass->params) / 4);
-    lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);
-    settle_ties(pass);
+    search_rest(pass, origins, region);
     lsf_timer_end(pass->search_timer);
     return pass->hits;
 }
@@ -273,7 +285,7 @@ void lsf_ray_bundle_destroy(lsf_ray_bundle *pass)
     lsf_ray_bundle_raster_destroy(pass);
     lsf_buffer_destroy(pass->context, &pass->projection_buffer);
     lsf_buffer_destroy(pass->context, &pass->readback);
-    lsf_buffer_destroy(pass->context, &pass->ties);
+    lsf_buffer_destroy(pass->context, &pass->rest);
     lsf_texture_destroy(pass->context, &pass->tiles);
     lsf_texture_destroy(pass->context, &pass->hits);
     lsf_framebuffer_destroy(pass->context, &pass->tiles_framebuffer);

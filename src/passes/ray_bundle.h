@@ -29,7 +29,7 @@ typedef struct lsf_ray_bundle_params {
 } lsf_ray_bundle_params;
 
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
-    .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 8,              \
+    .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 12,             \
     .room = 1.0f, .raster = LSF_RAY_BUNDLE_RASTER_COMPUTE, .environment_offset = 1.0f
 
 #define LSF_RAY_BUNDLE_OPTION_COUNT 7
@@ -41,6 +41,7 @@ typedef struct lsf_ray_bundle_use {
     uint32_t slots;      /* bundles held at once; bundle i is held in slot i % slots */
     bool whole_scene;    /* else windows are fitted to the visible points */
     uint32_t interleave; /* size of the interleaving pattern, 1: none */
+    bool distances_only; /* nodes hold no surface: lib/ray_bundle.glsl must not be asked for one */
     bool deep_vertices;  /* searches start from positions too, not from the G-buffer alone */
 } lsf_ray_bundle_use;
 

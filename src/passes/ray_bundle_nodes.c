@@ -10,12 +10,26 @@
 /* A slot that was too small gets a quarter more than it needed: directions differ. */
 #define GROWTH_MARGIN 4
 
+/* GL promises storage blocks of this size, and software GL has no larger ones. */
+#define LARGEST_BLOCK (UINT64_C(1) << 27)
+#define SURFACE_BYTES 12
+
 static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"texels", "keys",     "surfaces",
                                                                "gloss",  "emission", "chain"};
 
+static uint64_t texel_count(const lsf_ray_bundle_params *params)
+{
+    return (uint64_t)params->resolution * (uint64_t)params->resolution;
+}
+
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
 {
-    return (params->slices + 3) / 4 * 4;
+    uint64_t texels = texel_count(params);
+    uint64_t room = (uint64_t)((double)texels * (double)params->room);
+    uint64_t nodes = LARGEST_BLOCK / SURFACE_BYTES;
+    uint64_t most = nodes > room ? (nodes - room) / texels / 4 * 4 : 0;
+    int32_t wanted = (params->slices + 3) / 4 * 4;
+    return most < (uint64_t)wanted ? (int32_t)most : wanted;
 }
 
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan)
@@ -29,31 +43,30 @@ bool lsf_ray_bundle_has_emission(const lsf_plan *plan)
     return plan->requirements.emissive || plan->requirements.unlit;
 }
 
-static uint64_t texel_count(const lsf_ray_bundle_params *params)
-{
-    return (uint64_t)params->resolution * (uint64_t)params->resolution;
-}
-
 /* Bytes of an array with room for `room` chained nodes; 0 when the scene does not need it. */
-static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *params, int array,
-                            uint64_t room)
+static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *params,
+                            bool distances_only, int array, uint64_t room)
 {
     uint64_t texels = texel_count(params);
     uint64_t nodes = texels * (uint64_t)lsf_ray_bundle_slices(params) + room;
+    bool surface = array == LSF_RAY_BUNDLE_SURFACES || array == LSF_RAY_BUNDLE_GLOSS ||
+                   array == LSF_RAY_BUNDLE_EMISSION;
+    if (surface && distances_only)
+        return 0;
     switch (array) {
     case LSF_RAY_BUNDLE_TEXELS:
         return 4 * (2 * texels + LSF_RAY_BUNDLE_COUNTERS);
     case LSF_RAY_BUNDLE_KEYS:
         return 4 * (nodes - room);
     case LSF_RAY_BUNDLE_SURFACES:
-        return 12 * nodes;
+        return SURFACE_BYTES * nodes;
     case LSF_RAY_BUNDLE_GLOSS:
         return lsf_ray_bundle_has_gloss(plan) ? (plan->requirements.anisotropic ? 8 : 4) * nodes
                                               : 0;
     case LSF_RAY_BUNDLE_EMISSION:
         return lsf_ray_bundle_has_emission(plan) ? 8 * nodes : 0;
     default:
-        return 16 * room;
+        return 8 * room;
     }
 }
 
@@ -68,7 +81,8 @@ static uint32_t first_room(const lsf_ray_bundle_params *params)
     return (uint32_t)fmax(room, 1.0);
 }
 
-void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params, uint32_t slots)
+void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
+                               const lsf_ray_bundle_use *use)
 {
     static const char *const why[LSF_RAY_BUNDLE_ARRAYS] = {
         "a counter and a chain's head for each texel",
@@ -76,22 +90,24 @@ void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *para
         "normal, base colour and the rest of the plane of a node, 12 bytes",
         "roughness, metallic and f0 of a node",
         "radiance of a node, 8 bytes",
-        "keys and links of chained nodes, 16 bytes each"};
-    for (uint32_t slot = 0; slot < slots; slot++)
+        "keys and links of chained nodes, 8 bytes each"};
+    for (uint32_t slot = 0; slot < use->slots; slot++)
         for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
             char name[64];
             array_name(name, array, slot);
-            uint64_t bytes = array_bytes(plan, params, array, first_room(params));
+            uint64_t bytes =
+                array_bytes(plan, params, use->distances_only, array, first_room(params));
             if (bytes)
                 lsf_plan_buffer_add(plan, name, bytes, "%s", why[array]);
         }
+    if (use->distances_only)
+        lsf_plan_omit(plan, "ray_bundle.surfaces", "distances are all that is asked for");
     if (!lsf_ray_bundle_has_gloss(plan))
         lsf_plan_omit(plan, "ray_bundle.gloss", "nothing is glossy");
     if (!lsf_ray_bundle_has_emission(plan))
         lsf_plan_omit(plan, "ray_bundle.emission", "nothing emits");
 }
 
-/* GL promises storage blocks of 2^27 bytes only, and software GL has no larger ones. */
 static bool check_size(const char *name, uint64_t bytes, const lsf_ray_bundle_params *params,
                        lsf_error *error)
 {
@@ -110,7 +126,7 @@ static void attach_textures(lsf_ray_bundle_slot *slot)
 {
     glTextureBuffer(slot->texel_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_TEXELS]);
     glTextureBuffer(slot->key_fetch, GL_RGBA32UI, slot->arrays[LSF_RAY_BUNDLE_KEYS]);
-    glTextureBuffer(slot->chain_fetch, GL_RGBA32UI, slot->arrays[LSF_RAY_BUNDLE_CHAIN]);
+    glTextureBuffer(slot->chain_fetch, GL_RG32UI, slot->arrays[LSF_RAY_BUNDLE_CHAIN]);
 }
 
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
@@ -126,7 +142,8 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
         for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
             char name[64];
             array_name(name, array, i);
-            uint64_t bytes = array_bytes(plan, &pass->params, array, slot->room);
+            uint64_t bytes =
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, slot->room);
             if (!check_size(name, bytes, &pass->params, error) ||
                 !lsf_plan_create_buffer(plan, pass->context, name, NULL, 0, &slot->arrays[array],
                                         error))
@@ -157,8 +174,9 @@ bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bun
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
         char name[64];
         array_name(name, array, slot->index);
-        uint64_t bytes = array_bytes(plan, &pass->params, array, room);
-        if (bytes != array_bytes(plan, &pass->params, array, slot->room) &&
+        uint64_t bytes = array_bytes(plan, &pass->params, pass->use.distances_only, array, room);
+        if (bytes !=
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, slot->room) &&
             (!check_size(name, bytes, &pass->params, error) ||
              !lsf_plan_resize_buffer(plan, pass->context, name, bytes, 0, &slot->arrays[array],
                                      error)))

@@ -45,8 +45,8 @@ struct lsf_ray_bundle {
     GLuint readback; /* counters on their way to the host */
     GLuint samples_query;
     GLuint tiles, tiles_framebuffer, build_framebuffer, hits, hits_framebuffer;
-    GLuint ties; /* hits on coinciding surfaces */
-    GLuint tiles_program, fit_program, build_program, search_program, ties_program;
+    GLuint rest; /* pixels whose search takes longer */
+    GLuint tiles_program, fit_program, build_program, search_program, rest_program;
     /* Only where small triangles are rasterised by a shader. */
     GLuint small_program;
     GLuint large;      /* draws of large triangles, and their indices */
@@ -60,10 +60,12 @@ struct lsf_ray_bundle {
 
 /* --- ray_bundle_nodes.c */
 
-int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params); /* a multiple of 4 */
+/* bundle.slices as a multiple of 4, and no more than a storage block holds. */
+int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan);
 bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
-void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params, uint32_t slots);
+void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
+                               const lsf_ray_bundle_use *use);
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
 /* Room for `needed` chained nodes and some more. On failure the slot has no nodes at all. */
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,

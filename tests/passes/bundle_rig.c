@@ -17,12 +17,13 @@ static void read_back(bundle_rig *rig, GLuint hits)
 }
 
 void bundle_rig_run(bundle_rig *rig, const lsf_scene *scene, const lsf_render_params *params,
-                    const lsf_ray_bundle_params *bundle, lsf_float3 direction)
+                    const lsf_ray_bundle_params *bundle, lsf_float3 direction, bool distances_only)
 {
     lsf_error error = {0};
     *rig = (bundle_rig){.width = params->width, .height = params->height};
     rig->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    const lsf_ray_bundle_use use = {.count = 1, .slots = 1, .interleave = 1};
+    const lsf_ray_bundle_use use = {
+        .count = 1, .slots = 1, .interleave = 1, .distances_only = distances_only};
     const lsf_gbuffer_params gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS};
     if (!lsf_setup_begin(&rig->setup, scene, params, &error))
         fail_msg("%s", error.message);

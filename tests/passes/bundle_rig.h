@@ -23,7 +23,7 @@ typedef struct bundle_rig {
 
 /* Draws G-buffer and a bundle along `direction`, searches it from every pixel, and reads back. */
 void bundle_rig_run(bundle_rig *rig, const lsf_scene *scene, const lsf_render_params *params,
-                    const lsf_ray_bundle_params *bundle, lsf_float3 direction);
+                    const lsf_ray_bundle_params *bundle, lsf_float3 direction, bool distances_only);
 void bundle_rig_finish(bundle_rig *rig);
 
 /* The visible point of a pixel; false where nothing is seen. */

@@ -55,7 +55,7 @@ static void box_from_inside(void **unused)
     const lsf_render_params view = view_params(64, 48);
     const lsf_ray_bundle_params params = bundle_params(256, LSF_RAY_BUNDLE_RASTER_COMPUTE);
     bundle_rig rig;
-    bundle_rig_run(&rig, scene, &view, &params, along);
+    bundle_rig_run(&rig, scene, &view, &params, along, false);
     uint32_t right = 0, seen = 0;
     for (uint32_t y = 0; y < rig.height; y++)
         for (uint32_t x = 0; x < rig.width; x++) {
@@ -95,7 +95,7 @@ static void rasters_agree(void **unused)
     for (int i = 0; i < 2; i++) {
         const lsf_ray_bundle_params params =
             bundle_params(200, i == 0 ? LSF_RAY_BUNDLE_RASTER_GL : LSF_RAY_BUNDLE_RASTER_COMPUTE);
-        bundle_rig_run(&rigs[i], scene, &view, &params, along);
+        bundle_rig_run(&rigs[i], scene, &view, &params, along, false);
         texels[i] = bundle_rig_array(&rigs[i], LSF_RAY_BUNDLE_TEXELS);
         uint64_t sum = 0;
         for (uint32_t t = 0; t < 200 * 200; t++)
@@ -136,8 +136,8 @@ static uint32_t key_of(uint32_t *const arrays[], const lsf_ray_bundle_params *pa
     if (i < slices)
         return arrays[LSF_RAY_BUNDLE_KEYS][((i >> 2) * texels + texel) * 4 + (i & 3)];
     *link = i == slices ? arrays[LSF_RAY_BUNDLE_TEXELS][texels + LSF_RAY_BUNDLE_COUNTERS + texel]
-                        : arrays[LSF_RAY_BUNDLE_CHAIN][4 * *link + 1];
-    return arrays[LSF_RAY_BUNDLE_CHAIN][4 * *link];
+                        : arrays[LSF_RAY_BUNDLE_CHAIN][2 * *link + 1];
+    return arrays[LSF_RAY_BUNDLE_CHAIN][2 * *link];
 }
 
 /* Distance of the nearest plane among a texel's, by trying them all. */
@@ -155,7 +155,8 @@ static float brute_force(const bundle_rig *rig, uint32_t *const arrays[],
     *from_border = 0.5f - fmaxf(fabsf(off[0]), fabsf(off[1]));
     float sign = lsf_f3_dot(n, lsf_f3_load(&b->forward.x)) > 0.0f ? 1.0f : -1.0f;
     float z = lsf_f3_dot(p, lsf_f3_load(&b->forward.x)) - b->range.x;
-    float tolerance = LSF_BUNDLE_SELF_TEXELS * fmaxf(texel[0], texel[1]) + 0.5f * b->range.y / 65535.0f;
+    float tolerance =
+        LSF_BUNDLE_SELF_TEXELS * fmaxf(texel[0], texel[1]) + 0.5f * b->range.y / 65535.0f;
     uint32_t at = (uint32_t)place[1] * (uint32_t)params->resolution + (uint32_t)place[0];
     float nearest = INFINITY;
     for (uint32_t i = 0, link = 0; i < arrays[LSF_RAY_BUNDLE_TEXELS][at]; i++) {
@@ -177,12 +178,12 @@ static void search_is_brute_force(void **unused)
     (void)unused;
     lsf_scene *scene = room();
     const lsf_render_params view = view_params(96, 64);
-    static const int32_t slices[] = {8, 0};
+    static const int32_t slices[] = {12, 0};
     for (int i = 0; i < 2; i++) {
         lsf_ray_bundle_params params = bundle_params(128, LSF_RAY_BUNDLE_RASTER_COMPUTE);
         params.slices = slices[i];
         bundle_rig rig;
-        bundle_rig_run(&rig, scene, &view, &params, along);
+        bundle_rig_run(&rig, scene, &view, &params, along, false);
         uint32_t *arrays[LSF_RAY_BUNDLE_ARRAYS] = {NULL};
         for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++)
             if (rig.bundle->slots[0].arrays[array])
@@ -217,7 +218,7 @@ static uint32_t *hits_of(const lsf_scene *scene, const lsf_ray_bundle_params *pa
 {
     const lsf_render_params view = view_params(64, 48);
     bundle_rig rig;
-    bundle_rig_run(&rig, scene, &view, params, along);
+    bundle_rig_run(&rig, scene, &view, params, along, false);
     uint32_t *surfaces = bundle_rig_array(&rig, LSF_RAY_BUNDLE_SURFACES);
     uint32_t *words = malloc(64 * 48 * 4 * sizeof *words);
     for (uint32_t pixel = 0; pixel < 64 * 48; pixel++)
@@ -253,6 +254,24 @@ static void room_grows(void **unused)
         }
         free(ample);
     }
+    destroy_scene(scene);
+}
+
+/* Without surfaces, rays go as far. */
+static void distances_alone(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = room();
+    const lsf_render_params view = view_params(64, 48);
+    const lsf_ray_bundle_params params = bundle_params(100, LSF_RAY_BUNDLE_RASTER_COMPUTE);
+    bundle_rig rigs[2];
+    for (int i = 0; i < 2; i++)
+        bundle_rig_run(&rigs[i], scene, &view, &params, along, i == 1);
+    for (uint32_t i = 0; i < 64 * 48; i++)
+        assert_int_equal(rigs[0].hits[2 * i], rigs[1].hits[2 * i]);
+    assert_int_equal(rigs[1].bundle->slots[0].arrays[LSF_RAY_BUNDLE_SURFACES], 0);
+    for (int i = 0; i < 2; i++)
+        bundle_rig_finish(&rigs[i]);
     destroy_scene(scene);
 }
 
@@ -323,10 +342,10 @@ static void thousands_of_layers(void **unused)
     view.camera_target = below;
     const lsf_ray_bundle_params params = bundle_params(16, LSF_RAY_BUNDLE_RASTER_COMPUTE);
     bundle_rig rig;
-    bundle_rig_run(&rig, scene, &view, &params, lsf_f3(0, 0, -1));
+    bundle_rig_run(&rig, scene, &view, &params, lsf_f3(0, 0, -1), false);
     uint64_t nodes = count_of(&rig, LSF_RAY_BUNDLE_NODES);
     assert_int_equal(nodes, 16 * 16 * LAYERS);
-    assert_int_equal(count_of(&rig, LSF_RAY_BUNDLE_OVERFLOW), nodes - 16 * 16 * 8);
+    assert_int_equal(count_of(&rig, LSF_RAY_BUNDLE_OVERFLOW), nodes - 16 * 16 * 12);
     float spacing = 2.0f / LAYERS * (float)rig.setup.state.scale;
     for (uint32_t i = 0; i < 16 * 16; i++) {
         uint32_t node;
@@ -365,10 +384,11 @@ static void empty_and_flat(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(box_from_inside),        cmocka_unit_test(rasters_agree),
-        cmocka_unit_test(search_is_brute_force),  cmocka_unit_test(room_grows),
-        cmocka_unit_test(threads_change_nothing), cmocka_unit_test(coinciding_surfaces),
-        cmocka_unit_test(thousands_of_layers),    cmocka_unit_test(empty_and_flat),
+        cmocka_unit_test(box_from_inside),       cmocka_unit_test(rasters_agree),
+        cmocka_unit_test(search_is_brute_force), cmocka_unit_test(room_grows),
+        cmocka_unit_test(distances_alone),       cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(coinciding_surfaces),   cmocka_unit_test(thousands_of_layers),
+        cmocka_unit_test(empty_and_flat),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

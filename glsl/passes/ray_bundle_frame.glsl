@@ -1,0 +1,41 @@
+/* The view's rays in a bundle's coordinates. They are affine over the picture: what is seen lies at
+ * start + view depth * along. */
+#ifndef LSF_PASSES_RAY_BUNDLE_FRAME
+#define LSF_PASSES_RAY_BUNDLE_FRAME
+
+#include "lib/ray_bundle.glsl"
+#include "lib/region.glsl"
+#include "lib/view.glsl"
+
+struct bundle_frame {
+    vec3 start, along; /* texels, texels, steps of depth */
+    vec3 forward;      /* the bundle's direction */
+    vec4 scale;        /* x, y: depth steps across a texel for a slope of 1; steps of a unit of length;
+                        * square of the steps within which a ray is still on the surface it left */
+};
+
+/* A vector in normalised space as texels and depth steps. */
+vec3 to_map(vec3 v)
+{
+    return bundle_coordinates(v) * vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw,
+                                        LSF_BUNDLE_DEPTH_STEPS / bundle.range.y);
+}
+
+/* At a place in the region [fragment coordinates]. */
+bundle_frame frame_at(vec2 fragment)
+{
+    vec2 ndc = sample_ndc(region_place(fragment));
+    vec2 texel = bundle_texel_size();
+    float steps = LSF_BUNDLE_DEPTH_STEPS / bundle.range.y;
+    float self = LSF_BUNDLE_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5;
+    bundle_frame frame;
+    frame.start = to_map(view_ray_origin(ndc)) -
+                  vec3(bundle.window.xy - bundle.window.zw, bundle.range.x) *
+                      vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw, steps);
+    frame.along = to_map(view_ray_direction(ndc));
+    frame.forward = bundle.forward.xyz;
+    frame.scale = vec4(texel * steps, steps, self * self);
+    return frame;
+}
+
+#endif

@@ -1,0 +1,127 @@
+/* Rays in a bundle's coordinates, and what they meet. Switches LSF_ORTHOGRAPHIC, LSF_INTERLEAVE,
+ * LSF_DEEP, LSF_BUNDLE_SURFACES (nodes hold surfaces, which tell them apart) and those of
+ * lib/ray_bundle.glsl.
+ *
+ * Lists are read as buffer textures, which software GL fetches for all lanes at once and storage
+ * buffers lane by lane. */
+#ifndef LSF_PASSES_RAY_BUNDLE_RAY
+#define LSF_PASSES_RAY_BUNDLE_RAY
+
+#include "lib/ray_bundle.glsl"
+#include "passes/ray_bundle_frame.glsl"
+
+layout(binding = 0) uniform sampler2D origin_depth;
+layout(binding = 1) uniform usampler2D origin_surface;
+#if LSF_DEEP
+layout(binding = 2) uniform sampler2D origin_position;
+layout(location = 0) uniform bool from_position;
+#endif
+layout(binding = 3) uniform usamplerBuffer texel_fetch;
+layout(binding = 4) uniform usamplerBuffer key_fetch; /* four at once */
+layout(binding = 5) uniform usamplerBuffer chain_fetch;
+/* LSF_BUNDLE_SLICES / 4; not known when compiled, or software GL unrolls the loop and walks through
+ * empty slices, too. */
+layout(location = 2) uniform int slices_of_four;
+
+struct bundle_ray {
+    int texel;
+    float depth;   /* of the origin, in steps of the keys */
+    vec2 to_depth; /* steps for a slope of 1: from the texel's centre to the ray */
+    float sign;    /* 1 along the bundle, -1 against it */
+    float self;    /* as in bundle_frame */
+};
+
+/* On the map: texels, texels, steps of depth. */
+bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
+{
+#if LSF_DEEP
+    if (from_position) {
+        vec4 texel = texelFetch(origin_position, pixel, 0);
+        vec3 q = bundle_coordinates(texel.xyz);
+        place = vec3(bundle_place(q), (q.z - bundle.range.x) * frame.scale.z);
+        return texel.w != 0.0;
+    }
+#endif
+    float depth = texelFetch(origin_depth, pixel, 0).r;
+    place = frame.start + view_depth(depth) * frame.along;
+    return depth != 0.0;
+}
+
+/* Which side of the bundle's plane a surface faces; no need for unit length. */
+float facing(uint normal, vec3 forward)
+{
+    vec2 p = unpackSnorm2x16(normal);
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0)
+        n.xy = (1.0 - abs(n.yx)) * octahedral_sign(n.xy);
+    return dot(n, forward) > 0.0 ? 1.0 : -1.0;
+}
+
+/* `count`: fragments in its texel, 0 when there is no ray. */
+bundle_ray ray_of(ivec2 pixel, bundle_frame frame, out int count)
+{
+    vec3 place;
+    bool present = origin(pixel, frame, place);
+    ivec2 at = ivec2(floor(place.xy));
+    present = present && min(at.x, at.y) >= 0 && max(at.x, at.y) < LSF_BUNDLE_SIDE;
+    bundle_ray ray;
+    ray.texel = at.y * LSF_BUNDLE_SIDE + at.x;
+    ray.depth = place.z;
+    ray.to_depth = (place.xy - vec2(at) - 0.5) * frame.scale.xy;
+    ray.sign = facing(texelFetch(origin_surface, pixel, 0).x, frame.forward);
+    ray.self = frame.scale.w;
+    count = present ? int(texelFetch(texel_fetch, ray.texel).x) : 0;
+    return ray;
+}
+
+struct bundle_hit {
+    float distance; /* steps of depth */
+    uint key;
+    int node;
+    bool tie; /* another node has the same key */
+};
+
+/* The node becomes the hit when its plane is nearer; between planes equally near the key decides, so
+ * that the list's order does not. */
+void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hit)
+{
+    vec2 slope = bundle_key_slope(key);
+    float depth = bundle_key_depth(key) + dot(slope, ray.to_depth);
+    float distance = ray.sign * (depth - ray.depth);
+    /* The origin's own surface: its distance from the plane is the one along the ray over
+     * sqrt(1 + slope^2). */
+    bool beyond = present && distance > 0.0 &&
+                  distance * distance > ray.self * (1.0 + dot(slope, slope));
+#if LSF_BUNDLE_SURFACES
+    bool same = beyond && distance == hit.distance;
+    bool nearer = (beyond && distance < hit.distance) || (same && key < hit.key);
+    hit.tie = !nearer && (hit.tie || (same && key == hit.key));
+    hit.key = nearer ? key : hit.key;
+#else
+    bool nearer = beyond && distance < hit.distance;
+#endif
+    hit.distance = nearer ? distance : hit.distance;
+    hit.node = nearer ? node : hit.node;
+}
+
+/* What lies in slices. */
+bundle_hit search_slices(bundle_ray ray, int count)
+{
+    const int texels = int(LSF_BUNDLE_TEXELS);
+    bundle_hit hit = bundle_hit(1e30, LSF_NO_NODE, -1, false);
+#if LSF_BUNDLE_SLICES
+    for (int i = 0; i < slices_of_four; i++) {
+        if (4 * i >= count)
+            break;
+        int at = i * texels + ray.texel;
+        uvec4 keys = texelFetch(key_fetch, at);
+        visit(ray, true, keys.x, 4 * at, hit);
+        visit(ray, 4 * i + 1 < count, keys.y, 4 * at + 1, hit);
+        visit(ray, 4 * i + 2 < count, keys.z, 4 * at + 2, hit);
+        visit(ray, 4 * i + 3 < count, keys.w, 4 * at + 3, hit);
+    }
+#endif
+    return hit;
+}
+
+#endif

@@ -1,0 +1,93 @@
+/* Searches again where slices were not all: texels with chained nodes, and hits on surfaces that
+ * coincide, among which the payload decides, so that the order in the texel's list does not matter.
+ * Switches as in ray_bundle_ray.glsl. */
+#define LSF_BUNDLE_REST_ACCESS readonly
+#include "passes/ray_bundle_ray.glsl"
+#include "passes/ray_bundle_rest.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(binding = 0, rg32ui) writeonly uniform uimage2D hits;
+
+/* Lanes without work walk through software GL's loops up to the cap: caps are low, and long lists
+ * take several turns. */
+#define LSF_STEPS 64u
+#define LSF_TURNS 65535u
+
+void search_chain(bundle_ray ray, int count, inout bundle_hit hit)
+{
+    int left = count - LSF_BUNDLE_SLICES;
+    int link = left > 0 ? int(texelFetch(texel_fetch, int(LSF_BUNDLE_FIRST_HEAD) + ray.texel).x) : 0;
+    for (uint turn = 0u; turn < LSF_TURNS && left > 0; turn++)
+        for (uint i = 0u; i < LSF_STEPS && left > 0; i++) {
+            uvec2 node = texelFetch(chain_fetch, link).xy;
+            visit(ray, true, node.x, int(LSF_BUNDLE_FIRST_LINK) + link, hit);
+            link = int(node.y);
+            left--;
+        }
+}
+
+#if LSF_BUNDLE_SURFACES
+
+/* -1, 0 or 1 */
+int compare(uint a, uint b)
+{
+    return a < b ? -1 : int(a > b);
+}
+
+bool comes_before(uint a, uint b)
+{
+    int order = 0;
+    for (uint i = 0u; i < 3u && order == 0; i++)
+        order = compare(bundle_surfaces[3u * a + i], bundle_surfaces[3u * b + i]);
+#if LSF_BUNDLE_ANISOTROPY
+    for (int i = 0; i < 2 && order == 0; i++)
+        order = compare(bundle_gloss[a][i], bundle_gloss[b][i]);
+#elif LSF_BUNDLE_GLOSS
+    if (order == 0)
+        order = compare(bundle_gloss[a], bundle_gloss[b]);
+#endif
+#if LSF_BUNDLE_EMISSION
+    for (int i = 0; i < 2 && order == 0; i++)
+        order = compare(bundle_emission[a][i], bundle_emission[b][i]);
+#endif
+    return order < 0;
+}
+
+uint choose(uint texel, uint chosen)
+{
+    uint key = bundle_key(chosen);
+    uint count = bundle_texels[texel], link = 0u;
+    for (uint turn = 0u; turn < LSF_TURNS && turn * LSF_STEPS < count; turn++)
+        for (uint i = turn * LSF_STEPS; i < (turn + 1u) * LSF_STEPS && i < count; i++) {
+            uint node = bundle_slice_node(texel, i);
+            if (i >= uint(LSF_BUNDLE_SLICES)) {
+                link = i == uint(LSF_BUNDLE_SLICES) ? bundle_texels[LSF_BUNDLE_FIRST_HEAD + texel]
+                                                    : bundle_chain[link].y;
+                node = LSF_BUNDLE_FIRST_LINK + link;
+            }
+            if (bundle_key(node) == key && comes_before(node, chosen))
+                chosen = node;
+        }
+    return chosen;
+}
+
+#endif
+
+void main()
+{
+    uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    for (uint i = gl_GlobalInvocationID.x; i < rest_count; i += stride) {
+        ivec2 pixel = ivec2(rest[i] & 0xffffu, rest[i] >> 16);
+        int count;
+        bundle_frame frame = frame_at(vec2(pixel) + 0.5);
+        bundle_ray ray = ray_of(pixel, frame, count);
+        bundle_hit hit = search_slices(ray, count);
+        search_chain(ray, count, hit);
+#if LSF_BUNDLE_SURFACES
+        if (hit.tie)
+            hit.node = int(choose(uint(ray.texel), uint(hit.node)));
+#endif
+        imageStore(hits, pixel, uvec4(hit_pack(hit, frame), 0u, 0u));
+    }
+}
