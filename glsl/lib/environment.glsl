@@ -2,7 +2,7 @@
 #ifndef LSF_LIB_ENVIRONMENT
 #define LSF_LIB_ENVIRONMENT
 
-#include "shared/brdf.h"
+#include "lib/lat_long.glsl"
 #include "shared/scene_data.h"
 
 layout(location = LSF_LOCATION_ENVIRONMENT) uniform vec3 environment_uniform; /* radiance, without a map */
@@ -10,13 +10,11 @@ layout(location = LSF_LOCATION_ENVIRONMENT) uniform vec3 environment_uniform; /*
 layout(binding = LSF_UNIT_ENVIRONMENT) uniform sampler2D environment_texture;
 #endif
 
-/* `direction` is a unit vector; u = 0.5 + atan(z, x) / 2 pi, v = acos(y) / pi from the top. */
+/* `direction` is a unit vector. */
 vec3 environment_radiance(vec3 direction)
 {
 #if LSF_ENVIRONMENT_MAP
-    vec2 uv = vec2(0.5 + atan(direction.z, direction.x) / (2.0 * LSF_PI),
-                   acos(clamp(direction.y, -1.0, 1.0)) / LSF_PI);
-    return textureLod(environment_texture, uv, 0.0).rgb;
+    return textureLod(environment_texture, lat_long(direction), 0.0).rgb;
 #else
     return environment_uniform;
 #endif
