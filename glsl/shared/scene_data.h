@@ -73,6 +73,7 @@ struct lsf_material_data {
 #define LSF_BINDING_VIEW 0
 #define LSF_BINDING_LIGHT 1 /* the light in turn, or the VPL in turn as a light with a map */
 #define LSF_BINDING_BUNDLE 2
+#define LSF_BINDING_VOXEL 3
 
 /* Storage buffers. */
 #define LSF_BINDING_VPL 1          /* the VPLs of an iteration */

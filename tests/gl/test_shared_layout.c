@@ -6,6 +6,7 @@
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 #include "shared/view.h"
+#include "shared/voxel_data.h"
 #include "shared/vpl_data.h"
 
 typedef struct member {
@@ -68,6 +69,11 @@ static const shared_struct structs[] = {
      "lsf_bundle_slot_data",
      sizeof(struct lsf_bundle_slot_data),
      {MEMBER(lsf_bundle_slot_data, data), MEMBER(lsf_bundle_slot_data, unused)}},
+    {"shared/voxel_data.h",
+     "lsf_voxel_grid_data",
+     sizeof(struct lsf_voxel_grid_data),
+     {MEMBER(lsf_voxel_grid_data, origin), MEMBER(lsf_voxel_grid_data, size),
+      MEMBER(lsf_voxel_grid_data, unit)}},
     {"shared/vpl_data.h",
      "lsf_vpl_data",
      sizeof(struct lsf_vpl_data),

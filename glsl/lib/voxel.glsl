@@ -1,0 +1,131 @@
+/* The voxel grid, and what its textures hold, packed and unpacked in one place.
+ *
+ * voxelize.albedo R32UI    square roots of R and G in 11 bits each, of B in 10
+ * voxelize.normal R32UI    unit normal, octahedral, 2 x 12 bits | turn of the tangent about it << 24
+ * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30
+ * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
+ * voxelize.gloss R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
+ *                          index n, metallic; 8 bits each */
+#ifndef LSF_LIB_VOXEL
+#define LSF_LIB_VOXEL
+
+#include "lib/octahedral.glsl"
+#include "shared/scene_data.h"
+#include "shared/voxel_data.h"
+
+layout(std140, binding = LSF_BINDING_VOXEL) uniform lsf_voxel_block
+{
+    lsf_voxel_grid_data grid;
+};
+
+/* From normalised space to voxels: cell i spans [i, i + 1]. */
+vec3 voxel_from_position(vec3 position)
+{
+    return (position - grid.origin.xyz) * grid.size.w;
+}
+
+vec3 voxel_to_position(vec3 voxel)
+{
+    return grid.origin.xyz + voxel * grid.origin.w;
+}
+
+bool voxel_inside(ivec3 cell)
+{
+    return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(grid.size.xyz)));
+}
+
+/* Where the bit of a cell is, in the cell's level of occupancy. */
+ivec3 occupancy_texel(ivec3 cell)
+{
+    ivec3 brick = cell >> 2;
+    return ivec3(2 * brick.x + ((cell.z >> 1) & 1), brick.yz);
+}
+
+uint occupancy_bit(ivec3 cell)
+{
+    return 1u << uint((cell.x & 3) | ((cell.y & 3) << 2) | ((cell.z & 1) << 4));
+}
+
+uint voxel_brick_pack(ivec3 brick)
+{
+    return uint(brick.x | (brick.y << 10) | (brick.z << 20));
+}
+
+ivec3 voxel_brick_unpack(uint bits)
+{
+    return ivec3(uvec3(bits, bits >> 10, bits >> 20) & 1023u);
+}
+
+uint voxel_albedo_pack(vec3 albedo)
+{
+    uvec3 q = uvec3(sqrt(clamp(albedo, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0) + 0.5);
+    return q.r | (q.g << 11) | (q.b << 22);
+}
+
+vec3 voxel_albedo_unpack(uint bits)
+{
+    vec3 root = vec3(uvec3(bits & 2047u, (bits >> 11) & 2047u, bits >> 22)) /
+                vec3(2047.0, 2047.0, 1023.0);
+    return root * root;
+}
+
+/* `turn`: of the tangent in the normal's orthonormal_basis, 0..1. */
+uint voxel_normal_pack(vec3 n, float turn)
+{
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    if (n.z < 0.0)
+        p = (1.0 - abs(p.yx)) * octahedral_sign(p);
+    uvec2 q = uvec2(clamp(p * 2047.0 + 2047.5, 0.0, 4094.0));
+    return q.x | (q.y << 12) | (uint(fract(turn) * 256.0) << 24);
+}
+
+vec3 voxel_normal_unpack(uint bits)
+{
+    vec2 p = vec2(uvec2(bits & 4095u, (bits >> 12) & 4095u)) / 2047.0 - 1.0;
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0)
+        n.xy = (1.0 - abs(n.yx)) * octahedral_sign(n.xy);
+    return normalize(n);
+}
+
+float voxel_turn_unpack(uint bits)
+{
+    return (float(bits >> 24) + 0.5) / 256.0;
+}
+
+/* `inside`: from the voxel's least corner, 0..1. */
+uint voxel_point_pack(vec3 inside, bool emits_both)
+{
+    uvec3 q = uvec3(clamp(inside, 0.0, 1.0) * 1023.0 + 0.5);
+    return q.x | (q.y << 10) | (q.z << 20) | (emits_both ? 1u << 30 : 0u);
+}
+
+vec3 voxel_point_unpack(uint bits)
+{
+    return vec3(uvec3(bits, bits >> 10, bits >> 20) & 1023u) / 1023.0;
+}
+
+bool voxel_emits_both(uint bits)
+{
+    return (bits & (1u << 30)) != 0u;
+}
+
+/* Shared exponent as of GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), which images cannot have. */
+uint voxel_emission_pack(vec3 emission)
+{
+    vec3 c = clamp(emission, 0.0, 65408.0);
+    float largest = max(c.r, max(c.g, c.b));
+    int exponent = largest > 0.0 ? max(-16, int(floor(log2(largest)))) + 16 : 0;
+    if (largest * exp2(float(24 - exponent)) + 0.5 >= 512.0)
+        exponent++;
+    uvec3 mantissa = uvec3(c * exp2(float(24 - exponent)) + 0.5);
+    return mantissa.r | (mantissa.g << 9) | (mantissa.b << 18) | (uint(exponent) << 27);
+}
+
+vec3 voxel_emission_unpack(uint bits)
+{
+    vec3 mantissa = vec3(uvec3(bits, bits >> 9, bits >> 18) & 511u);
+    return mantissa * exp2(float(int(bits >> 27)) - 24.0);
+}
+
+#endif

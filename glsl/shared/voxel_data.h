@@ -1,0 +1,40 @@
+/* The voxel grid, uniform buffer LSF_BINDING_VOXEL, and how its textures are laid out; functions on
+ * them are in lib/voxel.glsl. */
+#ifndef LSF_SHARED_VOXEL_DATA_H
+#define LSF_SHARED_VOXEL_DATA_H
+
+#include "shared/shared.h"
+
+struct lsf_voxel_grid_data {
+    vec4 origin; /* xyz: least corner [normalised space]; w: side of a voxel */
+    vec4 size;   /* xyz: voxels along each axis, multiples of 16; w: 1 / side of a voxel */
+    vec4 unit;   /* x: what stored radiance is multiplied with, a power of two; y: 1 / x */
+};
+
+/* Occupancy is kept in three levels, each with a bit for a cell: a voxel, a brick of 4^3 voxels, a
+ * block of 4^3 bricks. A texel holds 4 x 4 x 2 bits, so that two texels beside each other in x are
+ * a cell of the next level. */
+#define LSF_VOXEL_OCCUPANCY_LEVELS 3
+#define LSF_VOXEL_BRICK 4
+
+/* The sides that radiance is kept for, slices of the grid stacked along z. Of a surface's two sides
+ * (its normal's, and the other), or of six directions in which one may look: slice 2 a is what one sees
+ * that looks along +axis a, slice 2 a + 1 along -axis a. */
+#define LSF_VOXEL_SIDES_SURFACE 2
+#define LSF_VOXEL_SIDES_AXES 6
+
+/* Texture units. */
+#define LSF_UNIT_VOXEL_EMISSION 4
+#define LSF_UNIT_VOXEL_RADIANCE 9
+#define LSF_UNIT_VOXEL_OCCUPANCY 10 /* and the next two */
+#define LSF_UNIT_VOXEL_ALBEDO 13
+#define LSF_UNIT_VOXEL_NORMAL 14
+#define LSF_UNIT_VOXEL_GLOSS 15
+
+/* Occupied bricks, storage buffer: a dispatch of LSF_VOXEL_LIST_ROW groups by as many rows as hold
+ * them, one group a brick; their number; then their places, packed as voxel_brick_pack does. */
+#define LSF_VOXEL_LIST_ROW 256
+#define LSF_VOXEL_LIST_HEADER 4 /* words: rows of groups in x and y, 1, number of bricks */
+
+#include "shared/shared_end.h"
+#endif

@@ -1,0 +1,46 @@
+/* The grid of voxels about the scene: how large a voxel is and where the first one lies. */
+#ifndef LSF_PLAN_VOXEL_GRID_H
+#define LSF_PLAN_VOXEL_GRID_H
+
+#include "plan/iteration.h"
+#include "plan/option.h"
+#include "shared/voxel_data.h"
+
+typedef struct lsf_voxel_grid_params {
+    int32_t resolution; /* voxels along the scene's longest side */
+    float memory;       /* MiB that the grid's textures may take; a coarser grid is taken instead */
+    bool jitter;        /* the grid is shifted at random within a voxel each iteration */
+} lsf_voxel_grid_params;
+
+#define LSF_VOXEL_GRID_PARAMS_DEFAULTS .resolution = 128, .memory = 2048.0f, .jitter = true
+
+#define LSF_VOXEL_GRID_OPTION_COUNT 3
+extern const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT];
+
+/* Voxels are cubes. `size` is that of textures, whole blocks of occupancy. */
+typedef struct lsf_voxel_grid {
+    uint32_t resolution; /* that was taken */
+    uint32_t size[3];    /* voxels along x, y, z, multiples of 16 */
+    float side;          /* of a voxel [normalised units] */
+    float origin[3];     /* least corner without jitter */
+    float unit;          /* of stored radiance, a power of two: values near 1 are what is usual */
+    bool jitter;
+} lsf_voxel_grid;
+
+/* The grid of a scene that is not empty, whose textures take `bytes_per_voxel`; the remark that a
+ * coarser one was taken goes to the plan. */
+lsf_voxel_grid lsf_voxel_grid_fit(lsf_plan *plan, const lsf_voxel_grid_params *params,
+                                  const lsf_scene *scene, const lsf_state *state,
+                                  uint32_t bytes_per_voxel);
+
+/* The grid as shaders read it, shifted for this iteration. Half a voxel at least stays free on each
+ * side of the scene. */
+struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
+                                               const lsf_iteration *iteration);
+
+/* Plans a texture over the grid, `sides` slices along z. */
+void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const char *name,
+                            GLenum internal_format, uint32_t sides, uint32_t levels,
+                            const char *why);
+
+#endif
