@@ -307,3 +307,9 @@ void lsf_draw_fullscreen(lsf_context *context)
     glBindVertexArray(context->empty_vertex_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
+
+void lsf_draw_vertices(lsf_context *context, uint32_t count)
+{
+    glBindVertexArray(context->empty_vertex_array);
+    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)count);
+}

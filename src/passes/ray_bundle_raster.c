@@ -112,7 +112,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
         if (instance->skipped)
             continue;
         if (instance->material != bound)
-            lsf_scene_gpu_bind_material(scene, bound = instance->material);
+            lsf_scene_gpu_bind_material(scene, bound = instance->material, LSF_DRAW_POINTWISE);
         set_instance(iteration, index);
         const lsf_primitive *primitive = &scene->scene->primitives[instance->primitive];
         for (uint32_t first = 0; first < primitive->index_count / 3; first += MAX_TRIANGLES) {

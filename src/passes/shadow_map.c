@@ -33,18 +33,21 @@ static const struct {
     {"cascades", 4, "no directional light"},
 };
 
-static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const char *name,
-                     uint32_t faces)
+static uint32_t face_side(const lsf_plan *plan, const lsf_shadow_map_params *params, uint32_t faces)
 {
     double texels = (double)plan->width * plan->height * params->texels_per_pixel;
     uint32_t side = (uint32_t)ceil(sqrt(texels / faces));
-    side = side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
+    return side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
+}
+
+static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const char *name,
+                     uint32_t faces, uint32_t side, const char *why)
+{
     lsf_texture_desc desc = {NULL, GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, side, side, faces,
                              1};
     char full_name[64];
     snprintf(full_name, sizeof full_name, "shadow_map.%s_depth", name);
-    lsf_plan_texture_desc_add(plan, full_name, &desc, "%g texels a pixel",
-                              (double)params->texels_per_pixel);
+    lsf_plan_texture_desc_add(plan, full_name, &desc, "%s", why);
     snprintf(full_name, sizeof full_name, "shadow_map.%s_gradient", name);
     desc.internal_format = GL_RG16F;
     if (params->filter == LSF_SHADOW_FILTER_NONE)
@@ -64,16 +67,30 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     lsf_plan_switch_add(plan, "LSF_GRADIENT", params->filter == LSF_SHADOW_FILTER_NONE,
                         "shadow.filter is none: planes are compared");
     lsf_scene_gpu_mask_switches(plan);
+    char why[64];
+    snprintf(why, sizeof why, "%g texels a pixel", (double)params->texels_per_pixel);
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "shadow_map.%s", kinds[kind].name);
         if (needed[kind])
-            plan_map(plan, params, kinds[kind].name, kinds[kind].faces);
+            plan_map(plan, params, kinds[kind].name, kinds[kind].faces,
+                     face_side(plan, params, kinds[kind].faces), why);
         else
             lsf_plan_omit(plan, name, "%s", kinds[kind].omitted);
     }
     lsf_plan_buffer_add(plan, "shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
+}
+
+void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *params,
+                               const lsf_state *state, uint32_t resolution)
+{
+    for (uint32_t i = 0; i < state->light_count; i++)
+        if (lsf_light_map_kind_of(&state->lights[i]) == LSF_LIGHT_MAP_WINDOWS) {
+            plan_map(plan, params, "scene", 1, resolution, "the whole scene, for voxels");
+            return;
+        }
+    lsf_plan_omit(plan, "shadow_map.scene", "no directional light");
 }
 
 static bool create_target(lsf_shadow_map_target *target, lsf_context *context, const lsf_plan *plan,
@@ -112,6 +129,8 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         if (!create_target(&pass->targets[kind], context, plan, kinds[kind].name, error))
             return false;
+    if (!create_target(&pass->scene, context, plan, "scene", error))
+        return false;
     if (!lsf_plan_create_buffer(plan, context, "shadow_map.light", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->outputs.light_buffer, error))
         return false;
@@ -120,11 +139,10 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
     return pass->program && pass->timer;
 }
 
-void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index)
+static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
+                     const lsf_iteration *iteration, uint32_t light_index)
 {
     static const GLfloat zero[4] = {0};
-    const lsf_light_state *light = &iteration->state->lights[light_index];
-    const lsf_shadow_map_target *target = &pass->targets[lsf_light_map_kind_of(light)];
     const lsf_light_map_layout layout = {target->faces, target->resolution, FIRST_PURPOSE};
     struct lsf_light_data *data = &pass->outputs.light;
     lsf_timer_begin(pass->timer);
@@ -154,6 +172,25 @@ void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, ui
     lsf_timer_end(pass->timer);
 }
 
+static const lsf_shadow_map_target *target_of(const lsf_shadow_map *pass,
+                                              const lsf_iteration *iteration, uint32_t light_index)
+{
+    return &pass->targets[lsf_light_map_kind_of(&iteration->state->lights[light_index])];
+}
+
+void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index)
+{
+    draw_map(pass, target_of(pass, iteration, light_index), iteration, light_index);
+}
+
+void lsf_shadow_map_run_scene(lsf_shadow_map *pass, const lsf_iteration *iteration,
+                              uint32_t light_index)
+{
+    const lsf_shadow_map_target *target = target_of(pass, iteration, light_index);
+    draw_map(pass, target == &pass->targets[LSF_LIGHT_MAP_WINDOWS] ? &pass->scene : target,
+             iteration, light_index);
+}
+
 static void destroy_target(lsf_context *context, lsf_shadow_map_target *target)
 {
     for (uint32_t face = 0; face < target->faces; face++)
@@ -168,6 +205,7 @@ void lsf_shadow_map_destroy(lsf_shadow_map *pass)
         return;
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
+    destroy_target(pass->context, &pass->scene);
     lsf_buffer_destroy(pass->context, &pass->outputs.light_buffer);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

@@ -1,4 +1,4 @@
-/* Light that voxels send out: direct light of punctual lights, emission, and further bounces. See
+/* Light that voxels send out: what they emit, and what they reflect of punctual lights. See
  * voxel_light.md. */
 #ifndef LSF_PASSES_VOXEL_LIGHT_H
 #define LSF_PASSES_VOXEL_LIGHT_H
@@ -7,28 +7,28 @@
 
 /* The voxels to light: what voxelize hands out. */
 typedef struct lsf_voxel_light_inputs {
-    GLuint occupancy[LSF_VOXEL_OCCUPANCY_LEVELS];
-    GLuint albedo, normal, point, emission, gloss;
+    GLuint occupancy; /* the finest level */
+    GLuint albedo, normal, point, emission;
     GLuint bricks, previous_bricks;
     bool changed;
 } lsf_voxel_light_inputs;
 
-/* A light's map: depth and gradient as of shadow_map, with the light at LSF_BINDING_LIGHT. */
+/* A light's map as of shadow_map; the light must be bound as the light in turn. */
 typedef struct lsf_voxel_light_map {
     GLuint depth, gradient;
 } lsf_voxel_light_map;
 
 typedef struct lsf_voxel_light_use {
-    uint32_t sides;  /* 1, LSF_VOXEL_SIDES_SURFACE or LSF_VOXEL_SIDES_AXES */
-    uint32_t levels; /* of the texture */
+    uint32_t sides;  /* 1 (the front), LSF_VOXEL_SIDES_SURFACE or LSF_VOXEL_SIDES_AXES */
+    uint32_t levels; /* of the texture; the pass writes the finest */
+    bool pcf;        /* maps have no gradients */
 } lsf_voxel_light_use;
 
 typedef struct lsf_voxel_light {
     lsf_context *context;
-    /* RGBA16F in the grid's unit; its slices along z are the sides; alpha 1 where occupied. */
-    GLuint radiance;
+    GLuint radiance; /* RGBA16F in the grid's unit; slices along z are the sides; alpha: how much of
+                      * a surface faces that way */
     lsf_voxel_light_use use;
-    lsf_voxel_grid grid;
     GLuint begin_program, add_program, clear_program;
     lsf_timer *timer;
 } lsf_voxel_light;
@@ -36,9 +36,8 @@ typedef struct lsf_voxel_light {
 void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
                           const lsf_voxel_light_use *use);
 bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const lsf_plan *plan,
-                            const lsf_voxel_grid *grid, const lsf_voxel_light_use *use,
-                            lsf_error *error);
-/* Emission only; radiance elsewhere becomes 0. */
+                            const lsf_voxel_light_use *use, lsf_error *error);
+/* Emission only; nothing is left of light before. The grid must be bound. */
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs);
 /* Adds the light in turn. */
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs,

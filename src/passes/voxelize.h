@@ -44,7 +44,7 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
 /* On failure *pass is what is to be destroyed. */
 bool lsf_voxelize_create(lsf_voxelize **pass, lsf_context *context, const lsf_plan *plan,
                          const lsf_voxelize_params *params, const lsf_voxel_grid *grid,
-                         const lsf_scene *scene, lsf_error *error);
+                         lsf_error *error);
 /* Does nothing where nothing moved since the last run. Binds the grid at LSF_BINDING_VOXEL. */
 const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration);
 lsf_timer *lsf_voxelize_timer(lsf_voxelize *pass);

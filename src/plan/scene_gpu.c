@@ -420,9 +420,9 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
     unbind_samplers(gpu);
 }
 
-void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material)
+void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material, lsf_draw_mode mode)
 {
-    bind_material(gpu, &gpu->scene->materials[material], LSF_DRAW_POINTWISE);
+    bind_material(gpu, &gpu->scene->materials[material], mode);
 }
 
 void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state, GLuint buffer)
@@ -438,7 +438,7 @@ void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state,
         if (instance->skipped)
             continue;
         if (instance->material != bound)
-            lsf_scene_gpu_bind_material(gpu, bound = instance->material);
+            lsf_scene_gpu_bind_material(gpu, bound = instance->material, LSF_DRAW_POINTWISE);
         glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                (const void *)(gpu->draw_order[i] * command_bytes));
     }

@@ -64,11 +64,10 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
                         const lsf_draw_region *region, uint64_t *counts);
 
 /* For passes that rasterise by themselves: a material as shaders have it; its textures, bound as
- * pointwise; and
- * draws of triangles that such a pass lists in `buffer`: a DrawElementsIndirectCommand for each
- * instance, and indices anywhere. */
+ * `mode` says; and draws of triangles that such a pass lists in `buffer`: a
+ * DrawElementsIndirectCommand for each instance, and indices anywhere. */
 struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t material);
-void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material);
+void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material, lsf_draw_mode mode);
 void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state, GLuint buffer);
 
 #endif

@@ -46,7 +46,7 @@ static float largest(const float color[3])
 /* A power of two of the order of what surfaces are lit with: radiance is stored as half floats,
  * which then hold what is 2^14 times darker and brighter. Emission may be much brighter than what
  * it lights, so that it is put far up in the range. */
-static float radiance_unit(const lsf_scene *scene, const lsf_state *state)
+void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const lsf_state *state)
 {
     float brightest = 0.0f;
     for (uint32_t i = 0; i < state->light_count; i++)
@@ -60,7 +60,7 @@ static float radiance_unit(const lsf_scene *scene, const lsf_state *state)
     int exponent = 0;
     if (brightest > 0.0f)
         frexpf(brightest, &exponent);
-    return ldexpf(1.0f, exponent);
+    grid->unit = ldexpf(1.0f, exponent);
 }
 
 static double bytes(const lsf_voxel_grid *grid, uint32_t bytes_per_voxel)
@@ -68,21 +68,25 @@ static double bytes(const lsf_voxel_grid *grid, uint32_t bytes_per_voxel)
     return (double)grid->size[0] * grid->size[1] * grid->size[2] * bytes_per_voxel;
 }
 
-lsf_voxel_grid lsf_voxel_grid_fit(lsf_plan *plan, const lsf_voxel_grid_params *params,
-                                  const lsf_scene *scene, const lsf_state *state,
+lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf_state *state,
                                   uint32_t bytes_per_voxel)
 {
-    lsf_voxel_grid grid = {.jitter = params->jitter, .unit = radiance_unit(scene, state)};
+    lsf_voxel_grid grid = {.jitter = params->jitter, .unit = 1.0f};
     fit(&grid, state, (uint32_t)params->resolution);
     while (bytes(&grid, bytes_per_voxel) > (double)params->memory * 1048576.0 &&
            grid.resolution > 1)
         fit(&grid, state, grid.resolution / 2);
-    if (grid.resolution != (uint32_t)params->resolution)
+    return grid;
+}
+
+void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
+                           const lsf_voxel_grid *grid)
+{
+    if (grid->resolution != (uint32_t)params->resolution)
         lsf_plan_remark(plan,
                         "a grid of %u voxels instead of %d along the scene's longest side: more "
                         "would take more than voxel.memory=%g",
-                        grid.resolution, params->resolution, (double)params->memory);
-    return grid;
+                        grid->resolution, params->resolution, (double)params->memory);
 }
 
 struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,

@@ -27,11 +27,14 @@ typedef struct lsf_voxel_grid {
     bool jitter;
 } lsf_voxel_grid;
 
-/* The grid of a scene that is not empty, whose textures take `bytes_per_voxel`; the remark that a
- * coarser one was taken goes to the plan. */
-lsf_voxel_grid lsf_voxel_grid_fit(lsf_plan *plan, const lsf_voxel_grid_params *params,
-                                  const lsf_scene *scene, const lsf_state *state,
+/* The grid of a scene that is not empty, whose textures take `bytes_per_voxel`. Its unit is not
+ * set. */
+lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf_state *state,
                                   uint32_t bytes_per_voxel);
+/* Says in the plan that a coarser grid was taken, where it was. */
+void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
+                           const lsf_voxel_grid *grid);
+void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const lsf_state *state);
 
 /* The grid as shaders read it, shifted for this iteration. Half a voxel at least stays free on each
  * side of the scene. */

@@ -22,24 +22,32 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
                             lsf_direct_light_create(&chain->direct_light, context, plan, error)));
 }
 
-void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
+void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration)
+{
+    lsf_gbuffer_run(&chain->gbuffer, iteration);
+    if (chain->lit)
+        lsf_direct_light_clear(&chain->direct_light);
+}
+
+void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration, uint32_t light)
 {
     const lsf_gbuffer_outputs *gbuffer = &chain->gbuffer.outputs;
-    lsf_gbuffer_run(&chain->gbuffer, iteration);
-    if (!chain->lit)
-        return;
-    lsf_direct_light_clear(&chain->direct_light);
-    for (uint32_t i = 0; i < iteration->state->light_count; i++) {
-        lsf_shadow_map_run(&chain->shadow_map, iteration, i);
-        lsf_direct_light_inputs inputs = {
-            .depth = gbuffer->depth,
-            .surface = gbuffer->surface,
-            .gloss = gbuffer->gloss,
-            .shadow_depth = chain->shadow_map.outputs.depth,
-            .shadow_gradient = chain->shadow_map.outputs.gradient,
-        };
-        lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
-    }
+    lsf_shadow_map_run(&chain->shadow_map, iteration, light);
+    lsf_direct_light_inputs inputs = {
+        .depth = gbuffer->depth,
+        .surface = gbuffer->surface,
+        .gloss = gbuffer->gloss,
+        .shadow_depth = chain->shadow_map.outputs.depth,
+        .shadow_gradient = chain->shadow_map.outputs.gradient,
+    };
+    lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
+}
+
+void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
+{
+    lsf_direct_chain_begin(chain, iteration);
+    for (uint32_t i = 0; i < iteration->state->light_count; i++)
+        lsf_direct_chain_light(chain, iteration, i);
 }
 
 void lsf_direct_chain_destroy(lsf_direct_chain *chain)

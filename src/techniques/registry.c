@@ -22,6 +22,8 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(ray_bundle, LSF_RAY_BUNDLE_OPTION_COUNT),
     TABLE(interleave, LSF_INTERLEAVE_OPTION_COUNT),
     TABLE(bidirectional_shade, LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT),
+    TABLE(voxel_grid, LSF_VOXEL_GRID_OPTION_COUNT),
+    TABLE(voxelize, LSF_VOXELIZE_OPTION_COUNT),
 };
 const uint32_t lsf_pass_option_table_count = LSF_COUNT(lsf_pass_option_tables);
 

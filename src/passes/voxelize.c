@@ -1,0 +1,429 @@
+#include "passes/voxelize.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "plan/triangle_fetch.h"
+#include "shared/scene_data.h"
+
+/* Storage buffers beside LSF_BINDING_MATERIALS. */
+#define BINDING_BRICKS 1
+#define BINDING_TILES 2
+
+/* Columns of voxels that one invocation does by itself, and those of a tile's side that a work
+ * group shares; tiles in the list, 8 bytes each. */
+#define SMALL_COLUMNS 16
+#define TILE 8
+#define MAX_TILES (1u << 20)
+
+/* Work groups of triangles are laid out in rows: GL promises 65,535 along an axis. */
+#define GROUP 64
+#define ROW_GROUPS 1024u
+#define ROW (GROUP * ROW_GROUPS)
+
+#define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
+
+/* Location in voxelize.geom.glsl. */
+#define LOCATION_SIDE 24
+
+/* What one of the two rounds runs: an instance's small triangles, then its large ones; or all of
+ * them on the raster pipeline. */
+typedef struct round_programs {
+    GLuint small, large, raster;
+} round_programs;
+
+struct lsf_voxelize {
+    lsf_context *context;
+    lsf_voxel_grid grid;
+    lsf_voxelize_outputs outputs;
+    GLuint key;       /* R32UI: the winner's bid; 0: empty */
+    GLuint tiles;     /* of large triangles */
+    GLuint bricks[2]; /* lists of this run and of the run before */
+    uint32_t runs;
+    GLuint clear_program, framebuffer;
+    uint32_t side; /* of the framebuffer: the grid's longest */
+    round_programs mark, fill;
+    lsf_triangle_fetch fetch;
+    uint64_t counts[LSF_VOXELIZE_COUNTS];
+    lsf_timer *timer;
+};
+
+const lsf_option_row lsf_voxelize_options[LSF_VOXELIZE_OPTION_COUNT] = {
+    {"voxel.method", LSF_OPTION_ENUM, offsetof(lsf_voxelize_params, method), 0, 0, "compute|raster",
+     "", "compute: an exact triangle-box test; raster: enlarged triangles on the raster pipeline"},
+};
+
+const char *const lsf_voxelize_count_names[LSF_VOXELIZE_COUNTS] = {"instances", "triangles"};
+
+static bool has_gloss(const lsf_plan *plan)
+{
+    return plan->requirements.glossy;
+}
+
+static bool has_emission(const lsf_plan *plan)
+{
+    return plan->requirements.emissive || plan->requirements.unlit;
+}
+
+uint32_t lsf_voxelize_bytes(const lsf_plan *plan)
+{
+    return 4 * (4 + has_emission(plan) + has_gloss(plan)) + 1;
+}
+
+/* Bits that tell a triangle among all, and one value more: a bid is never 0. */
+static int id_bits(const lsf_plan *plan)
+{
+    int bits = 1;
+    while (bits < 31 && (UINT64_C(1) << bits) < plan->requirements.triangles + 1)
+        bits++;
+    return bits;
+}
+
+static void plan_program(lsf_plan *plan, const char *name, bool fill)
+{
+    lsf_plan_pass_add(plan, name, "%s",
+                      fill ? "the surfaces of those that won"
+                           : "triangles bid for the voxels that they touch");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_FILL", fill, "surfaces are written");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_ID_BITS", id_bits(plan), "of a triangle's number");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_SMALL", SMALL_COLUMNS, "columns of an invocation");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILE", TILE, "columns of a tile's side");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILES", MAX_TILES, "room in the list of tiles");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_GROUP", GROUP, "triangles of a work group");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_ROW", ROW, "triangles of a row of work groups");
+    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    lsf_plan_switch_add(plan, "LSF_BINDING_TILES", BINDING_TILES, "always");
+    lsf_scene_gpu_material_switches(plan, fill && has_gloss(plan), fill && has_emission(plan));
+}
+
+static void plan_occupancy(lsf_plan *plan, const lsf_voxel_grid *grid)
+{
+    uint32_t cell = LSF_VOXEL_BRICK;
+    for (int level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++, cell *= LSF_VOXEL_BRICK) {
+        char name[64];
+        lsf_texture_desc desc = {.target = GL_TEXTURE_3D,
+                                 .internal_format = GL_R32UI,
+                                 .width = 2 * ((grid->size[0] + cell - 1) / cell),
+                                 .height = (grid->size[1] + cell - 1) / cell,
+                                 .depth = (grid->size[2] + cell - 1) / cell,
+                                 .levels = 1};
+        snprintf(name, sizeof name, "voxelize.occupancy_%d", level);
+        lsf_plan_texture_desc_add(plan, name, &desc, "a bit for each cell of %u voxels", cell / 4);
+    }
+}
+
+static uint64_t list_bytes(const lsf_voxel_grid *grid)
+{
+    uint64_t voxels = (uint64_t)grid->size[0] * grid->size[1] * grid->size[2];
+    return 4 * (LSF_VOXEL_LIST_HEADER + voxels / BRICK_VOXELS);
+}
+
+void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
+                       const lsf_voxel_grid *grid)
+{
+    (void)params;
+    lsf_plan_pass_add(plan, "voxelize_clear", "what the grid held in the iteration before");
+    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    plan_program(plan, "voxelize_mark", false);
+    plan_program(plan, "voxelize_fill", true);
+    lsf_plan_buffer_add(plan, "voxelize.grid", sizeof(struct lsf_voxel_grid_data),
+                        "where the grid lies: %u x %u x %u voxels", grid->size[0], grid->size[1],
+                        grid->size[2]);
+    lsf_voxel_texture_plan(plan, grid, "voxelize.key", GL_R32UI, 1, 1, "the winning triangle");
+    plan_occupancy(plan, grid);
+    lsf_voxel_texture_plan(plan, grid, "voxelize.albedo", GL_R32UI, 1, 1, "base colour");
+    lsf_voxel_texture_plan(plan, grid, "voxelize.normal", GL_R32UI, 1, 1, "normal and tangent");
+    lsf_voxel_texture_plan(plan, grid, "voxelize.point", GL_R32UI, 1, 1,
+                           "where the surface is in the voxel");
+    if (has_emission(plan))
+        lsf_voxel_texture_plan(plan, grid, "voxelize.emission", GL_R32UI, 1, 1,
+                               "some material emits or is unlit");
+    else
+        lsf_plan_omit(plan, "voxelize.emission", "no material emits");
+    if (has_gloss(plan))
+        lsf_voxel_texture_plan(plan, grid, "voxelize.gloss", GL_R32UI, 1, 1,
+                               "some material is glossy");
+    else
+        lsf_plan_omit(plan, "voxelize.gloss", "no material is glossy");
+    lsf_plan_buffer_add(plan, "voxelize.bricks", list_bytes(grid), "occupied bricks of 4^3 voxels");
+    lsf_plan_buffer_add(plan, "voxelize.previous_bricks", list_bytes(grid),
+                        "those of the iteration before");
+    lsf_plan_buffer_add(plan, "voxelize.tiles", 4 * LSF_VOXEL_LIST_HEADER + 8 * (uint64_t)MAX_TILES,
+                        "tiles of large triangles");
+}
+
+static bool create_textures(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *error)
+{
+    lsf_voxelize_outputs *o = &pass->outputs;
+    const struct {
+        const char *name;
+        GLuint *texture;
+    } textures[] = {{"voxelize.key", &pass->key},
+                    {"voxelize.occupancy_0", &o->occupancy[0]},
+                    {"voxelize.occupancy_1", &o->occupancy[1]},
+                    {"voxelize.occupancy_2", &o->occupancy[2]},
+                    {"voxelize.albedo", &o->albedo},
+                    {"voxelize.normal", &o->normal},
+                    {"voxelize.point", &o->point},
+                    {"voxelize.emission", &o->emission},
+                    {"voxelize.gloss", &o->gloss}};
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        if (!lsf_plan_create_texture(plan, pass->context, textures[i].name, textures[i].texture,
+                                     error))
+            return false;
+    glClearTexImage(pass->key, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    for (int level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
+        glClearTexImage(o->occupancy[level], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    return true;
+}
+
+static void empty_list(GLuint list)
+{
+    static const GLuint header[LSF_VOXEL_LIST_HEADER] = {LSF_VOXEL_LIST_ROW, 0, 1, 0};
+    glClearNamedBufferSubData(list, GL_RGBA32UI, 0, sizeof header, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                              header);
+}
+
+static bool create_lists(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *error)
+{
+    if (!lsf_plan_create_buffer(plan, pass->context, "voxelize.bricks", NULL, 0, &pass->bricks[0],
+                                error) ||
+        !lsf_plan_create_buffer(plan, pass->context, "voxelize.previous_bricks", NULL, 0,
+                                &pass->bricks[1], error) ||
+        !lsf_plan_create_buffer(plan, pass->context, "voxelize.tiles", NULL, 0, &pass->tiles,
+                                error) ||
+        !lsf_plan_create_buffer(plan, pass->context, "voxelize.grid", NULL, GL_DYNAMIC_STORAGE_BIT,
+                                &pass->outputs.grid_buffer, error))
+        return false;
+    empty_list(pass->bricks[0]);
+    empty_list(pass->bricks[1]);
+    return true;
+}
+
+static bool create_round(round_programs *round, lsf_voxelize *pass, const lsf_plan *plan,
+                         const char *name, lsf_voxelize_method method, lsf_error *error)
+{
+    static const char *const small[5] = {"passes/voxelize_small.comp.glsl"};
+    static const char *const large[5] = {"passes/voxelize_large.comp.glsl"};
+    static const char *const raster[5] = {"passes/voxelize.vert.glsl", "passes/voxelize.geom.glsl",
+                                          "passes/voxelize.frag.glsl"};
+    if (method == LSF_VOXELIZE_RASTER) {
+        round->raster = lsf_plan_program(plan, pass->context, name, raster, error);
+        return round->raster != 0;
+    }
+    round->small = lsf_plan_program(plan, pass->context, name, small, error);
+    round->large = lsf_plan_program(plan, pass->context, name, large, error);
+    return round->small && round->large;
+}
+
+static bool create_framebuffer(lsf_voxelize *pass, lsf_error *error)
+{
+    const uint32_t *size = pass->grid.size;
+    pass->side = size[0] > size[1] ? size[0] : size[1];
+    pass->side = pass->side > size[2] ? pass->side : size[2];
+    lsf_framebuffer_desc desc = {
+        .label = "voxelize", .layer = -1, .width = pass->side, .height = pass->side};
+    pass->framebuffer = lsf_framebuffer_create(pass->context, &desc, error);
+    return pass->framebuffer != 0;
+}
+
+bool lsf_voxelize_create(lsf_voxelize **created, lsf_context *context, const lsf_plan *plan,
+                         const lsf_voxelize_params *params, const lsf_voxel_grid *grid,
+                         lsf_error *error)
+{
+    static const char *const clear[5] = {"passes/voxelize_clear.comp.glsl"};
+    lsf_voxelize *pass = *created = lsf_alloc(1, sizeof *pass);
+    if (!pass)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+    lsf_voxelize_method method = (lsf_voxelize_method)params->method;
+    pass->context = context;
+    pass->grid = *grid;
+    lsf_triangle_fetch_create(&pass->fetch);
+    if (!create_textures(pass, plan, error) || !create_lists(pass, plan, error) ||
+        !create_round(&pass->mark, pass, plan, "voxelize_mark", method, error) ||
+        !create_round(&pass->fill, pass, plan, "voxelize_fill", method, error) ||
+        (method == LSF_VOXELIZE_RASTER && !create_framebuffer(pass, error)))
+        return false;
+    pass->clear_program = lsf_plan_program(plan, context, "voxelize_clear", clear, error);
+    pass->timer = lsf_timer_create(context, "voxelize", error);
+    return pass->clear_program && pass->timer;
+}
+
+static void bind_image(GLuint unit, GLuint texture)
+{
+    glBindImageTexture(unit, texture, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
+}
+
+static void bind_occupancy(const lsf_voxelize *pass)
+{
+    bind_image(0, pass->key);
+    for (GLuint level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
+        bind_image(1 + level, pass->outputs.occupancy[level]);
+}
+
+static void bind_attributes(const lsf_voxelize *pass)
+{
+    const lsf_voxelize_outputs *o = &pass->outputs;
+    const GLuint images[] = {pass->key, o->albedo, o->normal, o->point, o->emission, o->gloss};
+    for (GLuint unit = 0; unit < LSF_COUNT(images); unit++)
+        if (images[unit])
+            bind_image(unit, images[unit]);
+}
+
+static void clear_before(lsf_voxelize *pass)
+{
+    GLuint list = pass->bricks[pass->runs % 2];
+    bind_occupancy(pass);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, list);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list);
+    glUseProgram(pass->clear_program);
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+/* An instance's triangles, of which the first is `first_triangle` among all. */
+typedef struct instance_turn {
+    const lsf_iteration *iteration;
+    uint32_t instance, triangles, first_triangle;
+} instance_turn;
+
+static void use_program(GLuint program, const instance_turn *turn)
+{
+    glUseProgram(program);
+    glUniform1ui(0, turn->first_triangle);
+    lsf_triangle_fetch_instance(turn->iteration, turn->instance, 0, turn->triangles);
+}
+
+static void compute_instance(lsf_voxelize *pass, const round_programs *round,
+                             const instance_turn *turn)
+{
+    uint32_t groups = (turn->triangles + GROUP - 1) / GROUP;
+    empty_list(pass->tiles);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    use_program(round->small, turn);
+    glDispatchCompute(groups < ROW_GROUPS ? groups : ROW_GROUPS,
+                      (groups + ROW_GROUPS - 1) / ROW_GROUPS, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
+    use_program(round->large, turn);
+    glDispatchComputeIndirect(0);
+}
+
+static void draw_instance(lsf_voxelize *pass, const round_programs *round,
+                          const instance_turn *turn)
+{
+    use_program(round->raster, turn);
+    glUniform1f(LOCATION_SIDE, (float)pass->side);
+    lsf_draw_vertices(pass->context, 3 * turn->triangles);
+}
+
+static void set_raster_state(const lsf_voxelize *pass)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
+    glViewport(0, 0, (GLsizei)pass->side, (GLsizei)pass->side);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+}
+
+/* One round over all triangles, instances grouped by material. */
+static void run_round(lsf_voxelize *pass, const lsf_iteration *iteration,
+                      const round_programs *round)
+{
+    const lsf_scene_gpu *scene = iteration->scene;
+    instance_turn turn = {.iteration = iteration};
+    uint32_t bound = LSF_NONE;
+    if (round->raster)
+        set_raster_state(pass);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, pass->outputs.bricks);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TILES, pass->tiles);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->tiles);
+    for (uint32_t i = 0; i < scene->draw_count; i++) {
+        turn.instance = scene->draw_order[i];
+        const lsf_instance_state *instance = &iteration->state->instances[turn.instance];
+        if (instance->skipped)
+            continue;
+        if (instance->material != bound)
+            lsf_scene_gpu_bind_material(scene, bound = instance->material, LSF_DRAW_SHADING);
+        turn.triangles = (uint32_t)(scene->scene->primitives[instance->primitive].index_count / 3);
+        if (round->raster)
+            draw_instance(pass, round, &turn);
+        else
+            compute_instance(pass, round, &turn);
+        turn.first_triangle += turn.triangles;
+    }
+}
+
+static void count_triangles(lsf_voxelize *pass, const lsf_iteration *iteration)
+{
+    const lsf_scene *scene = iteration->scene->scene;
+    for (uint32_t i = 0; i < iteration->state->instance_count; i++) {
+        const lsf_instance_state *instance = &iteration->state->instances[i];
+        if (instance->skipped)
+            continue;
+        pass->counts[LSF_VOXELIZE_INSTANCES]++;
+        pass->counts[LSF_VOXELIZE_TRIANGLES] +=
+            scene->primitives[instance->primitive].index_count / 3;
+    }
+}
+
+const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration)
+{
+    struct lsf_voxel_grid_data data = lsf_voxel_grid_data(&pass->grid, iteration);
+    lsf_voxelize_outputs *o = &pass->outputs;
+    o->changed = pass->runs == 0 || pass->grid.jitter;
+    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, o->grid_buffer);
+    if (!o->changed)
+        return o;
+    lsf_timer_begin(pass->timer);
+    clear_before(pass);
+    pass->runs++;
+    glNamedBufferSubData(o->grid_buffer, 0, sizeof data, &data);
+    o->bricks = pass->bricks[pass->runs % 2];
+    o->previous_bricks = pass->bricks[(pass->runs + 1) % 2];
+    empty_list(o->bricks);
+    count_triangles(pass, iteration);
+    lsf_triangle_fetch_bind(&pass->fetch, iteration->scene);
+    bind_occupancy(pass);
+    run_round(pass, iteration, &pass->mark);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    bind_attributes(pass);
+    run_round(pass, iteration, &pass->fill);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    lsf_timer_end(pass->timer);
+    return o;
+}
+
+lsf_timer *lsf_voxelize_timer(lsf_voxelize *pass)
+{
+    return pass->timer;
+}
+
+const uint64_t *lsf_voxelize_counts(const lsf_voxelize *pass)
+{
+    return pass->counts;
+}
+
+void lsf_voxelize_destroy(lsf_voxelize *pass)
+{
+    if (!pass)
+        return;
+    lsf_voxelize_outputs *o = &pass->outputs;
+    GLuint *textures[] = {&pass->key,       &o->occupancy[0], &o->occupancy[1],
+                          &o->occupancy[2], &o->albedo,       &o->normal,
+                          &o->point,        &o->emission,     &o->gloss};
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_buffer_destroy(pass->context, &pass->bricks[0]);
+    lsf_buffer_destroy(pass->context, &pass->bricks[1]);
+    lsf_buffer_destroy(pass->context, &pass->tiles);
+    lsf_buffer_destroy(pass->context, &o->grid_buffer);
+    lsf_triangle_fetch_destroy(&pass->fetch);
+    lsf_timer_destroy(pass->timer);
+    free(pass);
+}

@@ -1,0 +1,121 @@
+#include "techniques/voxel_chain.h"
+
+/* Texels of a directional light's map to a voxel's side: shadow borders are then finer than voxels.
+ */
+#define MAP_TEXELS 4
+
+/* Levels of a texture take a seventh more than its finest. */
+static uint32_t bytes_per_voxel(const lsf_plan *plan, const lsf_voxel_chain_use *use)
+{
+    uint32_t radiance = 8 * use->sides;
+    return lsf_voxelize_bytes(plan) + radiance + (use->levels > 1 ? (radiance + 6) / 7 : 0) +
+           use->bytes_per_voxel;
+}
+
+static lsf_voxel_light_use light_use(const lsf_pass_params *params, const lsf_voxel_chain_use *use)
+{
+    return (lsf_voxel_light_use){.sides = use->sides,
+                                 .levels = use->levels,
+                                 .pcf = params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
+}
+
+bool lsf_voxel_chain_has_voxels(const lsf_plan *plan)
+{
+    return plan->requirements.triangles > 0;
+}
+
+lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params *params,
+                                    const lsf_state *state, const lsf_voxel_chain_use *use)
+{
+    return lsf_voxel_grid_fit(&params->voxel_grid, state, bytes_per_voxel(plan, use));
+}
+
+void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
+                          const lsf_voxel_chain_use *use)
+{
+    lsf_direct_chain_plan(plan, params, state);
+    if (!lsf_voxel_chain_has_voxels(plan)) {
+        lsf_plan_omit(plan, "voxelize", "the scene has no triangles");
+        lsf_plan_omit(plan, "voxel_light", "the scene has no triangles");
+        return;
+    }
+    lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, use);
+    lsf_voxel_light_use light = light_use(params, use);
+    lsf_voxel_grid_remark(plan, &params->voxel_grid, &grid);
+    lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid.resolution);
+    lsf_voxelize_plan(plan, &params->voxelize, &grid);
+    lsf_voxel_light_plan(plan, &grid, &light);
+}
+
+bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const lsf_plan *plan,
+                            const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                            const lsf_state *state, const lsf_voxel_chain_use *use,
+                            lsf_error *error)
+{
+    if (!lsf_direct_chain_create(&chain->direct, context, plan, params, scene, error))
+        return false;
+    if (!lsf_voxel_chain_has_voxels(plan))
+        return true;
+    lsf_voxel_light_use light = light_use(params, use);
+    chain->grid = lsf_voxel_chain_grid(plan, params, state, use);
+    lsf_voxel_grid_set_unit(&chain->grid, scene->scene, state);
+    return lsf_voxelize_create(&chain->voxelize, context, plan, &params->voxelize, &chain->grid,
+                               error) &&
+           lsf_voxel_light_create(&chain->light, context, plan, &light, error);
+}
+
+/* The map that the camera's points were lit with serves voxels too, but for that of a directional
+ * light, which is fitted to what the camera sees. */
+static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
+                         const lsf_voxel_light_inputs *inputs, uint32_t light)
+{
+    lsf_shadow_map *map = &chain->direct.shadow_map;
+    if (iteration->state->lights[light].type == LSF_LIGHT_DIRECTIONAL)
+        lsf_shadow_map_run_scene(map, iteration, light);
+    const lsf_voxel_light_map seen = {.depth = map->outputs.depth,
+                                      .gradient = map->outputs.gradient};
+    lsf_voxel_light_add(&chain->light, inputs, &seen);
+}
+
+void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration)
+{
+    lsf_voxel_light_inputs inputs;
+    lsf_direct_chain_begin(&chain->direct, iteration);
+    if (chain->voxelize) {
+        const lsf_voxelize_outputs *voxels = chain->voxels =
+            lsf_voxelize_run(chain->voxelize, iteration);
+        inputs = (lsf_voxel_light_inputs){.occupancy = voxels->occupancy[0],
+                                          .albedo = voxels->albedo,
+                                          .normal = voxels->normal,
+                                          .point = voxels->point,
+                                          .emission = voxels->emission,
+                                          .bricks = voxels->bricks,
+                                          .previous_bricks = voxels->previous_bricks,
+                                          .changed = voxels->changed};
+        lsf_voxel_light_begin(&chain->light, &inputs);
+    }
+    for (uint32_t i = 0; i < iteration->state->light_count; i++) {
+        lsf_direct_chain_light(&chain->direct, iteration, i);
+        if (chain->voxelize)
+            light_voxels(chain, iteration, &inputs, i);
+    }
+}
+
+void lsf_voxel_chain_destroy(lsf_voxel_chain *chain)
+{
+    lsf_voxel_light_destroy(&chain->light);
+    lsf_voxelize_destroy(chain->voxelize);
+    lsf_direct_chain_destroy(&chain->direct);
+}
+
+uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports)
+{
+    uint32_t count = lsf_direct_chain_report(&chain->direct, reports);
+    if (!chain->voxelize)
+        return count;
+    reports[count++] =
+        (lsf_pass_report){lsf_voxelize_timer(chain->voxelize), LSF_VOXELIZE_COUNTS,
+                          lsf_voxelize_count_names, lsf_voxelize_counts(chain->voxelize)};
+    reports[count++] = (lsf_pass_report){.timer = chain->light.timer};
+    return count;
+}

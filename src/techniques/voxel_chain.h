@@ -1,0 +1,39 @@
+/* The passes that voxel techniques begin with: what is seen, the scene as voxels, and the light of
+ * punctual lights on both. */
+#ifndef LSF_TECHNIQUES_VOXEL_CHAIN_H
+#define LSF_TECHNIQUES_VOXEL_CHAIN_H
+
+#include "passes/voxel_light.h"
+#include "passes/voxelize.h"
+#include "techniques/direct_chain.h"
+
+typedef struct lsf_voxel_chain_use {
+    uint32_t sides, levels;   /* of the voxels' radiance */
+    uint32_t bytes_per_voxel; /* that the technique takes beside them */
+} lsf_voxel_chain_use;
+
+typedef struct lsf_voxel_chain {
+    lsf_direct_chain direct;
+    lsf_voxel_grid grid;
+    lsf_voxelize *voxelize;             /* NULL: the scene has no triangles */
+    const lsf_voxelize_outputs *voxels; /* of the last run */
+    lsf_voxel_light light;
+} lsf_voxel_chain;
+
+/* Whether there is anything to make voxels of; without, the chain is the direct one. */
+bool lsf_voxel_chain_has_voxels(const lsf_plan *plan);
+/* The grid that is planned, for what the technique plans over it. */
+lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params *params,
+                                    const lsf_state *state, const lsf_voxel_chain_use *use);
+void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
+                          const lsf_voxel_chain_use *use);
+bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const lsf_plan *plan,
+                            const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                            const lsf_state *state, const lsf_voxel_chain_use *use,
+                            lsf_error *error);
+void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration);
+void lsf_voxel_chain_destroy(lsf_voxel_chain *chain);
+/* As lsf_technique's report. */
+uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports);
+
+#endif
