@@ -1,13 +1,13 @@
 /* A fragment a column of voxels. */
 #include "passes/voxelize.glsl"
 
-in flat int triangle;
+in flat ivec2 triangle; /* and the axis that it is seen along */
 
 void main()
 {
     voxel_triangle t;
     ivec2 column = ivec2(gl_FragCoord.xy);
-    if (triangle_load(uint(triangle), t) && all(greaterThanEqual(column, t.low)) &&
+    if (triangle_load(uint(triangle.x), triangle.y, t) && all(greaterThanEqual(column, t.low)) &&
         all(lessThan(column, t.low + t.columns)))
         visit_column(t, column);
 }

@@ -10,7 +10,7 @@ layout(triangle_strip, max_vertices = 9) out;
 layout(location = 24) uniform float side; /* of the viewport [pixels] */
 
 in vec3 corner[3];
-out flat int triangle;
+out flat ivec2 triangle;
 
 /* Half a pixel, and what snapping to the raster's subpixels (2^-4 at least: GL 4.5, table 23.55) and its
  * fill rule may take off. */
@@ -46,7 +46,7 @@ void main()
     }
     const int zigzag[9] = int[](0, 1, 8, 2, 7, 3, 6, 4, 5);
     for (int i = 0; i < 9; i++) {
-        triangle = gl_PrimitiveIDIn;
+        triangle = ivec2(gl_PrimitiveIDIn, axis);
         gl_Position = vec4(polygon[zigzag[i]] / side * 2.0 - 1.0, 0.0, 1.0);
         EmitVertex();
     }

@@ -35,11 +35,11 @@ const uint id_mask = (1u << LSF_VOXELIZE_ID_BITS) - 1u;
 struct voxel_triangle {
     uint id;
     uvec3 corners;
-    int axis;           /* the normal's longest */
+    int axis;           /* that columns run along */
     vec3 a, b, c;       /* [voxels], turned so that this axis is z */
+    vec3 ab, bc, ca;    /* b - a and so on, without the rounding of a and b */
     vec3 normal;        /* turned; its length is twice the area */
     vec2 plane_slope;   /* of z over x and y */
-    float plane_slack;  /* what rounding may do to a z of the plane */
     ivec2 low, columns; /* that its bounds cover */
     ivec2 depth;        /* first and last voxel along z */
 };
@@ -54,28 +54,41 @@ ivec3 turned_back(ivec3 v, int axis)
     return axis == 0 ? v.zxy : axis == 1 ? v.yzx : v;
 }
 
-/* False when it has no area. */
-bool triangle_load(uint triangle, out voxel_triangle t)
+/* [voxels] */
+dvec3 corner_in_grid(uint vertex)
+{
+    dvec4 p = dvec4(texelFetch(position_fetch, int(vertex)).xyz, 1.0);
+    dvec3 position = dvec3(dot(dvec4(transform[0]), p), dot(dvec4(transform[1]), p),
+                           dot(dvec4(transform[2]), p));
+    return (position - dvec3(grid.origin.xyz)) * double(grid.size.w);
+}
+
+int longest_axis(vec3 v)
+{
+    vec3 m = abs(v);
+    return m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
+}
+
+/* In double precision up to normal and edges: rounding would turn those of a sliver the more, the narrower
+ * it is. `axis`: that columns run along, -1 for the normal's longest. False when it has no area. */
+bool triangle_load(uint triangle, int axis, out voxel_triangle t)
 {
     t.id = first_triangle + triangle;
     t.corners = triangle_corners(triangle);
-    vec3 a = voxel_from_position(triangle_position(t.corners.x));
-    vec3 b = voxel_from_position(triangle_position(t.corners.y));
-    vec3 c = voxel_from_position(triangle_position(t.corners.z));
-    vec3 n = cross(b - a, c - a);
-    vec3 m = abs(n);
-    float area2 = length(n);
-    if (!(area2 > 0.0))
+    dvec3 a = corner_in_grid(t.corners.x), b = corner_in_grid(t.corners.y),
+          c = corner_in_grid(t.corners.z);
+    vec3 n = vec3(cross(b - a, c - a));
+    t.axis = axis >= 0 ? axis : longest_axis(n);
+    if (n[t.axis] == 0.0)
         return false;
-    t.axis = m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
-    t.a = turned(a, t.axis);
-    t.b = turned(b, t.axis);
-    t.c = turned(c, t.axis);
+    t.a = turned(vec3(a), t.axis);
+    t.b = turned(vec3(b), t.axis);
+    t.c = turned(vec3(c), t.axis);
+    t.ab = turned(vec3(b - a), t.axis);
+    t.bc = turned(vec3(c - b), t.axis);
+    t.ca = turned(vec3(a - c), t.axis);
     t.normal = turned(n, t.axis);
     t.plane_slope = -t.normal.xy / t.normal.z;
-    /* The normal of a sliver is as inexact as its sides are longer than it is wide. */
-    float ab = length(b - a), ac = length(c - a);
-    t.plane_slack = slack + 5e-7 * ab * ac / area2 * max(ab, ac);
     vec3 low = floor(min(t.a, min(t.b, t.c)) - slack);
     vec3 high = floor(max(t.a, max(t.b, t.c)) + slack);
     t.low = ivec2(low.xy);
@@ -93,19 +106,33 @@ bool edge_reaches(vec2 p, vec2 e, float left, vec2 low)
     return dot(inward, nearest - p) >= -slack * (abs(e.x) + abs(e.y));
 }
 
-bool edges_reach(vec2 a, vec2 b, vec2 c, float normal, vec2 low)
+bool edges_reach_xy(voxel_triangle t, vec2 low)
 {
-    float left = normal >= 0.0 ? 1.0 : -1.0;
-    return edge_reaches(a, b - a, left, low) && edge_reaches(b, c - b, left, low) &&
-           edge_reaches(c, a - c, left, low);
+    float left = t.normal.z >= 0.0 ? 1.0 : -1.0;
+    return edge_reaches(t.a.xy, t.ab.xy, left, low) && edge_reaches(t.b.xy, t.bc.xy, left, low) &&
+           edge_reaches(t.c.xy, t.ca.xy, left, low);
+}
+
+bool edges_reach_yz(voxel_triangle t, vec2 low)
+{
+    float left = t.normal.x >= 0.0 ? 1.0 : -1.0;
+    return edge_reaches(t.a.yz, t.ab.yz, left, low) && edge_reaches(t.b.yz, t.bc.yz, left, low) &&
+           edge_reaches(t.c.yz, t.ca.yz, left, low);
+}
+
+bool edges_reach_zx(voxel_triangle t, vec2 low)
+{
+    float left = t.normal.y >= 0.0 ? 1.0 : -1.0;
+    return edge_reaches(t.a.zx, t.ab.zx, left, low) && edge_reaches(t.b.zx, t.bc.zx, left, low) &&
+           edge_reaches(t.c.zx, t.ca.zx, left, low);
 }
 
 /* Barycentric coordinates of the triangle's point that is closest to p's projection on it. */
 vec3 closest_weights(voxel_triangle t, vec3 p)
 {
-    vec3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
+    vec3 ac = -t.ca, ap = p - t.a;
     float scale = 1.0 / dot(t.normal, t.normal);
-    float b = dot(cross(ap, ac), t.normal) * scale, c = dot(cross(ab, ap), t.normal) * scale;
+    float b = dot(cross(ap, ac), t.normal) * scale, c = dot(cross(t.ab, ap), t.normal) * scale;
     vec3 weights = max(vec3(1.0 - b - c, b, c), 0.0);
     return weights / (weights.x + weights.y + weights.z);
 }
@@ -196,8 +223,7 @@ void visit(voxel_triangle t, vec3 low)
     if ((imageLoad(key_image, cell).r & id_mask) == id_mask - t.id)
         write_surface(t, cell, low);
 #else
-    if (edges_reach(t.a.yz, t.b.yz, t.c.yz, t.normal.x, low.yz) &&
-        edges_reach(t.a.zx, t.b.zx, t.c.zx, t.normal.y, low.zx))
+    if (edges_reach_yz(t, low.yz) && edges_reach_zx(t, low.zx))
         bid(t, cell, low);
 #endif
 }
@@ -206,10 +232,10 @@ void visit(voxel_triangle t, vec3 low)
 void visit_column(voxel_triangle t, ivec2 column)
 {
     vec2 low = vec2(column);
-    if (!edges_reach(t.a.xy, t.b.xy, t.c.xy, t.normal.z, low))
+    if (!edges_reach_xy(t, low))
         return;
     float middle = t.a.z + dot(t.plane_slope, low + 0.5 - t.a.xy);
-    float half_range = 0.5 * (abs(t.plane_slope.x) + abs(t.plane_slope.y)) + t.plane_slack;
+    float half_range = 0.5 * (abs(t.plane_slope.x) + abs(t.plane_slope.y)) + slack;
     int first = max(int(floor(middle - half_range)), t.depth.x);
     int last = min(int(floor(middle + half_range)), t.depth.y);
     for (int z = first; z <= last; z++)

@@ -16,7 +16,7 @@ void main()
     uint triangle = tiles[LSF_VOXEL_LIST_HEADER + 2u * at];
     int tile = int(tiles[LSF_VOXEL_LIST_HEADER + 2u * at + 1u]);
     voxel_triangle t;
-    if (triangle == LSF_NO_NODE || !triangle_load(triangle, t))
+    if (triangle == LSF_NO_NODE || !triangle_load(triangle, -1, t))
         return;
     int across = (t.columns.x + LSF_VOXELIZE_TILE - 1) / LSF_VOXELIZE_TILE;
     ivec2 column = ivec2(tile % across, tile / across) * LSF_VOXELIZE_TILE +

@@ -31,7 +31,7 @@ void main()
 {
     uint triangle = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * LSF_VOXELIZE_ROW;
     voxel_triangle t;
-    if (triangle >= range.y || !triangle_load(triangle, t))
+    if (triangle >= range.y || !triangle_load(triangle, -1, t))
         return;
     int columns = t.columns.x * t.columns.y;
     if (columns > LSF_VOXELIZE_SMALL && list_tiles(triangle, t.columns))

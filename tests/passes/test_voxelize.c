@@ -254,7 +254,7 @@ static void compare_sizes(const char *name, const lsf_scene *scene)
     if (getenv("LSF_TEST_QUICK"))
         return;
     compare_methods(name, scene, 128);
-    compare_methods(name, scene, 256);
+    compare(name, scene, 256, LSF_VOXELIZE_COMPUTE);
 }
 
 /* A small linear congruential generator: the same numbers everywhere. */
@@ -301,7 +301,8 @@ static void soup_of_triangles(void **unused)
 {
     (void)unused;
     lsf_scene *scene = soup(getenv("LSF_TEST_QUICK") ? 1000 : 10000);
-    compare_sizes("soup", scene);
+    compare_methods("soup", scene, 32);
+    compare_methods("soup", scene, 128);
     destroy_scene(scene);
 }
 
