@@ -68,6 +68,8 @@ struct lsf_material_data {
 #define LSF_LOCATION_ARRIVAL 14
 #define LSF_LOCATION_VPL 15
 #define LSF_LOCATION_ADDED 16
+/* Location of the grid on which light is traced; see lib/coarse.glsl. */
+#define LSF_LOCATION_COARSE 17
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

@@ -24,6 +24,8 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(bidirectional_shade, LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT),
     TABLE(voxel_grid, LSF_VOXEL_GRID_OPTION_COUNT),
     TABLE(voxelize, LSF_VOXELIZE_OPTION_COUNT),
+    TABLE(blur, LSF_BLUR_OPTION_COUNT),
+    TABLE(upsample_search, LSF_UPSAMPLE_SEARCH_OPTION_COUNT),
 };
 const uint32_t lsf_pass_option_table_count = LSF_COUNT(lsf_pass_option_tables);
 

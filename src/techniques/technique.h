@@ -3,11 +3,13 @@
 #define LSF_TECHNIQUES_TECHNIQUE_H
 
 #include "passes/bidirectional_shade.h"
+#include "passes/blur.h"
 #include "passes/gbuffer.h"
 #include "passes/interleave.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
+#include "passes/upsample_search.h"
 #include "passes/voxelize.h"
 #include "passes/vpl.h"
 #include "plan/iteration.h"
@@ -25,6 +27,8 @@ typedef struct lsf_pass_params {
     lsf_bidirectional_shade_params bidirectional_shade;
     lsf_voxel_grid_params voxel_grid;
     lsf_voxelize_params voxelize;
+    lsf_blur_params blur;
+    lsf_upsample_search_params upsample_search;
 } lsf_pass_params;
 
 #define LSF_PASS_PARAMS_DEFAULTS                                                                   \
@@ -34,7 +38,8 @@ typedef struct lsf_pass_params {
     .vpl = {LSF_VPL_PARAMS_DEFAULTS}, .ray_bundle = {LSF_RAY_BUNDLE_PARAMS_DEFAULTS},              \
     .interleave = {LSF_INTERLEAVE_PARAMS_DEFAULTS},                                                \
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
-    .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS}
+    .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
+    .blur = {LSF_BLUR_PARAMS_DEFAULTS}, .upsample_search = {LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;

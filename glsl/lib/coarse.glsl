@@ -1,0 +1,42 @@
+/* The grid on which light is traced; see src/plan/coarse_grid.h. Switch LSF_COARSE, 0 when its
+ * texels are the picture's pixels. Needs what lib/view.glsl needs. */
+#ifndef LSF_LIB_COARSE
+#define LSF_LIB_COARSE
+
+#include "lib/view.glsl"
+
+#if LSF_COARSE
+layout(location = LSF_LOCATION_COARSE) uniform ivec4 coarse; /* its size; offset in blocks, 2^16 */
+
+/* The pixel that a texel sees. */
+ivec2 coarse_pixel(ivec2 texel)
+{
+    ivec2 size = ivec2(view.size.xy);
+    ivec2 corner = texel * size / coarse.xy;
+    ivec2 block = (texel + 1) * size / coarse.xy - corner;
+    return corner + (block * coarse.zw >> 16);
+}
+
+/* The texel that stands for a pixel. */
+ivec2 coarse_texel(ivec2 pixel)
+{
+    return ((pixel + 1) * coarse.xy - 1) / ivec2(view.size.xy);
+}
+
+vec2 coarse_size()
+{
+    return vec2(coarse.xy);
+}
+#else
+#define coarse_pixel(texel) (texel)
+#define coarse_texel(pixel) (pixel)
+#define coarse_size() view.size.xy
+#endif
+
+/* ndc of the point that a texel samples. */
+vec2 coarse_ndc(ivec2 texel)
+{
+    return sample_ndc(vec2(coarse_pixel(texel)) + 0.5);
+}
+
+#endif

@@ -1,0 +1,164 @@
+#include "passes/blur.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+
+const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT] = {
+    {"blur.phases", LSF_OPTION_INT, offsetof(lsf_blur_params, phases), 0, 8, NULL, "",
+     "of the blur, each for rougher surfaces than the one before; 0: no blur"},
+    {"blur.step", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, step), 1.0, 64.0, NULL, "texels",
+     "between the taps of the first phase, at the viewer"},
+    {"blur.ratio", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, ratio), 1.0, 4.0, NULL, "",
+     "of a phase's step to that of the phase before"},
+    {"blur.growth", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, growth), 0.0, 100.0, NULL, "",
+     "how much wider the blur is for each half extent of the scene from the viewer"},
+    {"blur.min_roughness", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, min_roughness), 0.0, 1.0,
+     NULL, "", "below it specular light is not blurred"},
+    {"blur.cutoff", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, cutoff), 1.0, 1e3, NULL, "steps",
+     "neighbours further in space than this many steps of the phase are left out"},
+    {"blur.slope", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, slope), 0.0, 1.0, NULL, "",
+     "neighbours that rise from the surface by more than this for their distance are left out"},
+    {"blur.normal_weight", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, normal_weight), 0.0, 1e4,
+     NULL, "", "exponent of the cosine between the normals of neighbours"},
+};
+
+static void add_light(lsf_plan *plan, const char *irradiance, const char *specular, uint32_t width,
+                      uint32_t height, const char *why)
+{
+    lsf_plan_texture_add(plan, irradiance, GL_RGBA32F, width, height, "%s", why);
+    if (plan->requirements.specular)
+        lsf_plan_texture_add(plan, specular, GL_RGBA32F, width, height, "%s", why);
+}
+
+void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width, uint32_t height)
+{
+    const lsf_requirements *r = &plan->requirements;
+    if (params->phases == 0) {
+        lsf_plan_omit(plan, "blur", "blur.phases is 0");
+        return;
+    }
+    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    lsf_plan_pass_add(plan, "blur_guide", "what the blur compares, once for all phases");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_coarse_grid_switch(plan, width, height);
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+                        "some material is anisotropic");
+    lsf_plan_texture_add(plan, "blur.guide", GL_RGBA32UI, width, height,
+                         "positions, normals and phases");
+    lsf_plan_pass_add(plan, "blur", "removes the noise of few samples, the rougher the wider");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    add_light(plan, "blur.irradiance", "blur.specular", width, height, "blurred");
+    add_light(plan, "blur.between_irradiance", "blur.between_specular", width, height,
+              "blurred along x");
+}
+
+static GLuint create_framebuffer(lsf_context *context, const char *label, GLuint first,
+                                 GLuint second, lsf_error *error)
+{
+    lsf_framebuffer_desc desc = {.label = label, .layer = -1, .color_count = 1, .colors = {first}};
+    if (second)
+        desc.colors[desc.color_count++] = second;
+    return lsf_framebuffer_create(context, &desc, error);
+}
+
+bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
+                     const lsf_blur_params *params, lsf_error *error)
+{
+    static const char *const guide_files[5] = {"lib/fullscreen.vert.glsl",
+                                               "passes/blur_guide.frag.glsl"};
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/blur.frag.glsl"};
+    *pass = (lsf_blur){.context = context, .params = *params};
+    if (params->phases == 0)
+        return true;
+    lsf_blur_outputs *out = &pass->outputs, *between = &pass->between;
+    if (!lsf_plan_create_texture(plan, context, "blur.guide", &pass->guide, error) ||
+        !lsf_plan_create_texture(plan, context, "blur.irradiance", &out->irradiance, error) ||
+        !lsf_plan_create_texture(plan, context, "blur.specular", &out->specular, error) ||
+        !lsf_plan_create_texture(plan, context, "blur.between_irradiance", &between->irradiance,
+                                 error) ||
+        !lsf_plan_create_texture(plan, context, "blur.between_specular", &between->specular, error))
+        return false;
+    pass->guide_framebuffer = create_framebuffer(context, "blur_guide", pass->guide, 0, error);
+    pass->framebuffer = create_framebuffer(context, "blur", out->irradiance, out->specular, error);
+    pass->between_framebuffer =
+        create_framebuffer(context, "blur_between", between->irradiance, between->specular, error);
+    if (!pass->guide_framebuffer || !pass->framebuffer || !pass->between_framebuffer)
+        return false;
+    pass->guide_program = lsf_plan_program(plan, context, "blur_guide", guide_files, error);
+    pass->program = lsf_plan_program(plan, context, "blur", files, error);
+    pass->timer = lsf_timer_create(context, "blur", error);
+    return pass->guide_program && pass->program && pass->timer;
+}
+
+static void begin_draw(const lsf_coarse_grid *grid, GLuint framebuffer, GLuint program)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, (GLsizei)grid->width, (GLsizei)grid->height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glUseProgram(program);
+}
+
+static void make_guide(lsf_blur *pass, const lsf_blur_inputs *inputs)
+{
+    begin_draw(inputs->grid, pass->guide_framebuffer, pass->guide_program);
+    lsf_coarse_grid_set(inputs->grid);
+    glBindTextureUnit(0, inputs->depth);
+    glBindTextureUnit(1, inputs->surface);
+    glBindTextureUnit(2, inputs->gloss);
+    glUniform2f(0, pass->params.min_roughness, (float)pass->params.phases);
+    lsf_draw_fullscreen(pass->context);
+}
+
+static void blur_along(lsf_blur *pass, const lsf_coarse_grid *grid, int phase, int x, int y,
+                       GLuint framebuffer, GLuint irradiance, GLuint specular)
+{
+    const lsf_blur_params *p = &pass->params;
+    begin_draw(grid, framebuffer, pass->program);
+    glBindTextureUnit(3, irradiance);
+    glBindTextureUnit(4, specular);
+    glUniform3i(0, x, y, phase);
+    glUniform4f(1, p->step * powf(p->ratio, (float)(phase - 1)), p->growth,
+                1.0f / (float)(x ? grid->width : grid->height), p->normal_weight);
+    glUniform2f(2, p->cutoff * p->cutoff, p->slope * p->slope);
+    lsf_draw_fullscreen(pass->context);
+}
+
+void lsf_blur_run(lsf_blur *pass, const lsf_iteration *iteration, const lsf_blur_inputs *inputs)
+{
+    (void)iteration; /* its view is bound */
+    GLuint irradiance = inputs->irradiance, specular = inputs->specular;
+    lsf_timer_begin(pass->timer);
+    make_guide(pass, inputs);
+    glBindTextureUnit(0, pass->guide);
+    for (int phase = 1; phase <= pass->params.phases; phase++) {
+        blur_along(pass, inputs->grid, phase, 1, 0, pass->between_framebuffer, irradiance,
+                   specular);
+        blur_along(pass, inputs->grid, phase, 0, 1, pass->framebuffer, pass->between.irradiance,
+                   pass->between.specular);
+        irradiance = pass->outputs.irradiance;
+        specular = pass->outputs.specular;
+    }
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_blur_destroy(lsf_blur *pass)
+{
+    if (!pass->context)
+        return;
+    GLuint *textures[] = {&pass->guide, &pass->outputs.irradiance, &pass->outputs.specular,
+                          &pass->between.irradiance, &pass->between.specular};
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->between_framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->guide_framebuffer);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}

@@ -1,0 +1,57 @@
+/* Blurs light that was traced with few samples, the rougher the surface the wider. See blur.md. */
+#ifndef LSF_PASSES_BLUR_H
+#define LSF_PASSES_BLUR_H
+
+#include "plan/coarse_grid.h"
+#include "plan/option.h"
+
+typedef struct lsf_blur_params {
+    int32_t phases;      /* 0: no blur */
+    float step;          /* between the taps of the first phase at the viewer [texels] */
+    float ratio;         /* of a phase's step to that of the one before */
+    float growth;        /* how much wider for each half extent of the scene from the viewer */
+    float min_roughness; /* below it the specular part is left alone */
+    float cutoff;        /* taps further than this many steps in space are dropped */
+    float slope; /* and those that rise from the surface by more than this for their length */
+    float normal_weight; /* exponent of the cosine between normals */
+} lsf_blur_params;
+
+#define LSF_BLUR_PARAMS_DEFAULTS                                                                   \
+    .phases = 5, .step = 1.0f, .ratio = 2.0f, .growth = 0.5f, .min_roughness = 0.1f,               \
+    .cutoff = 4.0f, .slope = 0.5f, .normal_weight = 1.0f
+
+#define LSF_BLUR_OPTION_COUNT 8
+extern const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT];
+
+/* All of the grid's size. */
+typedef struct lsf_blur_inputs {
+    const lsf_coarse_grid *grid;
+    GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
+    GLuint irradiance, specular;  /* specular 0 where the plan requires none */
+} lsf_blur_inputs;
+
+/* RGBA32F; specular 0 without specular lobes. */
+typedef struct lsf_blur_outputs {
+    GLuint irradiance, specular;
+} lsf_blur_outputs;
+
+typedef struct lsf_blur {
+    lsf_context *context;
+    lsf_blur_params params;
+    lsf_blur_outputs outputs;
+    lsf_blur_outputs between; /* blurred along x */
+    GLuint guide;             /* positions, normals and phases */
+    GLuint framebuffer, between_framebuffer, guide_framebuffer;
+    GLuint program, guide_program;
+    lsf_timer *timer;
+} lsf_blur;
+
+/* Lists "blur_guide" and "blur" for light on a grid of width by height texels; leaves them out
+ * without phases. Needs the G-buffer's plan. */
+void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width, uint32_t height);
+bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
+                     const lsf_blur_params *params, lsf_error *error);
+void lsf_blur_run(lsf_blur *pass, const lsf_iteration *iteration, const lsf_blur_inputs *inputs);
+void lsf_blur_destroy(lsf_blur *pass);
+
+#endif

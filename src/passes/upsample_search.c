@@ -1,0 +1,166 @@
+#include "passes/upsample_search.h"
+
+#include <string.h>
+
+#include "base/base.h"
+
+const lsf_option_row lsf_upsample_search_options[LSF_UPSAMPLE_SEARCH_OPTION_COUNT] = {
+    {"upsample_search.radius", LSF_OPTION_INT, offsetof(lsf_upsample_search_params, radius), 1, 16,
+     NULL, "texels", "how far to search for traced light of the surface that a pixel shows"},
+    {"upsample_search.min_cosine", LSF_OPTION_FLOAT,
+     offsetof(lsf_upsample_search_params, min_cosine), 0.0, 1.0, NULL, "",
+     "between normals that count as alike"},
+    {"upsample_search.slope", LSF_OPTION_FLOAT, offsetof(lsf_upsample_search_params, slope), 0.0,
+     1.0, NULL, "", "how far a place of the same surface may rise from it for its distance"},
+};
+
+static void plan_split(lsf_plan *plan, uint32_t width, uint32_t height)
+{
+    /* Its format: the resource itself moves when others are added. */
+    const lsf_plan_resource *gbuffer_gloss = lsf_plan_find(plan, "gbuffer.gloss");
+    GLenum gloss = gbuffer_gloss ? gbuffer_gloss->texture.internal_format : GL_NONE;
+    lsf_plan_pass_add(plan, "upsample_search_split", "what %u x %u places of the picture see",
+                      width, height);
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_coarse_grid_switch(plan, width, height);
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != GL_NONE, "roughness or metallic vary");
+    lsf_plan_texture_add(plan, "upsample_search.depth", GL_R32F, width, height,
+                         "what the grid sees");
+    lsf_plan_texture_add(plan, "upsample_search.surface", GL_RGBA32UI, width, height,
+                         "what the grid sees");
+    if (gloss != GL_NONE)
+        lsf_plan_texture_add(plan, "upsample_search.gloss", gloss, width, height,
+                             "what the grid sees");
+}
+
+void lsf_upsample_search_plan(lsf_plan *plan, const lsf_upsample_search_params *params,
+                              uint32_t width, uint32_t height)
+{
+    (void)params; /* its values are uniforms */
+    if (!lsf_coarse_grid_is_coarse(plan, width, height)) {
+        lsf_plan_omit(plan, "upsample_search", "light is traced for every pixel");
+        return;
+    }
+    bool specular = plan->requirements.specular;
+    plan_split(plan, width, height);
+    lsf_plan_pass_add(plan, "upsample_search", "light of the grid for every pixel");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_coarse_grid_switch(plan, width, height);
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
+    lsf_plan_texture_add(plan, "upsample_search.irradiance", GL_RGBA32F, plan->width, plan->height,
+                         "upsampled");
+    if (specular)
+        lsf_plan_texture_add(plan, "upsample_search.specular", GL_RGBA32F, plan->width,
+                             plan->height, "upsampled");
+}
+
+static GLuint create_framebuffer(lsf_context *context, const char *label, const GLuint textures[3],
+                                 lsf_error *error)
+{
+    lsf_framebuffer_desc desc = {.label = label, .layer = -1};
+    for (int i = 0; i < 3; i++)
+        if (textures[i])
+            desc.colors[desc.color_count++] = textures[i];
+    return lsf_framebuffer_create(context, &desc, error);
+}
+
+bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
+                                const lsf_plan *plan, const lsf_upsample_search_params *params,
+                                lsf_error *error)
+{
+    static const char *const split_files[5] = {"lib/fullscreen.vert.glsl",
+                                               "passes/upsample_search_split.frag.glsl"};
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl",
+                                         "passes/upsample_search.frag.glsl"};
+    *pass = (lsf_upsample_search){.context = context, .params = *params};
+    if (!lsf_plan_find_pass(plan, "upsample_search"))
+        return true;
+    const struct {
+        const char *name;
+        GLuint *texture;
+    } textures[] = {
+        {"upsample_search.depth", &pass->coarse.depth},
+        {"upsample_search.surface", &pass->coarse.surface},
+        {"upsample_search.gloss", &pass->coarse.gloss},
+        {"upsample_search.irradiance", &pass->light.irradiance},
+        {"upsample_search.specular", &pass->light.specular},
+    };
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
+            return false;
+    const lsf_plan_resource *depth = lsf_plan_find(plan, "upsample_search.depth");
+    pass->grid.width = depth->texture.width;
+    pass->grid.height = depth->texture.height;
+    const GLuint points[3] = {pass->coarse.depth, pass->coarse.surface, pass->coarse.gloss};
+    const GLuint light[3] = {pass->light.irradiance, pass->light.specular};
+    pass->split_framebuffer = create_framebuffer(context, "upsample_search_split", points, error);
+    pass->light_framebuffer = create_framebuffer(context, "upsample_search", light, error);
+    if (!pass->split_framebuffer || !pass->light_framebuffer)
+        return false;
+    pass->split_program =
+        lsf_plan_program(plan, context, "upsample_search_split", split_files, error);
+    pass->program = lsf_plan_program(plan, context, "upsample_search", files, error);
+    if (!pass->split_program || !pass->program)
+        return false;
+    pass->split_timer = lsf_timer_create(context, "upsample_search_split", error);
+    pass->timer = lsf_timer_create(context, "upsample_search", error);
+    return pass->split_timer && pass->timer;
+}
+
+static void begin_draw(uint32_t width, uint32_t height, GLuint framebuffer, GLuint program)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, (GLsizei)width, (GLsizei)height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glUseProgram(program);
+}
+
+void lsf_upsample_search_split(lsf_upsample_search *pass, const lsf_iteration *iteration,
+                               const lsf_upsample_search_points *gbuffer)
+{
+    lsf_timer_begin(pass->split_timer);
+    pass->grid = lsf_coarse_grid_at(iteration, pass->grid.width, pass->grid.height);
+    begin_draw(pass->grid.width, pass->grid.height, pass->split_framebuffer, pass->split_program);
+    lsf_coarse_grid_set(&pass->grid);
+    glBindTextureUnit(0, gbuffer->depth);
+    glBindTextureUnit(1, gbuffer->surface);
+    glBindTextureUnit(2, gbuffer->gloss);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->split_timer);
+}
+
+void lsf_upsample_search_run(lsf_upsample_search *pass, const lsf_iteration *iteration,
+                             const lsf_upsample_search_points *gbuffer,
+                             const lsf_upsample_search_light *coarse_light)
+{
+    lsf_timer_begin(pass->timer);
+    begin_draw(iteration->plan->width, iteration->plan->height, pass->light_framebuffer,
+               pass->program);
+    lsf_coarse_grid_set(&pass->grid);
+    const GLuint textures[6] = {gbuffer->depth,           gbuffer->surface,
+                                pass->coarse.depth,       pass->coarse.surface,
+                                coarse_light->irradiance, coarse_light->specular};
+    glBindTextures(0, 6, textures);
+    glUniform3f(0, (float)pass->params.radius, pass->params.min_cosine,
+                pass->params.slope * pass->params.slope);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_upsample_search_destroy(lsf_upsample_search *pass)
+{
+    if (!pass->context)
+        return;
+    GLuint *textures[] = {&pass->coarse.depth, &pass->coarse.surface, &pass->coarse.gloss,
+                          &pass->light.irradiance, &pass->light.specular};
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_framebuffer_destroy(pass->context, &pass->split_framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->light_framebuffer);
+    lsf_timer_destroy(pass->split_timer);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}
