@@ -30,6 +30,16 @@ path_density path_density_at(float cosine_0, float distance2_0, float cosine_3, 
     return p;
 }
 
+/* Of a point x_j that emits itself, and is found from x3 alone: `by_area`, with which a VPL is placed
+ * there. */
+path_density emitter_density_at(float by_area, float cosine_3, float distance2_3, float p_r)
+{
+    path_density p;
+    p.vpl = strategy.x * by_area;
+    p.bundle = strategy.y * p_r * cosine_3 / distance2_3;
+    return p;
+}
+
 /* Power heuristic (equation 6) by the ratio of densities, which cannot overflow to inf / inf; the ratio
  * keeps a finite logarithm, for pow multiplies that by beta, which may be 0. */
 float mis_weight(float density, float other)

@@ -13,8 +13,9 @@
 #endif
 
 layout(binding = 4) uniform usampler2D hit_texture;
-/* Whether emission is added, and the light (0 or 1); how many bundles begin a path. */
-layout(location = LSF_LOCATION_ADDED) uniform vec3 added;
+/* Whether emission is added, and the light (0 or 1); how many bundles begin a path; the density with which
+ * VPLs find what emits, for each unit of its luminance. */
+layout(location = LSF_LOCATION_ADDED) uniform vec4 added;
 
 #define DIRECT_TARGET (1 + LSF_SPECULAR)
 #define VERTEX_TARGET (DIRECT_TARGET + LSF_SPLIT_DIRECT * (1 + LSF_SPECULAR))
@@ -77,6 +78,25 @@ light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3,
 }
 #endif
 
+#if LSF_EMITTERS
+/* Weighs the emission of x2 against VPLs on it; both strategies suppress the lobe alike. */
+void weigh_emission(shading_vertex v, vec3 direction, float distance2_3, surface x2,
+                    inout vec3 emission, inout light_parts through)
+{
+    float luminance = dot(emission, vec3(0.2126, 0.7152, 0.0722));
+    float cosine_3 = -dot(x2.geometric_normal, direction);
+    if (luminance <= 0.0)
+        return;
+    path_density p =
+        emitter_density_at(added.w * luminance, cosine_3, distance2_3, bundle_pdf(direction));
+    emission *= mis_weight(p.bundle, p.vpl);
+#if LSF_SPECULAR
+    float kernel_3 = suppression_kernel(p.vpl + p.bundle, cosine_3, distance2_3);
+    through = vertex_reflect(v, direction, kernel_3 + suppression.z);
+#endif
+}
+#endif
+
 void main()
 {
 #if LSF_CONTINUE
@@ -108,6 +128,7 @@ void main()
     light_parts through =
         vertex_reflect(v, direction, suppression.x / (added.z * p_r) + suppression.z);
     vec3 arriving = vec3(0.0); /* emission */
+    light_parts through_emission = through;
     light_parts reflected;
     reflected.irradiance = reflected.specular = vec3(0.0);
     if (hit.y == LSF_NO_NODE) {
@@ -118,6 +139,10 @@ void main()
         surface x2 = bundle_surface(hit.y, direction, arriving);
         vec3 position = bundle_position(hit.y, v.position);
         float distance_3 = distance(position, v.position);
+#if LSF_EMITTERS
+        if (!x2.unlit && added.w > 0.0)
+            weigh_emission(v, direction, distance_3 * distance_3, x2, arriving, through_emission);
+#endif
 #if LSF_PUNCTUAL
         if (added.y != 0.0)
             reflected = reflected_light(v, direction, distance_3 * distance_3, position, x2, through);
@@ -138,13 +163,13 @@ void main()
     }
     vec3 emitted = added.x != 0.0 ? arriving * (strategy.w / p_r) : vec3(0.0);
 #if LSF_SPLIT_DIRECT
-    direct_irradiance_out.rgb = through.irradiance * emitted;
+    direct_irradiance_out.rgb = through_emission.irradiance * emitted;
 #if LSF_SPECULAR
-    direct_specular_out.rgb = through.specular * emitted;
+    direct_specular_out.rgb = through_emission.specular * emitted;
 #endif
 #else
-    reflected.irradiance += through.irradiance * emitted;
-    reflected.specular += through.specular * emitted;
+    reflected.irradiance += through_emission.irradiance * emitted;
+    reflected.specular += through_emission.specular * emitted;
 #endif
     irradiance_out.rgb = reflected.irradiance;
 #if LSF_SPECULAR

@@ -1,5 +1,6 @@
-/* Connects the vertices to one VPL: path (x0, x1, x3), or (x0, x1, x2, x3) with LSF_DEEP. Both
- * parts of the light are added to the targets; alpha holds the luminance that a bound took away. */
+/* Connects the vertices to one VPL: path (x0, x1, x3), or (x0, x1, x2, x3) with LSF_DEEP; without x0 where
+ * x1 emits itself. Both parts of the light are added to the targets; alpha holds the luminance that a
+ * bound took away. Switches LSF_PUNCTUAL and LSF_EMITTERS: there are VPLs of that kind. */
 #include "lib/bundle_pdf.glsl"
 #include "lib/mis.glsl"
 #include "lib/shading_vertex.glsl"
@@ -18,6 +19,14 @@ layout(location = 0) out vec4 irradiance_out;
 layout(location = 1) out vec4 specular_out;
 #endif
 
+/* What the VPL sends to the vertex for each unit of solid angle that it covers there, divided by its
+ * density by area, times its weight. */
+struct vpl_light {
+    vec3 power;
+    float kernel_3; /* of suppression, at the vertex */
+};
+
+#if LSF_PUNCTUAL
 surface vpl_surface(lsf_vpl_data vpl)
 {
     surface s;
@@ -33,6 +42,45 @@ surface vpl_surface(lsf_vpl_data vpl)
     return s;
 }
 
+vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float distance2)
+{
+    vpl_light l;
+    l.power = vec3(0.0);
+    l.kernel_3 = 0.0;
+    surface x1 = vpl_surface(vpl);
+    float cosine_0 = dot(x1.geometric_normal, vpl.to_light.xyz);
+    float shading_cosine_0 = dot(x1.normal, vpl.to_light.xyz);
+    if (cosine_0 <= 0.0 || shading_cosine_0 <= 0.0 || dot(x1.normal, direction) >= 0.0)
+        return l;
+    float p_e = vpl.geometric_normal.w;
+    path_density p = path_density_at(cosine_0, vpl.to_light.w, cosine_3, distance2, p_e,
+                                     bundle_pdf(direction) * suppression.w);
+    float density = p.vpl + p.bundle;
+    l.kernel_3 = suppression_kernel(density, cosine_3, distance2);
+    /* The rays of a directional light do not part. */
+    float kernel_0 = vpl.base_color.w != 0.0
+                         ? 0.0
+                         : suppression_kernel(density, cosine_0, vpl.to_light.w);
+    brdf_value f_1 = brdf_evaluate(x1, -direction, vpl.to_light.xyz, kernel_0 + l.kernel_3);
+    /* Its density by area is p_e cosine_0 / d0^2, the light's irradiance I shading_cosine_0 / d0^2. */
+    l.power = vpl.intensity.rgb * brdf_sum(x1, f_1) *
+              (shading_cosine_0 / cosine_0 * mis_weight(p.vpl, p.bundle) / p_e);
+    return l;
+}
+#endif
+
+#if LSF_EMITTERS
+vpl_light emitted_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float distance2)
+{
+    path_density p =
+        emitter_density_at(vpl.intensity.w, cosine_3, distance2, bundle_pdf(direction));
+    vpl_light l;
+    l.kernel_3 = suppression_kernel(p.vpl + p.bundle, cosine_3, distance2);
+    l.power = vpl.intensity.rgb * (mis_weight(p.vpl, p.bundle) / vpl.geometric_normal.w);
+    return l;
+}
+#endif
+
 float luminance(vec3 c)
 {
     return dot(c, vec3(0.2126, 0.7152, 0.0722));
@@ -42,38 +90,32 @@ void main()
 {
     lsf_vpl_data vpl = vpls[vpl_index];
     shading_vertex v;
-    if (vpl.position.w == 0.0 || !vertex_load(v))
+    if (vpl.position.w == LSF_VPL_DARK || !vertex_load(v))
         discard;
-    surface x1 = vpl_surface(vpl);
     vec3 to_vpl = vpl.position.xyz - v.position;
     float distance2 = max(dot(to_vpl, to_vpl), LSF_LIGHT_DISTANCE2_MIN);
     vec3 direction = to_vpl * inversesqrt(distance2);
-    float cosine_0 = dot(x1.geometric_normal, vpl.to_light.xyz);
-    float cosine_3 = -dot(x1.geometric_normal, direction);
-    float shading_cosine_0 = dot(x1.normal, vpl.to_light.xyz);
-    if (cosine_3 <= 0.0 || cosine_0 <= 0.0 || shading_cosine_0 <= 0.0 ||
-        dot(x1.normal, direction) >= 0.0 || dot(v.s.normal, direction) <= 0.0 ||
+    float cosine_3 = -dot(vpl.geometric_normal.xyz, direction);
+    if (cosine_3 <= 0.0 || dot(v.s.normal, direction) <= 0.0 ||
         dot(v.s.geometric_normal, direction) <= 0.0)
         discard;
     if (shadow_visibility(v.position, v.s.geometric_normal) == 0.0)
         discard;
+#if LSF_PUNCTUAL && LSF_EMITTERS
+    vpl_light l;
+    if (vpl.position.w == LSF_VPL_EMITS)
+        l = emitted_power(vpl, direction, cosine_3, distance2);
+    else
+        l = reflected_power(vpl, direction, cosine_3, distance2);
+#elif LSF_EMITTERS
+    vpl_light l = emitted_power(vpl, direction, cosine_3, distance2);
+#else
+    vpl_light l = reflected_power(vpl, direction, cosine_3, distance2);
+#endif
 
-    float p_e = vpl.geometric_normal.w;
-    path_density p = path_density_at(cosine_0, vpl.to_light.w, cosine_3, distance2, p_e,
-                                     bundle_pdf(direction) * suppression.w);
-    float density = p.vpl + p.bundle;
-    float kernel_3 = suppression_kernel(density, cosine_3, distance2);
-    /* The rays of a directional light do not part. */
-    float kernel_0 = vpl.base_color.w != 0.0
-                         ? 0.0
-                         : suppression_kernel(density, cosine_0, vpl.to_light.w);
-    brdf_value f_1 = brdf_evaluate(x1, -direction, vpl.to_light.xyz, kernel_0 + kernel_3);
-    light_parts f_3 = vertex_reflect(v, direction, kernel_3 + suppression.z);
-
-    /* Its density by area is p_e cosine_0 / d0^2, the light's irradiance I shading_cosine_0 / d0^2,
-     * and it is seen from x3 under cosine_3 / distance2 for each area. */
-    vec3 power = vpl.intensity.rgb * brdf_sum(x1, f_1) *
-                 (shading_cosine_0 / cosine_0 * mis_weight(p.vpl, p.bundle) * strategy.w / p_e);
+    /* It is seen from x3 under cosine_3 / distance2 for each area. */
+    light_parts f_3 = vertex_reflect(v, direction, l.kernel_3 + suppression.z);
+    vec3 power = l.power * strategy.w;
     float geometry = cosine_3 / distance2;
     float bounded = cosine_3 / max(distance2, suppression.y);
     vec3 irradiance = f_3.irradiance * power;

@@ -2,7 +2,7 @@
  * texel that holds it says which plane the ray meets. */
 #include "lib/emission_pdf.glsl"
 #include "lib/gbuffer.glsl"
-#include "shared/vpl_data.h"
+#include "lib/vpl_write.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -22,31 +22,14 @@ layout(std430, binding = 4) readonly buffer sum_block
 layout(location = 0) uniform uvec2 range; /* the first VPL, and how many */
 layout(location = 1) uniform float shadow_texels;
 
-struct map_slot {
-    lsf_light_data map;
-    vec4 unused; /* a multiple of a uniform buffer's alignment */
-};
-layout(std430, binding = LSF_BINDING_VPL) writeonly buffer lsf_vpl_block
-{
-    lsf_vpl_data vpls[];
-};
-layout(std430, binding = 2) writeonly buffer map_block
-{
-    map_slot maps[];
-};
 layout(std430, binding = 3) readonly buffer random_block
 {
     vec4 random[]; /* two numbers for the direction, one for the map's turn; the probability of
                     * having picked the light */
 };
 
-/* Nearest occluder of a VPL's map. */
-#define NEAR_PLANE 1e-5
-
-/* How far a VPL may be off its surface: rounding of positions, 1e-6 of the scene's half extent,
- * and the error of an octahedral normal (see lib/octahedral.glsl) on the way from the texel's
- * centre. Its map starts that far above, or the surface would shade its own light. */
-#define POSITION_ERROR 1e-6
+/* How far a VPL may be off its surface beside the rounding of positions: the error of an octahedral
+ * normal (see lib/octahedral.glsl) on the way from the texel's centre. */
 #define NORMAL_ERROR 1e-4
 
 struct ray {
@@ -235,27 +218,6 @@ bool reflects(surface s)
     return !s.unlit && (specular || max(s.base_color.r, max(s.base_color.g, s.base_color.b)) > 0.0);
 }
 
-lsf_light_data map_over(vec3 origin, vec3 normal, float turn)
-{
-    lsf_light_data map;
-    vec3 t, b;
-    orthonormal_basis(normal, t, b);
-    float angle = 2.0 * LSF_PI * turn;
-    map.position = vec4(origin, 0.0);
-    map.direction = vec4(normal, 0.0);
-    map.intensity = map.attenuation = map.map_offset = vec4(0.0);
-    map.map_origin = vec4(origin, 1.0);
-    map.map_shape = vec4(NEAR_PLANE, 0.0, shadow_texels, 1.0 / shadow_texels);
-    map.map_window[0] = vec4(0.0, 0.0, 1.0, 1.0);
-    map.map_right[0] = vec4(cos(angle) * t + sin(angle) * b, 0.0);
-    map.map_up[0] = vec4(cos(angle) * b - sin(angle) * t, 0.0);
-    map.map_forward[0] = vec4(normal, 0.0);
-    for (int face = 1; face < 6; face++)
-        map.map_window[face] = map.map_right[face] = map.map_up[face] = map.map_forward[face] =
-            vec4(0.0);
-    return map;
-}
-
 void main()
 {
     if (gl_GlobalInvocationID.x >= range.y)
@@ -284,11 +246,10 @@ void main()
                max(intensity.r, max(intensity.g, intensity.b)) > 0.0 &&
                dot(s.geometric_normal, r.direction) < 0.0 && dot(s.normal, r.direction) < 0.0;
     vpls[index] = lsf_vpl_data(
-        vec4(position, lit ? 1.0 : 0.0), vec4(s.geometric_normal, pdf * drawn.w),
+        vec4(position, lit ? LSF_VPL_REFLECTS : LSF_VPL_DARK), vec4(s.geometric_normal, pdf * drawn.w),
         vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
         vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_turn), vec4(-r.direction, distance2),
         vec4(intensity, 0.0));
-    float clearance = POSITION_ERROR + NORMAL_ERROR * length(position - met.point);
-    maps[index].map = map_over(position + clearance * s.geometric_normal, s.geometric_normal,
-                               drawn.z);
+    vpl_map_write(index, position, s.geometric_normal, NORMAL_ERROR * length(position - met.point),
+                  drawn.z, shadow_texels);
 }

@@ -8,7 +8,8 @@
 const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT] = {
     {"bidirectional.strategy", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, strategy),
      0, 0, "both|vpl|bundle", "",
-     "how light of punctual lights is sampled: by VPLs and ray-bundles combined, or by one alone"},
+     "how light of punctual lights and emissive surfaces is sampled: by VPLs and ray-bundles "
+     "combined, or by one alone"},
     {"bidirectional.sequence", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, sequence),
      0, 0, "sobol|random", "",
      "numbers that pick lights, VPLs and directions of bundles: low-discrepancy or plain random"},
@@ -59,6 +60,7 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
                         "there are directional lights (%u)", r->directional_lights);
     lsf_plan_switch_add(plan, "LSF_BUNDLE_IMPORTANCE", lsf_plan_find(plan, "bundle.pdf") != NULL,
                         "bundles are drawn by the environment's light");
+    lsf_plan_switch_add(plan, "LSF_EMITTERS", use->vpl_emitter, "VPLs lie on emissive surfaces");
 }
 
 static void plan_vpl(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
@@ -67,6 +69,7 @@ static void plan_vpl(lsf_plan *plan, const lsf_bidirectional_shade_params *param
     lsf_plan_pass_add(plan, vpl_names[deep], "%s",
                       deep ? "VPLs light what bundles met" : "VPLs light visible points");
     plan_switches(plan, params, use, true, deep);
+    lsf_plan_switch_add(plan, "LSF_PUNCTUAL", use->vpl_light, "VPLs reflect punctual lights");
 }
 
 static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
@@ -106,9 +109,10 @@ void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_
     const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
     GLenum gloss_format = gloss ? gloss->texture.internal_format : 0;
     bool specular = plan->requirements.specular;
-    if (use->vpl)
+    bool vpl = use->vpl_light || use->vpl_emitter;
+    if (vpl)
         plan_vpl(plan, params, use, false);
-    if (use->vpl && use->deep_vpl)
+    if (vpl && use->deep_vpl)
         plan_vpl(plan, params, use, true);
     if (use->segments > 0)
         plan_hit(plan, params, use, false);
@@ -200,8 +204,17 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
     if (!create_textures(pass, plan, error) || !create_hit(pass, plan, false, error) ||
         !create_hit(pass, plan, true, error))
         return false;
-    const GLuint sums[2] = {pass->outputs.irradiance, pass->outputs.specular};
-    pass->vpl_framebuffer = create_framebuffer(context, vpl_names[0], sums, 2, error);
+    const lsf_bidirectional_shade_outputs *out = &pass->outputs;
+    const GLuint sums[2][2] = {{out->irradiance, out->specular},
+                               {out->direct_irradiance, out->direct_specular}};
+    for (int direct = 0; direct < 2; direct++) {
+        if (!sums[direct][0])
+            continue;
+        pass->vpl_framebuffers[direct] =
+            create_framebuffer(context, vpl_names[0], sums[direct], 2, error);
+        if (!pass->vpl_framebuffers[direct])
+            return false;
+    }
     for (int deep = 0; deep < 2; deep++) {
         if (!lsf_plan_find_pass(plan, vpl_names[deep]))
             continue;
@@ -213,18 +226,16 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
     pass->vpl_timer = lsf_timer_create(context, "bidirectional_shade_vpl", error);
     pass->hit_timer =
         pass->vpl_timer ? lsf_timer_create(context, "bidirectional_shade_hit", error) : NULL;
-    return pass->vpl_framebuffer && pass->hit_timer;
+    return pass->hit_timer != NULL;
 }
 
 void lsf_bidirectional_shade_clear(lsf_bidirectional_shade *pass)
 {
     static const GLfloat zero[4] = {0};
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    for (int i = 0; i < (pass->outputs.specular ? 2 : 1); i++)
-        glClearNamedFramebufferfv(pass->vpl_framebuffer, GL_COLOR, i, zero);
-    if (pass->outputs.direct_irradiance)
-        for (int i = 1; i < (int)pass->hit_floats[0]; i++)
-            glClearNamedFramebufferfv(pass->hit_framebuffers[0], GL_COLOR, i, zero);
+    for (int direct = 0; direct < 2; direct++)
+        for (int i = 0; pass->vpl_framebuffers[direct] && i < (pass->outputs.specular ? 2 : 1); i++)
+            glClearNamedFramebufferfv(pass->vpl_framebuffers[direct], GL_COLOR, i, zero);
 }
 
 /* Adds to the first `blended` attachments and replaces the others. */
@@ -277,8 +288,9 @@ void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iterat
                                  const lsf_region *region)
 {
     (void)iteration;
+    bool direct = sample->emitter && !deep && pass->outputs.direct_irradiance;
     lsf_timer_begin(pass->vpl_timer);
-    set_state(pass->vpl_framebuffer, pass->outputs.specular ? 2 : 1);
+    set_state(pass->vpl_framebuffers[direct], pass->outputs.specular ? 2 : 1);
     glUseProgram(pass->vpl_programs[deep]);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
@@ -308,7 +320,7 @@ void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iterat
     const lsf_environment *environment = &iteration->scene->scene->environment;
     if (environment->present && !environment->width)
         glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
-    glUniform3f(LSF_LOCATION_ADDED, emission, light, sample->path_count);
+    glUniform4f(LSF_LOCATION_ADDED, emission, light, sample->path_count, sample->emitter_weight);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);
     glDisable(GL_BLEND);
@@ -326,9 +338,10 @@ void lsf_bidirectional_shade_destroy(lsf_bidirectional_shade *pass)
                           &out->gloss,           &pass->throughput};
     for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
         lsf_texture_destroy(pass->context, textures[i]);
-    lsf_framebuffer_destroy(pass->context, &pass->vpl_framebuffer);
-    for (int deep = 0; deep < 2; deep++)
-        lsf_framebuffer_destroy(pass->context, &pass->hit_framebuffers[deep]);
+    for (int i = 0; i < 2; i++) {
+        lsf_framebuffer_destroy(pass->context, &pass->vpl_framebuffers[i]);
+        lsf_framebuffer_destroy(pass->context, &pass->hit_framebuffers[i]);
+    }
     lsf_timer_destroy(pass->vpl_timer);
     lsf_timer_destroy(pass->hit_timer);
     memset(pass, 0, sizeof *pass);

@@ -45,10 +45,10 @@ extern const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SH
 typedef struct lsf_bidirectional_shade_use {
     uint32_t segments;   /* ray-bundles along a path; 0: VPLs light visible points only */
     uint32_t vertices;   /* segments whose hits become vertices */
-    bool vpl;            /* there are VPLs */
+    bool vpl_light;      /* there are VPLs that reflect punctual lights */
+    bool vpl_emitter;    /* there are VPLs on emissive surfaces */
     bool hit_light;      /* hits of bundles reflect punctual lights */
     bool deep_vpl;       /* VPLs are connected to vertices beyond the visible one */
-    bool emission;       /* surfaces or an environment shine into bundles */
     bool split_direct;   /* what they shed on visible points is asked for apart */
     uint32_t interleave; /* size of the pattern, 1: none */
 } lsf_bidirectional_shade_use;
@@ -60,7 +60,10 @@ typedef struct lsf_bidirectional_sample {
     float path_count;              /* bundles that begin a path at a visible point */
     float iterations;              /* that the picture will have, for suppression; 0: it is off */
     float light_probability;       /* of having picked the light in turn */
-    float clamp_distance;          /* 0: no bound */
+    float emitter_weight; /* hits: density by area, for weights, with which VPLs find what emits,
+                           * for each unit of its luminance; 0: they do not */
+    bool emitter;         /* VPLs: the one in turn is on an emissive surface */
+    float clamp_distance; /* 0: no bound */
     /* The bundle that found the vertices, for deep ones: its direction and density [1/sr]. */
     const float *arrival;
     float arrival_pdf;
@@ -86,8 +89,9 @@ typedef struct lsf_bidirectional_shade {
     lsf_bidirectional_shade_params params;
     lsf_bidirectional_shade_outputs outputs;
     GLuint throughput;
-    GLuint vpl_framebuffer, hit_framebuffers[2]; /* [deep] */
-    uint32_t hit_floats[2];                      /* blended attachments of these */
+    GLuint vpl_framebuffers[2]; /* [1]: for light that is asked for apart; 0 unless it is */
+    GLuint hit_framebuffers[2]; /* [deep] */
+    uint32_t hit_floats[2];     /* blended attachments of these */
     GLuint vpl_programs[2], hit_programs[2];
     lsf_timer *vpl_timer, *hit_timer;
 } lsf_bidirectional_shade;

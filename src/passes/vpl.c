@@ -18,7 +18,7 @@ _Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_draw.c
 
 #define GROUP_SIZE 64
 
-/* Storage buffers of vpl_draw. */
+/* Storage buffers of vpl_draw and vpl_emitter. */
 #define BINDING_MAPS 2
 #define BINDING_RANDOM 3
 #define BINDING_SUMS 4
@@ -30,18 +30,18 @@ _Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_draw.c
 
 const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT] = {
     {"vpl.count", LSF_OPTION_INT, offsetof(lsf_vpl_params, count), 0, 4096, NULL, "",
-     "virtual point lights an iteration; 0: none"},
+     "virtual point lights an iteration, of punctual lights and as many on emissive surfaces; 0: "
+     "none"},
     {"vpl.shadow_resolution", LSF_OPTION_INT, offsetof(lsf_vpl_params, shadow_resolution), 16, 4096,
      NULL, "texels", "side of a VPL's shadow map"},
 };
 
-void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params)
+/* Those that light falls on. */
+static void plan_draw(lsf_plan *plan, uint64_t count)
 {
     const lsf_requirements *r = &plan->requirements;
-    uint64_t count = (uint64_t)params->count;
-    uint32_t side = (uint32_t)params->shadow_resolution;
     bool gloss = r->specular && (r->anisotropic || r->glossy || r->variable_ior);
-    lsf_plan_pass_add(plan, "vpl_draw", "%u virtual point lights", (unsigned)count);
+    lsf_plan_pass_add(plan, "vpl_draw", "what punctual lights fall on");
     lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
                         r->spot_lights);
     lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
@@ -51,45 +51,88 @@ void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params)
                         "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_buffer_add(plan, "vpl.vpls", count * sizeof(struct lsf_vpl_data), "vpl.count is %u",
-                        (unsigned)count);
-    lsf_plan_buffer_add(plan, "vpl.maps", count * MAP_STRIDE, "the projection of each one's map");
     lsf_plan_buffer_add(plan, "vpl.random", count * sizeof(lsf_vec4),
                         "what the host draws for each");
+}
+
+void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params, const lsf_vpl_use *use)
+{
+    uint64_t count = (uint64_t)params->count;
+    uint32_t side = (uint32_t)params->shadow_resolution;
+    if (use->lights)
+        plan_draw(plan, count);
+    else
+        lsf_plan_omit(plan, "vpl_draw", "no punctual light bounces");
+    if (use->emitters)
+        lsf_plan_pass_add(plan, "vpl_emitter", "surfaces emit light");
+    else
+        lsf_plan_omit(plan, "vpl_emitter", "no surface emits light");
+    uint64_t total = count * (use->lights && use->emitters ? 2 : 1);
+    lsf_plan_buffer_add(plan, "vpl.vpls", total * sizeof(struct lsf_vpl_data), "vpl.count is %u",
+                        (unsigned)count);
+    lsf_plan_buffer_add(plan, "vpl.maps", total * MAP_STRIDE, "the projection of each one's map");
     lsf_plan_pass_add(plan, "vpl_shadow_map", "what each virtual point light sees");
     lsf_scene_gpu_mask_switches(plan);
-    lsf_plan_texture_add(plan, "vpl.shadow_map", GL_R32UI, side, side,
-                         "vpl.shadow_resolution is %u", side);
+    if (use->lights)
+        lsf_plan_texture_add(plan, "vpl.shadow_map", GL_R32UI, side, side,
+                             "vpl.shadow_resolution is %u", side);
+    if (use->emitters)
+        lsf_plan_texture_add(plan, "vpl.emitter_map", GL_R32UI, side, side,
+                             "vpl.shadow_resolution is %u", side);
     lsf_scene_gpu_plan_triangles(plan);
     if (lsf_plan_find(plan, "scene.triangles")) {
-        lsf_plan_buffer_add(plan, "vpl.large", r->triangles * 4 * sizeof(uint32_t),
+        lsf_plan_buffer_add(plan, "vpl.large", plan->requirements.triangles * 4 * sizeof(uint32_t),
                             "triangles that the pipeline draws, at most all in four octants");
         lsf_plan_buffer_add(plan, "vpl.command", 4 * sizeof(uint32_t), "draws them");
     }
 }
 
+static bool create_buffers(lsf_vpl *pass, const lsf_plan *plan, lsf_error *error)
+{
+    lsf_context *context = pass->context;
+    lsf_vpl_outputs *out = &pass->outputs;
+    return lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error) &&
+           lsf_plan_create_buffer(plan, context, "vpl.maps", NULL, 0, &out->maps, error) &&
+           lsf_plan_create_buffer(plan, context, "vpl.random", NULL, GL_DYNAMIC_STORAGE_BIT,
+                                  &pass->random, error) &&
+           lsf_plan_create_buffer(plan, context, "vpl.large", NULL, 0, &pass->large, error) &&
+           lsf_plan_create_buffer(plan, context, "vpl.command", NULL, GL_DYNAMIC_STORAGE_BIT,
+                                  &pass->command, error) &&
+           lsf_plan_create_texture(plan, context, "vpl.shadow_map", &out->shadow_map, error) &&
+           lsf_plan_create_texture(plan, context, "vpl.emitter_map", &out->emitter_map, error);
+}
+
+/* Program and timer of a pass; both stay 0, with success, when the plan does not list it. */
+static bool create_placing(lsf_vpl *pass, const lsf_plan *plan, const char *name, GLuint *program,
+                           lsf_timer **timer, lsf_error *error)
+{
+    const char *const files[5] = {strcmp(name, "vpl_draw") == 0 ? "passes/vpl_draw.comp.glsl"
+                                                                : "passes/vpl_emitter.comp.glsl"};
+    if (!lsf_plan_find_pass(plan, name))
+        return true;
+    *program = lsf_plan_program(plan, pass->context, name, files, error);
+    *timer = *program ? lsf_timer_create(pass->context, name, error) : NULL;
+    return *timer != NULL;
+}
+
 bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
                     const lsf_vpl_params *params, lsf_error *error)
 {
-    static const char *const draw_files[5] = {"passes/vpl_draw.comp.glsl"};
     static const char *const small_files[5] = {"passes/vpl_small.comp.glsl"};
     static const char *const large_files[5] = {"passes/vpl_large.vert.glsl",
                                                "passes/vpl_large.frag.glsl"};
     static const char *const map_files[5] = {"passes/vpl_shadow_map.vert.glsl",
                                              "passes/vpl_shadow_map.frag.glsl"};
-    lsf_vpl_outputs *out = &pass->outputs;
     *pass = (lsf_vpl){.context = context,
                       .masked = plan->requirements.masked,
                       .count = (uint32_t)params->count,
+                      .first_emitter =
+                          lsf_plan_find_pass(plan, "vpl_draw") ? (uint32_t)params->count : 0,
                       .shadow_resolution = (uint32_t)params->shadow_resolution};
-    if (!lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error) ||
-        !lsf_plan_create_buffer(plan, context, "vpl.maps", NULL, 0, &out->maps, error) ||
-        !lsf_plan_create_buffer(plan, context, "vpl.random", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                &pass->random, error) ||
-        !lsf_plan_create_buffer(plan, context, "vpl.large", NULL, 0, &pass->large, error) ||
-        !lsf_plan_create_buffer(plan, context, "vpl.command", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                &pass->command, error) ||
-        !lsf_plan_create_texture(plan, context, "vpl.shadow_map", &out->shadow_map, error))
+    if (!create_buffers(pass, plan, error) ||
+        !create_placing(pass, plan, "vpl_draw", &pass->draw_program, &pass->draw_timer, error) ||
+        !create_placing(pass, plan, "vpl_emitter", &pass->emitter_program, &pass->emitter_timer,
+                        error))
         return false;
     lsf_framebuffer_desc desc = {.label = "vpl_shadow_map",
                                  .layer = -1,
@@ -97,14 +140,18 @@ bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
                                  .height = pass->shadow_resolution};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     glCreateVertexArrays(1, &pass->vertex_array);
-    pass->draw_program = lsf_plan_program(plan, context, "vpl_draw", draw_files, error);
     pass->small_program = lsf_plan_program(plan, context, "vpl_shadow_map", small_files, error);
     pass->large_program = lsf_plan_program(plan, context, "vpl_shadow_map", large_files, error);
     pass->map_program = lsf_plan_program(plan, context, "vpl_shadow_map", map_files, error);
-    pass->draw_timer = lsf_timer_create(context, "vpl_draw", error);
     pass->map_timer = lsf_timer_create(context, "vpl_shadow_map", error);
-    return pass->framebuffer && pass->draw_program && pass->small_program && pass->large_program &&
-           pass->map_program && pass->draw_timer && pass->map_timer;
+    return pass->framebuffer && pass->small_program && pass->large_program && pass->map_program &&
+           pass->map_timer;
+}
+
+/* Of the map of VPL `index` of all iterations about its normal, 0..1. */
+static float turn_of(const lsf_iteration *iteration, uint32_t index)
+{
+    return lsf_sobol_1d(index, lsf_iteration_seed(iteration, PURPOSE_TURN));
 }
 
 /* The VPLs of all iterations are one low-discrepancy sequence. */
@@ -112,8 +159,8 @@ static lsf_vec4 random_of(const lsf_iteration *iteration, uint32_t index, float 
 {
     uint32_t point[2];
     lsf_iteration_sample(iteration, index, PURPOSE_DIRECTION, point);
-    float turn = lsf_sobol_1d(index, lsf_iteration_seed(iteration, PURPOSE_TURN));
-    return (lsf_vec4){lsf_unit_float(point[0]), lsf_unit_float(point[1]), turn, light_probability};
+    return (lsf_vec4){lsf_unit_float(point[0]), lsf_unit_float(point[1]), turn_of(iteration, index),
+                      light_probability};
 }
 
 void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first, uint32_t count,
@@ -148,6 +195,30 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
     lsf_timer_end(pass->draw_timer);
 }
 
+void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
+                  const lsf_emitter_sample *sample)
+{
+    const float *p = sample->position, *n = sample->normal, *l = sample->radiance;
+    lsf_timer_begin(pass->emitter_timer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
+    glUseProgram(pass->emitter_program);
+    glUniform1ui(0, index);
+    glUniform4f(1, p[0], p[1], p[2],
+                turn_of(iteration, iteration->index * pass->count + index - pass->first_emitter));
+    glUniform4f(2, n[0], n[1], n[2], sample->density);
+    glUniform4f(3, l[0], l[1], l[2], sample->weight_density);
+    glUniform1f(4, (float)pass->shadow_resolution);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
+    lsf_timer_end(pass->emitter_timer);
+}
+
+static GLuint map_of(const lsf_vpl *pass, uint32_t index)
+{
+    return index < pass->first_emitter ? pass->outputs.shadow_map : pass->outputs.emitter_map;
+}
+
 static void bind_map(const lsf_vpl *pass, uint32_t index)
 {
     glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, pass->outputs.maps,
@@ -179,12 +250,13 @@ static void draw_triangles(lsf_vpl *pass, const lsf_iteration *iteration)
 void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index)
 {
     static const GLuint nothing = 0;
+    GLuint map = map_of(pass, index);
     lsf_timer_begin(pass->map_timer);
     bind_map(pass, index);
     /* Whoever reads the map before this one is done with it. */
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    glClearTexImage(pass->outputs.shadow_map, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
-    glBindImageTexture(0, pass->outputs.shadow_map, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+    glClearTexImage(map, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
+    glBindImageTexture(0, map, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
     glViewport(0, 0, (GLsizei)pass->shadow_resolution, (GLsizei)pass->shadow_resolution);
     glDisable(GL_CULL_FACE);
@@ -210,7 +282,7 @@ void lsf_vpl_bind(const lsf_vpl *pass, uint32_t index)
 {
     bind_map(pass, index);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
-    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, pass->outputs.shadow_map);
+    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, map_of(pass, index));
 }
 
 void lsf_vpl_destroy(lsf_vpl *pass)
@@ -220,12 +292,14 @@ void lsf_vpl_destroy(lsf_vpl *pass)
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     glDeleteVertexArrays(1, &pass->vertex_array);
     lsf_texture_destroy(pass->context, &pass->outputs.shadow_map);
+    lsf_texture_destroy(pass->context, &pass->outputs.emitter_map);
     lsf_buffer_destroy(pass->context, &pass->large);
     lsf_buffer_destroy(pass->context, &pass->command);
     lsf_buffer_destroy(pass->context, &pass->outputs.vpls);
     lsf_buffer_destroy(pass->context, &pass->outputs.maps);
     lsf_buffer_destroy(pass->context, &pass->random);
     lsf_timer_destroy(pass->draw_timer);
+    lsf_timer_destroy(pass->emitter_timer);
     lsf_timer_destroy(pass->map_timer);
     memset(pass, 0, sizeof *pass);
 }

@@ -1,6 +1,6 @@
 #include "reference/surface.h"
 
-#include "reference/texture.h"
+#include "scene/texture_sample.h"
 #include "shared/brdf.h"
 
 /* A hit's place in the vertex streams. */
@@ -26,31 +26,31 @@ static void interpolate(const float *stream, int components, const corner_weight
     }
 }
 
-static lsf_reference_texel sample_slot(const lsf_scene *scene, const lsf_texture_slot *slot,
+static lsf_texel sample_slot(const lsf_scene *scene, const lsf_texture_slot *slot,
                                        const corner_weights *at)
 {
     float uv[2] = {0.0f, 0.0f};
     const float *stream = slot->uv_set == 0 ? scene->vertices.uv0 : scene->vertices.uv1;
     if (stream != NULL)
         interpolate(stream, 2, at, uv);
-    return lsf_reference_texture_sample(scene, slot, uv);
+    return lsf_texture_sample(scene, slot, uv);
 }
 
 /* Base colour and alpha: factor, texture and vertex colour. */
-static lsf_reference_texel base_color(const lsf_scene *scene, const lsf_material *material,
+static lsf_texel base_color(const lsf_scene *scene, const lsf_material *material,
                                       const corner_weights *at)
 {
     const float *f = material->base_color;
-    lsf_reference_texel color = {f[0], f[1], f[2], f[3]};
+    lsf_texel color = {f[0], f[1], f[2], f[3]};
     if (material->base_color_texture.texture != LSF_NONE) {
-        lsf_reference_texel t = sample_slot(scene, &material->base_color_texture, at);
-        color = (lsf_reference_texel){color.r * t.r, color.g * t.g, color.b * t.b, color.a * t.a};
+        lsf_texel t = sample_slot(scene, &material->base_color_texture, at);
+        color = (lsf_texel){color.r * t.r, color.g * t.g, color.b * t.b, color.a * t.a};
     }
     if (scene->vertices.color != NULL) {
         float c[4];
         interpolate(scene->vertices.color, 4, at, c);
         color =
-            (lsf_reference_texel){color.r * c[0], color.g * c[1], color.b * c[2], color.a * c[3]};
+            (lsf_texel){color.r * c[0], color.g * c[1], color.b * c[2], color.a * c[3]};
     }
     return color;
 }
@@ -85,12 +85,12 @@ lsf_float3 lsf_reference_emission(const lsf_reference_geometry *geometry,
         return lsf_f3(0.0f, 0.0f, 0.0f);
     corner_weights at = find_weights(geometry, hit);
     if (material->unlit) {
-        lsf_reference_texel color = base_color(geometry->scene, material, &at);
+        lsf_texel color = base_color(geometry->scene, material, &at);
         return lsf_f3(color.r, color.g, color.b);
     }
     lsf_float3 emission = lsf_f3_load(material->emission);
     if (material->emissive_texture.texture != LSF_NONE) {
-        lsf_reference_texel t = sample_slot(geometry->scene, &material->emissive_texture, &at);
+        lsf_texel t = sample_slot(geometry->scene, &material->emissive_texture, &at);
         emission = lsf_f3_mul(emission, lsf_f3(t.r, t.g, t.b));
     }
     return emission;
@@ -154,7 +154,7 @@ static lsf_basis vertex_frame(const lsf_reference_geometry *geometry,
 static lsf_basis map_normal(const lsf_scene *scene, const lsf_material *material,
                             const corner_weights *at, lsf_basis frame)
 {
-    lsf_reference_texel t = sample_slot(scene, &material->normal_texture, at);
+    lsf_texel t = sample_slot(scene, &material->normal_texture, at);
     lsf_float3 local = lsf_f3((2.0f * t.r - 1.0f) * material->normal_scale,
                               (2.0f * t.g - 1.0f) * material->normal_scale, 2.0f * t.b - 1.0f);
     lsf_float3 n = lsf_f3_normalize_or(lsf_basis_to_world(&frame, local), frame.n);
@@ -173,7 +173,7 @@ static float orient_anisotropy(const lsf_scene *scene, const lsf_material *mater
     float strength = material->anisotropy_strength;
     float x = 1.0f, y = 0.0f;
     if (material->anisotropy_texture.texture != LSF_NONE) {
-        lsf_reference_texel t = sample_slot(scene, &material->anisotropy_texture, at);
+        lsf_texel t = sample_slot(scene, &material->anisotropy_texture, at);
         x = 2.0f * t.r - 1.0f;
         y = 2.0f * t.g - 1.0f;
         strength *= t.b;
@@ -195,7 +195,7 @@ static void read_lobes(lsf_reference_surface *surface, const lsf_scene *scene,
 {
     float metallic = material->metallic, roughness = material->roughness;
     if (material->metallic_roughness_texture.texture != LSF_NONE) {
-        lsf_reference_texel t = sample_slot(scene, &material->metallic_roughness_texture, at);
+        lsf_texel t = sample_slot(scene, &material->metallic_roughness_texture, at);
         roughness *= t.g;
         metallic *= t.b;
     }
@@ -242,7 +242,7 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
         .alpha_t = 1.0f,
         .alpha_b = 1.0f,
     };
-    lsf_reference_texel color = base_color(scene, material, &at);
+    lsf_texel color = base_color(scene, material, &at);
     surface->base_color = lsf_f3(color.r, color.g, color.b);
     surface->frame = vertex_frame(geometry, instance, &at, normal);
     if (surface->specular) {

@@ -14,29 +14,18 @@
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl.h"
 #include "shared/scene_data.h"
+#include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
 
 /* Random numbers that pick the light of each sample. */
 #define PURPOSE_LIGHT 0x40000
-
-/* How samples are spent, decided from the scene and the options. */
-typedef struct sampling {
-    uint32_t bounces; /* that light of punctual lights takes */
-    uint32_t vpl_count, bundle_count;
-    uint32_t segments; /* bundles along a path */
-    uint32_t vertices; /* of these, whose hits become vertices */
-    bool vpl_light;    /* punctual lights shine by VPLs */
-    bool bundle_light; /* and by the hits of bundles */
-    bool emission;     /* surfaces or the environment shine into bundles */
-    bool whole_scene;
-    bool split_direct;
-    uint32_t interleave, tiles;
-} sampling;
+/* And those that pick a point on emissive surfaces. */
+#define PURPOSE_EMITTER 0x40001
 
 typedef struct bidirectional {
     lsf_context *context;
-    sampling sampling;
+    lsf_bidirectional_sampling sampling;
     lsf_direct_chain chain;
     lsf_reflective_shadow_map rsm;
     lsf_vpl vpl;
@@ -47,174 +36,51 @@ typedef struct bidirectional {
     lsf_bidirectional_shade shade;
     lsf_interleave interleave;
     lsf_compose compose;
-    lsf_distribution light_power;
+    lsf_emitters emitters; /* empty unless they shine as VPLs */
+    lsf_distribution light_picks;
     uint32_t *lights; /* that each sample of the iteration takes */
     lsf_bidirectional_shade_params shade_params;
 } bidirectional;
 
-static uint32_t max_u32(uint32_t a, uint32_t b)
+/* Of an iteration: a VPL of each kind, a path along bundles, or some of these. */
+static uint32_t sample_count(const lsf_bidirectional_sampling *s)
 {
-    return a > b ? a : b;
+    uint32_t count = s->vpl_count > s->bundle_count ? s->vpl_count : s->bundle_count;
+    return count > s->emitter_count ? count : s->emitter_count;
 }
 
-static bool punctual_light_shines(const lsf_state *state)
+/* Half of the samples by power, half evenly among the lights that shine: one with much power may do
+ * little in view, as a sun outside does, and must not take all from those that do. */
+static bool create_light_picks(bidirectional *b, const lsf_state *state, lsf_error *error)
 {
-    for (uint32_t i = 0; i < state->light_count; i++)
-        if (lsf_light_power(&state->lights[i]) > 0.0f)
-            return true;
-    return false;
-}
-
-static sampling choose_sampling(const lsf_plan *plan, const lsf_pass_params *params,
-                                const lsf_state *state)
-{
-    const lsf_requirements *r = &plan->requirements;
-    int strategy = params->bidirectional_shade.strategy;
-    int window = params->ray_bundle.window;
-    bool punctual = punctual_light_shines(state) && plan->bounces > 0;
-    sampling s = {.bounces = plan->bounces,
-                  .vpl_count = (uint32_t)params->vpl.count,
-                  .bundle_count = (uint32_t)params->ray_bundle.count,
-                  .emission = r->emissive || r->unlit || r->environment,
-                  .interleave = (uint32_t)params->interleave.size,
-                  .tiles = (uint32_t)(params->interleave.size * params->interleave.size)};
-    s.vpl_light = punctual && strategy != LSF_BIDIRECTIONAL_BUNDLE && s.vpl_count > 0;
-    s.bundle_light = punctual && strategy != LSF_BIDIRECTIONAL_VPL;
-    if (s.emission)
-        s.segments = plan->bounces + 1;
-    else if (s.bundle_light)
-        s.segments = plan->bounces;
-    else if (s.vpl_light)
-        s.segments = plan->bounces - 1;
-    s.whole_scene = window == LSF_RAY_BUNDLE_WINDOW_SCENE ||
-                    (window == LSF_RAY_BUNDLE_WINDOW_AUTO && s.segments > 1);
-    if (!s.whole_scene && s.segments > 1)
-        s.segments = 1;
-    if (!s.vpl_light)
-        s.vpl_count = 0;
-    if (s.segments > 0)
-        s.vertices = s.vpl_light && s.bounces > s.segments ? s.segments : s.segments - 1;
-    if (s.segments == 0)
-        s.bundle_count = 0;
-    else
-        s.bundle_count = max_u32(s.bundle_count, max_u32(s.segments, s.tiles));
-    if (s.vpl_light)
-        s.vpl_count = max_u32(s.vpl_count, s.tiles);
-    if (!s.vpl_light && s.segments == 0)
-        s.interleave = s.tiles = 1;
-    s.split_direct =
-        s.emission && s.interleave == 1 &&
-        (plan->aovs & (LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR));
-    return s;
-}
-
-static lsf_ray_bundle_use bundle_use(const sampling *s)
-{
-    return (lsf_ray_bundle_use){.count = s->bundle_count,
-                                .slots = s->segments > 1 ? s->bundle_count : 1,
-                                .whole_scene = s->whole_scene,
-                                .interleave = s->interleave,
-                                .deep_vertices = s->segments > 1};
-}
-
-static lsf_vpl_params vpl_params(const lsf_pass_params *params, const sampling *s)
-{
-    lsf_vpl_params vpl = params->vpl;
-    vpl.count = (int32_t)s->vpl_count;
-    return vpl;
-}
-
-static void remark(lsf_plan *plan, const lsf_pass_params *params, const sampling *s)
-{
-    const lsf_requirements *r = &plan->requirements;
-    if (r->transmissive)
-        lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
-    if (s->bundle_count > (uint32_t)params->ray_bundle.count)
-        lsf_plan_remark(plan,
-                        "%u bundles an iteration instead of %d: paths of %u segments need as many "
-                        "independent directions, and each of %u tiles a sample",
-                        s->bundle_count, params->ray_bundle.count, s->segments, s->tiles);
-    if (s->vpl_light && s->vpl_count > (uint32_t)params->vpl.count)
-        lsf_plan_remark(plan, "%u VPLs an iteration instead of %d: each of %u tiles needs one",
-                        s->vpl_count, params->vpl.count, s->tiles);
-    if (s->emission && s->interleave > 1)
-        lsf_plan_remark(plan, "with interleave.size above 1, direct light of surfaces and "
-                              "environments is in the indirect layers");
-    if (!s->whole_scene && plan->bounces > 2)
-        lsf_plan_remark(plan,
-                        "bundle.window=visible ends paths after one bundle: %u bounces are "
-                        "2 at most, and of light from surfaces and environments none",
-                        plan->bounces);
-    else if (!s->whole_scene && s->emission && plan->bounces > 0)
-        lsf_plan_remark(plan, "bundle.window=visible ends paths after one bundle: light from "
-                              "surfaces and environments does not bounce");
-}
-
-static void plan_bidirectional(lsf_plan *plan, const lsf_pass_params *params,
-                               const lsf_state *state)
-{
-    sampling s = choose_sampling(plan, params, state);
-    lsf_vpl_params vpl = vpl_params(params, &s);
-    plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
-    lsf_direct_chain_plan(plan, params, state);
-    if (s.interleave > 1)
-        lsf_interleave_plan(plan, &params->interleave);
-    else
-        lsf_plan_omit(plan, "interleave", "%s",
-                      params->interleave.size > 1 ? "no light bounces" : "interleave.size is 1");
-    if (s.vpl_light || s.bundle_light)
-        lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, state);
-    else
-        lsf_plan_omit(plan, "reflective_shadow_map", "no punctual light bounces");
-    if (s.vpl_light)
-        lsf_vpl_plan(plan, &vpl);
-    else
-        lsf_plan_omit(plan, "vpl",
-                      s.bundle_light ? "bidirectional.strategy is bundle"
-                                     : "no punctual light bounces");
-    if (s.segments > 0) {
-        lsf_ray_bundle_use use = bundle_use(&s);
-        lsf_bundle_directions_plan(plan);
-        lsf_ray_bundle_plan(plan, &params->ray_bundle, &use);
-    } else {
-        lsf_plan_omit(plan, "ray_bundle",
-                      s.vpl_light ? "VPLs alone light visible points" : "no light bounces");
-    }
-    bool indirect = s.vpl_light || s.segments > 0;
-    if (indirect) {
-        lsf_bidirectional_shade_use use = {.segments = s.segments,
-                                           .vertices = s.vertices,
-                                           .vpl = s.vpl_light,
-                                           .hit_light = s.bundle_light,
-                                           .deep_vpl = s.segments > 0 && s.bounces > 1,
-                                           .emission = s.emission,
-                                           .split_direct = s.split_direct,
-                                           .interleave = s.interleave};
-        lsf_bidirectional_shade_plan(plan, &params->bidirectional_shade, &use);
-    } else {
-        lsf_plan_omit(plan, "bidirectional_shade", "no light bounces");
-    }
-    lsf_compose_plan(plan, &(lsf_compose_use){.direct = state->light_count > 0,
-                                              .indirect = indirect,
-                                              .split_direct = s.split_direct});
-    remark(plan, params, &s);
-}
-
-static bool create_light_power(bidirectional *b, const lsf_state *state, lsf_error *error)
-{
-    float *weights = lsf_alloc(state->light_count, sizeof *weights);
-    for (uint32_t i = 0; weights && i < state->light_count; i++)
+    uint32_t count = state->light_count, shining = 0;
+    float *weights = lsf_alloc(count, sizeof *weights), sum = 0.0f;
+    for (uint32_t i = 0; weights && i < count; i++) {
         weights[i] = lsf_light_power(&state->lights[i]);
-    bool good = weights && lsf_distribution_init(&b->light_power, weights, state->light_count);
+        sum += weights[i];
+        shining += weights[i] > 0.0f;
+    }
+    for (uint32_t i = 0; weights && i < count; i++)
+        if (weights[i] > 0.0f)
+            weights[i] = weights[i] / sum + 1.0f / (float)shining;
+    bool good = weights && lsf_distribution_init(&b->light_picks, weights, count);
     free(weights);
     return good || lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights",
                                  state->light_count);
 }
 
+static bool create_emitters(bidirectional *b, const lsf_scene *scene, const lsf_state *state,
+                            lsf_error *error)
+{
+    return lsf_emitters_init(&b->emitters, scene, state) ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the scene's %llu triangles",
+                         (unsigned long long)scene->requirements.triangles);
+}
+
 static bool create_bundles(bidirectional *b, lsf_context *context, const lsf_plan *plan,
                            const lsf_pass_params *params, const lsf_scene *scene, lsf_error *error)
 {
-    lsf_ray_bundle_use use = bundle_use(&b->sampling);
+    lsf_ray_bundle_use use = lsf_bidirectional_bundle_use(&b->sampling);
     b->aims = lsf_alloc(b->sampling.bundle_count, sizeof *b->aims);
     if (!b->aims)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
@@ -237,18 +103,20 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
     if (!b)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     b->context = context;
-    sampling s = b->sampling = choose_sampling(plan, params, state);
-    lsf_vpl_params vpl = vpl_params(params, &s);
+    lsf_bidirectional_sampling s = b->sampling =
+        lsf_bidirectional_sampling_choose(plan, params, state);
+    lsf_vpl_params vpl = lsf_bidirectional_vpl_params(params, &s);
     b->shade_params = params->bidirectional_shade;
-    uint32_t draws = max_u32(max_u32(s.vpl_count, s.bundle_count), 1);
+    uint32_t draws = sample_count(&s);
     b->lights = lsf_alloc(draws, sizeof *b->lights);
     if (!b->lights)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u samples", draws);
     return lsf_direct_chain_create(&b->chain, context, plan, params, scene, error) &&
            ((!s.vpl_light && !s.bundle_light) ||
-            (create_light_power(b, state, error) &&
+            (create_light_picks(b, state, error) &&
              lsf_reflective_shadow_map_create(&b->rsm, context, plan, error))) &&
-           (!s.vpl_light || lsf_vpl_create(&b->vpl, context, plan, &vpl, error)) &&
+           (!s.vpl_emitter || create_emitters(b, scene->scene, state, error)) &&
+           (vpl.count == 0 || lsf_vpl_create(&b->vpl, context, plan, &vpl, error)) &&
            (s.segments == 0 || create_bundles(b, context, plan, params, scene->scene, error)) &&
            (!lsf_plan_find(plan, "bidirectional_shade.irradiance") ||
             lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
@@ -258,14 +126,18 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
            lsf_compose_create(&b->compose, context, plan, error);
 }
 
-/* Each sample takes the light of one punctual light, picked by power. */
+/* Each sample takes the light of one punctual light. A path beyond the VPLs goes with one of
+ * theirs, so that a VPL of its light is there. */
 static void pick_lights(bidirectional *b, const lsf_iteration *iteration, uint32_t count)
 {
+    uint32_t picked = b->sampling.vpl_count > 0 ? b->sampling.vpl_count : count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t bits[2];
-        lsf_iteration_sample(iteration, iteration->index * count + i, PURPOSE_LIGHT, bits);
+        lsf_iteration_sample(iteration, iteration->index * picked + i, PURPOSE_LIGHT, bits);
         b->lights[i] =
-            (uint32_t)lsf_distribution_sample(&b->light_power, lsf_unit_double(bits[0]), NULL);
+            i < picked
+                ? (uint32_t)lsf_distribution_sample(&b->light_picks, lsf_unit_double(bits[0]), NULL)
+                : b->lights[i % picked];
     }
 }
 
@@ -284,51 +156,75 @@ static float suppressed_iterations(const bidirectional *b, const lsf_iteration *
     return samples == UINT32_MAX ? (float)iteration->index + 1.0f : (float)samples;
 }
 
-/* One sample: a VPL, and a path along bundles that begins with one of the same number. */
+static float light_probability(const bidirectional *b, uint32_t light)
+{
+    return (float)lsf_distribution_probability(&b->light_picks, light);
+}
+
+/* One sample: a VPL of each kind, and a path along bundles that begins with one of the same number.
+ */
 typedef struct sample_turn {
     bidirectional *b;
     const lsf_iteration *iteration;
     lsf_bidirectional_shade_inputs inputs;
     lsf_region region;
-    float tile_vpls, tile_bundles; /* that the region's pixels get */
+    float tile_vpls, tile_bundles; /* that the region's pixels get; VPLs of each kind */
     float iterations;
-    uint32_t vpl; /* whose map is there */
-    float vpl_probability;
+    uint32_t vpl, emitter; /* whose maps are there; LSF_NONE: no such */
+    float light_probability;
 } sample_turn;
 
-static float light_probability(const bidirectional *b, uint32_t light)
-{
-    return (float)lsf_distribution_probability(&b->light_power, light);
-}
-
-static void connect_vpl(sample_turn *turn, bool deep, const lsf_bidirectional_sample *sample)
+static void connect_vpl(sample_turn *turn, bool deep, uint32_t vpl,
+                        const lsf_bidirectional_sample *sample)
 {
     bidirectional *b = turn->b;
     lsf_bidirectional_shade_inputs inputs = turn->inputs;
     inputs.bundle_pdf = b->bundle_pdf;
-    lsf_vpl_bind(&b->vpl, turn->vpl);
-    inputs.map_depth = b->vpl.outputs.shadow_map;
+    lsf_vpl_bind(&b->vpl, vpl);
+    inputs.map_depth = sample->emitter ? b->vpl.outputs.emitter_map : b->vpl.outputs.shadow_map;
     inputs.map_gradient = 0; /* in the same texels */
-    lsf_bidirectional_shade_vpl(&b->shade, turn->iteration, &inputs, sample, deep, turn->vpl,
+    lsf_bidirectional_shade_vpl(&b->shade, turn->iteration, &inputs, sample, deep, vpl,
                                 &turn->region);
 }
 
-static void shade_by_vpl(sample_turn *turn)
+/* Joins visible points to the VPL of either kind. */
+static void connect_visible(sample_turn *turn, bool emitter)
 {
-    const sampling *s = &turn->b->sampling;
+    const lsf_bidirectional_sampling *s = &turn->b->sampling;
+    bool shared = emitter ? s->bundle_emitter : s->bundle_light;
     lsf_bidirectional_sample sample = {.vpl_count = turn->tile_vpls,
-                                       .bundle_count = s->bundle_light ? turn->tile_bundles : 0.0f,
+                                       .bundle_count = shared ? turn->tile_bundles : 0.0f,
                                        .weight = 1.0f / turn->tile_vpls,
                                        .iterations = turn->iterations,
-                                       .light_probability = turn->vpl_probability};
-    connect_vpl(turn, false, &sample);
+                                       .light_probability = turn->light_probability,
+                                       .emitter = emitter};
+    connect_vpl(turn, false, emitter ? turn->emitter : turn->vpl, &sample);
+}
+
+/* Joins the vertices that the segment found to the VPL of either kind. */
+static void connect_deep(sample_turn *turn, lsf_bidirectional_sample sample, uint32_t segment,
+                         bool emitter)
+{
+    const lsf_bidirectional_sampling *s = &turn->b->sampling;
+    uint32_t vpl = emitter ? turn->emitter : turn->vpl;
+    uint32_t bounces = emitter ? segment : segment + 1;
+    if (vpl == LSF_NONE || bounces > s->bounces)
+        return;
+    /* Where no further bundle competes, the connection's 1/d^2 has nothing against it but a bound.
+     */
+    bool shared = emitter ? s->bundle_emitter : s->bundle_light;
+    bool alone = !shared || segment == s->segments;
+    sample.bundle_count = alone ? 0.0f : 1.0f;
+    sample.clamp_distance = alone ? turn->b->shade_params.clamp_distance : 0.0f;
+    sample.emitter = emitter;
+    connect_vpl(turn, true, vpl, &sample);
 }
 
 /* One bundle's length of a path: from visible points (segment 1) or from the hits before. */
 static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, uint32_t light)
 {
     bidirectional *b = turn->b;
-    const sampling *s = &b->sampling;
+    const lsf_bidirectional_sampling *s = &b->sampling;
     bool deep = segment > 1;
     uint32_t bundle = (first + segment - 1) % s->bundle_count;
     uint32_t before = (first + segment + s->bundle_count - 2) % s->bundle_count;
@@ -340,17 +236,20 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
     inputs.hits =
         lsf_ray_bundle_search(b->bundle, turn->iteration, bundle, &origins, &turn->region);
     /* Beyond the visible point each path is joined to one VPL. */
-    lsf_bidirectional_sample sample = {.vpl_count = !s->vpl_light ? 0.0f
-                                                    : deep        ? 1.0f
-                                                                  : turn->tile_vpls,
-                                       .bundle_count = deep ? 1.0f : turn->tile_bundles,
-                                       .weight = 1.0f / turn->tile_bundles,
-                                       .path_count = turn->tile_bundles,
-                                       .iterations = turn->iterations,
-                                       .light_probability =
-                                           lit ? light_probability(b, light) : 1.0f,
-                                       .arrival = b->aims[before].direction,
-                                       .arrival_pdf = b->aims[before].pdf};
+    lsf_bidirectional_sample sample = {
+        .vpl_count = !s->vpl_light && !s->vpl_emitter ? 0.0f
+                     : deep                           ? 1.0f
+                                                      : turn->tile_vpls,
+        .bundle_count = deep ? 1.0f : turn->tile_bundles,
+        .weight = 1.0f / turn->tile_bundles,
+        .path_count = turn->tile_bundles,
+        .iterations = turn->iterations,
+        .light_probability = lit ? light_probability(b, light) : 1.0f,
+        .emitter_weight = s->vpl_emitter ? lsf_emitters_weight(&b->emitters) : 0.0f,
+        .arrival = b->aims[before].direction,
+        .arrival_pdf = b->aims[before].pdf};
+    if (s->vpl_emitter && !s->bundle_emitter)
+        sample.bundle_count = 0.0f; /* nor do they share the light of punctual ones */
     inputs.bundle_pdf = b->bundle_pdf;
     if (lit) {
         inputs.map_depth = b->rsm.outputs.depth;
@@ -361,39 +260,50 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
     lsf_ray_bundle_bind(b->bundle, bundle);
     lsf_bidirectional_shade_hit(&b->shade, turn->iteration, &inputs, &sample, deep, s->emission,
                                 lit, &turn->region);
-    if (!s->vpl_light || segment + 1 > s->bounces)
-        return;
-    /* Where no further bundle competes, the connection's 1/d^2 has nothing against it but a bound.
-     */
-    bool alone = !s->bundle_light || segment == s->segments;
-    sample.bundle_count = alone ? 0.0f : 1.0f;
-    sample.clamp_distance = alone ? b->shade_params.clamp_distance : 0.0f;
-    sample.light_probability = turn->vpl_probability;
     sample.arrival = b->aims[bundle].direction;
     sample.arrival_pdf = b->aims[bundle].pdf;
-    connect_vpl(turn, true, &sample);
+    sample.light_probability = turn->light_probability;
+    connect_deep(turn, sample, segment, false);
+    connect_deep(turn, sample, segment, true);
 }
 
-static void run_sample(sample_turn *turn, uint32_t i)
+static void place_on_emitter(sample_turn *turn, uint32_t i)
 {
     bidirectional *b = turn->b;
-    const sampling *s = &b->sampling;
+    uint32_t bits[2];
+    lsf_iteration_sample(turn->iteration, turn->iteration->index * b->sampling.emitter_count + i,
+                         PURPOSE_EMITTER, bits);
+    const double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
+    lsf_emitter_sample sample = lsf_emitters_sample(&b->emitters, u);
+    turn->emitter = b->vpl.first_emitter + i;
+    lsf_vpl_emit(&b->vpl, turn->iteration, turn->emitter, &sample);
+}
+
+static void run_sample(sample_turn *turn, uint32_t i, uint32_t light)
+{
+    bidirectional *b = turn->b;
+    const lsf_bidirectional_sampling *s = &b->sampling;
     uint32_t tile = i % s->tiles;
     turn->region = lsf_interleave_region(turn->iteration->plan, s->interleave, tile);
-    turn->tile_vpls = dealt(s->vpl_count, s->tiles, tile);
+    turn->tile_vpls = dealt(s->vpl_light ? s->vpl_count : s->emitter_count, s->tiles, tile);
     turn->tile_bundles = dealt(s->bundle_count, s->tiles, tile);
     if (i < s->vpl_count) {
         turn->vpl = i;
-        turn->vpl_probability = light_probability(b, b->lights[i]);
+        turn->light_probability = light_probability(b, light);
         lsf_vpl_shadow_map(&b->vpl, turn->iteration, i);
-        shade_by_vpl(turn);
+        connect_visible(turn, false);
+    }
+    if (i < s->emitter_count && b->emitters.power.sum > 0.0) {
+        place_on_emitter(turn, i);
+        lsf_vpl_shadow_map(&b->vpl, turn->iteration, turn->emitter);
+        connect_visible(turn, true);
     }
     if (i >= s->bundle_count)
         return;
     if (s->segments == 1)
         lsf_ray_bundle_build(b->bundle, turn->iteration, i);
     for (uint32_t segment = 1; segment <= s->segments; segment++)
-        trace_segment(turn, i, segment, b->lights[i]);
+        trace_segment(turn, i, segment, light);
 }
 
 /* The samples of one light: its reflective shadow map, then each VPL and path. */
@@ -417,19 +327,22 @@ static void run_light(sample_turn *turn, uint32_t light, uint32_t count)
             continue;
         if (i < b->sampling.vpl_count)
             lsf_vpl_draw(&b->vpl, turn->iteration, i, 1, light_probability(b, light), &map);
-        run_sample(turn, i);
+        run_sample(turn, i, light);
     }
 }
 
 static void run_samples(bidirectional *b, const lsf_iteration *iteration,
                         const lsf_bidirectional_shade_inputs *inputs)
 {
-    const sampling *s = &b->sampling;
-    uint32_t count = max_u32(s->vpl_count, s->bundle_count);
+    const lsf_bidirectional_sampling *s = &b->sampling;
+    uint32_t count = sample_count(s);
     sample_turn turn = {.b = b,
                         .iteration = iteration,
                         .inputs = *inputs,
-                        .iterations = suppressed_iterations(b, iteration)};
+                        .iterations = suppressed_iterations(b, iteration),
+                        .vpl = LSF_NONE,
+                        .emitter = LSF_NONE,
+                        .light_probability = 1.0f};
     lsf_bidirectional_shade_clear(&b->shade);
     if (s->segments > 0) {
         lsf_bundle_directions_draw(&b->directions, iteration, s->bundle_count, s->segments > 1,
@@ -444,7 +357,7 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
             run_light(&turn, light, count);
     } else {
         for (uint32_t i = 0; i < count; i++)
-            run_sample(&turn, i);
+            run_sample(&turn, i, LSF_NONE);
     }
 }
 
@@ -510,7 +423,8 @@ static void destroy_bidirectional(void *self)
     lsf_vpl_destroy(&b->vpl);
     lsf_reflective_shadow_map_destroy(&b->rsm);
     lsf_direct_chain_destroy(&b->chain);
-    lsf_distribution_finish(&b->light_power);
+    lsf_distribution_finish(&b->light_picks);
+    lsf_emitters_finish(&b->emitters);
     free(b->lights);
     free(b->aims);
     free(b);
@@ -528,6 +442,7 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
         {b->rsm.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, b->rsm.counts},
         {.timer = b->rsm.pdf_timer},
         {.timer = b->vpl.draw_timer},
+        {.timer = b->vpl.emitter_timer},
         {b->vpl.map_timer, LSF_DRAW_COUNTS, lsf_draw_count_names, b->vpl.counts},
         {.timer = bundle_timers[0]},
         {bundle_timers[1], LSF_RAY_BUNDLE_COUNTS, lsf_ray_bundle_count_names,
@@ -548,7 +463,7 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
 const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",
     .help = "global illumination by ray-bundles and virtual point lights, combined by MIS",
-    .plan = plan_bidirectional,
+    .plan = lsf_bidirectional_plan,
     .create = create_bidirectional,
     .run = run_bidirectional,
     .destroy = destroy_bidirectional,

@@ -86,7 +86,7 @@ void light_passes_init(light_passes *p, const lsf_scene *scene, int32_t rsm_reso
     lsf_scene_gpu_plan(&p->plan, scene);
     lsf_iteration_plan(&p->plan);
     lsf_reflective_shadow_map_plan(&p->plan, &rsm, &p->state);
-    lsf_vpl_plan(&p->plan, &vpl);
+    lsf_vpl_plan(&p->plan, &vpl, &(lsf_vpl_use){.lights = true});
     require(
         lsf_scene_gpu_create(&p->scene_gpu, p->context, &p->plan, scene, &p->state, NULL, &error) &&
             lsf_iteration_create(&p->iteration, p->context, &p->plan, &p->scene_gpu, &p->state,

@@ -1,4 +1,4 @@
-#include "reference/texture.h"
+#include "scene/texture_sample.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -34,11 +34,11 @@ static float read_channel(const lsf_texture_image *image, size_t at, bool srgb)
     return ((const float *)image->texels)[at]; /* float images hold linear values */
 }
 
-static lsf_reference_texel read_texel(const lsf_texture_image *image, int64_t x, int64_t y,
+static lsf_texel read_texel(const lsf_texture_image *image, int64_t x, int64_t y,
                                       bool srgb)
 {
     size_t at = ((size_t)y * image->width + (size_t)x) * image->channels;
-    lsf_reference_texel texel = {.a = 1.0f};
+    lsf_texel texel = {.a = 1.0f};
     texel.r = texel.g = texel.b = read_channel(image, at, srgb);
     if (image->channels >= 3) {
         texel.g = read_channel(image, at + 1, srgb);
@@ -80,13 +80,13 @@ static int64_t wrap_index(int64_t i, int64_t size, lsf_wrap wrap)
     return i < 0 ? 0 : i >= size ? size - 1 : i;
 }
 
-static lsf_reference_texel mix(lsf_reference_texel p, lsf_reference_texel q, float t)
+static lsf_texel mix(lsf_texel p, lsf_texel q, float t)
 {
-    return (lsf_reference_texel){p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t,
+    return (lsf_texel){p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t,
                                  p.b + (q.b - p.b) * t, p.a + (q.a - p.a) * t};
 }
 
-lsf_reference_texel lsf_reference_texture_sample(const lsf_scene *scene,
+lsf_texel lsf_texture_sample(const lsf_scene *scene,
                                                  const lsf_texture_slot *slot, const float uv[2])
 {
     const lsf_texture *texture = &scene->textures[slot->texture];
@@ -106,9 +106,9 @@ lsf_reference_texel lsf_reference_texture_sample(const lsf_scene *scene,
     int64_t x1 = wrap_index((int64_t)left + 1, width, texture->wrap_s);
     int64_t y0 = wrap_index((int64_t)top, height, texture->wrap_t);
     int64_t y1 = wrap_index((int64_t)top + 1, height, texture->wrap_t);
-    lsf_reference_texel upper =
+    lsf_texel upper =
         mix(read_texel(image, x0, y0, texture->srgb), read_texel(image, x1, y0, texture->srgb), tx);
-    lsf_reference_texel lower =
+    lsf_texel lower =
         mix(read_texel(image, x0, y1, texture->srgb), read_texel(image, x1, y1, texture->srgb), tx);
     return mix(upper, lower, ty);
 }

@@ -1,0 +1,54 @@
+/* For shaders that place VPLs: where they are written to, and the map over each. */
+#ifndef LSF_LIB_VPL_WRITE
+#define LSF_LIB_VPL_WRITE
+
+#include "lib/octahedral.glsl"
+#include "shared/brdf.h"
+#include "shared/light_data.h"
+#include "shared/scene_data.h"
+#include "shared/vpl_data.h"
+
+struct vpl_map_slot {
+    lsf_light_data map;
+    vec4 unused; /* a multiple of a uniform buffer's alignment */
+};
+layout(std430, binding = LSF_BINDING_VPL) writeonly buffer lsf_vpl_block
+{
+    lsf_vpl_data vpls[];
+};
+layout(std430, binding = 2) writeonly buffer lsf_vpl_map_block
+{
+    vpl_map_slot vpl_maps[];
+};
+
+/* Nearest occluder of a VPL's map. */
+#define VPL_NEAR_PLANE 1e-5
+
+/* Rounding of positions, of the scene's half extent. A map starts that far above its VPL's surface, and
+ * what else the VPL may be off it, or the surface would shade its own light. */
+#define VPL_POSITION_ERROR 1e-6
+
+/* The map over a VPL that lies within `error` of its surface besides; `turn`: about the normal, 0..1. */
+void vpl_map_write(uint index, vec3 position, vec3 normal, float error, float turn, float texels)
+{
+    lsf_light_data map;
+    vec3 t, b;
+    orthonormal_basis(normal, t, b);
+    float angle = 2.0 * LSF_PI * turn;
+    vec3 origin = position + (VPL_POSITION_ERROR + error) * normal;
+    map.position = vec4(origin, 0.0);
+    map.direction = vec4(normal, 0.0);
+    map.intensity = map.attenuation = map.map_offset = vec4(0.0);
+    map.map_origin = vec4(origin, 1.0);
+    map.map_shape = vec4(VPL_NEAR_PLANE, 0.0, texels, 1.0 / texels);
+    map.map_window[0] = vec4(0.0, 0.0, 1.0, 1.0);
+    map.map_right[0] = vec4(cos(angle) * t + sin(angle) * b, 0.0);
+    map.map_up[0] = vec4(cos(angle) * b - sin(angle) * t, 0.0);
+    map.map_forward[0] = vec4(normal, 0.0);
+    for (int face = 1; face < 6; face++)
+        map.map_window[face] = map.map_right[face] = map.map_up[face] = map.map_forward[face] =
+            vec4(0.0);
+    vpl_maps[index].map = map;
+}
+
+#endif

@@ -1,0 +1,213 @@
+#include "scene/emitters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "math/sampling.h"
+#include "scene/texture_sample.h"
+#include "shared/brdf.h"
+
+/* Points that a triangle's mean is taken from where its emission varies. */
+#define MEAN_POINTS 32
+
+/* Share of the emission's factor that a mean is at least, so that what all of these points missed
+ * is drawn now and then, too. */
+#define MEAN_FLOOR 0.01f
+
+typedef struct triangle_point {
+    uint64_t vertices[3];
+    float weights[3];
+} triangle_point;
+
+static const lsf_material *material_of(const lsf_emitters *e, uint32_t instance)
+{
+    return &e->scene->materials[e->state->instances[instance].material];
+}
+
+static uint32_t triangle_count(const lsf_emitters *e, uint32_t instance)
+{
+    const lsf_instance_state *s = &e->state->instances[instance];
+    const lsf_material *material = &e->scene->materials[s->material];
+    bool emits = !material->unlit && lsf_f3_max(lsf_f3_load(material->emission)) > 0.0f;
+    return emits && !s->skipped ? e->scene->primitives[s->primitive].index_count / 3 : 0;
+}
+
+static triangle_point point_on(const lsf_emitters *e, uint64_t at, float u, float v)
+{
+    const lsf_primitive *primitive =
+        &e->scene->primitives[e->state->instances[e->instance[at]].primitive];
+    const uint32_t *indices = e->scene->indices + primitive->first_index + 3 * e->triangle[at];
+    triangle_point p = {.vertices = {indices[0], indices[1], indices[2]}};
+    lsf_sample_triangle(u, v, &p.weights[1], &p.weights[2]);
+    p.weights[0] = 1.0f - p.weights[1] - p.weights[2];
+    return p;
+}
+
+static lsf_texel sample_slot(const lsf_emitters *e, const lsf_texture_slot *slot,
+                             const triangle_point *p)
+{
+    const float *stream = slot->uv_set == 0 ? e->scene->vertices.uv0 : e->scene->vertices.uv1;
+    float uv[2] = {0.0f, 0.0f};
+    for (int i = 0; stream && i < 3; i++)
+        for (int c = 0; c < 2; c++)
+            uv[c] += p->weights[i] * stream[2 * p->vertices[i] + (uint64_t)c];
+    return lsf_texture_sample(e->scene, slot, uv);
+}
+
+static bool masked_out(const lsf_emitters *e, const lsf_material *material, const triangle_point *p)
+{
+    if (material->alpha_mode != LSF_ALPHA_MASK)
+        return false;
+    float alpha = material->base_color[3], of_vertices = 0.0f;
+    if (material->base_color_texture.texture != LSF_NONE)
+        alpha *= sample_slot(e, &material->base_color_texture, p).a;
+    for (int i = 0; e->scene->vertices.color && i < 3; i++)
+        of_vertices += p->weights[i] * e->scene->vertices.color[4 * p->vertices[i] + 3];
+    if (e->scene->vertices.color)
+        alpha *= of_vertices;
+    return alpha < material->alpha_cutoff;
+}
+
+static lsf_float3 emission_at(const lsf_emitters *e, uint64_t at, const triangle_point *p)
+{
+    const lsf_material *material = material_of(e, e->instance[at]);
+    lsf_float3 emission = lsf_f3_load(material->emission);
+    if (masked_out(e, material, p))
+        return lsf_f3(0.0f, 0.0f, 0.0f);
+    if (material->emissive_texture.texture == LSF_NONE)
+        return emission;
+    lsf_texel t = sample_slot(e, &material->emissive_texture, p);
+    return lsf_f3_mul(emission, lsf_f3(t.r, t.g, t.b));
+}
+
+static float mean_luminance(const lsf_emitters *e, uint64_t at)
+{
+    const lsf_material *material = material_of(e, e->instance[at]);
+    float factor = lsf_f3_luminance(lsf_f3_load(material->emission)), sum = 0.0f;
+    if (material->emissive_texture.texture == LSF_NONE && material->alpha_mode != LSF_ALPHA_MASK)
+        return factor;
+    for (uint32_t i = 0; i < MEAN_POINTS; i++) {
+        float u[2];
+        lsf_sobol_2d(i, (uint32_t)at, u);
+        triangle_point p = point_on(e, at, u[0], u[1]);
+        sum += lsf_f3_luminance(emission_at(e, at, &p));
+    }
+    return fmaxf(sum / MEAN_POINTS, MEAN_FLOOR * factor);
+}
+
+static void corners_of(const lsf_emitters *e, uint64_t at, const uint64_t vertices[3],
+                       double corners[3][3])
+{
+    const float *m = e->state->instances[e->instance[at]].transform;
+    for (int i = 0; i < 3; i++) {
+        const float *v = e->scene->vertices.position + 3 * vertices[i];
+        for (int row = 0; row < 3; row++)
+            corners[i][row] = (double)m[4 * row] * v[0] + (double)m[4 * row + 1] * v[1] +
+                              (double)m[4 * row + 2] * v[2] + m[4 * row + 3];
+    }
+}
+
+/* In double precision, in which the product of even the smallest edges has a direction; returns the
+ * triangle's area, and its front's unit normal unless that is 0. */
+static double front_normal(const lsf_emitters *e, uint64_t at, double corners[3][3],
+                           double normal[3])
+{
+    double a[3], b[3];
+    for (int axis = 0; axis < 3; axis++) {
+        a[axis] = corners[1][axis] - corners[0][axis];
+        b[axis] = corners[2][axis] - corners[0][axis];
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        int next = (axis + 1) % 3, last = (axis + 2) % 3;
+        normal[axis] = a[next] * b[last] - a[last] * b[next];
+    }
+    double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    double sign = e->state->instances[e->instance[at]].mirrored ? -1.0 : 1.0;
+    for (int axis = 0; axis < 3 && length > 0.0; axis++)
+        normal[axis] *= sign / length;
+    return 0.5 * length;
+}
+
+static void list_triangles(lsf_emitters *e, float *power)
+{
+    uint64_t at = 0;
+    for (uint32_t i = 0; i < e->state->instance_count; i++) {
+        uint32_t count = triangle_count(e, i);
+        float sides = count && material_of(e, i)->double_sided ? 2.0f : 1.0f;
+        for (uint32_t t = 0; t < count; t++, at++) {
+            double corners[3][3], normal[3];
+            e->instance[at] = i;
+            e->triangle[at] = t;
+            triangle_point p = point_on(e, at, 0.0f, 0.0f);
+            corners_of(e, at, p.vertices, corners);
+            e->mean[at] = mean_luminance(e, at);
+            power[at] = sides * (float)front_normal(e, at, corners, normal) * e->mean[at];
+        }
+    }
+}
+
+bool lsf_emitters_init(lsf_emitters *e, const lsf_scene *scene, const lsf_state *state)
+{
+    *e = (lsf_emitters){.scene = scene, .state = state};
+    for (uint32_t i = 0; i < state->instance_count; i++)
+        e->count += triangle_count(e, i);
+    e->instance = lsf_alloc(e->count, sizeof *e->instance);
+    e->triangle = lsf_alloc(e->count, sizeof *e->triangle);
+    e->mean = lsf_alloc(e->count, sizeof *e->mean);
+    float *power = lsf_alloc(e->count, sizeof *power);
+    bool good = e->instance && e->triangle && e->mean && power;
+    if (good) {
+        list_triangles(e, power);
+        good = lsf_distribution_init(&e->power, power, e->count);
+    }
+    free(power);
+    return good;
+}
+
+void lsf_emitters_finish(lsf_emitters *e)
+{
+    free(e->instance);
+    free(e->triangle);
+    free(e->mean);
+    lsf_distribution_finish(&e->power);
+    memset(e, 0, sizeof *e);
+}
+
+float lsf_emitters_power(const lsf_emitters *e)
+{
+    return LSF_PI * (float)e->power.sum;
+}
+
+float lsf_emitters_weight(const lsf_emitters *e)
+{
+    return e->power.sum > 0.0 ? (float)(1.0 / e->power.sum) : 0.0f;
+}
+
+lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *e, const double u[2])
+{
+    double rest, corners[3][3], normal[3];
+    lsf_emitter_sample sample;
+    uint64_t at = lsf_distribution_sample(&e->power, u[0], &rest);
+    double side = 1.0;
+    if (material_of(e, e->instance[at])->double_sided) {
+        side = rest < 0.5 ? 1.0 : -1.0;
+        rest = rest < 0.5 ? 2.0 * rest : 2.0 * rest - 1.0;
+    }
+    triangle_point p = point_on(e, at, (float)rest, (float)u[1]);
+    lsf_float3 radiance = emission_at(e, at, &p);
+    corners_of(e, at, p.vertices, corners);
+    front_normal(e, at, corners, normal);
+    for (int axis = 0; axis < 3; axis++) {
+        double position = 0.0;
+        for (int i = 0; i < 3; i++)
+            position += (double)p.weights[i] * corners[i][axis];
+        sample.position[axis] = (float)position;
+        sample.normal[axis] = (float)(side * normal[axis]);
+    }
+    lsf_f3_store(sample.radiance, radiance);
+    sample.density = (float)(e->mean[at] / e->power.sum);
+    sample.weight_density = lsf_f3_luminance(radiance) * lsf_emitters_weight(e);
+    return sample;
+}
