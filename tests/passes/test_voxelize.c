@@ -2,99 +2,12 @@
  * there that no triangle touches, and every run gives the same bits. */
 #include <math.h>
 
-#include <lightsheaf/lightsheaf.h>
-
-#include "passes/voxelize.h"
-#include "render_gl.h"
-#include "techniques/setup.h"
+#include "voxel_rig.h"
 
 /* What rounding may do to the distance between a triangle and a voxel: positions are 32-bit floats
  * in a grid of up to 512 voxels. A voxel must be set when a triangle touches it, and may be when
  * one comes this close. [voxels] */
 #define ROUNDING (1.0 / 1024.0)
-
-typedef struct voxels {
-    lsf_context *context;
-    lsf_setup setup;
-    lsf_scene_gpu scene;
-    lsf_iteration iteration;
-    lsf_voxel_grid grid;
-    lsf_voxelize *pass;
-    const lsf_voxelize_outputs *outputs;
-} voxels;
-
-static void init(voxels *v, const lsf_scene *scene, int32_t resolution, int32_t method, bool jitter)
-{
-    lsf_error error = {0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    const lsf_voxelize_params voxelize = {.method = method};
-    lsf_voxel_grid_params grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS};
-    grid.resolution = resolution;
-    grid.jitter = jitter;
-    params.width = params.height = 8;
-    memset(v, 0, sizeof *v);
-    v->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    if (!lsf_setup_begin(&v->setup, scene, &params, &error))
-        fail_msg("%s", error.message);
-    lsf_plan *plan = v->setup.plan;
-    v->grid = lsf_voxel_grid_fit(&grid, &v->setup.state, lsf_voxelize_bytes(plan));
-    lsf_voxel_grid_set_unit(&v->grid, scene, &v->setup.state);
-    lsf_voxelize_plan(plan, &voxelize, &v->grid);
-    if (!lsf_scene_gpu_create(&v->scene, v->context, plan, scene, &v->setup.state, NULL, &error) ||
-        !lsf_iteration_create(&v->iteration, v->context, plan, &v->scene, &v->setup.state, NULL, 0,
-                              &error) ||
-        !lsf_voxelize_create(&v->pass, v->context, plan, &voxelize, &v->grid, &error))
-        fail_msg("%s", error.message);
-    assert_int_equal(lsf_context_get_info(v->context).gl_bytes, lsf_plan_bytes(plan));
-}
-
-static void run(voxels *v, uint32_t iteration)
-{
-    lsf_iteration_begin(&v->iteration, iteration);
-    v->outputs = lsf_voxelize_run(v->pass, &v->iteration);
-    gl_test_check(v->context);
-}
-
-static void finish(voxels *v)
-{
-    lsf_voxelize_destroy(v->pass);
-    lsf_iteration_destroy(&v->iteration);
-    lsf_scene_gpu_destroy(&v->scene);
-    lsf_setup_finish(&v->setup);
-    assert_int_equal(lsf_context_get_info(v->context).gl_bytes, 0);
-    gl_test_check(v->context);
-    lsf_context_destroy(v->context);
-}
-
-static size_t voxel_count(const voxels *v)
-{
-    return (size_t)v->grid.size[0] * v->grid.size[1] * v->grid.size[2];
-}
-
-static uint32_t *read_texture(GLuint texture, size_t texels)
-{
-    uint32_t *words = malloc(4 * texels);
-    glGetTextureImage(texture, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, (GLsizei)(4 * texels), words);
-    return words;
-}
-
-/* Of all voxels, from the bits of the finest level. */
-static uint8_t *read_occupancy(const voxels *v)
-{
-    const uint32_t *size = v->grid.size;
-    uint8_t *set = malloc(voxel_count(v));
-    uint32_t *words = read_texture(v->outputs->occupancy[0], voxel_count(v) / 32);
-    for (uint32_t z = 0, i = 0; z < size[2]; z++)
-        for (uint32_t y = 0; y < size[1]; y++)
-            for (uint32_t x = 0; x < size[0]; x++, i++) {
-                uint32_t texel =
-                    2 * (x / 4) + (z / 2) % 2 + size[0] / 2 * (y / 4 + size[1] / 4 * (z / 4));
-                uint32_t bit = x % 4 + 4 * (y % 4) + 16 * (z % 2);
-                set[i] = words[texel] >> bit & 1;
-            }
-    free(words);
-    return set;
-}
 
 /* --- the exact test: 13 axes that may separate a triangle from a box --- */
 
@@ -152,7 +65,7 @@ static bool touches(const triangle *t, const double center[3], double half)
 
 /* Of the voxels about a triangle, those it touches get bit 0, those it nearly touches bit 1. Along
  * the normal's longest axis only those about the plane are looked at. */
-static void mark(const voxels *v, const triangle *t, uint8_t *marks)
+static void mark(const voxel_rig *v, const triangle *t, uint8_t *marks)
 {
     double edges[2][3], normal[3];
     int low[3], high[3];
@@ -191,12 +104,12 @@ static void mark(const voxels *v, const triangle *t, uint8_t *marks)
         }
 }
 
-static uint8_t *exact_voxels(const voxels *v)
+static uint8_t *exact_voxels(const voxel_rig *v)
 {
     const lsf_scene *scene = v->setup.scene;
     struct lsf_voxel_grid_data grid = lsf_voxel_grid_data(&v->grid, &v->iteration);
     const float *origin = &grid.origin.x;
-    uint8_t *marks = calloc(voxel_count(v), 1);
+    uint8_t *marks = calloc(voxel_rig_voxel_count(v), 1);
     for (uint32_t i = 0; i < v->setup.state.instance_count; i++) {
         const lsf_instance_state *instance = &v->setup.state.instances[i];
         const lsf_primitive *primitive = &scene->primitives[instance->primitive];
@@ -220,14 +133,14 @@ static uint8_t *exact_voxels(const voxels *v)
 static void compare(const char *name, const lsf_scene *scene, int32_t resolution,
                     lsf_voxelize_method method)
 {
-    voxels v;
-    init(&v, scene, resolution, method, true);
+    voxel_rig v;
+    voxel_rig_init(&v, scene, resolution, method, true, 0);
     /* The second one finds what the first one left. */
-    run(&v, 0);
-    run(&v, 1);
-    uint8_t *set = read_occupancy(&v), *marks = exact_voxels(&v);
+    voxel_rig_run(&v, 0);
+    voxel_rig_run(&v, 1);
+    uint8_t *set = voxel_rig_read_occupancy(&v), *marks = exact_voxels(&v);
     size_t missing = 0, excess = 0, exact = 0;
-    for (size_t i = 0; i < voxel_count(&v); i++) {
+    for (size_t i = 0; i < voxel_rig_voxel_count(&v); i++) {
         exact += marks[i] & 1;
         missing += marks[i] & 1 && !set[i];
         excess += set[i] && !marks[i];
@@ -239,7 +152,7 @@ static void compare(const char *name, const lsf_scene *scene, int32_t resolution
     assert_int_equal(excess, 0);
     free(set);
     free(marks);
-    finish(&v);
+    voxel_rig_finish(&v);
 }
 
 static void compare_methods(const char *name, const lsf_scene *scene, int32_t resolution)
@@ -350,15 +263,15 @@ static void plane_on_a_border(void **unused)
     build_box(scene, lsf_f3(-7, -7, -7), lsf_f3(7, 7, 7), true);
     build_floor(scene, 1.0f, 3.0f);
     finish_gl_scene(scene);
-    voxels v;
-    init(&v, scene, 16, LSF_VOXELIZE_COMPUTE, false);
-    run(&v, 0);
-    uint8_t *set = read_occupancy(&v);
+    voxel_rig v;
+    voxel_rig_init(&v, scene, 16, LSF_VOXELIZE_COMPUTE, false, 0);
+    voxel_rig_run(&v, 0);
+    uint8_t *set = voxel_rig_read_occupancy(&v);
     /* A voxel is 1 wide, the floor lies between those of y = 8 and y = 9. */
     for (uint32_t y = 2; y < 14; y++)
         assert_int_equal(set[8 + 16 * (y + 16 * 8)], y == 8 || y == 9);
     free(set);
-    finish(&v);
+    voxel_rig_finish(&v);
     destroy_scene(scene);
 }
 
@@ -383,25 +296,27 @@ static void ten_runs(void **unused)
     lsf_scene *scene = soup(2000);
     uint32_t *first[2] = {NULL};
     for (int turn = 0; turn < 10; turn++) {
-        voxels v;
+        voxel_rig v;
         setenv("LP_NUM_THREADS", threads[turn % 3], 1);
-        init(&v, scene, 64, turn % 2 ? LSF_VOXELIZE_RASTER : LSF_VOXELIZE_COMPUTE, true);
-        run(&v, 0);
-        uint32_t *now[2] = {read_texture(v.outputs->point, voxel_count(&v)),
-                            read_texture(v.outputs->normal, voxel_count(&v))};
-        uint8_t *set = read_occupancy(&v);
+        voxel_rig_init(&v, scene, 64, turn % 2 ? LSF_VOXELIZE_RASTER : LSF_VOXELIZE_COMPUTE, true,
+                       0);
+        voxel_rig_run(&v, 0);
+        uint32_t *now[2] = {
+            voxel_rig_read_texture(v.outputs->point, voxel_rig_voxel_count(&v)),
+            voxel_rig_read_texture(v.outputs->normal, voxel_rig_voxel_count(&v))};
+        uint8_t *set = voxel_rig_read_occupancy(&v);
         for (int i = 0; i < 2; i++) {
-            for (size_t k = 0; k < voxel_count(&v); k++)
+            for (size_t k = 0; k < voxel_rig_voxel_count(&v); k++)
                 now[i][k] = set[k] ? now[i][k] : 0;
             if (turn == 0)
                 first[i] = now[i];
             else
-                assert_memory_equal(first[i], now[i], 4 * voxel_count(&v));
+                assert_memory_equal(first[i], now[i], 4 * voxel_rig_voxel_count(&v));
             if (turn > 0)
                 free(now[i]);
         }
         free(set);
-        finish(&v);
+        voxel_rig_finish(&v);
     }
     unsetenv("LP_NUM_THREADS");
     free(first[0]);

@@ -1,0 +1,151 @@
+/* Light of voxels against closed forms. */
+#include <math.h>
+
+#include "shared/brdf.h"
+#include "voxel_rig.h"
+
+static lsf_scene *lit_floor(lsf_light_type type, float intensity)
+{
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.5f, 0.25f, 0.75f);
+    build_floor(scene, 0.0f, 2.0f);
+    build_light(scene, type, lsf_f3(0.3f, 1.0f, 0.2f), lsf_f3(0.6f, -0.8f, 0.0f), intensity);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+/* Irradiance of the floor. */
+static double expected_irradiance(lsf_light_type type, double x, double z, double intensity)
+{
+    if (type == LSF_LIGHT_DIRECTIONAL)
+        return 0.8 * intensity;
+    double d2 = (x - 0.3) * (x - 0.3) + 1.0 + (z - 0.2) * (z - 0.2);
+    return intensity / (d2 * sqrt(d2));
+}
+
+static void check_floor(lsf_light_type type, float intensity)
+{
+    static const double albedo[3] = {0.5, 0.25, 0.75};
+    lsf_scene *scene = lit_floor(type, intensity);
+    voxel_rig v;
+    voxel_rig_init(&v, scene, 128, LSF_VOXELIZE_COMPUTE, false, LSF_VOXEL_SIDES_SURFACE);
+    voxel_rig_run(&v, 0);
+    float *radiance = voxel_rig_read_radiance(&v);
+    const struct lsf_voxel_grid_data grid = lsf_voxel_grid_data(&v.grid, &v.iteration);
+    size_t back = voxel_rig_voxel_count(&v);
+    for (float x = -1.5f; x <= 1.5f; x += 0.25f)
+        for (float z = -1.5f; z <= 1.5f; z += 0.25f) {
+            size_t voxel = voxel_rig_voxel_at(&v, lsf_f3(x, 0.0f, z));
+            size_t size = v.grid.size[0];
+            /* Lit at the point of the surface nearest to the voxel's centre. */
+            double to_scene = 1.0 / v.setup.state.scale;
+            double at_x =
+                ((double)grid.origin.x + ((double)(voxel % size) + 0.5) * (double)grid.origin.w) *
+                    to_scene +
+                v.setup.state.center[0];
+            double at_z = ((double)grid.origin.z + ((double)(voxel / size / v.grid.size[1]) + 0.5) *
+                                                       (double)grid.origin.w) *
+                              to_scene +
+                          v.setup.state.center[2];
+            double irradiance = expected_irradiance(type, at_x, at_z, (double)intensity);
+            for (int c = 0; c < 3; c++) {
+                double expected = albedo[c] * irradiance / (double)LSF_PI;
+                assert_true(fabs((double)radiance[4 * voxel + c] - expected) <= 4e-3 * expected);
+                assert_true(radiance[4 * (back + voxel) + c] == 0.0f);
+            }
+        }
+    free(radiance);
+    voxel_rig_finish(&v);
+    destroy_scene(scene);
+}
+
+static void floor_in_closed_form(void **unused)
+{
+    (void)unused;
+    check_floor(LSF_LIGHT_POINT, 3.0f);
+    check_floor(LSF_LIGHT_DIRECTIONAL, 3.0f);
+    /* The unit follows the light. */
+    check_floor(LSF_LIGHT_POINT, 3e10f);
+    check_floor(LSF_LIGHT_POINT, 3e-10f);
+}
+
+/* A closed box of zero thickness with a light in it: its inside is lit, its outside is not; lobes
+ * of the inner sides of walls along the axes look inwards alone. */
+static void walls_have_two_sides(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), false);
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.1f, 0.2f, 0.0f), lsf_f3(0, -1, 0), 1.0f);
+    finish_gl_scene(scene);
+    voxel_rig v;
+    voxel_rig_init(&v, scene, 64, LSF_VOXELIZE_COMPUTE, true, LSF_VOXEL_SIDES_AXES);
+    voxel_rig_run(&v, 3);
+    voxel_rig_run(&v, 4);
+    float *radiance = voxel_rig_read_radiance(&v);
+    size_t count = voxel_rig_voxel_count(&v);
+    for (int wall = 0; wall < 6; wall++) {
+        int axis = wall / 2;
+        lsf_float3 at = lsf_f3(0.3f, 0.1f, -0.2f);
+        (&at.x)[axis] = wall % 2 ? 1.0f : -1.0f;
+        size_t voxel = voxel_rig_voxel_at(&v, at);
+        for (int slice = 0; slice < LSF_VOXEL_SIDES_AXES; slice++) {
+            const float *lobe = radiance + 4 * ((size_t)slice * count + voxel);
+            /* One looks along +x at the wall x = 1. */
+            bool inside = slice == 2 * axis + (wall % 2 ? 0 : 1);
+            assert_true(inside ? lobe[0] > 0.01f : lobe[0] == 0.0f);
+            assert_true(fabsf(lobe[3] - (slice / 2 == axis ? 1.0f : 0.0f)) < 1e-3f);
+        }
+    }
+    free(radiance);
+    voxel_rig_finish(&v);
+    destroy_scene(scene);
+}
+
+/* An emitter shines to its front; one whose material is double-sided to both sides. Where the grid
+ * has moved on, nothing of it stays. */
+static void emitters_and_leftovers(void **unused)
+{
+    (void)unused;
+    for (int both = 0; both < 2; both++) {
+        lsf_scene *scene = build_scene();
+        lsf_material *material = build_material(scene, 0.5f, 0.5f, 0.5f);
+        material->emission[0] = 10.0f;
+        material->emission[1] = 5.0f;
+        material->double_sided = both == 1;
+        build_floor(scene, 0.0f, 1.0f);
+        build_material(scene, 0.5f, 0.5f, 0.5f);
+        build_floor(scene, 1.0f, 1.0f);
+        finish_gl_scene(scene);
+        voxel_rig v;
+        voxel_rig_init(&v, scene, 32, LSF_VOXELIZE_COMPUTE, true, LSF_VOXEL_SIDES_SURFACE);
+        for (uint32_t iteration = 0; iteration < 5; iteration++)
+            voxel_rig_run(&v, iteration);
+        float *radiance = voxel_rig_read_radiance(&v);
+        uint8_t *set = voxel_rig_read_occupancy(&v);
+        size_t count = voxel_rig_voxel_count(&v), voxel = voxel_rig_voxel_at(&v, lsf_f3(0, 0, 0));
+        for (int c = 0; c < 3; c++) {
+            float emission = c == 0 ? 10.0f : c == 1 ? 5.0f : 0.0f;
+            assert_true(fabsf(radiance[4 * voxel + (size_t)c] - emission) <= 0.01f * emission);
+            assert_true(fabsf(radiance[4 * (count + voxel) + (size_t)c] -
+                              (both ? emission : 0.0f)) <= 0.01f * emission);
+        }
+        for (size_t i = 0; i < 2 * count; i++)
+            assert_true(radiance[4 * i + 3] == (float)set[i % count]);
+        free(set);
+        free(radiance);
+        voxel_rig_finish(&v);
+        destroy_scene(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(floor_in_closed_form),
+        cmocka_unit_test(walls_have_two_sides),
+        cmocka_unit_test(emitters_and_leftovers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
