@@ -65,7 +65,7 @@ void main()
     e.normal = guide_shading_normal(guide);
     e.plane = guide_geometric_normal(guide);
     float z = dot(e.position - view.origin.xyz, view.forward.xyz);
-    int steps = int(round(law.x * pow(1.0 + law.y * z, limits.z)));
+    int steps = int(floor(law.x * pow(1.0 + law.y * z, limits.z) + 0.5));
     float reach = float(steps) * texel_size(z);
     e.farthest = limits.x * reach * reach;
     e.own_irradiance = texelFetch(irradiance_texture, texel, 0);
