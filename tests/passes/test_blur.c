@@ -16,15 +16,20 @@ typedef struct rig {
     float (*texels)[4];
 } rig;
 
-static void rig_begin(rig *r, uint32_t width, uint32_t height)
+static void rig_begin_view(rig *r, uint32_t width, uint32_t height, bool orthographic)
 {
     memset(r, 0, sizeof *r);
     r->params = (lsf_blur_params){LSF_BLUR_PARAMS_DEFAULTS};
-    surface_rig_begin(&r->s, width, height);
+    surface_rig_begin(&r->s, width, height, orthographic);
     r->in = calloc(width * height, sizeof *r->in);
     r->out = calloc(width * height, sizeof *r->out);
     r->texels = calloc(width * height, sizeof *r->texels);
     assert_true(r->in && r->out && r->texels);
+}
+
+static void rig_begin(rig *r, uint32_t width, uint32_t height)
+{
+    rig_begin_view(r, width, height, false);
 }
 
 /* With the params that the test has set. */
@@ -212,6 +217,36 @@ static void reach_grows_with_distance(void **unused)
     }
 }
 
+/* Taps are as far apart as on a wall in perspective where a texel is as wide: the cut-off, of one
+ * step here, lets all of them through on the wall and none on a slanted floor. */
+static void cutoff_is_a_step(void **unused)
+{
+    (void)unused;
+    for (int orthographic = 0; orthographic < 2; orthographic++)
+        for (int slanted = 0; slanted < 2; slanted++) {
+            rig r;
+            rig_begin_view(&r, 9, 41, orthographic);
+            r.params.phases = 1;
+            r.params.cutoff = 1.01f;
+            rig_start(&r);
+            seen point = surface_rig_wall(&r.s, 2.0f);
+            if (slanted) { /* through the same point of the view's axis */
+                const struct lsf_view_data *view = &r.s.iteration.view;
+                point.plane = point.normal = (lsf_float3){0, 1, 0};
+                point.offset = view->origin.y + 2.0f * view->forward.y;
+            }
+            for (uint32_t y = 0; y < 41; y++)
+                for (uint32_t x = 0; x < 9; x++)
+                    surface_rig_see(&r.s, x, y, &point);
+            set_light(&r, 4, 20, 1.0f, 1.0f);
+            rig_run(&r);
+            float above = r.out[21 * 9 + 4][0][0], beside = r.out[20 * 9 + 5][0][0];
+            assert_true(fabsf(above - (slanted ? 0.0f : 0.125f)) < 1e-6f);
+            assert_true(fabsf(beside - (slanted ? 0.25f : 0.125f)) < 1e-6f);
+            rig_end(&r);
+        }
+}
+
 /* Left and right halves see `sides` and have light 1 and 0 (specular 3 and 0). */
 static void check_halves(rig *r, const seen sides[2])
 {
@@ -353,9 +388,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_constant_stays_to_the_bit), cmocka_unit_test(an_impulse_becomes_a_tent),
-        cmocka_unit_test(reach_grows_with_distance),   cmocka_unit_test(nothing_crosses_an_edge),
-        cmocka_unit_test(nothing_crosses_a_corner),    cmocka_unit_test(mirrors_keep_their_own),
-        cmocka_unit_test(same_bits_with_any_threads),  cmocka_unit_test(no_phases_no_pass),
+        cmocka_unit_test(reach_grows_with_distance),   cmocka_unit_test(cutoff_is_a_step),
+        cmocka_unit_test(nothing_crosses_an_edge),     cmocka_unit_test(nothing_crosses_a_corner),
+        cmocka_unit_test(mirrors_keep_their_own),      cmocka_unit_test(same_bits_with_any_threads),
+        cmocka_unit_test(no_phases_no_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
