@@ -14,7 +14,7 @@ layout(location = 1) out vec4 specular_out;
 layout(location = 0) uniform ivec3 along; /* (1, 0) or (0, 1), phase */
 layout(location = 1) uniform vec4 law;    /* step at the viewer [texels], growth, 1 / texels along
                                            * the axis, normal_weight */
-layout(location = 2) uniform vec2 limits; /* cutoff, slope; squared */
+layout(location = 2) uniform vec3 limits; /* cutoff, slope; squared; the phase's share of growth */
 
 /* A texel's width along the axis where view depth is z [normalised space]. */
 float texel_size(float z)
@@ -26,48 +26,60 @@ float texel_size(float z)
 #endif
 }
 
+/* What the texel at hand is, and the sums of what it takes from its neighbours. */
+struct exchange {
+    vec3 position, normal, plane;
+    float farthest; /* squared */
+    vec4 own_irradiance, irradiance;
+#if LSF_SPECULAR
+    bool glossy;
+    vec4 own_specular, specular;
+#endif
+};
+
+void take(inout exchange e, ivec2 place, ivec2 last)
+{
+    ivec2 at = clamp(place, ivec2(0), last);
+    uvec4 other = texelFetch(guide_texture, at, 0);
+    vec3 apart = guide_position(other) - e.position;
+    float cosine = dot(e.normal, guide_shading_normal(other)), rise = dot(e.plane, apart);
+    float distance = dot(apart, apart);
+    bool good = at == place && guide_lit(other) && cosine > 0.0 && distance <= e.farthest &&
+                rise * rise <= limits.y * distance;
+    float w = 0.25 * pow(cosine, law.w);
+    vec4 irradiance = w * (texelFetch(irradiance_texture, at, 0) - e.own_irradiance);
+    e.irradiance += good ? irradiance : vec4(0.0);
+#if LSF_SPECULAR
+    good = good && e.glossy && guide_phases(other) >= along.z;
+    vec4 specular = w * (texelFetch(specular_texture, at, 0) - e.own_specular);
+    e.specular += good ? specular : vec4(0.0);
+#endif
+}
+
 void main()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy), size = textureSize(guide_texture, 0);
-    irradiance_out = texelFetch(irradiance_texture, texel, 0);
-#if LSF_SPECULAR
-    specular_out = texelFetch(specular_texture, texel, 0);
-#endif
+    ivec2 texel = ivec2(gl_FragCoord.xy), last = textureSize(guide_texture, 0) - 1;
     uvec4 guide = texelFetch(guide_texture, texel, 0);
-    if (!guide_lit(guide))
-        return;
-    vec3 position = guide_position(guide), normal = guide_shading_normal(guide);
-    vec3 plane = guide_geometric_normal(guide);
-    float z = dot(position - view.origin.xyz, view.forward.xyz);
-    int steps = int(round(law.x * (1.0 + law.y * z)));
-    float reach = float(steps) * texel_size(z), farthest = limits.x * reach * reach;
-    /* Light is exchanged: what a neighbour gives the texel, it takes from it. Energy is kept, and a
-     * constant stays what it is to the bit. */
-    vec4 irradiance = vec4(0.0);
+    exchange e;
+    e.position = guide_position(guide);
+    e.normal = guide_shading_normal(guide);
+    e.plane = guide_geometric_normal(guide);
+    float z = dot(e.position - view.origin.xyz, view.forward.xyz);
+    int steps = int(floor(law.x * pow(1.0 + law.y * z, limits.z) + 0.5));
+    float reach = float(steps) * texel_size(z);
+    e.farthest = limits.x * reach * reach;
+    e.own_irradiance = texelFetch(irradiance_texture, texel, 0);
+    e.irradiance = vec4(0.0);
 #if LSF_SPECULAR
-    vec4 specular = vec4(0.0);
-    bool glossy = guide_phases(guide) >= along.z;
+    e.glossy = guide_phases(guide) >= along.z;
+    e.own_specular = texelFetch(specular_texture, texel, 0);
+    e.specular = vec4(0.0);
 #endif
-    for (int side = -steps; side <= steps; side += 2 * steps) {
-        ivec2 at = texel + side * along.xy;
-        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
-            continue;
-        uvec4 other = texelFetch(guide_texture, at, 0);
-        vec3 apart = guide_position(other) - position;
-        float cosine = dot(normal, guide_shading_normal(other)), rise = dot(plane, apart);
-        float distance = dot(apart, apart);
-        if (!guide_lit(other) || cosine <= 0.0 || distance > farthest ||
-            rise * rise > limits.y * distance)
-            continue;
-        float w = pow(cosine, law.w);
-        irradiance += w * (texelFetch(irradiance_texture, at, 0) - irradiance_out);
+    take(e, texel + steps * along.xy, last);
+    take(e, texel - steps * along.xy, last);
+    bool lit = guide_lit(guide);
+    irradiance_out = e.own_irradiance + (lit ? e.irradiance : vec4(0.0));
 #if LSF_SPECULAR
-        if (glossy && guide_phases(other) >= along.z)
-            specular += w * (texelFetch(specular_texture, at, 0) - specular_out);
-#endif
-    }
-    irradiance_out += 0.25 * irradiance;
-#if LSF_SPECULAR
-    specular_out += 0.25 * specular;
+    specular_out = e.own_specular + (lit ? e.specular : vec4(0.0));
 #endif
 }

@@ -29,42 +29,45 @@ struct place {
     float distance; /* squared [normalised space] */
 };
 
+/* What the pixel shows. */
+struct shown {
+    vec3 position, plane, normal;
+};
+
+/* A texel of the grid, which sees `pixel`. */
+place place_at(ivec2 texel, ivec2 pixel, shown s)
+{
+    ivec2 inside = clamp(texel, ivec2(0), coarse.xy - 1);
+    float depth = texelFetch(coarse_depth_texture, inside, 0).r;
+    uvec4 surface = texelFetch(coarse_surface_texture, inside, 0);
+    vec3 apart = position_from_depth(sample_ndc(vec2(pixel) + 0.5), depth) - s.position;
+    float cosine = dot(s.normal, octahedral_decode(surface.y)), rise = dot(s.plane, apart);
+    float distance = dot(apart, apart);
+    int kind = cosine >= search.y && rise * rise <= search.z * distance ? LSF_SAME
+               : cosine > 0.0                                          ? LSF_FACING
+                                                                       : LSF_OTHER;
+    bool lit = inside == texel && depth != 0.0 && !surface_texel_unlit(surface);
+    return place(texel, lit ? kind : LSF_NONE, distance);
+}
+
 bool better(place a, place b)
 {
     return a.kind < b.kind || (a.kind == b.kind && a.distance < b.distance);
 }
 
-place place_at(ivec2 texel, vec3 position, vec3 plane, vec3 normal)
-{
-    place p = place(texel, LSF_NONE, 0.0);
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, coarse.xy)))
-        return p;
-    float depth = texelFetch(coarse_depth_texture, texel, 0).r;
-    uvec4 surface = texelFetch(coarse_surface_texture, texel, 0);
-    if (depth == 0.0 || surface_texel_unlit(surface))
-        return p;
-    vec3 apart = position_from_depth(coarse_ndc(texel), depth) - position;
-    float cosine = dot(normal, octahedral_decode(surface.y)), rise = dot(plane, apart);
-    p.distance = dot(apart, apart);
-    p.kind = cosine < search.y || rise * rise > search.z * p.distance
-                 ? cosine > 0.0 ? LSF_FACING : LSF_OTHER
-                 : LSF_SAME;
-    return p;
-}
-
 /* Outward ring by ring, until one holds a place of the same surface. */
-place search_from(ivec2 texel, vec3 position, vec3 plane, vec3 normal)
+place search_from(ivec2 texel, shown s)
 {
-    place best = place_at(texel, position, plane, normal);
+    place best = place_at(texel, coarse_pixel(texel), s);
     for (int ring = 1; ring <= int(search.x) && best.kind != LSF_SAME; ring++)
         for (int i = 0; i < 8 * ring; i++) {
             /* Each side from a corner up to the next. */
             int side = i / (2 * ring), along = i - side * 2 * ring - ring;
-            ivec2 at = side == 0   ? ivec2(along, -ring)
-                       : side == 1 ? ivec2(ring, along)
-                       : side == 2 ? ivec2(-along, ring)
-                                   : ivec2(-ring, -along);
-            place p = place_at(texel + at, position, plane, normal);
+            ivec2 at = texel + (side == 0   ? ivec2(along, -ring)
+                                : side == 1 ? ivec2(ring, along)
+                                : side == 2 ? ivec2(-along, ring)
+                                            : ivec2(-ring, -along));
+            place p = place_at(at, coarse_pixel(at), s);
             if (better(p, best))
                 best = p;
         }
@@ -82,13 +85,50 @@ void main()
     uvec4 surface = texelFetch(surface_texture, pixel, 0);
     if (depth == 0.0 || surface_texel_unlit(surface))
         return;
-    vec3 position = position_from_depth(sample_ndc(vec2(pixel) + 0.5), depth);
-    vec3 plane = octahedral_decode(surface.x), normal = octahedral_decode(surface.y);
-    place best = search_from(coarse_texel(pixel), position, plane, normal);
+    shown s = shown(position_from_depth(sample_ndc(vec2(pixel) + 0.5), depth),
+                    octahedral_decode(surface.x), octahedral_decode(surface.y));
+    /* The four texels whose pixels lie around this one, and its part of the way between them. */
+    ivec2 own = coarse_texel(pixel), seen = coarse_pixel(own);
+    ivec2 turn = ivec2(pixel.x < seen.x ? -1 : 1, pixel.y < seen.y ? -1 : 1);
+    ivec2 beyond = coarse_pixel(own + turn);
+    vec2 part = vec2(pixel - seen) / vec2(beyond - seen);
+    place best = place(own, LSF_NONE, 0.0);
+    vec4 weights;
+    for (int i = 0; i < 4; i++) {
+        bvec2 far = bvec2((i & 1) != 0, (i & 2) != 0);
+        vec2 parts = mix(1.0 - part, part, far);
+        float weight = parts.x * parts.y;
+        place p = place_at(own + turn * ivec2(far), mix(seen, beyond, far), s);
+        weights[i] = p.kind == LSF_SAME ? weight : 0.0;
+        if (weights[i] > 0.0 && best.kind != LSF_SAME)
+            best = p;
+    }
+    if (best.kind != LSF_SAME)
+        best = search_from(own, s);
     if (best.kind == LSF_NONE)
         return;
+    /* Differences to one of them: a constant stays what it is to the bit. */
     irradiance_out = texelFetch(irradiance_texture, best.texel, 0);
+    vec4 irradiance = vec4(0.0);
 #if LSF_SPECULAR
     specular_out = texelFetch(specular_texture, best.texel, 0);
+    vec4 specular = vec4(0.0);
 #endif
+    float sum = 0.0;
+    for (int i = 0; i < 4; i++) {
+        if (weights[i] == 0.0)
+            continue;
+        ivec2 at = own + turn * ivec2(i & 1, i >> 1);
+        sum += weights[i];
+        irradiance += weights[i] * (texelFetch(irradiance_texture, at, 0) - irradiance_out);
+#if LSF_SPECULAR
+        specular += weights[i] * (texelFetch(specular_texture, at, 0) - specular_out);
+#endif
+    }
+    if (sum > 0.0) {
+        irradiance_out += irradiance / sum;
+#if LSF_SPECULAR
+        specular_out += specular / sum;
+#endif
+    }
 }

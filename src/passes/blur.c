@@ -13,7 +13,7 @@ const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT] = {
     {"blur.ratio", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, ratio), 1.0, 4.0, NULL, "",
      "of a phase's step to that of the phase before"},
     {"blur.growth", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, growth), 0.0, 100.0, NULL, "",
-     "how much wider the blur is for each half extent of the scene from the viewer"},
+     "growth of the last phase's step for each half extent of the scene from the viewer"},
     {"blur.min_roughness", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, min_roughness), 0.0, 1.0,
      NULL, "", "below it specular light is not blurred"},
     {"blur.cutoff", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, cutoff), 1.0, 1e3, NULL, "steps",
@@ -126,7 +126,9 @@ static void blur_along(lsf_blur *pass, const lsf_coarse_grid *grid, int phase, i
     glUniform3i(0, x, y, phase);
     glUniform4f(1, p->step * powf(p->ratio, (float)(phase - 1)), p->growth,
                 1.0f / (float)(x ? grid->width : grid->height), p->normal_weight);
-    glUniform2f(2, p->cutoff * p->cutoff, p->slope * p->slope);
+    /* The first phase's taps stay adjacent, so that no texel is skipped; the last grows fully. */
+    float share = p->phases > 1 ? (float)(phase - 1) / (float)(p->phases - 1) : 0.0f;
+    glUniform3f(2, p->cutoff * p->cutoff, p->slope * p->slope, share);
     lsf_draw_fullscreen(pass->context);
 }
 

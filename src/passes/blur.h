@@ -6,10 +6,10 @@
 #include "plan/option.h"
 
 typedef struct lsf_blur_params {
-    int32_t phases;      /* 0: no blur */
-    float step;          /* between the taps of the first phase at the viewer [texels] */
-    float ratio;         /* of a phase's step to that of the one before */
-    float growth;        /* how much wider for each half extent of the scene from the viewer */
+    int32_t phases; /* 0: no blur */
+    float step;     /* between the taps of the first phase at the viewer [texels] */
+    float ratio;    /* of a phase's step to that of the one before */
+    float growth;   /* of the last phase's step for each half extent of the scene from the viewer */
     float min_roughness; /* below it the specular part is left alone */
     float cutoff;        /* taps further than this many steps in space are dropped */
     float slope; /* and those that rise from the surface by more than this for their length */
@@ -17,8 +17,8 @@ typedef struct lsf_blur_params {
 } lsf_blur_params;
 
 #define LSF_BLUR_PARAMS_DEFAULTS                                                                   \
-    .phases = 5, .step = 1.0f, .ratio = 2.0f, .growth = 0.5f, .min_roughness = 0.1f,               \
-    .cutoff = 4.0f, .slope = 0.5f, .normal_weight = 1.0f
+    .phases = 5, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f, .min_roughness = 0.1f,              \
+    .cutoff = 6.0f, .slope = 0.25f, .normal_weight = 4.0f
 
 #define LSF_BLUR_OPTION_COUNT 8
 extern const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT];

@@ -15,18 +15,20 @@ GLuint surface_rig_texture(surface_rig *r, GLenum format, uint32_t width, uint32
     return name;
 }
 
-static lsf_scene *glossy_scene(void)
+static lsf_scene *glossy_scene(bool orthographic)
 {
     lsf_scene *scene = build_scene();
     lsf_material *material = build_material(scene, 0.8f, 0.8f, 0.8f);
     material->roughness = 0.5f;
     material->anisotropy_strength = 0.5f;
     build_floor(scene, 0.0f, 1.0f);
+    scene->cameras[0].orthographic = orthographic;
+    scene->cameras[0].x_magnification = scene->cameras[0].y_magnification = 1.0f;
     finish_gl_scene(scene);
     return scene;
 }
 
-void surface_rig_begin(surface_rig *r, uint32_t width, uint32_t height)
+void surface_rig_begin(surface_rig *r, uint32_t width, uint32_t height, bool orthographic)
 {
     static const float eye[3] = {0.3f, 1.5f, 2.5f}, target[3] = {0, 0, 0};
     lsf_error error = {0};
@@ -35,7 +37,7 @@ void surface_rig_begin(surface_rig *r, uint32_t width, uint32_t height)
     r->width = width;
     r->height = height;
     r->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    r->scene = glossy_scene();
+    r->scene = glossy_scene(orthographic);
     params.width = width;
     params.height = height;
     params.camera_position = eye;
@@ -91,28 +93,33 @@ static uint32_t octahedral(lsf_float3 n)
            (uint32_t)(int32_t)lrintf(y * 32767.0f) << 16;
 }
 
-lsf_float3 surface_rig_ray(const surface_rig *r, uint32_t x, uint32_t y)
+/* origin + x dx + y dy at the pixel's sample. */
+static lsf_float3 at_sample(const surface_rig *r, uint32_t x, uint32_t y, const lsf_vec4 v[3])
 {
     const struct lsf_view_data *view = &r->iteration.view;
     float ndc_x = ((float)x + 0.5f) * 2.0f * view->size.z - 1.0f + view->jitter.x;
     float ndc_y = ((float)y + 0.5f) * 2.0f * view->size.w - 1.0f + view->jitter.y;
-    lsf_float3 ray = lsf_f3_load(&view->forward.x);
-    ray = lsf_f3_mad(ray, lsf_f3_load(&view->forward_dx.x), ndc_x);
-    return lsf_f3_mad(ray, lsf_f3_load(&view->forward_dy.x), ndc_y);
+    lsf_float3 p = lsf_f3_mad(lsf_f3_load(&v[0].x), lsf_f3_load(&v[1].x), ndc_x);
+    return lsf_f3_mad(p, lsf_f3_load(&v[2].x), ndc_y);
 }
 
-static float view_depth(const surface_rig *r, lsf_float3 ray, const seen *s)
+lsf_float3 surface_rig_ray(const surface_rig *r, uint32_t x, uint32_t y)
 {
-    float z = (s->offset - lsf_f3_dot(s->plane, lsf_f3_load(&r->iteration.view.origin.x))) /
-              lsf_f3_dot(s->plane, ray);
-    assert_true(z > r->iteration.view.depth.x);
-    return z;
+    const struct lsf_view_data *view = &r->iteration.view;
+    const lsf_vec4 forward[3] = {view->forward, view->forward_dx, view->forward_dy};
+    return at_sample(r, x, y, forward);
 }
 
-lsf_float3 surface_rig_position(const surface_rig *r, uint32_t x, uint32_t y, const seen *s)
+/* Reverse-Z, as view.h says. */
+static float depth_of(const surface_rig *r, uint32_t x, uint32_t y, const seen *s)
 {
-    lsf_float3 ray = surface_rig_ray(r, x, y);
-    return lsf_f3_mad(lsf_f3_load(&r->iteration.view.origin.x), ray, view_depth(r, ray, s));
+    const struct lsf_view_data *view = &r->iteration.view;
+    const lsf_vec4 origins[3] = {view->origin, view->origin_dx, view->origin_dy};
+    float above = s->offset - lsf_f3_dot(s->plane, at_sample(r, x, y, origins));
+    float z = above / lsf_f3_dot(s->plane, surface_rig_ray(r, x, y));
+    float near = view->depth.x, far = view->depth.y;
+    assert_true(z > near);
+    return r->setup.plan->orthographic ? (far - z) / (far - near) : near / z;
 }
 
 float surface_rig_pixel(const surface_rig *r)
@@ -123,9 +130,7 @@ float surface_rig_pixel(const surface_rig *r)
 void surface_rig_see(surface_rig *r, uint32_t x, uint32_t y, const seen *s)
 {
     uint32_t i = y * r->width + x;
-    r->depths[i] = s->background
-                       ? 0.0f
-                       : r->iteration.view.depth.x / view_depth(r, surface_rig_ray(r, x, y), s);
+    r->depths[i] = s->background ? 0.0f : depth_of(r, x, y, s);
     r->surfaces[i][0] = octahedral(s->plane);
     r->surfaces[i][1] = octahedral(s->normal);
     r->surfaces[i][2] = i * 2654435761u; /* any colour */

@@ -26,16 +26,14 @@ typedef struct surface_rig {
 } surface_rig;
 
 /* A picture of anisotropic glossy surfaces with nothing planned yet but the G-buffer. */
-void surface_rig_begin(surface_rig *rig, uint32_t width, uint32_t height);
+void surface_rig_begin(surface_rig *rig, uint32_t width, uint32_t height, bool orthographic);
 /* Once the test has planned its passes; iteration 0. */
 void surface_rig_start(surface_rig *rig);
 void surface_rig_end(surface_rig *rig);
 
-/* The middle of a pixel's view ray, not normalised: view depth is 1 along it. */
+/* Along the view ray of a pixel's sample, not normalised: view depth grows by 1. */
 lsf_float3 surface_rig_ray(const surface_rig *rig, uint32_t x, uint32_t y);
-/* Of what the pixel sees, in exact arithmetic but for rounding. */
-lsf_float3 surface_rig_position(const surface_rig *rig, uint32_t x, uint32_t y, const seen *s);
-/* A pixel's width at view depth 1. */
+/* A pixel's width at view depth 1; in perspective. */
 float surface_rig_pixel(const surface_rig *rig);
 
 void surface_rig_see(surface_rig *rig, uint32_t x, uint32_t y, const seen *s);

@@ -16,15 +16,20 @@ typedef struct rig {
     float (*texels)[4];
 } rig;
 
-static void rig_begin(rig *r, uint32_t width, uint32_t height)
+static void rig_begin_view(rig *r, uint32_t width, uint32_t height, bool orthographic)
 {
     memset(r, 0, sizeof *r);
     r->params = (lsf_blur_params){LSF_BLUR_PARAMS_DEFAULTS};
-    surface_rig_begin(&r->s, width, height);
+    surface_rig_begin(&r->s, width, height, orthographic);
     r->in = calloc(width * height, sizeof *r->in);
     r->out = calloc(width * height, sizeof *r->out);
     r->texels = calloc(width * height, sizeof *r->texels);
     assert_true(r->in && r->out && r->texels);
+}
+
+static void rig_begin(rig *r, uint32_t width, uint32_t height)
+{
+    rig_begin_view(r, width, height, false);
 }
 
 /* With the params that the test has set. */
@@ -148,6 +153,7 @@ static void an_impulse_becomes_a_tent(void **unused)
                  {0.1f, 0.5f, 3}};
     rig r;
     rig_begin(&r, 81, 81);
+    r.params.ratio = 2.0f;
     r.params.growth = 0.0f;
     rig_start(&r);
     for (size_t c = 0; c < LSF_COUNT(cases); c++) {
@@ -185,11 +191,13 @@ static void an_impulse_becomes_a_tent(void **unused)
 static void reach_grows_with_distance(void **unused)
 {
     (void)unused;
-    static const float distances[] = {0.25f, 1.0f, 2.0f, 4.0f};
+    /* None brings a step near the middle between two texels. */
+    static const float distances[] = {0.3f, 1.0f, 2.1f, 4.0f};
     for (size_t d = 0; d < LSF_COUNT(distances); d++) {
         rig r;
         rig_begin(&r, 201, 9);
         r.params.phases = 4;
+        r.params.ratio = 2.0f;
         r.params.growth = 1.0f;
         rig_start(&r);
         seen point = surface_rig_wall(&r.s, distances[d]);
@@ -201,11 +209,42 @@ static void reach_grows_with_distance(void **unused)
         uint32_t reach, expected = 0;
         double sum;
         for (int phase = 0; phase < 4; phase++)
-            expected += (uint32_t)lrintf(ldexpf(1.0f + distances[d], phase));
+            expected +=
+                (uint32_t)lround(ldexp(pow(1.0 + (double)distances[d], phase / 3.0), phase));
         measure(&r, 0, 100, 4, &reach, &sum);
         assert_int_equal(reach, expected);
         rig_end(&r);
     }
+}
+
+/* Taps are as far apart as on a wall in perspective where a texel is as wide: the cut-off, of one
+ * step here, lets all of them through on the wall and none on a slanted floor. */
+static void cutoff_is_a_step(void **unused)
+{
+    (void)unused;
+    for (int orthographic = 0; orthographic < 2; orthographic++)
+        for (int slanted = 0; slanted < 2; slanted++) {
+            rig r;
+            rig_begin_view(&r, 9, 41, orthographic);
+            r.params.phases = 1;
+            r.params.cutoff = 1.01f;
+            rig_start(&r);
+            seen point = surface_rig_wall(&r.s, 2.0f);
+            if (slanted) { /* through the same point of the view's axis */
+                const struct lsf_view_data *view = &r.s.iteration.view;
+                point.plane = point.normal = (lsf_float3){0, 1, 0};
+                point.offset = view->origin.y + 2.0f * view->forward.y;
+            }
+            for (uint32_t y = 0; y < 41; y++)
+                for (uint32_t x = 0; x < 9; x++)
+                    surface_rig_see(&r.s, x, y, &point);
+            set_light(&r, 4, 20, 1.0f, 1.0f);
+            rig_run(&r);
+            float above = r.out[21 * 9 + 4][0][0], beside = r.out[20 * 9 + 5][0][0];
+            assert_true(fabsf(above - (slanted ? 0.0f : 0.125f)) < 1e-6f);
+            assert_true(fabsf(beside - (slanted ? 0.25f : 0.125f)) < 1e-6f);
+            rig_end(&r);
+        }
 }
 
 /* Left and right halves see `sides` and have light 1 and 0 (specular 3 and 0). */
@@ -215,7 +254,9 @@ static void check_halves(rig *r, const seen sides[2])
         for (uint32_t x = 0; x < r->s.width; x++) {
             bool right = x >= r->s.width / 2;
             surface_rig_see(&r->s, x, y, &sides[right]);
-            set_light(r, x, y, right ? 0.0f : 1.0f, right ? 0.0f : 3.0f);
+            /* What stands where nothing is seen is never looked at. */
+            float nothing = sides[right].background ? NAN : 0.0f;
+            set_light(r, x, y, right ? nothing : 1.0f, right ? nothing : 3.0f);
         }
     rig_run(r);
     assert_memory_equal(r->out, r->in, r->s.width * r->s.height * sizeof *r->in);
@@ -347,9 +388,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_constant_stays_to_the_bit), cmocka_unit_test(an_impulse_becomes_a_tent),
-        cmocka_unit_test(reach_grows_with_distance),   cmocka_unit_test(nothing_crosses_an_edge),
-        cmocka_unit_test(nothing_crosses_a_corner),    cmocka_unit_test(mirrors_keep_their_own),
-        cmocka_unit_test(same_bits_with_any_threads),  cmocka_unit_test(no_phases_no_pass),
+        cmocka_unit_test(reach_grows_with_distance),   cmocka_unit_test(cutoff_is_a_step),
+        cmocka_unit_test(nothing_crosses_an_edge),     cmocka_unit_test(nothing_crosses_a_corner),
+        cmocka_unit_test(mirrors_keep_their_own),      cmocka_unit_test(same_bits_with_any_threads),
+        cmocka_unit_test(no_phases_no_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,15 +15,15 @@ typedef struct rig {
     float *in, *out; /* irradiance, four floats a texel or pixel; specular is 3 times it */
 } rig;
 
-static void rig_begin(rig *r, uint32_t width, uint32_t height, uint32_t coarse_width,
-                      uint32_t coarse_height)
+static void rig_begin_view(rig *r, uint32_t width, uint32_t height, uint32_t coarse_width,
+                           uint32_t coarse_height, bool orthographic)
 {
     lsf_error error = {0};
     memset(r, 0, sizeof *r);
     r->width = coarse_width;
     r->height = coarse_height;
     r->params = (lsf_upsample_search_params){LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS};
-    surface_rig_begin(&r->s, width, height);
+    surface_rig_begin(&r->s, width, height, orthographic);
     lsf_upsample_search_plan(r->s.setup.plan, &r->params, coarse_width, coarse_height);
     surface_rig_start(&r->s);
     if (!lsf_upsample_search_create(&r->pass, r->s.context, r->s.setup.plan, &r->params, &error))
@@ -33,6 +33,12 @@ static void rig_begin(rig *r, uint32_t width, uint32_t height, uint32_t coarse_w
     r->in = calloc(coarse_width * coarse_height, 4 * sizeof *r->in);
     r->out = calloc(width * height, 4 * sizeof *r->out);
     assert_true(r->in && r->out);
+}
+
+static void rig_begin(rig *r, uint32_t width, uint32_t height, uint32_t coarse_width,
+                      uint32_t coarse_height)
+{
+    rig_begin_view(r, width, height, coarse_width, coarse_height, false);
 }
 
 static void rig_end(rig *r)
@@ -248,6 +254,40 @@ static void nothing_crosses_an_edge(void **unused)
         }
 }
 
+/* Light that is linear over a wall, and so over the picture, stays it between the outermost places
+ * that the grid sees; 2^-20 is rounding. */
+static void light_is_interpolated(void **unused)
+{
+    (void)unused;
+    for (size_t s = 0; s < 3; s++)
+        for (int orthographic = 0; orthographic < 2; orthographic++) {
+            rig r;
+            rig_begin_view(&r, sizes[s][0], sizes[s][1], sizes[s][2], sizes[s][3], orthographic);
+            seen point = surface_rig_wall(&r.s, 1.0f);
+            for (uint32_t y = 0; y < r.s.height; y++)
+                for (uint32_t x = 0; x < r.s.width; x++)
+                    surface_rig_see(&r.s, x, y, &point);
+            rig_split(&r, 0);
+            uint32_t corner[2][2];
+            for (uint32_t y = 0; y < r.height; y++)
+                for (uint32_t x = 0; x < r.width; x++) {
+                    uint32_t px = pixel_of(x, r.width, r.s.width, r.pass.grid.offset[0]);
+                    uint32_t py = pixel_of(y, r.height, r.s.height, r.pass.grid.offset[1]);
+                    corner[x + y > 0][0] = px;
+                    corner[x + y > 0][1] = py;
+                    for (uint32_t c = 0; c < 4; c++)
+                        r.in[4 * (y * r.width + x) + c] = (float)(px + 2 * py) / 256.0f;
+                }
+            rig_run(&r);
+            for (uint32_t y = corner[0][1]; y <= corner[1][1]; y++)
+                for (uint32_t x = corner[0][0]; x <= corner[1][0]; x++) {
+                    float expected = (float)(x + 2 * y) / 256.0f;
+                    assert_true(fabsf(r.out[4 * (y * r.s.width + x)] - expected) < 0x1p-20f);
+                }
+            rig_end(&r);
+        }
+}
+
 /* At the picture's own size there is no pass, and the plan says why. */
 static void full_scale_has_no_pass(void **unused)
 {
@@ -313,6 +353,7 @@ int main(void)
         cmocka_unit_test(split_takes_one_pixel_of_each_block),
         cmocka_unit_test(a_constant_stays_to_the_bit),
         cmocka_unit_test(nothing_crosses_an_edge),
+        cmocka_unit_test(light_is_interpolated),
         cmocka_unit_test(full_scale_has_no_pass),
         cmocka_unit_test(lengths_follow_the_scale),
         cmocka_unit_test(same_bits_with_any_threads),
