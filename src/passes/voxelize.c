@@ -1,4 +1,4 @@
-#include "passes/voxelize.h"
+#include "passes/voxelize_parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "plan/triangle_fetch.h"
 #include "shared/scene_data.h"
 
 /* Storage buffers beside LSF_BINDING_MATERIALS. */
@@ -28,28 +27,6 @@
 
 /* Location in voxelize.geom.glsl. */
 #define LOCATION_SIDE 24
-
-/* What one of the two rounds runs: an instance's small triangles, then its large ones; or all of
- * them on the raster pipeline. */
-typedef struct round_programs {
-    GLuint small, large, raster;
-} round_programs;
-
-struct lsf_voxelize {
-    lsf_context *context;
-    lsf_voxel_grid grid;
-    lsf_voxelize_outputs outputs;
-    GLuint key;       /* R32UI: the winner's bid; 0: empty */
-    GLuint tiles;     /* of large triangles */
-    GLuint bricks[2]; /* lists of this run and of the run before */
-    uint32_t runs;
-    GLuint clear_program, framebuffer;
-    uint32_t side; /* of the framebuffer: the grid's longest */
-    round_programs mark, fill;
-    lsf_triangle_fetch fetch;
-    uint64_t counts[LSF_VOXELIZE_COUNTS];
-    lsf_timer *timer;
-};
 
 const lsf_option_row lsf_voxelize_options[LSF_VOXELIZE_OPTION_COUNT] = {
     {"voxel.method", LSF_OPTION_ENUM, offsetof(lsf_voxelize_params, method), 0, 0, "compute|raster",
@@ -153,30 +130,35 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                         "those of the iteration before");
     lsf_plan_buffer_add(plan, "voxelize.tiles", 4 * LSF_VOXEL_LIST_HEADER + 8 * (uint64_t)MAX_TILES,
                         "tiles of large triangles");
+    lsf_voxelize_still_plan(plan, grid);
+}
+
+void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[9])
+{
+    lsf_voxelize_outputs *o = &pass->outputs;
+    const lsf_voxelize_texture list[9] = {{"voxelize.key", &pass->key},
+                                          {"voxelize.occupancy_0", &o->occupancy[0]},
+                                          {"voxelize.occupancy_1", &o->occupancy[1]},
+                                          {"voxelize.occupancy_2", &o->occupancy[2]},
+                                          {"voxelize.albedo", &o->albedo},
+                                          {"voxelize.normal", &o->normal},
+                                          {"voxelize.point", &o->point},
+                                          {"voxelize.emission", &o->emission},
+                                          {"voxelize.gloss", &o->gloss}};
+    memcpy(textures, list, sizeof list);
 }
 
 static bool create_textures(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *error)
 {
-    lsf_voxelize_outputs *o = &pass->outputs;
-    const struct {
-        const char *name;
-        GLuint *texture;
-    } textures[] = {{"voxelize.key", &pass->key},
-                    {"voxelize.occupancy_0", &o->occupancy[0]},
-                    {"voxelize.occupancy_1", &o->occupancy[1]},
-                    {"voxelize.occupancy_2", &o->occupancy[2]},
-                    {"voxelize.albedo", &o->albedo},
-                    {"voxelize.normal", &o->normal},
-                    {"voxelize.point", &o->point},
-                    {"voxelize.emission", &o->emission},
-                    {"voxelize.gloss", &o->gloss}};
+    lsf_voxelize_texture textures[9];
+    lsf_voxelize_textures(pass, textures);
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         if (!lsf_plan_create_texture(plan, pass->context, textures[i].name, textures[i].texture,
                                      error))
             return false;
     glClearTexImage(pass->key, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     for (int level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
-        glClearTexImage(o->occupancy[level], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+        glClearTexImage(pass->outputs.occupancy[level], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     return true;
 }
 
@@ -203,7 +185,7 @@ static bool create_lists(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *er
     return true;
 }
 
-static bool create_round(round_programs *round, lsf_voxelize *pass, const lsf_plan *plan,
+static bool create_round(lsf_voxelize_round *round, lsf_voxelize *pass, const lsf_plan *plan,
                          const char *name, lsf_voxelize_method method, lsf_error *error)
 {
     static const char *const small[5] = {"passes/voxelize_small.comp.glsl"};
@@ -232,7 +214,7 @@ static bool create_framebuffer(lsf_voxelize *pass, lsf_error *error)
 
 bool lsf_voxelize_create(lsf_voxelize **created, lsf_context *context, const lsf_plan *plan,
                          const lsf_voxelize_params *params, const lsf_voxel_grid *grid,
-                         lsf_error *error)
+                         const lsf_scene *scene, lsf_error *error)
 {
     static const char *const clear[5] = {"passes/voxelize_clear.comp.glsl"};
     lsf_voxelize *pass = *created = lsf_alloc(1, sizeof *pass);
@@ -243,6 +225,7 @@ bool lsf_voxelize_create(lsf_voxelize **created, lsf_context *context, const lsf
     pass->grid = *grid;
     lsf_triangle_fetch_create(&pass->fetch);
     if (!create_textures(pass, plan, error) || !create_lists(pass, plan, error) ||
+        !lsf_voxelize_still_create(pass, plan, scene, error) ||
         !create_round(&pass->mark, pass, plan, "voxelize_mark", method, error) ||
         !create_round(&pass->fill, pass, plan, "voxelize_fill", method, error) ||
         (method == LSF_VOXELIZE_RASTER && !create_framebuffer(pass, error)))
@@ -297,7 +280,7 @@ static void use_program(GLuint program, const instance_turn *turn)
     lsf_triangle_fetch_instance(turn->iteration, turn->instance, 0, turn->triangles);
 }
 
-static void compute_instance(lsf_voxelize *pass, const round_programs *round,
+static void compute_instance(lsf_voxelize *pass, const lsf_voxelize_round *round,
                              const instance_turn *turn)
 {
     uint32_t groups = (turn->triangles + GROUP - 1) / GROUP;
@@ -312,7 +295,7 @@ static void compute_instance(lsf_voxelize *pass, const round_programs *round,
     glDispatchComputeIndirect(0);
 }
 
-static void draw_instance(lsf_voxelize *pass, const round_programs *round,
+static void draw_instance(lsf_voxelize *pass, const lsf_voxelize_round *round,
                           const instance_turn *turn)
 {
     use_program(round->raster, turn);
@@ -329,9 +312,18 @@ static void set_raster_state(const lsf_voxelize *pass)
     glDisable(GL_BLEND);
 }
 
-/* One round over all triangles, instances grouped by material. */
-static void run_round(lsf_voxelize *pass, const lsf_iteration *iteration,
-                      const round_programs *round)
+/* Which instances: those that move, the others, or, where nothing is kept apart, all. */
+typedef enum instance_group { GROUP_STILL, GROUP_MOVING } instance_group;
+
+static bool in_group(const lsf_voxelize *pass, uint32_t instance, instance_group group)
+{
+    bool moves = pass->still.moves && pass->still.moves[instance];
+    return moves == (group == GROUP_MOVING);
+}
+
+/* One round over the triangles of a group, instances in the order of their materials. */
+static void run_round(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group,
+                      const lsf_voxelize_round *round)
 {
     const lsf_scene_gpu *scene = iteration->scene;
     instance_turn turn = {.iteration = iteration};
@@ -341,59 +333,77 @@ static void run_round(lsf_voxelize *pass, const lsf_iteration *iteration,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, pass->outputs.bricks);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TILES, pass->tiles);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->tiles);
-    for (uint32_t i = 0; i < scene->draw_count; i++) {
+    for (uint32_t i = 0; i < scene->draw_count; i++, turn.first_triangle += turn.triangles) {
         turn.instance = scene->draw_order[i];
         const lsf_instance_state *instance = &iteration->state->instances[turn.instance];
-        if (instance->skipped)
+        turn.triangles = (uint32_t)(scene->scene->primitives[instance->primitive].index_count / 3);
+        if (instance->skipped || !in_group(pass, turn.instance, group))
             continue;
         if (instance->material != bound)
             lsf_scene_gpu_bind_material(scene, bound = instance->material, LSF_DRAW_SHADING);
-        turn.triangles = (uint32_t)(scene->scene->primitives[instance->primitive].index_count / 3);
         if (round->raster)
             draw_instance(pass, round, &turn);
         else
             compute_instance(pass, round, &turn);
-        turn.first_triangle += turn.triangles;
     }
 }
 
-static void count_triangles(lsf_voxelize *pass, const lsf_iteration *iteration)
+/* Adds a group to the grid: bids, then surfaces. */
+static void add_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group)
 {
     const lsf_scene *scene = iteration->scene->scene;
     for (uint32_t i = 0; i < iteration->state->instance_count; i++) {
         const lsf_instance_state *instance = &iteration->state->instances[i];
-        if (instance->skipped)
+        if (instance->skipped || !in_group(pass, i, group))
             continue;
         pass->counts[LSF_VOXELIZE_INSTANCES]++;
         pass->counts[LSF_VOXELIZE_TRIANGLES] +=
             scene->primitives[instance->primitive].index_count / 3;
     }
+    bind_occupancy(pass);
+    run_round(pass, iteration, group, &pass->mark);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    bind_attributes(pass);
+    run_round(pass, iteration, group, &pass->fill);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+/* The lists change places; what the last one lists is emptied. */
+static void begin_run(lsf_voxelize *pass)
+{
+    lsf_voxelize_outputs *o = &pass->outputs;
+    clear_before(pass);
+    pass->runs++;
+    o->bricks = pass->bricks[pass->runs % 2];
+    o->previous_bricks = pass->bricks[(pass->runs + 1) % 2];
 }
 
 const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration)
 {
     struct lsf_voxel_grid_data data = lsf_voxel_grid_data(&pass->grid, iteration);
     lsf_voxelize_outputs *o = &pass->outputs;
-    o->changed = pass->runs == 0 || pass->grid.jitter;
+    bool moved = lsf_voxelize_still_moved(pass, iteration->state);
+    bool anew = pass->runs == 0 || pass->grid.jitter;
+    o->changed = anew || moved;
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, o->grid_buffer);
     if (!o->changed)
         return o;
     lsf_timer_begin(pass->timer);
-    clear_before(pass);
-    pass->runs++;
-    glNamedBufferSubData(o->grid_buffer, 0, sizeof data, &data);
-    o->bricks = pass->bricks[pass->runs % 2];
-    o->previous_bricks = pass->bricks[(pass->runs + 1) % 2];
-    empty_list(o->bricks);
-    count_triangles(pass, iteration);
+    begin_run(pass);
     lsf_triangle_fetch_bind(&pass->fetch, iteration->scene);
-    bind_occupancy(pass);
-    run_round(pass, iteration, &pass->mark);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    bind_attributes(pass);
-    run_round(pass, iteration, &pass->fill);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                    GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    if (anew) {
+        glNamedBufferSubData(o->grid_buffer, 0, sizeof data, &data);
+        empty_list(o->bricks);
+        add_group(pass, iteration, GROUP_STILL);
+        if (pass->still.moves)
+            lsf_voxelize_still_keep(pass);
+    } else {
+        lsf_voxelize_still_restore(pass);
+    }
+    if (pass->still.moves)
+        add_group(pass, iteration, GROUP_MOVING);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                    GL_COMMAND_BARRIER_BIT);
     lsf_timer_end(pass->timer);
     return o;
 }
@@ -412,17 +422,16 @@ void lsf_voxelize_destroy(lsf_voxelize *pass)
 {
     if (!pass)
         return;
-    lsf_voxelize_outputs *o = &pass->outputs;
-    GLuint *textures[] = {&pass->key,       &o->occupancy[0], &o->occupancy[1],
-                          &o->occupancy[2], &o->albedo,       &o->normal,
-                          &o->point,        &o->emission,     &o->gloss};
+    lsf_voxelize_texture textures[9];
+    lsf_voxelize_textures(pass, textures);
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        lsf_texture_destroy(pass->context, textures[i]);
+        lsf_texture_destroy(pass->context, textures[i].texture);
+    lsf_voxelize_still_destroy(pass);
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_buffer_destroy(pass->context, &pass->bricks[0]);
     lsf_buffer_destroy(pass->context, &pass->bricks[1]);
     lsf_buffer_destroy(pass->context, &pass->tiles);
-    lsf_buffer_destroy(pass->context, &o->grid_buffer);
+    lsf_buffer_destroy(pass->context, &pass->outputs.grid_buffer);
     lsf_triangle_fetch_destroy(&pass->fetch);
     lsf_timer_destroy(pass->timer);
     free(pass);

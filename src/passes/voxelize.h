@@ -44,8 +44,9 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
 /* On failure *pass is what is to be destroyed. */
 bool lsf_voxelize_create(lsf_voxelize **pass, lsf_context *context, const lsf_plan *plan,
                          const lsf_voxelize_params *params, const lsf_voxel_grid *grid,
-                         lsf_error *error);
-/* Does nothing where nothing moved since the last run. Binds the grid at LSF_BINDING_VOXEL. */
+                         const lsf_scene *scene, lsf_error *error);
+/* Voxelises what moved since the last run, and with a grid that is shifted all. Binds the grid at
+ * LSF_BINDING_VOXEL. */
 const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration);
 lsf_timer *lsf_voxelize_timer(lsf_voxelize *pass);
 const uint64_t *lsf_voxelize_counts(const lsf_voxelize *pass);

@@ -70,7 +70,17 @@ static void add_lights(const lsf_scene *scene, lsf_requirements *r)
     }
 }
 
-/* True when an animation moves a node that carries something, or an ancestor of it. */
+void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves)
+{
+    for (uint32_t i = 0; i < scene->channel_count; i++)
+        moves[scene->channels[i].node] = true;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        uint32_t parent = scene->nodes[i].parent;
+        moves[i] = moves[i] || (parent != LSF_NONE && moves[parent]);
+    }
+}
+
+/* True when an animation moves a node that carries something. */
 static bool is_moving(const lsf_scene *scene)
 {
     if (scene->channel_count == 0)
@@ -78,12 +88,10 @@ static bool is_moving(const lsf_scene *scene)
     bool *moves = lsf_alloc(scene->node_count, sizeof(bool));
     if (!moves)
         return true; /* the safe answer */
-    for (uint32_t i = 0; i < scene->channel_count; i++)
-        moves[scene->channels[i].node] = true;
+    lsf_scene_moving_nodes(scene, moves);
     bool found = false;
     for (uint32_t i = 0; i < scene->node_count && !found; i++) {
         const lsf_node *node = &scene->nodes[i];
-        moves[i] = moves[i] || (node->parent != LSF_NONE && moves[node->parent]);
         bool carries = node->light != LSF_NONE || node->camera != LSF_NONE ||
                        (node->mesh != LSF_NONE && scene->meshes[node->mesh].primitive_count > 0);
         found = moves[i] && carries;
@@ -186,8 +194,8 @@ static uint64_t count_degenerate(const lsf_scene *scene, const lsf_primitive *pr
             u[k] = (double)b[k] - (double)a[k];
             v[k] = (double)c[k] - (double)a[k];
         }
-        count += u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] &&
-                 u[0] * v[1] == u[1] * v[0];
+        count +=
+            u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
     }
     return count;
 }

@@ -182,6 +182,10 @@ struct lsf_scene {
 void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* Sets which nodes an animation moves, by themselves or with an ancestor. `moves`: one for each node,
+ * all false. */
+void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves);
+
 /* Fills scene->requirements from what the instances use (requirements.c). */
 void lsf_scene_compute_requirements(lsf_scene *scene);
 

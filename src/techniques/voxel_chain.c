@@ -60,7 +60,7 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
     chain->grid = lsf_voxel_chain_grid(plan, params, state, use);
     lsf_voxel_grid_set_unit(&chain->grid, scene->scene, state);
     return lsf_voxelize_create(&chain->voxelize, context, plan, &params->voxelize, &chain->grid,
-                               error) &&
+                               scene->scene, error) &&
            lsf_voxel_light_create(&chain->light, context, plan, &light, error);
 }
 

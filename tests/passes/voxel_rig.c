@@ -47,7 +47,7 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
                               &error) ||
         !lsf_iteration_create(&rig->iteration, rig->context, plan, &rig->scene, &rig->setup.state,
                               NULL, 0, &error) ||
-        !lsf_voxelize_create(&rig->pass, rig->context, plan, &voxelize, &rig->grid, &error))
+        !lsf_voxelize_create(&rig->pass, rig->context, plan, &voxelize, &rig->grid, scene, &error))
         fail_msg("%s", error.message);
     if (sides > 0)
         init_light(rig);

@@ -1,0 +1,62 @@
+/* What the files of voxelize share. */
+#ifndef LSF_PASSES_VOXELIZE_PARTS_H
+#define LSF_PASSES_VOXELIZE_PARTS_H
+
+#include "passes/voxelize.h"
+#include "plan/triangle_fetch.h"
+
+/* What one of the two rounds runs: an instance's small triangles, then its large ones; or all of
+ * them on the raster pipeline. */
+typedef struct lsf_voxelize_round {
+    GLuint small, large, raster;
+} lsf_voxelize_round;
+
+/* The grid with what stands still, where something moves: each run begins with a copy of it. */
+typedef struct lsf_voxelize_still {
+    bool *moves;             /* of each instance; NULL: nothing is kept */
+    float (*transforms)[12]; /* of each instance, as of the last run */
+    uint32_t instance_count;
+    GLuint textures[9]; /* as lsf_voxelize_textures lists them */
+    GLuint bricks;
+} lsf_voxelize_still;
+
+struct lsf_voxelize {
+    lsf_context *context;
+    lsf_voxel_grid grid;
+    lsf_voxelize_outputs outputs;
+    GLuint key;       /* R32UI: the winner's bid; 0: empty */
+    GLuint tiles;     /* of large triangles */
+    GLuint bricks[2]; /* lists of this run and of the run before */
+    uint32_t runs;
+    GLuint clear_program, framebuffer;
+    uint32_t side; /* of the framebuffer: the grid's longest */
+    lsf_voxelize_round mark, fill;
+    lsf_triangle_fetch fetch;
+    lsf_voxelize_still still;
+    uint64_t counts[LSF_VOXELIZE_COUNTS];
+    lsf_timer *timer;
+};
+
+/* A texture of the pass, 0 where the plan lists none, and its name in the plan. */
+typedef struct lsf_voxelize_texture {
+    const char *name;
+    GLuint *texture;
+} lsf_voxelize_texture;
+
+void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[9]);
+
+/* --- voxelize_still.c --- */
+
+/* Lists the copies of everything that the pass has planned; nothing where nothing moves or the grid
+ * does. */
+void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid);
+bool lsf_voxelize_still_create(lsf_voxelize *pass, const lsf_plan *plan, const lsf_scene *scene,
+                               lsf_error *error);
+/* Whether an instance moved since this was asked last. */
+bool lsf_voxelize_still_moved(lsf_voxelize *pass, const lsf_state *state);
+/* Takes the copy; makes it the grid. */
+void lsf_voxelize_still_keep(lsf_voxelize *pass);
+void lsf_voxelize_still_restore(lsf_voxelize *pass);
+void lsf_voxelize_still_destroy(lsf_voxelize *pass);
+
+#endif

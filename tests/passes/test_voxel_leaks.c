@@ -1,0 +1,83 @@
+/* Light that comes through walls: a sealed dark room beside a lit one. In truth the dark room is
+ * black; what arrives there is told relative to the lit room. */
+#include <math.h>
+
+#include "render_gl.h"
+
+#define RESOLUTION 64
+
+/* Two rooms of 2 x 2 x 2 with a wall of `thickness` voxels between them, and a lamp in the left
+ * one. */
+static lsf_scene *two_rooms(float thickness)
+{
+    /* The wall keeps its thickness in voxels: (4 + t) / (N - 2) is a voxel's side. */
+    float side = 4.0f / ((float)RESOLUTION - 2.0f - thickness);
+    float half = 0.5f * thickness * side;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.7f, 0.7f, 0.7f);
+    build_box(scene, lsf_f3(-2 - half, -1, -1), lsf_f3(-half, 1, 1), true);
+    build_box(scene, lsf_f3(half, -1, -1), lsf_f3(2 + half, 1, 1), true);
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(-0.8f, 0.3f, 0.1f), lsf_f3(0, -1, 0), 1.0f);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+static double room_light(const char *technique, const lsf_scene *scene, float room,
+                         const char *const *options, uint32_t option_count)
+{
+    /* Towards the wall between the rooms, and its edges. */
+    const float eye[3] = {1.9f * room, 0.4f, -0.8f}, target[3] = {0.0f, -0.4f, 0.5f};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = technique;
+    params.width = params.height = 48;
+    params.samples = getenv("LSF_TEST_QUICK") ? 4 : 16;
+    params.bounces = 2;
+    params.camera_position = eye;
+    params.camera_target = target;
+    params.fov_y = 80.0f;
+    params.options = options;
+    params.option_count = option_count;
+    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < image->width * image->height; i++)
+        sum += (double)image->pixels[i * image->channel_count + 1];
+    lsf_image_destroy(image);
+    return sum / (48.0 * 48.0);
+}
+
+static double leak(const char *technique, float thickness, const char *remedy)
+{
+    const char *options[2] = {"voxel.resolution=64", remedy};
+    lsf_scene *scene = two_rooms(thickness);
+    double lit = room_light(technique, scene, -1.0f, options, remedy ? 2 : 1);
+    double dark = room_light(technique, scene, 1.0f, options, remedy ? 2 : 1);
+    destroy_scene(scene);
+    assert_true(lit > 0.01);
+    print_message("%s%s%s, wall of %g voxels: %.2e of the lit room's light\n", technique,
+                  remedy ? " -D " : "", remedy ? remedy : "", (double)thickness, dark / lit);
+    return dark / lit;
+}
+
+static void cones(void **unused)
+{
+    (void)unused;
+    leak("cone", 0.5f, NULL);
+    leak("cone", 1.0f, NULL);
+    assert_true(leak("cone", 2.0f, NULL) <= 1e-4);
+    assert_true(leak("cone", 4.0f, NULL) <= 1e-4);
+}
+
+static void paths(void **unused)
+{
+    (void)unused;
+    leak("voxel_path", 0.5f, NULL);
+    leak("voxel_path", 1.0f, NULL);
+    assert_true(leak("voxel_path", 2.0f, NULL) <= 1e-4);
+    assert_true(leak("voxel_path", 4.0f, NULL) <= 1e-4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cones), cmocka_unit_test(paths)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
