@@ -206,10 +206,10 @@ void main()
         vec3 emission;
         if (!material_surface(material, point, s, emission))
             continue;
-        append_surface(uint(texel.y * LSF_BUNDLE_SIDE + texel.x), bundle_plane_pack(depth, slope), s,
-                       emission, sides);
+        append_surface(uint(bundle_texel(texel)), bundle_plane_pack(depth, slope), s, emission,
+                       sides);
         appended++;
     }
     if (appended > 0u)
-        atomicAdd(bundle_texels[LSF_BUNDLE_TEXELS + 1u], appended);
+        atomicAdd(bundle_heads[LSF_BUNDLE_RASTERISED + (gl_WorkGroupID.x & 15u) * 16u], appended);
 }

@@ -37,6 +37,12 @@ struct lsf_bundle_slot_data {
 #define LSF_BUNDLE_SMALL_SIZE 64
 #define LSF_BUNDLE_SMALL_TEXELS 256
 
+/* Words before the chains' heads: the number of chained nodes, and of nodes that a shader rasterised,
+ * of the latter 16 counters, in cache lines of their own, so that threads do not meet. */
+#define LSF_BUNDLE_CHAINED 0
+#define LSF_BUNDLE_RASTERISED 16
+#define LSF_BUNDLE_COUNTERS 272
+
 /* Tiles of pixels that a window is fitted to, and invocations that fit one. */
 #define LSF_BUNDLE_TILE 8
 #define LSF_BUNDLE_FIT_SIZE 256

@@ -7,7 +7,7 @@
 #include "shared/scene_data.h"
 
 /* The search walks slices in one loop of this many steps; see LSF_STEPS there. */
-#define MAX_SLICES 64
+#define MAX_SLICES 63
 
 #define SURFACES "LSF_BUNDLE_SURFACES"
 
@@ -44,7 +44,7 @@ void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params 
     bool gloss = lsf_ray_bundle_has_gloss(plan);
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SIDE", params->resolution, "bundle.resolution");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
-                        "bundle.slices, as a multiple of 4 that storage blocks hold");
+                        "bundle.slices, as a multiple of 4 less one that storage blocks hold");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", gloss && plan->requirements.anisotropic,
                         "some material is anisotropic");
@@ -70,7 +70,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                     lsf_ray_bundle_has_emission(plan) && !use->distances_only);
     lsf_ray_bundle_raster_plan(plan, params);
     lsf_ray_bundle_nodes_plan(plan, params, use);
-    lsf_plan_buffer_add(plan, "ray_bundle.readback", 4 * LSF_RAY_BUNDLE_COUNTERS,
+    lsf_plan_buffer_add(plan, "ray_bundle.readback", 4 * LSF_BUNDLE_COUNTERS,
                         "how many nodes there are, and how many of them chained");
     lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
     lsf_ray_bundle_reader_switches(plan, params);
@@ -150,26 +150,24 @@ void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle)
     lsf_ray_bundle_nodes_bind(&pass->slots[bundle % pass->use.slots]);
 }
 
-static uint64_t texel_count(const lsf_ray_bundle *pass)
-{
-    return (uint64_t)pass->params.resolution * (uint64_t)pass->params.resolution;
-}
-
-static void clear_texels(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *slot)
+/* No fragments in any texel. */
+static void clear_lists(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *slot)
 {
     static const GLuint zero = 0;
-    glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], GL_R32UI, 0,
-                              (GLsizeiptr)(4 * (texel_count(pass) + LSF_RAY_BUNDLE_COUNTERS)),
+    glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_KEYS], GL_R32UI, 0,
+                              (GLsizeiptr)(16 * lsf_ray_bundle_texels(&pass->params)),
                               GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_HEADS], GL_R32UI, 0,
+                              4 * LSF_BUNDLE_COUNTERS, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
 /* Waits for the draw, and reads how many nodes were chained, or would have been with enough room.
  */
 static void draw(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
-                 uint32_t counters[LSF_RAY_BUNDLE_COUNTERS])
+                 uint32_t counters[LSF_BUNDLE_COUNTERS])
 {
     const lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
-    clear_texels(pass, slot);
+    clear_lists(pass, slot);
     lsf_ray_bundle_bind(pass, bundle);
     glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
     if (pass->small_program) {
@@ -182,9 +180,9 @@ static void draw(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t 
     }
     glEndQuery(GL_SAMPLES_PASSED);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    glCopyNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], pass->readback,
-                             (GLintptr)(4 * texel_count(pass)), 0, 4 * LSF_RAY_BUNDLE_COUNTERS);
-    glGetNamedBufferSubData(pass->readback, 0, 4 * LSF_RAY_BUNDLE_COUNTERS, counters);
+    glCopyNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_HEADS], pass->readback, 0, 0,
+                             4 * LSF_BUNDLE_COUNTERS);
+    glGetNamedBufferSubData(pass->readback, 0, 4 * LSF_BUNDLE_COUNTERS, counters);
 }
 
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
@@ -198,23 +196,26 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP); /* rounding must not clip what lies on the range's ends */
-    uint32_t counters[LSF_RAY_BUNDLE_COUNTERS];
+    uint32_t counters[LSF_BUNDLE_COUNTERS];
     draw(pass, iteration, bundle, counters);
-    if (counters[0] > slot->room) {
+    if (counters[LSF_BUNDLE_CHAINED] > slot->room) {
         lsf_error error = {0};
         pass->counts[LSF_RAY_BUNDLE_REGROWN]++;
-        if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, slot, counters[0], &error)) {
+        if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, slot, counters[LSF_BUNDLE_CHAINED],
+                                      &error)) {
             draw(pass, iteration, bundle, counters);
         } else {
             lsf_context_fail(pass->context, &error);
-            clear_texels(pass, slot); /* nobody may follow links that were never written */
+            clear_lists(pass, slot); /* nobody may follow links that were never written */
         }
     }
     glDisable(GL_DEPTH_CLAMP);
     GLuint64 nodes = 0;
     glGetQueryObjectui64v(pass->samples_query, GL_QUERY_RESULT, &nodes);
-    pass->counts[LSF_RAY_BUNDLE_NODES] += nodes + counters[1];
-    pass->counts[LSF_RAY_BUNDLE_OVERFLOW] += counters[0];
+    for (int i = LSF_BUNDLE_RASTERISED; i < LSF_BUNDLE_COUNTERS; i++)
+        nodes += counters[i];
+    pass->counts[LSF_RAY_BUNDLE_NODES] += nodes;
+    pass->counts[LSF_RAY_BUNDLE_OVERFLOW] += counters[LSF_BUNDLE_CHAINED];
     lsf_timer_end(pass->build_timer);
 }
 
@@ -225,7 +226,7 @@ static void set_ray(const lsf_ray_bundle *pass, GLuint program,
     if (pass->use.deep_vertices)
         glUniform1i(0, origins->depth == 0);
     if (lsf_ray_bundle_slices(&pass->params) > 0)
-        glUniform1i(2, lsf_ray_bundle_slices(&pass->params) / 4);
+        glUniform1i(2, (lsf_ray_bundle_slices(&pass->params) + 1) / 4);
     lsf_region_set(region);
 }
 

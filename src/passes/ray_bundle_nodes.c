@@ -14,22 +14,34 @@
 #define LARGEST_BLOCK (UINT64_C(1) << 27)
 #define SURFACE_BYTES 12
 
-static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"texels", "keys",     "surfaces",
-                                                               "gloss",  "emission", "chain"};
+static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"heads", "keys",     "surfaces",
+                                                               "gloss", "emission", "chain"};
 
-static uint64_t texel_count(const lsf_ray_bundle_params *params)
+uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params)
 {
-    return (uint64_t)params->resolution * (uint64_t)params->resolution;
+    uint64_t row = (uint64_t)(params->resolution + 7) / 8 * 8;
+    return row * row;
+}
+
+static uint32_t first_room(const lsf_ray_bundle_params *params)
+{
+    double room = ceil((double)params->resolution * params->resolution * (double)params->room);
+    return (uint32_t)fmax(room, 1.0);
 }
 
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
 {
-    uint64_t texels = texel_count(params);
-    uint64_t room = (uint64_t)((double)texels * (double)params->room);
-    uint64_t nodes = LARGEST_BLOCK / SURFACE_BYTES;
-    uint64_t most = nodes > room ? (nodes - room) / texels / 4 * 4 : 0;
-    int32_t wanted = (params->slices + 3) / 4 * 4;
-    return most < (uint64_t)wanted ? (int32_t)most : wanted;
+    uint64_t room = first_room(params), nodes = LARGEST_BLOCK / SURFACE_BYTES;
+    uint64_t most = nodes > room ? (nodes - room) / lsf_ray_bundle_texels(params) / 4 * 4 : 0;
+    uint64_t wanted = ((uint64_t)params->slices + 4) / 4 * 4;
+    uint64_t places = most < wanted ? most : wanted;
+    return params->slices > 0 && places > 0 ? (int32_t)places - 1 : 0;
+}
+
+/* A texel's places in slices, of which one is its counter's. */
+static uint64_t places(const lsf_ray_bundle_params *params)
+{
+    return ((uint64_t)lsf_ray_bundle_slices(params) + 4) / 4 * 4;
 }
 
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan)
@@ -47,15 +59,15 @@ bool lsf_ray_bundle_has_emission(const lsf_plan *plan)
 static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *params,
                             bool distances_only, int array, uint64_t room)
 {
-    uint64_t texels = texel_count(params);
-    uint64_t nodes = texels * (uint64_t)lsf_ray_bundle_slices(params) + room;
+    uint64_t texels = lsf_ray_bundle_texels(params);
+    uint64_t nodes = texels * places(params) + room;
     bool surface = array == LSF_RAY_BUNDLE_SURFACES || array == LSF_RAY_BUNDLE_GLOSS ||
                    array == LSF_RAY_BUNDLE_EMISSION;
     if (surface && distances_only)
         return 0;
     switch (array) {
-    case LSF_RAY_BUNDLE_TEXELS:
-        return 4 * (2 * texels + LSF_RAY_BUNDLE_COUNTERS);
+    case LSF_RAY_BUNDLE_HEADS:
+        return 4 * (texels + LSF_BUNDLE_COUNTERS);
     case LSF_RAY_BUNDLE_KEYS:
         return 4 * (nodes - room);
     case LSF_RAY_BUNDLE_SURFACES:
@@ -75,18 +87,12 @@ static void array_name(char name[64], int array, uint32_t slot)
     snprintf(name, 64, "ray_bundle.%s_%u", array_names[array], slot);
 }
 
-static uint32_t first_room(const lsf_ray_bundle_params *params)
-{
-    double room = ceil((double)texel_count(params) * (double)params->room);
-    return (uint32_t)fmax(room, 1.0);
-}
-
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use)
 {
     static const char *const why[LSF_RAY_BUNDLE_ARRAYS] = {
-        "a counter and a chain's head for each texel",
-        "plane of a node, coarse, 4 bytes",
+        "counters, and a chain's head for each texel",
+        "number of a texel's fragments; plane of a node, coarse, 4 bytes",
         "normal, base colour and the rest of the plane of a node, 12 bytes",
         "roughness, metallic and f0 of a node",
         "radiance of a node, 8 bytes",
@@ -124,7 +130,7 @@ static bool check_size(const char *name, uint64_t bytes, const lsf_ray_bundle_pa
 
 static void attach_textures(lsf_ray_bundle_slot *slot)
 {
-    glTextureBuffer(slot->texel_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_TEXELS]);
+    glTextureBuffer(slot->head_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_HEADS]);
     glTextureBuffer(slot->key_fetch, GL_RGBA32UI, slot->arrays[LSF_RAY_BUNDLE_KEYS]);
     glTextureBuffer(slot->chain_fetch, GL_RG32UI, slot->arrays[LSF_RAY_BUNDLE_CHAIN]);
 }
@@ -149,7 +155,7 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
                                         error))
                 return false;
         }
-        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->texel_fetch);
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->head_fetch);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->key_fetch);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->chain_fetch);
         attach_textures(slot);
@@ -161,7 +167,7 @@ static void destroy_slot(lsf_context *context, lsf_ray_bundle_slot *slot)
 {
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++)
         lsf_buffer_destroy(context, &slot->arrays[array]);
-    glDeleteTextures(1, &slot->texel_fetch);
+    glDeleteTextures(1, &slot->head_fetch);
     glDeleteTextures(1, &slot->key_fetch);
     glDeleteTextures(1, &slot->chain_fetch);
 }
@@ -195,7 +201,7 @@ void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot)
 
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot)
 {
-    glBindTextureUnit(3, slot->texel_fetch);
+    glBindTextureUnit(3, slot->head_fetch);
     glBindTextureUnit(4, slot->key_fetch);
     glBindTextureUnit(5, slot->chain_fetch);
 }

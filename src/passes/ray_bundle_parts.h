@@ -7,7 +7,7 @@
 /* Arrays of nodes; lib/ray_bundle.glsl says what they hold. Bound from LSF_BINDING_BUNDLE_NODES on.
  */
 enum {
-    LSF_RAY_BUNDLE_TEXELS,
+    LSF_RAY_BUNDLE_HEADS,
     LSF_RAY_BUNDLE_KEYS,
     LSF_RAY_BUNDLE_SURFACES,
     LSF_RAY_BUNDLE_GLOSS,
@@ -16,15 +16,12 @@ enum {
     LSF_RAY_BUNDLE_ARRAYS,
 };
 
-/* Behind the texels' counts: chained nodes; nodes that a shader rasterised. */
-#define LSF_RAY_BUNDLE_COUNTERS 2
-
 /* The nodes of one bundle. */
 typedef struct lsf_ray_bundle_slot {
     uint32_t index;
     uint32_t room; /* chained nodes */
     GLuint arrays[LSF_RAY_BUNDLE_ARRAYS];
-    GLuint texel_fetch, key_fetch, chain_fetch; /* buffer textures of what the search reads */
+    GLuint head_fetch, key_fetch, chain_fetch; /* buffer textures of what the search reads */
 } lsf_ray_bundle_slot;
 
 /* DrawElementsIndirectCommand */
@@ -60,7 +57,9 @@ struct lsf_ray_bundle {
 
 /* --- ray_bundle_nodes.c */
 
-/* bundle.slices as a multiple of 4, and no more than a storage block holds. */
+/* Texels of a map in memory, in whole tiles. */
+uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params);
+/* bundle.slices as a multiple of 4 less one, and no more than a storage block holds; or 0. */
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan);
 bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
