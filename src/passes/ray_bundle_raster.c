@@ -94,6 +94,22 @@ static void set_instance(const lsf_iteration *iteration, uint32_t index)
     glUniform4fv(9, sizeof material / sizeof(lsf_vec4), &material.base_color.x);
 }
 
+/* Coprime to `groups`, and near the golden section of it: multiples modulo `groups` visit all, the
+ * first few of any run of them far apart. */
+static uint32_t stride_of(uint32_t groups)
+{
+    uint32_t stride = (uint32_t)(0.618 * groups) + 1, a, b;
+    do {
+        stride--;
+        for (a = groups, b = stride; b != 0;) {
+            uint32_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+    } while (a != 1 && stride > 1);
+    return stride > 0 ? stride : 1;
+}
+
 void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t room)
 {
     const lsf_scene_gpu *scene = iteration->scene;
@@ -120,8 +136,9 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
             triangles = triangles < MAX_TRIANGLES ? triangles : MAX_TRIANGLES;
             glUniform4ui(1, (GLuint)primitive->first_index + 3 * first, triangles, index,
                          instance->mirrored);
-            glDispatchCompute((triangles + LSF_BUNDLE_SMALL_SIZE - 1) / LSF_BUNDLE_SMALL_SIZE, 1,
-                              1);
+            uint32_t groups = (triangles + LSF_BUNDLE_SMALL_SIZE - 1) / LSF_BUNDLE_SMALL_SIZE;
+            glUniform1ui(24, stride_of(groups));
+            glDispatchCompute(groups, 1, 1);
         }
     }
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
