@@ -70,8 +70,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                     lsf_ray_bundle_has_emission(plan) && !use->distances_only);
     lsf_ray_bundle_raster_plan(plan, params);
     lsf_ray_bundle_nodes_plan(plan, params, use);
-    lsf_plan_buffer_add(plan, "ray_bundle.readback", 4 * LSF_BUNDLE_COUNTERS,
-                        "how many nodes there are, and how many of them chained");
+    lsf_ray_bundle_tally_plan(plan);
     lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
@@ -95,12 +94,10 @@ static bool create_resources(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_err
     if (!lsf_ray_bundle_nodes_create(pass, plan, error) ||
         !lsf_plan_create_buffer(plan, context, "ray_bundle.projections", NULL,
                                 GL_DYNAMIC_STORAGE_BIT, &pass->projection_buffer, error) ||
-        !lsf_plan_create_buffer(plan, context, "ray_bundle.readback", NULL, 0, &pass->readback,
-                                error) ||
+        !lsf_ray_bundle_tally_create(pass, plan, error) ||
         !lsf_plan_create_buffer(plan, context, "ray_bundle.rest", NULL, 0, &pass->rest, error) ||
         !lsf_plan_create_texture(plan, context, "ray_bundle.hits", &pass->hits, error))
         return false;
-    glCreateQueries(GL_SAMPLES_PASSED, 1, &pass->samples_query);
     uint32_t side = (uint32_t)pass->params.resolution;
     lsf_framebuffer_desc build = {
         .label = "ray_bundle.build", .layer = -1, .width = side, .height = side};
@@ -161,33 +158,8 @@ static void clear_lists(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *s
                               4 * LSF_BUNDLE_COUNTERS, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
-/* Waits for the draw, and reads how many nodes were chained, or would have been with enough room.
- */
-static void draw(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
-                 uint32_t counters[LSF_BUNDLE_COUNTERS])
-{
-    const lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
-    clear_lists(pass, slot);
-    lsf_ray_bundle_bind(pass, bundle);
-    glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
-    if (pass->small_program) {
-        lsf_ray_bundle_raster_run(pass, iteration, slot->room);
-    } else {
-        glUseProgram(pass->build_program);
-        glUniform1ui(0, slot->room);
-        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
-                           pass->draw_counts);
-    }
-    glEndQuery(GL_SAMPLES_PASSED);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    glCopyNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_HEADS], pass->readback, 0, 0,
-                             4 * LSF_BUNDLE_COUNTERS);
-    glGetNamedBufferSubData(pass->readback, 0, 4 * LSF_BUNDLE_COUNTERS, counters);
-}
-
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
 {
-    lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
     GLsizei side = pass->params.resolution;
     lsf_timer_begin(pass->build_timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->build_framebuffer);
@@ -196,26 +168,20 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP); /* rounding must not clip what lies on the range's ends */
-    uint32_t counters[LSF_BUNDLE_COUNTERS];
-    draw(pass, iteration, bundle, counters);
-    if (counters[LSF_BUNDLE_CHAINED] > slot->room) {
-        lsf_error error = {0};
-        pass->counts[LSF_RAY_BUNDLE_REGROWN]++;
-        if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, slot, counters[LSF_BUNDLE_CHAINED],
-                                      &error)) {
-            draw(pass, iteration, bundle, counters);
-        } else {
-            lsf_context_fail(pass->context, &error);
-            clear_lists(pass, slot); /* nobody may follow links that were never written */
-        }
+    clear_lists(pass, &pass->slots[bundle % pass->use.slots]);
+    lsf_ray_bundle_bind(pass, bundle);
+    glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
+    if (pass->small_program) {
+        lsf_ray_bundle_raster_run(pass, iteration);
+    } else {
+        glUseProgram(pass->build_program);
+        glUniform1ui(0, pass->room);
+        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
+                           pass->draw_counts);
     }
+    glEndQuery(GL_SAMPLES_PASSED);
     glDisable(GL_DEPTH_CLAMP);
-    GLuint64 nodes = 0;
-    glGetQueryObjectui64v(pass->samples_query, GL_QUERY_RESULT, &nodes);
-    for (int i = LSF_BUNDLE_RASTERISED; i < LSF_BUNDLE_COUNTERS; i++)
-        nodes += counters[i];
-    pass->counts[LSF_RAY_BUNDLE_NODES] += nodes;
-    pass->counts[LSF_RAY_BUNDLE_OVERFLOW] += counters[LSF_BUNDLE_CHAINED];
+    lsf_ray_bundle_tally_build(pass);
     lsf_timer_end(pass->build_timer);
 }
 
@@ -284,15 +250,14 @@ void lsf_ray_bundle_destroy(lsf_ray_bundle *pass)
         return;
     lsf_ray_bundle_nodes_destroy(pass);
     lsf_ray_bundle_raster_destroy(pass);
+    lsf_ray_bundle_tally_destroy(pass);
     lsf_buffer_destroy(pass->context, &pass->projection_buffer);
-    lsf_buffer_destroy(pass->context, &pass->readback);
     lsf_buffer_destroy(pass->context, &pass->rest);
     lsf_texture_destroy(pass->context, &pass->tiles);
     lsf_texture_destroy(pass->context, &pass->hits);
     lsf_framebuffer_destroy(pass->context, &pass->tiles_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->build_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->hits_framebuffer);
-    glDeleteQueries(1, &pass->samples_query);
     lsf_timer_destroy(pass->bounds_timer);
     lsf_timer_destroy(pass->build_timer);
     lsf_timer_destroy(pass->search_timer);

@@ -7,7 +7,7 @@
 #include "passes/ray_bundle_parts.h"
 #include "shared/scene_data.h"
 
-/* A slot that was too small gets a quarter more than it needed: directions differ. */
+/* Slots that were too small get a quarter more than was needed: directions differ. */
 #define GROWTH_MARGIN 4
 
 /* GL promises storage blocks of this size, and software GL has no larger ones. */
@@ -128,6 +128,15 @@ static bool check_size(const char *name, uint64_t bytes, const lsf_ray_bundle_pa
                          params->resolution, params->slices);
 }
 
+/* Where there was no room, searches follow links that were written for an earlier bundle or never:
+ * they are always of nodes that exist. */
+static void clear_chain(const lsf_ray_bundle_slot *slot)
+{
+    static const GLuint zero = 0;
+    glClearNamedBufferData(slot->arrays[LSF_RAY_BUNDLE_CHAIN], GL_R32UI, GL_RED_INTEGER,
+                           GL_UNSIGNED_INT, &zero);
+}
+
 static void attach_textures(lsf_ray_bundle_slot *slot)
 {
     glTextureBuffer(slot->head_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_HEADS]);
@@ -137,19 +146,20 @@ static void attach_textures(lsf_ray_bundle_slot *slot)
 
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
 {
+    static const GLuint zero = 0;
     pass->slots = lsf_alloc(pass->use.slots, sizeof *pass->slots);
     if (!pass->slots)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
                              pass->use.slots);
+    pass->room = first_room(&pass->params);
     for (uint32_t i = 0; i < pass->use.slots; i++) {
         lsf_ray_bundle_slot *slot = &pass->slots[i];
         slot->index = i;
-        slot->room = first_room(&pass->params);
         for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
             char name[64];
             array_name(name, array, i);
             uint64_t bytes =
-                array_bytes(plan, &pass->params, pass->use.distances_only, array, slot->room);
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->room);
             if (!check_size(name, bytes, &pass->params, error) ||
                 !lsf_plan_create_buffer(plan, pass->context, name, NULL, 0, &slot->arrays[array],
                                         error))
@@ -158,6 +168,9 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->head_fetch);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->key_fetch);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->chain_fetch);
+        glClearNamedBufferData(slot->arrays[LSF_RAY_BUNDLE_HEADS], GL_R32UI, GL_RED_INTEGER,
+                               GL_UNSIGNED_INT, &zero);
+        clear_chain(slot);
         attach_textures(slot);
     }
     return true;
@@ -172,24 +185,34 @@ static void destroy_slot(lsf_context *context, lsf_ray_bundle_slot *slot)
     glDeleteTextures(1, &slot->chain_fetch);
 }
 
-bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
-                               uint32_t needed, lsf_error *error)
+static bool grow_slot(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
+                      uint32_t room, lsf_error *error)
 {
-    uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
-    room = room > UINT32_MAX ? UINT32_MAX : room;
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
         char name[64];
         array_name(name, array, slot->index);
         uint64_t bytes = array_bytes(plan, &pass->params, pass->use.distances_only, array, room);
         if (bytes !=
-                array_bytes(plan, &pass->params, pass->use.distances_only, array, slot->room) &&
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->room) &&
             (!check_size(name, bytes, &pass->params, error) ||
              !lsf_plan_resize_buffer(plan, pass->context, name, bytes, 0, &slot->arrays[array],
                                      error)))
             return false;
     }
-    slot->room = (uint32_t)room;
+    clear_chain(slot);
     attach_textures(slot);
+    return true;
+}
+
+bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
+                               lsf_error *error)
+{
+    uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
+    room = room > UINT32_MAX ? UINT32_MAX : room;
+    for (uint32_t i = 0; i < pass->use.slots; i++)
+        if (!grow_slot(pass, plan, &pass->slots[i], (uint32_t)room, error))
+            return false;
+    pass->room = (uint32_t)room;
     return true;
 }
 

@@ -110,7 +110,7 @@ static uint32_t stride_of(uint32_t groups)
     return stride > 0 ? stride : 1;
 }
 
-void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t room)
+void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration)
 {
     const lsf_scene_gpu *scene = iteration->scene;
     GLint bits = 0;
@@ -119,7 +119,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     bind_streams(pass, scene);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_LARGE, pass->large);
     glUseProgram(pass->small_program);
-    glUniform1ui(0, room);
+    glUniform1ui(0, pass->room);
     glUniform1f(8, ldexpf(1.0f, bits));
     uint32_t bound = LSF_NONE;
     for (uint32_t i = 0; i < scene->draw_count; i++) {
@@ -144,7 +144,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(pass->build_program);
-    glUniform1ui(0, room);
+    glUniform1ui(0, pass->room);
     lsf_scene_gpu_draw_listed(scene, iteration->state, pass->large);
 }
 
