@@ -3,8 +3,9 @@
  * LSF_BUNDLE_ANISOTROPY, LSF_BUNDLE_EMISSION; lsf_ray_bundle_reader_switches adds them. Writers define
  * LSF_BUNDLE_ACCESS as coherent.
  *
- * The first LSF_BUNDLE_SLICES (a multiple of 4) fragments of a texel have a place of their own, in
- * slices of four that one fetch reads; further ones are chained. Which fragment comes first depends on
+ * The first LSF_BUNDLE_SLICES (a multiple of 4 less one, or 0) fragments of a texel have a place of
+ * their own, in slices of four that one fetch reads, the first of which begins with their number;
+ * further ones are chained. Which fragment comes first depends on
  * the machine's mood: readers use rules that do not. */
 #ifndef LSF_LIB_RAY_BUNDLE
 #define LSF_LIB_RAY_BUNDLE
@@ -22,20 +23,17 @@ layout(std140, binding = LSF_BINDING_BUNDLE) uniform lsf_bundle_block
     lsf_bundle_data bundle;
 };
 
-/* For each texel its number of fragments; the number of chained nodes; the number of nodes that a shader
- * rasterised; for each texel the last link of its chain. */
-layout(std430, binding = LSF_BINDING_BUNDLE_NODES) LSF_BUNDLE_ACCESS buffer lsf_bundle_texel_block
+/* Counters, see shared/bundle_data.h; for each texel the last link of its chain. */
+layout(std430, binding = LSF_BINDING_BUNDLE_NODES) LSF_BUNDLE_ACCESS buffer lsf_bundle_head_block
 {
-    uint bundle_texels[];
+    uint bundle_heads[];
 };
-#if LSF_BUNDLE_SLICES
 /* What a search needs of a node: its plane, coarse. Depth at the texel's centre, 16 bits | slopes along
- * right and up, 8 bits each */
+ * right and up, 8 bits each. Of a texel, first the number of its fragments. */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 1) LSF_BUNDLE_ACCESS buffer lsf_bundle_key_block
 {
     uint bundle_keys[];
 };
-#endif
 /* Of chained nodes. x: key; y: the texel's link before this one */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 5) LSF_BUNDLE_ACCESS buffer lsf_bundle_chain_block
 {
@@ -68,22 +66,34 @@ layout(std430,
     uvec2 bundle_emission[];
 };
 #endif
-#define LSF_BUNDLE_TEXELS (uint(LSF_BUNDLE_SIDE) * uint(LSF_BUNDLE_SIDE))
-#define LSF_BUNDLE_FIRST_HEAD (LSF_BUNDLE_TEXELS + 2u)
-#define LSF_BUNDLE_FIRST_LINK (uint(LSF_BUNDLE_SLICES) * LSF_BUNDLE_TEXELS) /* its node */
+/* Texels lie in tiles of 8 x 8: what is near in the map is near in memory. */
+#define LSF_BUNDLE_ROW (8 * ((LSF_BUNDLE_SIDE + 7) / 8))
+#define LSF_BUNDLE_TEXELS uint(LSF_BUNDLE_ROW * LSF_BUNDLE_ROW)
+#define LSF_BUNDLE_FIRST_LINK /* its node */                                                     \
+    (uint(LSF_BUNDLE_SLICES + 4) / 4u * 4u * LSF_BUNDLE_TEXELS)
+
+int bundle_texel(ivec2 at)
+{
+    ivec2 inside = at & 7, tile = at - inside;
+    return tile.y * LSF_BUNDLE_ROW + (tile.x << 3) + (inside.y << 3) + inside.x;
+}
 
 /* The node of a texel's fragment below LSF_BUNDLE_SLICES. */
 uint bundle_slice_node(uint texel, uint fragment)
 {
-    return ((fragment >> 2) * LSF_BUNDLE_TEXELS + texel) << 2 | (fragment & 3u);
+    uint place = fragment + 1u;
+    return ((place >> 2) * LSF_BUNDLE_TEXELS + texel) << 2 | (place & 3u);
+}
+
+uint bundle_fragments(uint texel)
+{
+    return bundle_keys[4u * texel];
 }
 
 uint bundle_key(uint node)
 {
-#if LSF_BUNDLE_SLICES
     if (node < LSF_BUNDLE_FIRST_LINK)
         return bundle_keys[node];
-#endif
     return bundle_chain[node - LSF_BUNDLE_FIRST_LINK].x;
 }
 

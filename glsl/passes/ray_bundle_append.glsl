@@ -12,7 +12,7 @@ layout(location = 0) uniform uint chain_room; /* nodes for chaining */
  * then still tells how much was needed. */
 uint append_node(uint texel, uint key)
 {
-    uint fragment = atomicAdd(bundle_texels[texel], 1u);
+    uint fragment = atomicAdd(bundle_keys[4u * texel], 1u);
 #if LSF_BUNDLE_SLICES
     if (fragment < uint(LSF_BUNDLE_SLICES)) {
         uint node = bundle_slice_node(texel, fragment);
@@ -20,10 +20,10 @@ uint append_node(uint texel, uint key)
         return node;
     }
 #endif
-    uint link = atomicAdd(bundle_texels[LSF_BUNDLE_TEXELS], 1u);
+    uint link = atomicAdd(bundle_heads[LSF_BUNDLE_CHAINED], 1u);
     if (link >= chain_room)
         return LSF_NO_NODE;
-    uint before = atomicExchange(bundle_texels[LSF_BUNDLE_FIRST_HEAD + texel], link);
+    uint before = atomicExchange(bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel], link);
     bundle_chain[link] = uvec2(key, before);
     return LSF_BUNDLE_FIRST_LINK + link;
 }

@@ -11,8 +11,7 @@ void main()
     bool front;
     if (!material_evaluate(-bundle.forward.xyz, s, emission, front))
         discard;
-    uvec2 at = uvec2(gl_FragCoord.xy);
-    append_surface(at.y * uint(LSF_BUNDLE_SIDE) + at.x,
+    append_surface(uint(bundle_texel(ivec2(gl_FragCoord.xy))),
                    bundle_plane_pack(gl_FragCoord.z,
                                      depth_change * bundle.range.y / bundle_texel_size()),
                    s, emission,

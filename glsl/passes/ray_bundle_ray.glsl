@@ -16,10 +16,10 @@ layout(binding = 1) uniform usampler2D origin_surface;
 layout(binding = 2) uniform sampler2D origin_position;
 layout(location = 0) uniform bool from_position;
 #endif
-layout(binding = 3) uniform usamplerBuffer texel_fetch;
+layout(binding = 3) uniform usamplerBuffer head_fetch;
 layout(binding = 4) uniform usamplerBuffer key_fetch; /* four at once */
 layout(binding = 5) uniform usamplerBuffer chain_fetch;
-/* LSF_BUNDLE_SLICES / 4; not known when compiled, or software GL unrolls the loop and walks through
+/* Slices; not known when compiled, or software GL unrolls the loop and walks through
  * empty slices, too. */
 layout(location = 2) uniform int slices_of_four;
 
@@ -29,6 +29,8 @@ struct bundle_ray {
     vec2 to_depth; /* steps for a slope of 1: from the texel's centre to the ray */
     float sign;    /* 1 along the bundle, -1 against it */
     float self;    /* as in bundle_frame */
+    uvec4 first;   /* its texel's first slice */
+    int count;     /* fragments in its texel, 0 when there is no ray */
 };
 
 /* On the map: texels, texels, steps of depth. */
@@ -50,27 +52,29 @@ bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
 /* Which side of the bundle's plane a surface faces; no need for unit length. */
 float facing(uint normal, vec3 forward)
 {
-    vec2 p = unpackSnorm2x16(normal);
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0)
-        n.xy = (1.0 - abs(n.yx)) * octahedral_sign(n.xy);
-    return dot(n, forward) > 0.0 ? 1.0 : -1.0;
+    ivec2 p = ivec2(int(normal << 16) >> 16, int(normal) >> 16);
+    ivec2 size = abs(p);
+    int z = 32767 - size.x - size.y;
+    ivec2 folded = 32767 - size.yx;
+    if (z < 0)
+        p = ivec2(p.x < 0 ? -folded.x : folded.x, p.y < 0 ? -folded.y : folded.y);
+    return dot(vec3(p, z), forward) > 0.0 ? 1.0 : -1.0;
 }
 
-/* `count`: fragments in its texel, 0 when there is no ray. */
-bundle_ray ray_of(ivec2 pixel, bundle_frame frame, out int count)
+bundle_ray ray_of(ivec2 pixel, bundle_frame frame)
 {
     vec3 place;
     bool present = origin(pixel, frame, place);
     ivec2 at = ivec2(floor(place.xy));
     present = present && min(at.x, at.y) >= 0 && max(at.x, at.y) < LSF_BUNDLE_SIDE;
     bundle_ray ray;
-    ray.texel = at.y * LSF_BUNDLE_SIDE + at.x;
+    ray.texel = present ? bundle_texel(at) : 0;
     ray.depth = place.z;
     ray.to_depth = (place.xy - vec2(at) - 0.5) * frame.scale.xy;
     ray.sign = facing(texelFetch(origin_surface, pixel, 0).x, frame.forward);
     ray.self = frame.scale.w;
-    count = present ? int(texelFetch(texel_fetch, ray.texel).x) : 0;
+    ray.first = texelFetch(key_fetch, ray.texel);
+    ray.count = present ? int(ray.first.x) : 0;
     return ray;
 }
 
@@ -105,20 +109,23 @@ void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hi
 }
 
 /* What lies in slices. */
-bundle_hit search_slices(bundle_ray ray, int count)
+bundle_hit search_slices(bundle_ray ray)
 {
     const int texels = int(LSF_BUNDLE_TEXELS);
     bundle_hit hit = bundle_hit(1e30, LSF_NO_NODE, -1, false);
 #if LSF_BUNDLE_SLICES
-    for (int i = 0; i < slices_of_four; i++) {
-        if (4 * i >= count)
+    visit(ray, ray.count > 0, ray.first.y, 4 * ray.texel + 1, hit);
+    visit(ray, ray.count > 1, ray.first.z, 4 * ray.texel + 2, hit);
+    visit(ray, ray.count > 2, ray.first.w, 4 * ray.texel + 3, hit);
+    for (int i = 1; i < slices_of_four; i++) {
+        if (4 * i > ray.count)
             break;
         int at = i * texels + ray.texel;
         uvec4 keys = texelFetch(key_fetch, at);
         visit(ray, true, keys.x, 4 * at, hit);
-        visit(ray, 4 * i + 1 < count, keys.y, 4 * at + 1, hit);
-        visit(ray, 4 * i + 2 < count, keys.z, 4 * at + 2, hit);
-        visit(ray, 4 * i + 3 < count, keys.w, 4 * at + 3, hit);
+        visit(ray, 4 * i < ray.count, keys.y, 4 * at + 1, hit);
+        visit(ray, 4 * i + 1 < ray.count, keys.z, 4 * at + 2, hit);
+        visit(ray, 4 * i + 2 < ray.count, keys.w, 4 * at + 3, hit);
     }
 #endif
     return hit;

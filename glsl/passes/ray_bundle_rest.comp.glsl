@@ -14,10 +14,10 @@ layout(binding = 0, rg32ui) writeonly uniform uimage2D hits;
 #define LSF_STEPS 64u
 #define LSF_TURNS 65535u
 
-void search_chain(bundle_ray ray, int count, inout bundle_hit hit)
+void search_chain(bundle_ray ray, inout bundle_hit hit)
 {
-    int left = count - LSF_BUNDLE_SLICES;
-    int link = left > 0 ? int(texelFetch(texel_fetch, int(LSF_BUNDLE_FIRST_HEAD) + ray.texel).x) : 0;
+    int left = ray.count - LSF_BUNDLE_SLICES;
+    int link = left > 0 ? int(texelFetch(head_fetch, LSF_BUNDLE_COUNTERS + ray.texel).x) : 0;
     for (uint turn = 0u; turn < LSF_TURNS && left > 0; turn++)
         for (uint i = 0u; i < LSF_STEPS && left > 0; i++) {
             uvec2 node = texelFetch(chain_fetch, link).xy;
@@ -57,12 +57,12 @@ bool comes_before(uint a, uint b)
 uint choose(uint texel, uint chosen)
 {
     uint key = bundle_key(chosen);
-    uint count = bundle_texels[texel], link = 0u;
+    uint count = bundle_fragments(texel), link = 0u;
     for (uint turn = 0u; turn < LSF_TURNS && turn * LSF_STEPS < count; turn++)
         for (uint i = turn * LSF_STEPS; i < (turn + 1u) * LSF_STEPS && i < count; i++) {
             uint node = bundle_slice_node(texel, i);
             if (i >= uint(LSF_BUNDLE_SLICES)) {
-                link = i == uint(LSF_BUNDLE_SLICES) ? bundle_texels[LSF_BUNDLE_FIRST_HEAD + texel]
+                link = i == uint(LSF_BUNDLE_SLICES) ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
                                                     : bundle_chain[link].y;
                 node = LSF_BUNDLE_FIRST_LINK + link;
             }
@@ -79,11 +79,10 @@ void main()
     uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
     for (uint i = gl_GlobalInvocationID.x; i < rest_count; i += stride) {
         ivec2 pixel = ivec2(rest[i] & 0xffffu, rest[i] >> 16);
-        int count;
         bundle_frame frame = frame_at(vec2(pixel) + 0.5);
-        bundle_ray ray = ray_of(pixel, frame, count);
-        bundle_hit hit = search_slices(ray, count);
-        search_chain(ray, count, hit);
+        bundle_ray ray = ray_of(pixel, frame);
+        bundle_hit hit = search_slices(ray);
+        search_chain(ray, hit);
 #if LSF_BUNDLE_SURFACES
         if (hit.tie)
             hit.node = int(choose(uint(ray.texel), uint(hit.node)));

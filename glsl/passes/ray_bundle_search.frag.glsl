@@ -5,7 +5,7 @@
 #include "passes/ray_bundle_ray.glsl"
 #include "passes/ray_bundle_rest.glsl"
 
-in vec3 frame_start, frame_along;
+noperspective in vec3 frame_start, frame_along;
 flat in vec3 frame_forward;
 flat in vec4 frame_scale;
 
@@ -13,11 +13,10 @@ layout(location = 0) out uvec2 hit_out; /* distance as float bits, node */
 
 void main()
 {
-    int count;
     bundle_frame frame = bundle_frame(frame_start, frame_along, frame_forward, frame_scale);
-    bundle_ray ray = ray_of(ivec2(gl_FragCoord.xy), frame, count);
-    bundle_hit hit = search_slices(ray, count);
-    if (hit.tie || count > LSF_BUNDLE_SLICES)
+    bundle_ray ray = ray_of(ivec2(gl_FragCoord.xy), frame);
+    bundle_hit hit = search_slices(ray);
+    if (hit.tie || ray.count > LSF_BUNDLE_SLICES)
         rest[atomicAdd(rest_count, 1u)] = uint(gl_FragCoord.x) | uint(gl_FragCoord.y) << 16;
     hit_out = hit_pack(hit, frame);
 }

@@ -3,7 +3,7 @@
 
 layout(location = 1) uniform vec2 region_size;
 
-out vec3 frame_start, frame_along;
+noperspective out vec3 frame_start, frame_along;
 flat out vec3 frame_forward;
 flat out vec4 frame_scale;
 

@@ -13,6 +13,7 @@ layout(location = 2) uniform vec4 transform[3]; /* rows */
 layout(location = 5) uniform vec4 normal_transform[3];
 layout(location = 8) uniform float subpixels; /* positions a texel, along each axis */
 layout(location = 9) uniform vec4 material_rows[15]; /* lsf_material_data */
+layout(location = 24) uniform uint group_stride; /* coprime to the number of work groups */
 
 layout(binding = 6) uniform usamplerBuffer index_fetch;
 layout(binding = 7) uniform samplerBuffer position_fetch;
@@ -85,9 +86,13 @@ edge edge_of(ivec2 a, ivec2 b, ivec2 at, int step)
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= range.y)
+    /* Software GL gives each thread a run of work groups, and a part of a mesh may be all in view or
+     * all out of it: runs take groups from all over the mesh. */
+    uint group = gl_WorkGroupID.x * group_stride % gl_NumWorkGroups.x;
+    uint triangle = group * uint(LSF_BUNDLE_SMALL_SIZE) + gl_LocalInvocationIndex;
+    if (triangle >= range.y)
         return;
-    int first = int(range.x + 3u * gl_GlobalInvocationID.x);
+    int first = int(range.x + 3u * triangle);
     uvec3 corners = uvec3(texelFetch(index_fetch, first).x, texelFetch(index_fetch, first + 1).x,
                           texelFetch(index_fetch, first + 2).x);
     vec3 p0 = to_map(int(corners.x)), p1 = to_map(int(corners.y)), p2 = to_map(int(corners.z));
@@ -206,10 +211,10 @@ void main()
         vec3 emission;
         if (!material_surface(material, point, s, emission))
             continue;
-        append_surface(uint(texel.y * LSF_BUNDLE_SIDE + texel.x), bundle_plane_pack(depth, slope), s,
-                       emission, sides);
+        append_surface(uint(bundle_texel(texel)), bundle_plane_pack(depth, slope), s, emission,
+                       sides);
         appended++;
     }
     if (appended > 0u)
-        atomicAdd(bundle_texels[LSF_BUNDLE_TEXELS + 1u], appended);
+        atomicAdd(bundle_heads[LSF_BUNDLE_RASTERISED + (gl_WorkGroupID.x & 15u) * 16u], appended);
 }

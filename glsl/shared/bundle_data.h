@@ -37,6 +37,29 @@ struct lsf_bundle_slot_data {
 #define LSF_BUNDLE_SMALL_SIZE 64
 #define LSF_BUNDLE_SMALL_TEXELS 256
 
+/* Words before the chains' heads: the number of chained nodes, and of nodes that a shader rasterised,
+ * of the latter 16 counters, in cache lines of their own, so that threads do not meet. */
+#define LSF_BUNDLE_CHAINED 0
+#define LSF_BUNDLE_RASTERISED 16
+#define LSF_BUNDLE_COUNTERS 272
+
+/* Account of what was built, for the GPU and, later, the host. Sums are of two words, the low one
+ * first; new ones are of the iteration in progress, the others of iterations that had room. */
+struct lsf_bundle_status {
+    uint draw_vertices, draw_instances, draw_first, draw_base; /* DrawArraysIndirectCommand: of the
+                            * whole picture, or of nothing once some bundle had too little room */
+    uint needed;            /* chained nodes of the largest bundle since the room last grew */
+    uint iterations_done;   /* that had room, from the first on */
+    uint drawn_low, drawn_high; /* fragments that GL rasterised for the latest bundle */
+    uint new_nodes_low, new_nodes_high;
+    uint new_chained_low, new_chained_high;
+    uint nodes_low, nodes_high;
+    uint chained_low, chained_high;
+};
+
+/* Its storage buffer, while no materials are read. */
+#define LSF_BINDING_BUNDLE_STATUS 0
+
 /* Tiles of pixels that a window is fitted to, and invocations that fit one. */
 #define LSF_BUNDLE_TILE 8
 #define LSF_BUNDLE_FIT_SIZE 256

@@ -220,10 +220,16 @@ static void run_bundle(run *r, uint32_t index, double *build_ms, double *search_
                                             .surface = r->gbuffer.outputs.surface};
     lsf_timer *timers[3];
     lsf_ray_bundle_timers(r->bundle, timers);
-    double built = lsf_timer_milliseconds(timers[1]);
-    double searched = lsf_timer_milliseconds(timers[2]);
-    lsf_ray_bundle_build(r->bundle, &r->iteration, index);
-    GLuint found = lsf_ray_bundle_search(r->bundle, &r->iteration, index, &origins, &region);
+    double built, searched;
+    uint32_t done;
+    GLuint found;
+    do {
+        built = lsf_timer_milliseconds(timers[1]);
+        searched = lsf_timer_milliseconds(timers[2]);
+        lsf_ray_bundle_build(r->bundle, &r->iteration, index);
+        found = lsf_ray_bundle_search(r->bundle, &r->iteration, index, &origins, &region);
+        lsf_ray_bundle_end(r->bundle, &r->iteration);
+    } while (!lsf_ray_bundle_settle(r->bundle, &r->iteration, true, &done));
     *build_ms = lsf_timer_milliseconds(timers[1]) - built;
     *search_ms = lsf_timer_milliseconds(timers[2]) - searched;
     glGetTextureImage(found, 0, GL_RG_INTEGER, GL_UNSIGNED_INT,

@@ -308,6 +308,14 @@ void lsf_draw_fullscreen(lsf_context *context)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void lsf_draw_fullscreen_indirect(lsf_context *context, GLuint buffer)
+{
+    glBindVertexArray(context->empty_vertex_array);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
+    glDrawArraysIndirect(GL_TRIANGLES, NULL);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+}
+
 void lsf_draw_vertices(lsf_context *context, uint32_t count)
 {
     glBindVertexArray(context->empty_vertex_array);

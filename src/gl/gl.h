@@ -83,6 +83,8 @@ GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_e
 /* Draws one triangle that covers the viewport with an empty vertex array. Pair with
  * "lib/fullscreen.vert.glsl". */
 void lsf_draw_fullscreen(lsf_context *context);
+/* ... or as the DrawArraysIndirectCommand at the start of a buffer has it. */
+void lsf_draw_fullscreen_indirect(lsf_context *context, GLuint buffer);
 /* Draws triangles of `count` vertices that the vertex shader makes from gl_VertexID alone. */
 void lsf_draw_vertices(lsf_context *context, uint32_t count);
 

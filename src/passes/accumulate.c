@@ -61,7 +61,7 @@ bool lsf_accumulate_create(lsf_accumulate *pass, lsf_context *context, const lsf
 }
 
 void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
-                        const GLuint *textures, GLuint depth)
+                        const GLuint *textures, GLuint depth, GLuint gate)
 {
     lsf_timer_begin(pass->timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
@@ -77,7 +77,10 @@ void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
         glBindTextureUnit(0, textures[i]);
         glBindTextureUnit(1, depth);
         glBindImageTexture(0, pass->means[i], 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-        lsf_draw_fullscreen(pass->context);
+        if (gate)
+            lsf_draw_fullscreen_indirect(pass->context, gate);
+        else
+            lsf_draw_fullscreen(pass->context);
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);

@@ -28,9 +28,10 @@ typedef struct lsf_accumulate {
 void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const *layer_names);
 bool lsf_accumulate_create(lsf_accumulate *pass, lsf_context *context, const lsf_plan *plan,
                            uint32_t layer_count, const char *const *layer_names, lsf_error *error);
-/* Adds one texture a layer to the means (0: nothing); `depth` is the G-buffer's. */
+/* Adds one texture a layer to the means (0: nothing); `depth` is the G-buffer's. `gate`, unless 0,
+ * begins with a DrawArraysIndirectCommand of 3 vertices, or of none when nothing is to be added. */
 void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
-                        const GLuint *textures, GLuint depth);
+                        const GLuint *textures, GLuint depth, GLuint gate);
 void lsf_accumulate_destroy(lsf_accumulate *pass);
 
 #endif

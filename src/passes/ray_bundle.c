@@ -7,7 +7,7 @@
 #include "shared/scene_data.h"
 
 /* The search walks slices in one loop of this many steps; see LSF_STEPS there. */
-#define MAX_SLICES 64
+#define MAX_SLICES 63
 
 #define SURFACES "LSF_BUNDLE_SURFACES"
 
@@ -44,7 +44,7 @@ void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params 
     bool gloss = lsf_ray_bundle_has_gloss(plan);
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SIDE", params->resolution, "bundle.resolution");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
-                        "bundle.slices, as a multiple of 4 that storage blocks hold");
+                        "bundle.slices, as a multiple of 4 less one that storage blocks hold");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", gloss && plan->requirements.anisotropic,
                         "some material is anisotropic");
@@ -70,8 +70,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                     lsf_ray_bundle_has_emission(plan) && !use->distances_only);
     lsf_ray_bundle_raster_plan(plan, params);
     lsf_ray_bundle_nodes_plan(plan, params, use);
-    lsf_plan_buffer_add(plan, "ray_bundle.readback", 4 * LSF_RAY_BUNDLE_COUNTERS,
-                        "how many nodes there are, and how many of them chained");
+    lsf_ray_bundle_tally_plan(plan);
     lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
@@ -95,12 +94,10 @@ static bool create_resources(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_err
     if (!lsf_ray_bundle_nodes_create(pass, plan, error) ||
         !lsf_plan_create_buffer(plan, context, "ray_bundle.projections", NULL,
                                 GL_DYNAMIC_STORAGE_BIT, &pass->projection_buffer, error) ||
-        !lsf_plan_create_buffer(plan, context, "ray_bundle.readback", NULL, 0, &pass->readback,
-                                error) ||
+        !lsf_ray_bundle_tally_create(pass, plan, error) ||
         !lsf_plan_create_buffer(plan, context, "ray_bundle.rest", NULL, 0, &pass->rest, error) ||
         !lsf_plan_create_texture(plan, context, "ray_bundle.hits", &pass->hits, error))
         return false;
-    glCreateQueries(GL_SAMPLES_PASSED, 1, &pass->samples_query);
     uint32_t side = (uint32_t)pass->params.resolution;
     lsf_framebuffer_desc build = {
         .label = "ray_bundle.build", .layer = -1, .width = side, .height = side};
@@ -150,46 +147,19 @@ void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle)
     lsf_ray_bundle_nodes_bind(&pass->slots[bundle % pass->use.slots]);
 }
 
-static uint64_t texel_count(const lsf_ray_bundle *pass)
-{
-    return (uint64_t)pass->params.resolution * (uint64_t)pass->params.resolution;
-}
-
-static void clear_texels(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *slot)
+/* No fragments in any texel. */
+static void clear_lists(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *slot)
 {
     static const GLuint zero = 0;
-    glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], GL_R32UI, 0,
-                              (GLsizeiptr)(4 * (texel_count(pass) + LSF_RAY_BUNDLE_COUNTERS)),
+    glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_KEYS], GL_R32UI, 0,
+                              (GLsizeiptr)(16 * lsf_ray_bundle_texels(&pass->params)),
                               GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-}
-
-/* Waits for the draw, and reads how many nodes were chained, or would have been with enough room.
- */
-static void draw(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
-                 uint32_t counters[LSF_RAY_BUNDLE_COUNTERS])
-{
-    const lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
-    clear_texels(pass, slot);
-    lsf_ray_bundle_bind(pass, bundle);
-    glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
-    if (pass->small_program) {
-        lsf_ray_bundle_raster_run(pass, iteration, slot->room);
-    } else {
-        glUseProgram(pass->build_program);
-        glUniform1ui(0, slot->room);
-        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
-                           pass->draw_counts);
-    }
-    glEndQuery(GL_SAMPLES_PASSED);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    glCopyNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_TEXELS], pass->readback,
-                             (GLintptr)(4 * texel_count(pass)), 0, 4 * LSF_RAY_BUNDLE_COUNTERS);
-    glGetNamedBufferSubData(pass->readback, 0, 4 * LSF_RAY_BUNDLE_COUNTERS, counters);
+    glClearNamedBufferSubData(slot->arrays[LSF_RAY_BUNDLE_HEADS], GL_R32UI, 0,
+                              4 * LSF_BUNDLE_COUNTERS, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
 {
-    lsf_ray_bundle_slot *slot = &pass->slots[bundle % pass->use.slots];
     GLsizei side = pass->params.resolution;
     lsf_timer_begin(pass->build_timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->build_framebuffer);
@@ -198,23 +168,20 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP); /* rounding must not clip what lies on the range's ends */
-    uint32_t counters[LSF_RAY_BUNDLE_COUNTERS];
-    draw(pass, iteration, bundle, counters);
-    if (counters[0] > slot->room) {
-        lsf_error error = {0};
-        pass->counts[LSF_RAY_BUNDLE_REGROWN]++;
-        if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, slot, counters[0], &error)) {
-            draw(pass, iteration, bundle, counters);
-        } else {
-            lsf_context_fail(pass->context, &error);
-            clear_texels(pass, slot); /* nobody may follow links that were never written */
-        }
+    clear_lists(pass, &pass->slots[bundle % pass->use.slots]);
+    lsf_ray_bundle_bind(pass, bundle);
+    glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
+    if (pass->small_program) {
+        lsf_ray_bundle_raster_run(pass, iteration);
+    } else {
+        glUseProgram(pass->build_program);
+        glUniform1ui(0, pass->room);
+        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
+                           pass->draw_counts);
     }
+    glEndQuery(GL_SAMPLES_PASSED);
     glDisable(GL_DEPTH_CLAMP);
-    GLuint64 nodes = 0;
-    glGetQueryObjectui64v(pass->samples_query, GL_QUERY_RESULT, &nodes);
-    pass->counts[LSF_RAY_BUNDLE_NODES] += nodes + counters[1];
-    pass->counts[LSF_RAY_BUNDLE_OVERFLOW] += counters[0];
+    lsf_ray_bundle_tally_build(pass);
     lsf_timer_end(pass->build_timer);
 }
 
@@ -225,7 +192,7 @@ static void set_ray(const lsf_ray_bundle *pass, GLuint program,
     if (pass->use.deep_vertices)
         glUniform1i(0, origins->depth == 0);
     if (lsf_ray_bundle_slices(&pass->params) > 0)
-        glUniform1i(2, lsf_ray_bundle_slices(&pass->params) / 4);
+        glUniform1i(2, (lsf_ray_bundle_slices(&pass->params) + 1) / 4);
     lsf_region_set(region);
 }
 
@@ -283,15 +250,14 @@ void lsf_ray_bundle_destroy(lsf_ray_bundle *pass)
         return;
     lsf_ray_bundle_nodes_destroy(pass);
     lsf_ray_bundle_raster_destroy(pass);
+    lsf_ray_bundle_tally_destroy(pass);
     lsf_buffer_destroy(pass->context, &pass->projection_buffer);
-    lsf_buffer_destroy(pass->context, &pass->readback);
     lsf_buffer_destroy(pass->context, &pass->rest);
     lsf_texture_destroy(pass->context, &pass->tiles);
     lsf_texture_destroy(pass->context, &pass->hits);
     lsf_framebuffer_destroy(pass->context, &pass->tiles_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->build_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->hits_framebuffer);
-    glDeleteQueries(1, &pass->samples_query);
     lsf_timer_destroy(pass->bounds_timer);
     lsf_timer_destroy(pass->build_timer);
     lsf_timer_destroy(pass->search_timer);

@@ -29,7 +29,7 @@ typedef struct lsf_ray_bundle_params {
 } lsf_ray_bundle_params;
 
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
-    .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 12,             \
+    .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 15,             \
     .room = 1.0f, .raster = LSF_RAY_BUNDLE_RASTER_COMPUTE, .environment_offset = 1.0f
 
 #define LSF_RAY_BUNDLE_OPTION_COUNT 7
@@ -59,9 +59,9 @@ typedef struct lsf_ray_bundle_origins {
 } lsf_ray_bundle_origins;
 
 enum {
-    LSF_RAY_BUNDLE_NODES,    /* fragments kept, over all bundles so far */
+    LSF_RAY_BUNDLE_NODES,    /* fragments kept, over all iterations that had room */
     LSF_RAY_BUNDLE_OVERFLOW, /* of these, chained beyond the slices */
-    LSF_RAY_BUNDLE_REGROWN,  /* times a buffer was too small and the bundle was drawn again */
+    LSF_RAY_BUNDLE_REGROWN,  /* times that buffers were too small and iterations run again */
     LSF_RAY_BUNDLE_COUNTS,
 };
 extern const char *const lsf_ray_bundle_count_names[LSF_RAY_BUNDLE_COUNTS];
@@ -89,12 +89,25 @@ void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle);
  * scene. */
 GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
                              const lsf_ray_bundle_origins *origins, const lsf_region *region);
+/* Ends the iteration: its picture may be kept if all of its bundles had room, and so those before.
+ */
+void lsf_ray_bundle_end(lsf_ray_bundle *pass, const lsf_iteration *iteration);
+/* A buffer that begins with the DrawArraysIndirectCommand of three vertices for what keeps the
+ * picture of the iteration that ended, of none when the picture lacks nodes, and those that follow.
+ */
+GLuint lsf_ray_bundle_gate(const lsf_ray_bundle *pass);
+/* Makes more room when some bundle had too little, as far as the host knows; it knows all only with
+ * `wait`. False: there is more now, and iterations are to be run again from `iterations_done` on.
+ */
+bool lsf_ray_bundle_settle(lsf_ray_bundle *pass, const lsf_iteration *iteration, bool wait,
+                           uint32_t *iterations_done);
 /* Adds to the pass in turn the switches of lib/ray_bundle.glsl, for passes that read nodes. */
 void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params);
 void lsf_ray_bundle_destroy(lsf_ray_bundle *pass); /* NULL allowed */
 
 /* Timers of bounds (NULL where there are none), build and search, in this order. */
 void lsf_ray_bundle_timers(const lsf_ray_bundle *pass, lsf_timer *timers[3]);
+/* As of the last lsf_ray_bundle_settle. */
 const uint64_t *lsf_ray_bundle_counts(const lsf_ray_bundle *pass);
 
 #endif

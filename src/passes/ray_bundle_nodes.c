@@ -7,29 +7,41 @@
 #include "passes/ray_bundle_parts.h"
 #include "shared/scene_data.h"
 
-/* A slot that was too small gets a quarter more than it needed: directions differ. */
+/* Slots that were too small get a quarter more than was needed: directions differ. */
 #define GROWTH_MARGIN 4
 
 /* GL promises storage blocks of this size, and software GL has no larger ones. */
 #define LARGEST_BLOCK (UINT64_C(1) << 27)
 #define SURFACE_BYTES 12
 
-static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"texels", "keys",     "surfaces",
-                                                               "gloss",  "emission", "chain"};
+static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"heads", "keys",     "surfaces",
+                                                               "gloss", "emission", "chain"};
 
-static uint64_t texel_count(const lsf_ray_bundle_params *params)
+uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params)
 {
-    return (uint64_t)params->resolution * (uint64_t)params->resolution;
+    uint64_t row = (uint64_t)(params->resolution + 7) / 8 * 8;
+    return row * row;
+}
+
+static uint32_t first_room(const lsf_ray_bundle_params *params)
+{
+    double room = ceil((double)params->resolution * params->resolution * (double)params->room);
+    return (uint32_t)fmax(room, 1.0);
 }
 
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
 {
-    uint64_t texels = texel_count(params);
-    uint64_t room = (uint64_t)((double)texels * (double)params->room);
-    uint64_t nodes = LARGEST_BLOCK / SURFACE_BYTES;
-    uint64_t most = nodes > room ? (nodes - room) / texels / 4 * 4 : 0;
-    int32_t wanted = (params->slices + 3) / 4 * 4;
-    return most < (uint64_t)wanted ? (int32_t)most : wanted;
+    uint64_t room = first_room(params), nodes = LARGEST_BLOCK / SURFACE_BYTES;
+    uint64_t most = nodes > room ? (nodes - room) / lsf_ray_bundle_texels(params) / 4 * 4 : 0;
+    uint64_t wanted = ((uint64_t)params->slices + 4) / 4 * 4;
+    uint64_t places = most < wanted ? most : wanted;
+    return params->slices > 0 && places > 0 ? (int32_t)places - 1 : 0;
+}
+
+/* A texel's places in slices, of which one is its counter's. */
+static uint64_t places(const lsf_ray_bundle_params *params)
+{
+    return ((uint64_t)lsf_ray_bundle_slices(params) + 4) / 4 * 4;
 }
 
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan)
@@ -47,15 +59,15 @@ bool lsf_ray_bundle_has_emission(const lsf_plan *plan)
 static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *params,
                             bool distances_only, int array, uint64_t room)
 {
-    uint64_t texels = texel_count(params);
-    uint64_t nodes = texels * (uint64_t)lsf_ray_bundle_slices(params) + room;
+    uint64_t texels = lsf_ray_bundle_texels(params);
+    uint64_t nodes = texels * places(params) + room;
     bool surface = array == LSF_RAY_BUNDLE_SURFACES || array == LSF_RAY_BUNDLE_GLOSS ||
                    array == LSF_RAY_BUNDLE_EMISSION;
     if (surface && distances_only)
         return 0;
     switch (array) {
-    case LSF_RAY_BUNDLE_TEXELS:
-        return 4 * (2 * texels + LSF_RAY_BUNDLE_COUNTERS);
+    case LSF_RAY_BUNDLE_HEADS:
+        return 4 * (texels + LSF_BUNDLE_COUNTERS);
     case LSF_RAY_BUNDLE_KEYS:
         return 4 * (nodes - room);
     case LSF_RAY_BUNDLE_SURFACES:
@@ -75,18 +87,12 @@ static void array_name(char name[64], int array, uint32_t slot)
     snprintf(name, 64, "ray_bundle.%s_%u", array_names[array], slot);
 }
 
-static uint32_t first_room(const lsf_ray_bundle_params *params)
-{
-    double room = ceil((double)texel_count(params) * (double)params->room);
-    return (uint32_t)fmax(room, 1.0);
-}
-
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use)
 {
     static const char *const why[LSF_RAY_BUNDLE_ARRAYS] = {
-        "a counter and a chain's head for each texel",
-        "plane of a node, coarse, 4 bytes",
+        "counters, and a chain's head for each texel",
+        "number of a texel's fragments; plane of a node, coarse, 4 bytes",
         "normal, base colour and the rest of the plane of a node, 12 bytes",
         "roughness, metallic and f0 of a node",
         "radiance of a node, 8 bytes",
@@ -122,36 +128,49 @@ static bool check_size(const char *name, uint64_t bytes, const lsf_ray_bundle_pa
                          params->resolution, params->slices);
 }
 
+/* Where there was no room, searches follow links that were written for an earlier bundle or never:
+ * they are always of nodes that exist. */
+static void clear_chain(const lsf_ray_bundle_slot *slot)
+{
+    static const GLuint zero = 0;
+    glClearNamedBufferData(slot->arrays[LSF_RAY_BUNDLE_CHAIN], GL_R32UI, GL_RED_INTEGER,
+                           GL_UNSIGNED_INT, &zero);
+}
+
 static void attach_textures(lsf_ray_bundle_slot *slot)
 {
-    glTextureBuffer(slot->texel_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_TEXELS]);
+    glTextureBuffer(slot->head_fetch, GL_R32UI, slot->arrays[LSF_RAY_BUNDLE_HEADS]);
     glTextureBuffer(slot->key_fetch, GL_RGBA32UI, slot->arrays[LSF_RAY_BUNDLE_KEYS]);
     glTextureBuffer(slot->chain_fetch, GL_RG32UI, slot->arrays[LSF_RAY_BUNDLE_CHAIN]);
 }
 
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
 {
+    static const GLuint zero = 0;
     pass->slots = lsf_alloc(pass->use.slots, sizeof *pass->slots);
     if (!pass->slots)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
                              pass->use.slots);
+    pass->room = first_room(&pass->params);
     for (uint32_t i = 0; i < pass->use.slots; i++) {
         lsf_ray_bundle_slot *slot = &pass->slots[i];
         slot->index = i;
-        slot->room = first_room(&pass->params);
         for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
             char name[64];
             array_name(name, array, i);
             uint64_t bytes =
-                array_bytes(plan, &pass->params, pass->use.distances_only, array, slot->room);
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->room);
             if (!check_size(name, bytes, &pass->params, error) ||
                 !lsf_plan_create_buffer(plan, pass->context, name, NULL, 0, &slot->arrays[array],
                                         error))
                 return false;
         }
-        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->texel_fetch);
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->head_fetch);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->key_fetch);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->chain_fetch);
+        glClearNamedBufferData(slot->arrays[LSF_RAY_BUNDLE_HEADS], GL_R32UI, GL_RED_INTEGER,
+                               GL_UNSIGNED_INT, &zero);
+        clear_chain(slot);
         attach_textures(slot);
     }
     return true;
@@ -161,29 +180,39 @@ static void destroy_slot(lsf_context *context, lsf_ray_bundle_slot *slot)
 {
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++)
         lsf_buffer_destroy(context, &slot->arrays[array]);
-    glDeleteTextures(1, &slot->texel_fetch);
+    glDeleteTextures(1, &slot->head_fetch);
     glDeleteTextures(1, &slot->key_fetch);
     glDeleteTextures(1, &slot->chain_fetch);
 }
 
-bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
-                               uint32_t needed, lsf_error *error)
+static bool grow_slot(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
+                      uint32_t room, lsf_error *error)
 {
-    uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
-    room = room > UINT32_MAX ? UINT32_MAX : room;
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
         char name[64];
         array_name(name, array, slot->index);
         uint64_t bytes = array_bytes(plan, &pass->params, pass->use.distances_only, array, room);
         if (bytes !=
-                array_bytes(plan, &pass->params, pass->use.distances_only, array, slot->room) &&
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->room) &&
             (!check_size(name, bytes, &pass->params, error) ||
              !lsf_plan_resize_buffer(plan, pass->context, name, bytes, 0, &slot->arrays[array],
                                      error)))
             return false;
     }
-    slot->room = (uint32_t)room;
+    clear_chain(slot);
     attach_textures(slot);
+    return true;
+}
+
+bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
+                               lsf_error *error)
+{
+    uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
+    room = room > UINT32_MAX ? UINT32_MAX : room;
+    for (uint32_t i = 0; i < pass->use.slots; i++)
+        if (!grow_slot(pass, plan, &pass->slots[i], (uint32_t)room, error))
+            return false;
+    pass->room = (uint32_t)room;
     return true;
 }
 
@@ -195,7 +224,7 @@ void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot)
 
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot)
 {
-    glBindTextureUnit(3, slot->texel_fetch);
+    glBindTextureUnit(3, slot->head_fetch);
     glBindTextureUnit(4, slot->key_fetch);
     glBindTextureUnit(5, slot->chain_fetch);
 }

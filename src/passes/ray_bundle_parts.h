@@ -7,7 +7,7 @@
 /* Arrays of nodes; lib/ray_bundle.glsl says what they hold. Bound from LSF_BINDING_BUNDLE_NODES on.
  */
 enum {
-    LSF_RAY_BUNDLE_TEXELS,
+    LSF_RAY_BUNDLE_HEADS,
     LSF_RAY_BUNDLE_KEYS,
     LSF_RAY_BUNDLE_SURFACES,
     LSF_RAY_BUNDLE_GLOSS,
@@ -16,15 +16,11 @@ enum {
     LSF_RAY_BUNDLE_ARRAYS,
 };
 
-/* Behind the texels' counts: chained nodes; nodes that a shader rasterised. */
-#define LSF_RAY_BUNDLE_COUNTERS 2
-
 /* The nodes of one bundle. */
 typedef struct lsf_ray_bundle_slot {
     uint32_t index;
-    uint32_t room; /* chained nodes */
     GLuint arrays[LSF_RAY_BUNDLE_ARRAYS];
-    GLuint texel_fetch, key_fetch, chain_fetch; /* buffer textures of what the search reads */
+    GLuint head_fetch, key_fetch, chain_fetch; /* buffer textures of what the search reads */
 } lsf_ray_bundle_slot;
 
 /* DrawElementsIndirectCommand */
@@ -42,11 +38,14 @@ struct lsf_ray_bundle {
     struct lsf_bundle_slot_data *projections; /* of this iteration's bundles */
     GLuint projection_buffer;
     lsf_ray_bundle_slot *slots;
-    GLuint readback; /* counters on their way to the host */
+    uint32_t room;                        /* for chained nodes, in each slot */
+    GLuint status, readback;              /* lsf_bundle_status, and a copy on its way to the host */
+    const struct lsf_bundle_status *read; /* mapped */
+    GLsync sent;                          /* the copy has arrived; NULL: none is under way */
     GLuint samples_query;
     GLuint tiles, tiles_framebuffer, build_framebuffer, hits, hits_framebuffer;
     GLuint rest; /* pixels whose search takes longer */
-    GLuint tiles_program, fit_program, build_program, search_program, rest_program;
+    GLuint tiles_program, fit_program, build_program, search_program, rest_program, tally_program;
     /* Only where small triangles are rasterised by a shader. */
     GLuint small_program;
     GLuint large;      /* draws of large triangles, and their indices */
@@ -60,16 +59,18 @@ struct lsf_ray_bundle {
 
 /* --- ray_bundle_nodes.c */
 
-/* bundle.slices as a multiple of 4, and no more than a storage block holds. */
+/* Texels of a map in memory, in whole tiles. */
+uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params);
+/* bundle.slices as a multiple of 4 less one, and no more than a storage block holds; or 0. */
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan);
 bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use);
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
-/* Room for `needed` chained nodes and some more. On failure the slot has no nodes at all. */
-bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
-                               uint32_t needed, lsf_error *error);
+/* Room for `needed` chained nodes and some more. On failure there are no nodes at all. */
+bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
+                               lsf_error *error);
 void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot);
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot);
 void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
@@ -78,9 +79,17 @@ void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
 
 void lsf_ray_bundle_raster_plan(lsf_plan *plan, const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
-/* Appends all of the scene to the bundle that is bound, with `room` chained nodes. */
-void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t room);
+/* Appends all of the scene to the bundle that is bound. */
+void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration);
 void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass);
+
+/* --- ray_bundle_tally.c; lsf_ray_bundle_end, _gate and _settle are there, too */
+
+void lsf_ray_bundle_tally_plan(lsf_plan *plan);
+bool lsf_ray_bundle_tally_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
+/* Counts the nodes of the bundle that is bound and was drawn within samples_query. */
+void lsf_ray_bundle_tally_build(const lsf_ray_bundle *pass);
+void lsf_ray_bundle_tally_destroy(lsf_ray_bundle *pass);
 
 /* --- ray_bundle_aim.c */
 

@@ -94,7 +94,23 @@ static void set_instance(const lsf_iteration *iteration, uint32_t index)
     glUniform4fv(9, sizeof material / sizeof(lsf_vec4), &material.base_color.x);
 }
 
-void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t room)
+/* Coprime to `groups`, and near the golden section of it: multiples modulo `groups` visit all, the
+ * first few of any run of them far apart. */
+static uint32_t stride_of(uint32_t groups)
+{
+    uint32_t stride = (uint32_t)(0.618 * groups) + 1, a, b;
+    do {
+        stride--;
+        for (a = groups, b = stride; b != 0;) {
+            uint32_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+    } while (a != 1 && stride > 1);
+    return stride > 0 ? stride : 1;
+}
+
+void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration)
 {
     const lsf_scene_gpu *scene = iteration->scene;
     GLint bits = 0;
@@ -103,7 +119,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     bind_streams(pass, scene);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_LARGE, pass->large);
     glUseProgram(pass->small_program);
-    glUniform1ui(0, room);
+    glUniform1ui(0, pass->room);
     glUniform1f(8, ldexpf(1.0f, bits));
     uint32_t bound = LSF_NONE;
     for (uint32_t i = 0; i < scene->draw_count; i++) {
@@ -120,14 +136,15 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
             triangles = triangles < MAX_TRIANGLES ? triangles : MAX_TRIANGLES;
             glUniform4ui(1, (GLuint)primitive->first_index + 3 * first, triangles, index,
                          instance->mirrored);
-            glDispatchCompute((triangles + LSF_BUNDLE_SMALL_SIZE - 1) / LSF_BUNDLE_SMALL_SIZE, 1,
-                              1);
+            uint32_t groups = (triangles + LSF_BUNDLE_SMALL_SIZE - 1) / LSF_BUNDLE_SMALL_SIZE;
+            glUniform1ui(24, stride_of(groups));
+            glDispatchCompute(groups, 1, 1);
         }
     }
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(pass->build_program);
-    glUniform1ui(0, room);
+    glUniform1ui(0, pass->room);
     lsf_scene_gpu_draw_listed(scene, iteration->state, pass->large);
 }
 

@@ -380,6 +380,8 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     }
     if (irradiance)
         run_samples(b, iteration, &inputs);
+    if (b->bundle)
+        lsf_ray_bundle_end(b->bundle, iteration);
     if (b->sampling.interleave > 1) {
         const lsf_interleave_light light = {irradiance, specular};
         lsf_interleave_gather(&b->interleave, iteration, &points, &light);
@@ -405,7 +407,15 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
         .indirect_diffuse = b->compose.indirect_diffuse,
         .indirect_specular = specular,
         .motion = gbuffer->motion,
+        .gate = b->bundle ? lsf_ray_bundle_gate(b->bundle) : 0,
     };
+}
+
+static bool settle_bidirectional(void *self, const lsf_iteration *iteration, bool wait,
+                                 uint32_t *iterations_done)
+{
+    bidirectional *b = self;
+    return !b->bundle || lsf_ray_bundle_settle(b->bundle, iteration, wait, iterations_done);
 }
 
 static void destroy_bidirectional(void *self)
@@ -466,6 +476,7 @@ const lsf_technique lsf_technique_bidirectional = {
     .plan = lsf_bidirectional_plan,
     .create = create_bidirectional,
     .run = run_bidirectional,
+    .settle = settle_bidirectional,
     .destroy = destroy_bidirectional,
     .report = report_bidirectional,
 };

@@ -22,7 +22,8 @@ struct lsf_renderer {
     lsf_technique_outputs outputs;
     lsf_accumulate accumulate;
     lsf_tonemap tonemap;
-    uint32_t samples; /* iterations done */
+    uint32_t samples; /* iterations asked for so far */
+    uint32_t next;    /* iteration to run next: fewer, where some have to be run again */
     double time_limit;
     uint32_t samples_wanted;
     lsf_progress progress;
@@ -123,20 +124,46 @@ static GLuint layer_texture(const lsf_technique_outputs *outputs, uint32_t aov)
     }
 }
 
-bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
+static void run_iteration(lsf_renderer *renderer)
 {
     GLuint layers[LSF_ACCUMULATE_MAX_LAYERS];
     const lsf_setup *setup = &renderer->setup;
-    double start = lsf_now();
-    lsf_iteration_begin(&renderer->iteration, renderer->samples);
+    lsf_iteration_begin(&renderer->iteration, renderer->next);
     setup->technique->run(renderer->technique, &renderer->iteration, &renderer->outputs);
     for (uint32_t i = 0; i < setup->layer_count; i++)
         layers[i] = layer_texture(&renderer->outputs, setup->layer_aovs[i]);
-    lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers,
-                       renderer->outputs.depth);
-    renderer->samples++;
+    lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers, renderer->outputs.depth,
+                       renderer->outputs.gate);
+    renderer->next++;
+}
+
+/* Whether all that ran went into the means, as far as it is known. If not, `next` goes back. */
+static bool settle(lsf_renderer *renderer, bool wait)
+{
+    const lsf_technique *technique = renderer->setup.technique;
+    return renderer->next == 0 || !technique->settle ||
+           technique->settle(renderer->technique, &renderer->iteration, wait, &renderer->next);
+}
+
+/* Until what was asked for went into the means; without `wait`, as far as it is known. */
+static bool catch_up(lsf_renderer *renderer, bool wait, lsf_error *error)
+{
+    double start = lsf_now();
+    do
+        while (renderer->next < renderer->samples) {
+            run_iteration(renderer);
+            if (!lsf_context_check(renderer->context, error))
+                return false;
+        }
+    while (!settle(renderer, wait));
     renderer->render_seconds += lsf_now() - start;
     return lsf_context_check(renderer->context, error);
+}
+
+bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
+{
+    renderer->samples++;
+    return catch_up(renderer, false, error);
 }
 
 /* Until the GPU is done: what was handed to it so far counts as rendered. */
@@ -165,7 +192,7 @@ bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
             break;
     }
     wait_for_gpu(renderer);
-    return lsf_context_check(renderer->context, error);
+    return catch_up(renderer, true, error);
 }
 
 /* Names of an image's channels: those of the picture, then of each layer. */
@@ -212,6 +239,8 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
     for (uint32_t i = 0; i < channel_count; i++)
         name_list[i] = names[i];
     uint64_t texel_bytes = (uint64_t)plan->width * plan->height * 16;
+    if (!catch_up(renderer, true, error))
+        return NULL;
     lsf_image *image = lsf_image_create(plan->width, plan->height, channel_count, name_list, error);
     float *texels = lsf_alloc(texel_bytes, 1);
     if (!image || !texels || texel_bytes > INT32_MAX) {
@@ -247,6 +276,8 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "8-bit output was not asked for; set rgb8 in lsf_render_params");
     const lsf_plan *plan = renderer->setup.plan;
+    if (!catch_up(renderer, true, error))
+        return false;
     lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure);
     glGetTextureImage(renderer->tonemap.display, 0, GL_RGB, GL_UNSIGNED_BYTE,
                       (GLsizei)(plan->width * plan->height * 3), rgb);
@@ -277,6 +308,8 @@ static double lost_share(const lsf_renderer *renderer)
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
 {
     lsf_pass_report reports[MAX_PASSES];
+    lsf_error ignored = {0}; /* whoever reads the picture meets it again */
+    catch_up(renderer, true, &ignored);
     uint32_t count = renderer->setup.technique->report(renderer->technique, reports);
     reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
     if (renderer->tonemap.timer)

@@ -51,6 +51,7 @@ typedef struct lsf_technique_outputs {
     GLuint depth, surface; /* of the G-buffer */
     GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
     GLuint motion;
+    GLuint gate; /* see lsf_accumulate_run; of a technique that settles */
 } lsf_technique_outputs;
 
 /* A pass as statistics show it. */
@@ -73,6 +74,11 @@ typedef struct lsf_technique {
                    const lsf_pass_params *params, const lsf_scene_gpu *scene,
                    const lsf_state *state, lsf_error *error);
     void (*run)(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs);
+    /* Learns what the GPU found out about iterations that were run, all of it only with `wait`.
+     * False: buffers were too small, their gate let no picture through and now they are larger; to
+     * be run again from iteration `iterations_done` on. NULL: no buffer is ever too small. */
+    bool (*settle)(void *self, const lsf_iteration *iteration, bool wait,
+                   uint32_t *iterations_done);
     void (*destroy)(void *self); /* NULL allowed */
     /* Its passes in order; returns their number. */
     uint32_t (*report)(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES]);

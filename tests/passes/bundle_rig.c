@@ -44,8 +44,14 @@ void bundle_rig_run(bundle_rig *rig, const lsf_scene *scene, const lsf_render_pa
     const lsf_ray_bundle_origins origins = {.depth = rig->gbuffer.outputs.depth,
                                             .surface = rig->gbuffer.outputs.surface};
     lsf_ray_bundle_aim(rig->bundle, &rig->iteration, &along, rig->gbuffer.outputs.depth);
-    lsf_ray_bundle_build(rig->bundle, &rig->iteration, 0);
-    read_back(rig, lsf_ray_bundle_search(rig->bundle, &rig->iteration, 0, &origins, &region));
+    GLuint hits;
+    uint32_t done;
+    do {
+        lsf_ray_bundle_build(rig->bundle, &rig->iteration, 0);
+        hits = lsf_ray_bundle_search(rig->bundle, &rig->iteration, 0, &origins, &region);
+        lsf_ray_bundle_end(rig->bundle, &rig->iteration);
+    } while (!lsf_ray_bundle_settle(rig->bundle, &rig->iteration, true, &done));
+    read_back(rig, hits);
     gl_test_check(rig->context);
     /* What grew is in the plan, too. */
     assert_int_equal(lsf_context_get_info(rig->context).gl_bytes, lsf_plan_bytes(plan));

@@ -4,144 +4,54 @@
 
 #include "base/base.h"
 #include "math/sampling.h"
-#include "passes/gbuffer.h"
 #include "passes/interleave.h"
-#include "render_gl.h"
-#include "techniques/setup.h"
+#include "surface_rig.h"
 
 enum { MAX_PIXELS = 40 * 40 };
-
-/* What a pixel sees: the plane n.p = offset, normal included. */
-typedef struct seen {
-    bool background, unlit;
-    lsf_float3 plane, normal;
-    float offset, roughness;
-} seen;
 
 typedef struct light {
     float irradiance[4], specular[4];
 } light;
 
 typedef struct rig {
-    lsf_context *context;
-    lsf_scene *scene;
-    lsf_setup setup;
-    lsf_scene_gpu scene_gpu;
-    lsf_iteration iteration;
+    surface_rig s;
     lsf_interleave pass;
-    uint32_t width, height, size;
-    GLuint depth, surface, gloss, irradiance, specular;
-    float depths[MAX_PIXELS];
-    uint32_t surfaces[MAX_PIXELS][4], glosses[MAX_PIXELS];
+    uint32_t size;
+    GLuint irradiance, specular;
     light split[MAX_PIXELS], out[MAX_PIXELS];
 } rig;
 
-static GLuint texture(rig *r, GLenum format)
-{
-    lsf_error error = {0};
-    lsf_texture_desc desc = {"test", GL_TEXTURE_2D, format, r->width, r->height, 1, 1};
-    GLuint name = lsf_texture_create(r->context, &desc, &error);
-    if (!name)
-        fail_msg("%s", error.message);
-    return name;
-}
-
 static void rig_begin(rig *r, uint32_t width, uint32_t height, int32_t size, int32_t periods)
 {
-    static const float eye[3] = {0.3f, 1.5f, 2.5f}, target[3] = {0, 0, 0};
     lsf_error error = {0};
     memset(r, 0, sizeof *r);
-    r->width = width;
-    r->height = height;
     r->size = (uint32_t)size;
-    r->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    r->scene = build_scene();
-    build_material(r->scene, 0.8f, 0.8f, 0.8f)->roughness = 0.5f;
-    build_floor(r->scene, 0.0f, 1.0f);
-    finish_gl_scene(r->scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    params.width = width;
-    params.height = height;
-    params.camera_position = eye;
-    params.camera_target = target;
     lsf_interleave_params interleave = {LSF_INTERLEAVE_PARAMS_DEFAULTS};
     interleave.size = size;
     interleave.periods = periods;
-    if (!lsf_setup_begin(&r->setup, r->scene, &params, &error))
+    surface_rig_begin(&r->s, width, height, false);
+    lsf_interleave_plan(r->s.setup.plan, &interleave);
+    surface_rig_start(&r->s);
+    if (!lsf_interleave_create(&r->pass, r->s.context, r->s.setup.plan, &interleave, &error))
         fail_msg("%s", error.message);
-    lsf_gbuffer_plan(r->setup.plan);
-    lsf_interleave_plan(r->setup.plan, &interleave);
-    if (!lsf_iteration_create(&r->iteration, r->context, r->setup.plan, &r->scene_gpu,
-                              &r->setup.state, NULL, 1, &error) ||
-        !lsf_interleave_create(&r->pass, r->context, r->setup.plan, &interleave, &error))
-        fail_msg("%s", error.message);
-    lsf_iteration_begin(&r->iteration, 0);
-    r->depth = texture(r, GL_DEPTH_COMPONENT32F);
-    r->surface = texture(r, GL_RGBA32UI);
-    r->gloss = texture(r, GL_R32UI);
-    r->irradiance = texture(r, GL_RGBA32F);
-    r->specular = texture(r, GL_RGBA32F);
+    r->irradiance = surface_rig_texture(&r->s, GL_RGBA32F, width, height);
+    r->specular = surface_rig_texture(&r->s, GL_RGBA32F, width, height);
 }
 
 static void rig_end(rig *r)
 {
-    GLuint *textures[] = {&r->depth, &r->surface, &r->gloss, &r->irradiance, &r->specular};
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        lsf_texture_destroy(r->context, textures[i]);
+    lsf_texture_destroy(r->s.context, &r->irradiance);
+    lsf_texture_destroy(r->s.context, &r->specular);
     lsf_interleave_destroy(&r->pass);
-    lsf_iteration_destroy(&r->iteration);
-    lsf_setup_finish(&r->setup);
-    gl_test_check(r->context);
-    assert_int_equal(lsf_context_get_info(r->context).gl_bytes, 0);
-    lsf_context_destroy(r->context);
-    lsf_scene_destroy(r->scene);
-}
-
-static uint32_t octahedral(lsf_float3 n)
-{
-    float sum = fabsf(n.x) + fabsf(n.y) + fabsf(n.z);
-    float x = n.x / sum, y = n.y / sum;
-    if (n.z < 0.0f) {
-        float folded = (1.0f - fabsf(y)) * (x >= 0.0f ? 1.0f : -1.0f);
-        y = (1.0f - fabsf(x)) * (y >= 0.0f ? 1.0f : -1.0f);
-        x = folded;
-    }
-    return ((uint32_t)(int32_t)lrintf(x * 32767.0f) & 0xffffu) |
-           (uint32_t)(int32_t)lrintf(y * 32767.0f) << 16;
-}
-
-/* The depth at which the pixel's view ray meets the plane. */
-static float depth_of(const rig *r, uint32_t x, uint32_t y, const seen *s)
-{
-    const struct lsf_view_data *view = &r->iteration.view;
-    float ndc_x = ((float)x + 0.5f) * 2.0f * view->size.z - 1.0f + view->jitter.x;
-    float ndc_y = ((float)y + 0.5f) * 2.0f * view->size.w - 1.0f + view->jitter.y;
-    lsf_float3 ray = lsf_f3_load(&view->forward.x);
-    ray = lsf_f3_mad(ray, lsf_f3_load(&view->forward_dx.x), ndc_x);
-    ray = lsf_f3_mad(ray, lsf_f3_load(&view->forward_dy.x), ndc_y);
-    float z = (s->offset - lsf_f3_dot(s->plane, lsf_f3_load(&view->origin.x))) /
-              lsf_f3_dot(s->plane, ray);
-    assert_true(z > view->depth.x);
-    return view->depth.x / z;
-}
-
-static void see(rig *r, uint32_t x, uint32_t y, const seen *s)
-{
-    uint32_t i = y * r->width + x;
-    r->depths[i] = s->background ? 0.0f : depth_of(r, x, y, s);
-    r->surfaces[i][0] = octahedral(s->plane);
-    r->surfaces[i][1] = octahedral(s->normal);
-    r->surfaces[i][2] = i * 2654435761u; /* any colour */
-    r->surfaces[i][3] = s->unlit ? 0x80000000u : 0u;
-    r->glosses[i] = (uint32_t)lrintf(s->roughness * 65535.0f);
+    surface_rig_end(&r->s);
 }
 
 /* Where a pixel lies in split order. */
 static uint32_t place_of(const rig *r, uint32_t x, uint32_t y)
 {
     lsf_region region =
-        lsf_interleave_region(r->setup.plan, r->size, y % r->size * r->size + x % r->size);
-    return ((uint32_t)region.y + y / r->size) * r->width + (uint32_t)region.x + x / r->size;
+        lsf_interleave_region(r->s.setup.plan, r->size, y % r->size * r->size + x % r->size);
+    return ((uint32_t)region.y + y / r->size) * r->s.width + (uint32_t)region.x + x / r->size;
 }
 
 static light *light_at(rig *r, uint32_t x, uint32_t y)
@@ -151,55 +61,33 @@ static light *light_at(rig *r, uint32_t x, uint32_t y)
 
 static light *out_at(rig *r, uint32_t x, uint32_t y)
 {
-    return &r->out[y * r->width + x];
+    return &r->out[y * r->s.width + x];
 }
 
 static void read_light(rig *r, GLuint name, size_t offset)
 {
     static float texels[MAX_PIXELS][4];
-    glGetTextureImage(name, 0, GL_RGBA, GL_FLOAT, sizeof texels, texels);
-    for (uint32_t i = 0; i < r->width * r->height; i++)
+    surface_rig_read(name, r->s.width, r->s.height, texels[0]);
+    for (uint32_t i = 0; i < r->s.width * r->s.height; i++)
         memcpy((char *)&r->out[i] + offset, texels[i], sizeof texels[i]);
 }
 
 static void rig_run(rig *r)
 {
     static float irradiance[MAX_PIXELS][4], specular[MAX_PIXELS][4];
-    GLsizei w = (GLsizei)r->width, h = (GLsizei)r->height;
-    for (uint32_t i = 0; i < r->width * r->height; i++) {
+    for (uint32_t i = 0; i < r->s.width * r->s.height; i++) {
         memcpy(irradiance[i], r->split[i].irradiance, sizeof irradiance[i]);
         memcpy(specular[i], r->split[i].specular, sizeof specular[i]);
     }
-    glTextureSubImage2D(r->depth, 0, 0, 0, w, h, GL_DEPTH_COMPONENT, GL_FLOAT, r->depths);
-    glTextureSubImage2D(r->surface, 0, 0, 0, w, h, GL_RGBA_INTEGER, GL_UNSIGNED_INT, r->surfaces);
-    glTextureSubImage2D(r->gloss, 0, 0, 0, w, h, GL_RED_INTEGER, GL_UNSIGNED_INT, r->glosses);
-    glTextureSubImage2D(r->irradiance, 0, 0, 0, w, h, GL_RGBA, GL_FLOAT, irradiance);
-    glTextureSubImage2D(r->specular, 0, 0, 0, w, h, GL_RGBA, GL_FLOAT, specular);
-    const lsf_interleave_points points = {r->depth, r->surface, r->gloss};
+    surface_rig_upload(&r->s);
+    surface_rig_write(r->irradiance, r->s.width, r->s.height, irradiance[0]);
+    surface_rig_write(r->specular, r->s.width, r->s.height, specular[0]);
+    const lsf_interleave_points points = {r->s.depth, r->s.surface, r->s.gloss};
     const lsf_interleave_light split = {r->irradiance, r->specular};
-    lsf_interleave_split(&r->pass, &r->iteration, &points);
-    lsf_interleave_gather(&r->pass, &r->iteration, &points, &split);
+    lsf_interleave_split(&r->pass, &r->s.iteration, &points);
+    lsf_interleave_gather(&r->pass, &r->s.iteration, &points, &split);
     read_light(r, r->pass.light.irradiance, offsetof(light, irradiance));
     read_light(r, r->pass.light.specular, offsetof(light, specular));
-}
-
-static lsf_float3 towards_viewer(const rig *r)
-{
-    return lsf_f3_scale(lsf_f3_load(&r->iteration.view.forward.x), -1.0f);
-}
-
-/* A wall across the view, `distance` from the eye. */
-static seen wall(const rig *r, float distance)
-{
-    lsf_float3 n = towards_viewer(r);
-    float at_eye = lsf_f3_dot(n, lsf_f3_load(&r->iteration.view.origin.x));
-    return (seen){.plane = n, .normal = n, .offset = at_eye - distance, .roughness = 1.0f};
-}
-
-/* The floor, which the view meets at a slant. */
-static seen ground(void)
-{
-    return (seen){.plane = {0, 1, 0}, .normal = {0, 1, 0}, .offset = -1.5f, .roughness = 1.0f};
 }
 
 static float random_at(uint32_t seed, uint32_t i)
@@ -217,7 +105,7 @@ static void set_light(light *l, float irradiance, float specular)
 
 static void random_light(rig *r)
 {
-    for (uint32_t i = 0; i < r->width * r->height; i++)
+    for (uint32_t i = 0; i < r->s.width * r->s.height; i++)
         for (uint32_t c = 0; c < 4; c++) {
             r->split[i].irradiance[c] = random_at(1, 4 * i + c);
             r->split[i].specular[c] = random_at(2, 4 * i + c);
@@ -232,27 +120,27 @@ static void split_and_gather_keep_every_bit(void **unused)
     (void)unused;
     static rig r;
     static float depths[MAX_PIXELS];
-    static uint32_t surfaces[MAX_PIXELS][4], glosses[MAX_PIXELS];
+    static uint32_t surfaces[MAX_PIXELS][4], glosses[MAX_PIXELS][2];
     for (size_t s = 0; s < LSF_COUNT(odd_sizes); s++)
         for (int32_t size = 2; size <= 8; size++) {
             rig_begin(&r, odd_sizes[s][0], odd_sizes[s][1], size, 0);
-            for (uint32_t i = 0; i < r.width * r.height; i++) {
-                seen point = wall(&r, 1.0f + random_at(3, i));
+            for (uint32_t i = 0; i < r.s.width * r.s.height; i++) {
+                seen point = surface_rig_wall(&r.s, 1.0f + random_at(3, i));
                 point.roughness = random_at(4, i);
-                see(&r, i % r.width, i / r.width, &point);
+                surface_rig_see(&r.s, i % r.s.width, i / r.s.width, &point);
             }
             random_light(&r);
             rig_run(&r);
             glGetTextureImage(r.pass.split.depth, 0, GL_RED, GL_FLOAT, sizeof depths, depths);
             glGetTextureImage(r.pass.split.surface, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                               sizeof surfaces, surfaces);
-            glGetTextureImage(r.pass.split.gloss, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
-                              sizeof glosses, glosses);
-            for (uint32_t i = 0; i < r.width * r.height; i++) {
-                uint32_t place = place_of(&r, i % r.width, i / r.width);
-                assert_memory_equal(&depths[place], &r.depths[i], sizeof *depths);
-                assert_memory_equal(surfaces[place], r.surfaces[i], sizeof *surfaces);
-                assert_int_equal(glosses[place], r.glosses[i]);
+            glGetTextureImage(r.pass.split.gloss, 0, GL_RG_INTEGER, GL_UNSIGNED_INT, sizeof glosses,
+                              glosses);
+            for (uint32_t i = 0; i < r.s.width * r.s.height; i++) {
+                uint32_t place = place_of(&r, i % r.s.width, i / r.s.width);
+                assert_memory_equal(&depths[place], &r.s.depths[i], sizeof *depths);
+                assert_memory_equal(surfaces[place], r.s.surfaces[i], sizeof *surfaces);
+                assert_memory_equal(glosses[place], r.s.glosses[i], sizeof *glosses);
                 assert_memory_equal(&r.out[i], &r.split[place], sizeof(light));
             }
             rig_end(&r);
@@ -266,16 +154,16 @@ static void a_constant_stays_to_the_bit(void **unused)
     static rig r;
     for (size_t s = 0; s < LSF_COUNT(odd_sizes); s++) {
         rig_begin(&r, odd_sizes[s][0], odd_sizes[s][1], 4, 2);
-        for (uint32_t i = 0; i < r.width * r.height; i++) {
-            seen point = wall(&r, 1.0f + 0.01f * random_at(3, i));
+        for (uint32_t i = 0; i < r.s.width * r.s.height; i++) {
+            seen point = surface_rig_wall(&r.s, 1.0f + 0.01f * random_at(3, i));
             point.normal.x += 0.3f * random_at(5, i);
             point.normal = lsf_f3_normalize(point.normal);
             point.roughness = random_at(4, i);
-            see(&r, i % r.width, i / r.width, &point);
+            surface_rig_see(&r.s, i % r.s.width, i / r.s.width, &point);
             set_light(&r.split[i], 0.1f, 1.3e5f);
         }
         rig_run(&r);
-        for (uint32_t i = 0; i < r.width * r.height; i++)
+        for (uint32_t i = 0; i < r.s.width * r.s.height; i++)
             assert_memory_equal(&r.out[i], &r.split[i], sizeof(light));
         rig_end(&r);
     }
@@ -302,25 +190,25 @@ static void the_pattern_is_removed(void **unused)
                 double mean = 0.0;
                 for (uint32_t i = 0; i < n * n; i++)
                     mean += (double)random_at(6, i) / (n * n);
-                seen point = slanted ? ground() : wall(&r, 1.0f);
-                for (uint32_t y = 0; y < r.height; y++)
-                    for (uint32_t x = 0; x < r.width; x++) {
+                seen point = slanted ? surface_rig_ground() : surface_rig_wall(&r.s, 1.0f);
+                for (uint32_t y = 0; y < r.s.height; y++)
+                    for (uint32_t x = 0; x < r.s.width; x++) {
                         float value = random_at(6, y % n * n + x % n);
-                        see(&r, x, y, &point);
+                        surface_rig_see(&r.s, x, y, &point);
                         set_light(light_at(&r, x, y), value, value);
                     }
                 rig_run(&r);
                 double worst[2] = {0.0, 0.0};
-                for (uint32_t i = 0; i < r.width * r.height; i++) {
+                for (uint32_t i = 0; i < r.s.width * r.s.height; i++) {
                     worst[0] = fmax(worst[0], fabs((double)r.out[i].irradiance[0] - mean));
                     worst[1] = fmax(worst[1], fabs((double)r.out[i].specular[0] - mean));
                 }
                 print_message("size %u, %d periods, %s: off by %.1e, specular %.1e of %.2f\n", n,
                               periods, slanted ? "floor" : "wall", worst[0], worst[1], mean);
                 assert_true(worst[0] <= 17 * 0x1p-24 * 2);
-                double angle = 2.0 *
-                               (double)lsf_f3_length(lsf_f3_load(&r.iteration.view.forward_dx.x)) /
-                               r.width;
+                double angle =
+                    2.0 * (double)lsf_f3_length(lsf_f3_load(&r.s.iteration.view.forward_dx.x)) /
+                    r.s.width;
                 double t = angle * (n * (uint32_t)periods / 2 + n);
                 assert_true(slanted || worst[1] <= 2.0 * 2.0 * t * t);
                 rig_end(&r);
@@ -330,10 +218,10 @@ static void the_pattern_is_removed(void **unused)
 /* Left and right halves see `sides` and have light 1 and 0 (specular 3 and 0). */
 static void run_halves(rig *r, const seen sides[2])
 {
-    for (uint32_t y = 0; y < r->height; y++)
-        for (uint32_t x = 0; x < r->width; x++) {
-            bool right = x >= r->width / 2;
-            see(r, x, y, &sides[right]);
+    for (uint32_t y = 0; y < r->s.height; y++)
+        for (uint32_t x = 0; x < r->s.width; x++) {
+            bool right = x >= r->s.width / 2;
+            surface_rig_see(&r->s, x, y, &sides[right]);
             set_light(light_at(r, x, y), right ? 0.0f : 1.0f, right ? 0.0f : 3.0f);
         }
     rig_run(r);
@@ -341,9 +229,9 @@ static void run_halves(rig *r, const seen sides[2])
 
 static void check_halves(rig *r)
 {
-    for (uint32_t y = 0; y < r->height; y++)
-        for (uint32_t x = 0; x < r->width; x++) {
-            bool right = x >= r->width / 2;
+    for (uint32_t y = 0; y < r->s.height; y++)
+        for (uint32_t x = 0; x < r->s.width; x++) {
+            bool right = x >= r->s.width / 2;
             const light *l = out_at(r, x, y);
             assert_true(fabsf(l->irradiance[0] - (right ? 0.0f : 1.0f)) < 1e-30f);
             assert_true(fabsf(l->specular[0] - (right ? 0.0f : 3.0f)) < 1e-30f);
@@ -357,10 +245,10 @@ static void nothing_crosses_an_edge(void **unused)
     static rig r;
     for (int edge = 0; edge < 4; edge++) {
         rig_begin(&r, 32, 32, 4, 2);
-        seen sides[2] = {wall(&r, 1.0f), wall(&r, 1.0f)};
-        float pixel = 2.0f * lsf_f3_length(lsf_f3_load(&r.iteration.view.forward_dx.x)) / 32.0f;
+        seen sides[2] = {surface_rig_wall(&r.s, 1.0f), surface_rig_wall(&r.s, 1.0f)};
+        float pixel = 2.0f * lsf_f3_length(lsf_f3_load(&r.s.iteration.view.forward_dx.x)) / 32.0f;
         if (edge == 0) /* 2^-(50 / (0.5 4))^2 is 0 */
-            sides[1] = wall(&r, 1.0f + 50.0f * pixel);
+            sides[1] = surface_rig_wall(&r.s, 1.0f + 50.0f * pixel);
         else if (edge == 1)
             sides[1].normal = lsf_basis_about(sides[0].normal).t;
         else if (edge == 2)
@@ -383,15 +271,15 @@ static void sharp_reflections_stay_sharp(void **unused)
     float spread[LSF_COUNT(roughness)];
     for (size_t i = 0; i < LSF_COUNT(roughness); i++) {
         rig_begin(&r, 32, 32, 4, 2);
-        seen point = wall(&r, 1.0f);
+        seen point = surface_rig_wall(&r.s, 1.0f);
         point.roughness = roughness[i];
-        for (uint32_t p = 0; p < r.width * r.height; p++)
-            see(&r, p % r.width, p / r.width, &point);
+        for (uint32_t p = 0; p < r.s.width * r.s.height; p++)
+            surface_rig_see(&r.s, p % r.s.width, p / r.s.width, &point);
         random_light(&r);
         rig_run(&r);
         float low = INFINITY, high = 0.0f;
-        for (uint32_t y = 0; y < r.height; y++)
-            for (uint32_t x = 0; x < r.width; x++) {
+        for (uint32_t y = 0; y < r.s.height; y++)
+            for (uint32_t x = 0; x < r.s.width; x++) {
                 const light *out = out_at(&r, x, y);
                 low = fminf(low, out->specular[0]);
                 high = fmaxf(high, out->specular[0]);
@@ -405,11 +293,11 @@ static void sharp_reflections_stay_sharp(void **unused)
     }
     assert_true(spread[LSF_COUNT(spread) - 1] < 0.5f * spread[0]);
     rig_begin(&r, 32, 32, 4, 2);
-    seen sides[2] = {wall(&r, 1.0f), wall(&r, 1.0f)};
+    seen sides[2] = {surface_rig_wall(&r.s, 1.0f), surface_rig_wall(&r.s, 1.0f)};
     sides[0].roughness = 0.0f;
     run_halves(&r, sides);
-    for (uint32_t p = 0; p < r.width * r.height; p++)
-        assert_true(r.out[p].specular[0] == (p % r.width < r.width / 2 ? 3.0f : 0.0f));
+    for (uint32_t p = 0; p < r.s.width * r.s.height; p++)
+        assert_true(r.out[p].specular[0] == (p % r.s.width < r.s.width / 2 ? 3.0f : 0.0f));
     rig_end(&r);
 }
 

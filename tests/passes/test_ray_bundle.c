@@ -91,18 +91,19 @@ static void rasters_agree(void **unused)
     lsf_scene *scene = room();
     const lsf_render_params view = view_params(80, 60);
     bundle_rig rigs[2];
-    uint32_t *texels[2];
+    uint32_t *keys[2];
     for (int i = 0; i < 2; i++) {
         const lsf_ray_bundle_params params =
             bundle_params(200, i == 0 ? LSF_RAY_BUNDLE_RASTER_GL : LSF_RAY_BUNDLE_RASTER_COMPUTE);
         bundle_rig_run(&rigs[i], scene, &view, &params, along, false);
-        texels[i] = bundle_rig_array(&rigs[i], LSF_RAY_BUNDLE_TEXELS);
+        keys[i] = bundle_rig_array(&rigs[i], LSF_RAY_BUNDLE_KEYS);
         uint64_t sum = 0;
         for (uint32_t t = 0; t < 200 * 200; t++)
-            sum += texels[i][t];
+            sum += keys[i][4 * t];
         assert_int_equal(sum, count_of(&rigs[i], LSF_RAY_BUNDLE_NODES));
     }
-    assert_memory_equal(texels[0], texels[1], 200 * 200 * sizeof(uint32_t));
+    for (uint32_t t = 0; t < 200 * 200; t++)
+        assert_int_equal(keys[0][4 * t], keys[1][4 * t]);
     uint32_t different = 0;
     for (uint32_t y = 0; y < 60; y++)
         for (uint32_t x = 0; x < 80; x++) {
@@ -116,7 +117,7 @@ static void rasters_agree(void **unused)
      * may fall on different sides of the tolerance that tells their own surface. */
     assert_true(different <= 80 * 60 / 200);
     for (int i = 0; i < 2; i++) {
-        free(texels[i]);
+        free(keys[i]);
         bundle_rig_finish(&rigs[i]);
     }
     destroy_scene(scene);
@@ -131,13 +132,20 @@ static float half_of(uint32_t bits)
 static uint32_t key_of(uint32_t *const arrays[], const lsf_ray_bundle_params *params,
                        uint32_t texel, uint32_t i, uint32_t *link)
 {
-    uint32_t texels = (uint32_t)(params->resolution * params->resolution);
+    uint32_t texels = (uint32_t)lsf_ray_bundle_texels(params), place = i + 1;
     uint32_t slices = (uint32_t)lsf_ray_bundle_slices(params);
     if (i < slices)
-        return arrays[LSF_RAY_BUNDLE_KEYS][((i >> 2) * texels + texel) * 4 + (i & 3)];
-    *link = i == slices ? arrays[LSF_RAY_BUNDLE_TEXELS][texels + LSF_RAY_BUNDLE_COUNTERS + texel]
+        return arrays[LSF_RAY_BUNDLE_KEYS][((place >> 2) * texels + texel) * 4 + (place & 3)];
+    *link = i == slices ? arrays[LSF_RAY_BUNDLE_HEADS][LSF_BUNDLE_COUNTERS + texel]
                         : arrays[LSF_RAY_BUNDLE_CHAIN][2 * *link + 1];
     return arrays[LSF_RAY_BUNDLE_CHAIN][2 * *link];
+}
+
+/* Tiles of 8 x 8. */
+static uint32_t texel_at(const lsf_ray_bundle_params *params, uint32_t x, uint32_t y)
+{
+    uint32_t tiles = ((uint32_t)params->resolution + 7) / 8;
+    return (y / 8 * tiles + x / 8) * 64 + y % 8 * 8 + x % 8;
 }
 
 /* Distance of the nearest plane among a texel's, by trying them all. */
@@ -157,9 +165,9 @@ static float brute_force(const bundle_rig *rig, uint32_t *const arrays[],
     float z = lsf_f3_dot(p, lsf_f3_load(&b->forward.x)) - b->range.x;
     float tolerance =
         LSF_BUNDLE_SELF_TEXELS * fmaxf(texel[0], texel[1]) + 0.5f * b->range.y / 65535.0f;
-    uint32_t at = (uint32_t)place[1] * (uint32_t)params->resolution + (uint32_t)place[0];
+    uint32_t at = texel_at(params, (uint32_t)place[0], (uint32_t)place[1]);
     float nearest = INFINITY;
-    for (uint32_t i = 0, link = 0; i < arrays[LSF_RAY_BUNDLE_TEXELS][at]; i++) {
+    for (uint32_t i = 0, link = 0; i < arrays[LSF_RAY_BUNDLE_KEYS][4 * at]; i++) {
         uint32_t key = key_of(arrays, params, at, i, &link);
         float slope[2] = {half_of(key >> 8), half_of(key)};
         float depth = (float)(key >> 16) / 65535.0f * b->range.y + slope[0] * off[0] * texel[0] +
@@ -178,9 +186,9 @@ static void search_is_brute_force(void **unused)
     (void)unused;
     lsf_scene *scene = room();
     const lsf_render_params view = view_params(96, 64);
-    static const int32_t slices[] = {12, 0};
-    for (int i = 0; i < 2; i++) {
-        lsf_ray_bundle_params params = bundle_params(128, LSF_RAY_BUNDLE_RASTER_COMPUTE);
+    static const int32_t slices[] = {15, 2, 0};
+    for (int i = 0; i < 3; i++) {
+        lsf_ray_bundle_params params = bundle_params(124, LSF_RAY_BUNDLE_RASTER_COMPUTE);
         params.slices = slices[i];
         bundle_rig rig;
         bundle_rig_run(&rig, scene, &view, &params, along, false);
@@ -345,7 +353,7 @@ static void thousands_of_layers(void **unused)
     bundle_rig_run(&rig, scene, &view, &params, lsf_f3(0, 0, -1), false);
     uint64_t nodes = count_of(&rig, LSF_RAY_BUNDLE_NODES);
     assert_int_equal(nodes, 16 * 16 * LAYERS);
-    assert_int_equal(count_of(&rig, LSF_RAY_BUNDLE_OVERFLOW), nodes - 16 * 16 * 12);
+    assert_int_equal(count_of(&rig, LSF_RAY_BUNDLE_OVERFLOW), nodes - 16 * 16 * 15);
     float spacing = 2.0f / LAYERS * (float)rig.setup.state.scale;
     for (uint32_t i = 0; i < 16 * 16; i++) {
         uint32_t node;
