@@ -28,7 +28,13 @@ typedef enum lsf_aov {
     LSF_AOV_INDIRECT_DIFFUSE = 1 << 5,  /* indirect_diffuse.R .G .B */
     LSF_AOV_INDIRECT_SPECULAR = 1 << 6, /* indirect_specular.R .G .B */
     LSF_AOV_MOTION = 1 << 7,            /* motion.X .Y: pixels from the previous frame's position */
+    /* What a voxel technique works with, as voxels; black with others. */
+    LSF_AOV_VOXEL_ALBEDO = 1 << 8,   /* voxel_albedo.R .G .B */
+    LSF_AOV_VOXEL_NORMAL = 1 << 9,   /* voxel_normal.X .Y .Z: scene space, towards the viewer */
+    LSF_AOV_VOXEL_RADIANCE = 1 << 10 /* voxel_radiance.R .G .B: of the side that is seen */
 } lsf_aov;
+#define LSF_AOV_COUNT 11
+#define LSF_AOV_ALL (LSF_AOV_VOXEL_ALBEDO - 1) /* all but those of voxels */
 
 /* "albedo", "normal", ... ; 0 when unknown. */
 uint32_t lsf_aov_from_name(const char *name);

@@ -62,11 +62,14 @@ static lsf_image *create_image(const lsf_render_params *params, lsf_reference_jo
 }
 
 /* `--aov all` asks for motion too, which a single instant does not have. */
-static void warn_of_motion(const lsf_render_params *params)
+static void warn_of_missing(const lsf_render_params *params)
 {
     if (params->aovs & LSF_AOV_MOTION)
         lsf_log(LSF_LOG_WARNING, "--aov motion: the reference shows one instant and has no such "
                                  "layer; it is left out");
+    if (params->aovs & ~(uint32_t)LSF_AOV_ALL)
+        lsf_log(LSF_LOG_WARNING, "--aov %s: the reference has no voxels; it is left out",
+                lsf_aov_name(params->aovs & ~(uint32_t)LSF_AOV_ALL));
 }
 
 static void *load_symbol(const char *name, lsf_error *error)
@@ -96,7 +99,7 @@ lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params 
 {
     if (!check_params(params, half, error))
         return NULL;
-    warn_of_motion(params);
+    warn_of_missing(params);
     void *symbol = load_symbol(LSF_REFERENCE_MODULE_ENTRY, error);
     if (symbol == NULL)
         return NULL;

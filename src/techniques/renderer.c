@@ -119,6 +119,12 @@ static GLuint layer_texture(const lsf_technique_outputs *outputs, uint32_t aov)
         return outputs->indirect_specular;
     case LSF_AOV_MOTION:
         return outputs->motion;
+    case LSF_AOV_VOXEL_ALBEDO:
+        return outputs->voxel_albedo;
+    case LSF_AOV_VOXEL_NORMAL:
+        return outputs->voxel_normal;
+    case LSF_AOV_VOXEL_RADIANCE:
+        return outputs->voxel_radiance;
     default:
         return outputs->picture;
     }
@@ -201,7 +207,7 @@ static uint32_t name_channels(const lsf_setup *setup, char (*names)[LSF_CHANNEL_
     uint32_t count = 0;
     for (uint32_t i = 0; i < setup->layer_count; i++) {
         const char *letters = "RGB";
-        if (setup->layer_aovs[i] == LSF_AOV_NORMAL)
+        if (setup->layer_aovs[i] & (LSF_AOV_NORMAL | LSF_AOV_VOXEL_NORMAL))
             letters = "XYZ";
         else if (setup->layer_aovs[i] == LSF_AOV_MOTION)
             letters = "XY";

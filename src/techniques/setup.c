@@ -21,6 +21,9 @@ static const struct {
     {LSF_AOV_INDIRECT_DIFFUSE, "indirect_diffuse"},
     {LSF_AOV_INDIRECT_SPECULAR, "indirect_specular"},
     {LSF_AOV_MOTION, "motion"},
+    {LSF_AOV_VOXEL_ALBEDO, "voxel_albedo"},
+    {LSF_AOV_VOXEL_NORMAL, "voxel_normal"},
+    {LSF_AOV_VOXEL_RADIANCE, "voxel_radiance"},
 };
 
 uint32_t lsf_aov_from_name(const char *name)

@@ -51,6 +51,7 @@ typedef struct lsf_technique_outputs {
     GLuint depth, surface; /* of the G-buffer */
     GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
     GLuint motion;
+    GLuint voxel_albedo, voxel_normal, voxel_radiance; /* RGBA32F layers */
     GLuint gate; /* see lsf_accumulate_run; of a technique that settles */
 } lsf_technique_outputs;
 

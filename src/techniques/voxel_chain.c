@@ -45,6 +45,8 @@ void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const l
     lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid.resolution);
     lsf_voxelize_plan(plan, &params->voxelize, &grid);
     lsf_voxel_light_plan(plan, &grid, &light);
+    if (lsf_voxel_view_needed(plan))
+        lsf_voxel_view_plan(plan, use->sides);
 }
 
 bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const lsf_plan *plan,
@@ -61,7 +63,9 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
     lsf_voxel_grid_set_unit(&chain->grid, scene->scene, state);
     return lsf_voxelize_create(&chain->voxelize, context, plan, &params->voxelize, &chain->grid,
                                scene->scene, error) &&
-           lsf_voxel_light_create(&chain->light, context, plan, &light, error);
+           lsf_voxel_light_create(&chain->light, context, plan, &light, error) &&
+           (!lsf_voxel_view_needed(plan) ||
+            lsf_voxel_view_create(&chain->view, context, plan, error));
 }
 
 /* The map that the camera's points were lit with serves voxels too, but for that of a directional
@@ -101,8 +105,25 @@ void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration)
     }
 }
 
+void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration,
+                          lsf_technique_outputs *outputs)
+{
+    if (!chain->view.program)
+        return;
+    const lsf_voxel_view_inputs inputs = {
+        .occupancy = {chain->voxels->occupancy[0], chain->voxels->occupancy[1]},
+        .albedo = chain->voxels->albedo,
+        .normal = chain->voxels->normal,
+        .radiance = chain->light.radiance};
+    lsf_voxel_view_run(&chain->view, iteration, &inputs);
+    outputs->voxel_albedo = chain->view.outputs.albedo;
+    outputs->voxel_normal = chain->view.outputs.normal;
+    outputs->voxel_radiance = chain->view.outputs.radiance;
+}
+
 void lsf_voxel_chain_destroy(lsf_voxel_chain *chain)
 {
+    lsf_voxel_view_destroy(&chain->view);
     lsf_voxel_light_destroy(&chain->light);
     lsf_voxelize_destroy(chain->voxelize);
     lsf_direct_chain_destroy(&chain->direct);
@@ -117,5 +138,7 @@ uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports
         (lsf_pass_report){lsf_voxelize_timer(chain->voxelize), LSF_VOXELIZE_COUNTS,
                           lsf_voxelize_count_names, lsf_voxelize_counts(chain->voxelize)};
     reports[count++] = (lsf_pass_report){.timer = chain->light.timer};
+    if (chain->view.timer)
+        reports[count++] = (lsf_pass_report){.timer = chain->view.timer};
     return count;
 }

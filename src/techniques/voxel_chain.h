@@ -4,6 +4,7 @@
 #define LSF_TECHNIQUES_VOXEL_CHAIN_H
 
 #include "passes/voxel_light.h"
+#include "passes/voxel_view.h"
 #include "passes/voxelize.h"
 #include "techniques/direct_chain.h"
 
@@ -18,6 +19,7 @@ typedef struct lsf_voxel_chain {
     lsf_voxelize *voxelize;             /* NULL: the scene has no triangles */
     const lsf_voxelize_outputs *voxels; /* of the last run */
     lsf_voxel_light light;
+    lsf_voxel_view view; /* where layers of voxels are asked for */
 } lsf_voxel_chain;
 
 /* Whether there is anything to make voxels of; without, the chain is the direct one. */
@@ -32,6 +34,9 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
                             const lsf_state *state, const lsf_voxel_chain_use *use,
                             lsf_error *error);
 void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration);
+/* Sets the layers of voxels, where asked for; to be called when the voxels' light is complete. */
+void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration,
+                          lsf_technique_outputs *outputs);
 void lsf_voxel_chain_destroy(lsf_voxel_chain *chain);
 /* As lsf_technique's report. */
 uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports);

@@ -69,7 +69,8 @@ static const lsf_command_option options[] = {
      "radiance is multiplied by 2^EV before tone mapping; float formats hold radiance as it is"},
     {"aov", 0, "LIST", PLANNING, "Output", LSF_VALUE_AOVS, AT(aovs), 0, 0, NULL, NULL,
      "layers beside the picture, separated by commas: albedo, normal, depth, emission, direct, "
-     "indirect_diffuse, indirect_specular, motion, or all; for .exr"},
+     "indirect_diffuse, indirect_specular, motion, or all of these; of voxels: voxel_albedo, "
+     "voxel_normal, voxel_radiance; for .exr"},
     {"json", 0, "FILE", RENDERING, "Output", LSF_VALUE_TEXT, AT(json_path), 0, 0, NULL, NULL,
      "write options, device, times, bytes and counts as JSON; - is standard output"},
     {"json", 0, NULL, PRINTING, "Output", LSF_VALUE_FLAG, AT(print_json), 0, 0, NULL, NULL,
@@ -191,7 +192,8 @@ char *lsf_command_option_range(const lsf_command_option *option)
         return lsf_format("one of the names that --list-techniques prints");
     case LSF_VALUE_AOVS:
         return lsf_format("albedo, normal, depth, emission, direct, indirect_diffuse, "
-                          "indirect_specular, motion or all, separated by commas");
+                          "indirect_specular, motion, voxel_albedo, voxel_normal, voxel_radiance "
+                          "or all, separated by commas");
     case LSF_VALUE_DEFINE:
         return lsf_format("pass.key=value with a key that --list-options prints");
     case LSF_VALUE_ENVIRONMENT:

@@ -135,7 +135,8 @@ static void add_bash_values(lsf_string *page)
         } else if (option->type == LSF_VALUE_AOVS) {
             lsf_string_add(page, "        COMPREPLY=($(compgen -W 'albedo normal depth emission "
                                  "direct indirect_diffuse\n"
-                                 "            indirect_specular motion all' -- \"$word\"))\n");
+                                 "            indirect_specular motion voxel_albedo voxel_normal "
+                                 "voxel_radiance all' -- \"$word\"))\n");
         } else if (takes_file(option)) {
             lsf_string_add(page, "        compopt -o default\n");
         }

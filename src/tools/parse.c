@@ -53,7 +53,7 @@ static const char *next_key(size_t index, void *user)
 static const char *next_aov(size_t index, void *user)
 {
     (void)user;
-    return index < 8 ? lsf_aov_name(1u << index) : NULL;
+    return index < LSF_AOV_COUNT ? lsf_aov_name(1u << index) : NULL;
 }
 
 static bool set_choice(int *place, const lsf_command_option *option, const char *text)
@@ -101,12 +101,10 @@ static bool set_aovs(uint32_t *place, const lsf_command_option *option, const ch
         memcpy(name, part, length);
         name[length] = '\0';
         uint32_t aov = 0;
-        if (strcmp(name, "all") == 0) {
-            for (size_t i = 0; i < 8; i++)
-                aov |= 1u << i;
-        } else if (*name) {
+        if (strcmp(name, "all") == 0)
+            aov = LSF_AOV_ALL;
+        else if (*name)
             aov = lsf_aov_from_name(name);
-        }
         if (!aov)
             return bad_value(option, text, lsf_nearest(name, next_aov, NULL), error);
         aovs |= aov;
