@@ -7,6 +7,9 @@
 /* Of its random numbers. */
 #define PURPOSE_SHIFT 0x50000
 
+/* Of a 3D texture, that every device has (GL 4.5, table 23.53). */
+#define MAX_TEXTURE_DEPTH 2048
+
 /* Whole blocks of occupancy: 4^2 voxels. */
 #define BLOCK 16
 
@@ -63,18 +66,20 @@ void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const
     grid->unit = ldexpf(1.0f, exponent);
 }
 
-static double bytes(const lsf_voxel_grid *grid, uint32_t bytes_per_voxel)
+static bool fits(const lsf_voxel_grid *grid, const lsf_voxel_grid_params *params,
+                 const lsf_voxel_grid_use *use)
 {
-    return (double)grid->size[0] * grid->size[1] * grid->size[2] * bytes_per_voxel;
+    double voxels = (double)grid->size[0] * grid->size[1] * grid->size[2];
+    return voxels * use->bytes <= (double)params->memory * 1048576.0 &&
+           grid->size[2] * use->sides <= MAX_TEXTURE_DEPTH;
 }
 
 lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf_state *state,
-                                  uint32_t bytes_per_voxel)
+                                  const lsf_voxel_grid_use *use)
 {
     lsf_voxel_grid grid = {.jitter = params->jitter, .unit = 1.0f};
     fit(&grid, state, (uint32_t)params->resolution);
-    while (bytes(&grid, bytes_per_voxel) > (double)params->memory * 1048576.0 &&
-           grid.resolution > 1)
+    while (!fits(&grid, params, use) && grid.resolution > 1)
         fit(&grid, state, grid.resolution / 2);
     return grid;
 }
@@ -84,9 +89,10 @@ void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
 {
     if (grid->resolution != (uint32_t)params->resolution)
         lsf_plan_remark(plan,
-                        "a grid of %u voxels instead of %d along the scene's longest side: more "
-                        "would take more than voxel.memory=%g",
-                        grid->resolution, params->resolution, (double)params->memory);
+                        "a grid of %u voxels instead of %d along the scene's longest side: a finer "
+                        "one takes more than voxel.memory=%g, or textures deeper than %d",
+                        grid->resolution, params->resolution, (double)params->memory,
+                        MAX_TEXTURE_DEPTH);
 }
 
 struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,

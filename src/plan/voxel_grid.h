@@ -27,10 +27,16 @@ typedef struct lsf_voxel_grid {
     bool jitter;
 } lsf_voxel_grid;
 
-/* The grid of a scene that is not empty, whose textures take `bytes_per_voxel`. Its unit is not
- * set. */
+/* What textures over the grid take. */
+typedef struct lsf_voxel_grid_use {
+    uint32_t bytes; /* a voxel, in all of them */
+    uint32_t sides; /* slices along z, the most of any */
+} lsf_voxel_grid_use;
+
+/* The finest grid up to what is asked for whose textures memory and every device hold, of a scene
+ * that is not empty. Its unit is not set. */
 lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf_state *state,
-                                  uint32_t bytes_per_voxel);
+                                  const lsf_voxel_grid_use *use);
 /* Says in the plan that a coarser grid was taken, where it was. */
 void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
                            const lsf_voxel_grid *grid);

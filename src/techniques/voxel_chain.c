@@ -27,7 +27,8 @@ bool lsf_voxel_chain_has_voxels(const lsf_plan *plan)
 lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params *params,
                                     const lsf_state *state, const lsf_voxel_chain_use *use)
 {
-    return lsf_voxel_grid_fit(&params->voxel_grid, state, bytes_per_voxel(plan, use));
+    const lsf_voxel_grid_use grid = {.bytes = bytes_per_voxel(plan, use), .sides = use->sides};
+    return lsf_voxel_grid_fit(&params->voxel_grid, state, &grid);
 }
 
 void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,

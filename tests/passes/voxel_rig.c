@@ -38,7 +38,8 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
     if (!lsf_setup_begin(&rig->setup, scene, &params, &error))
         fail_msg("%s", error.message);
     lsf_plan *plan = rig->setup.plan;
-    rig->grid = lsf_voxel_grid_fit(&grid, &rig->setup.state, lsf_voxelize_bytes(plan));
+    const lsf_voxel_grid_use use = {.bytes = lsf_voxelize_bytes(plan), .sides = 1};
+    rig->grid = lsf_voxel_grid_fit(&grid, &rig->setup.state, &use);
     lsf_voxel_grid_set_unit(&rig->grid, scene, &rig->setup.state);
     lsf_voxelize_plan(plan, &voxelize, &rig->grid);
     if (sides > 0)
