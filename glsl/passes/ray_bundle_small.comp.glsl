@@ -3,61 +3,26 @@
  * that it is set up once. Covers the same texels as GL does: vertices are snapped to the same
  * grid, and a sample on an edge belongs to the triangle whose left or top edge it is. Switches of
  * lib/material_surface.glsl and lib/ray_bundle.glsl. */
-#include "lib/material_surface.glsl"
+#include "lib/triangle_fetch.glsl"
 #include "passes/ray_bundle_append.glsl"
 
 layout(local_size_x = LSF_BUNDLE_SMALL_SIZE) in;
 
-layout(location = 1) uniform uvec4 range;     /* first index, triangles, instance, mirrored */
-layout(location = 2) uniform vec4 transform[3]; /* rows */
-layout(location = 5) uniform vec4 normal_transform[3];
 layout(location = 8) uniform float subpixels; /* positions a texel, along each axis */
-layout(location = 9) uniform vec4 material_rows[15]; /* lsf_material_data */
 layout(location = 24) uniform uint group_stride; /* coprime to the number of work groups */
-
-layout(binding = 6) uniform usamplerBuffer index_fetch;
-layout(binding = 7) uniform samplerBuffer position_fetch;
-layout(binding = 8) uniform samplerBuffer normal_fetch;
-layout(binding = 9) uniform samplerBuffer tangent_fetch;
-layout(binding = 10) uniform samplerBuffer uv0_fetch;
-layout(binding = 11) uniform samplerBuffer uv1_fetch;
-layout(binding = 12) uniform samplerBuffer color_fetch;
 
 layout(std430, binding = LSF_BINDING_BUNDLE_LARGE) coherent buffer lsf_large_block
 {
     uint large[]; /* draws of five words each, one for each instance; then indices */
 };
 
-vec3 rows_direction(vec4 rows[3], vec3 v)
-{
-    return vec3(dot(rows[0].xyz, v), dot(rows[1].xyz, v), dot(rows[2].xyz, v));
-}
-
 /* Texels, texels, depth: what the vertex shader and the viewport make of a vertex. */
-vec3 to_map(int vertex)
+vec3 to_map(uint vertex)
 {
-    vec4 object = vec4(texelFetch(position_fetch, vertex).xyz, 1.0);
-    vec3 p = vec3(dot(transform[0], object), dot(transform[1], object), dot(transform[2], object));
-    vec3 q = bundle_coordinates(p);
+    vec3 q = bundle_coordinates(triangle_position(vertex));
     vec2 ndc = (q.xy - bundle.window.xy) / bundle.window.zw;
     float half_side = 0.5 * float(LSF_BUNDLE_SIDE);
     return vec3(ndc * half_side + half_side, (q.z - bundle.range.x) / bundle.range.y);
-}
-
-lsf_material_data instance_material()
-{
-    lsf_material_data m;
-    m.base_color = material_rows[0];
-    m.emission = material_rows[1];
-    m.surface = material_rows[2];
-    m.anisotropy = material_rows[3];
-    m.flags = material_rows[4];
-    m.base_color_slot = lsf_texture_slot_data(material_rows[5], material_rows[6]);
-    m.metallic_roughness_slot = lsf_texture_slot_data(material_rows[7], material_rows[8]);
-    m.normal_slot = lsf_texture_slot_data(material_rows[9], material_rows[10]);
-    m.emissive_slot = lsf_texture_slot_data(material_rows[11], material_rows[12]);
-    m.anisotropy_slot = lsf_texture_slot_data(material_rows[13], material_rows[14]);
-    return m;
 }
 
 void list_large(uvec3 corners)
@@ -92,10 +57,8 @@ void main()
     uint triangle = group * uint(LSF_BUNDLE_SMALL_SIZE) + gl_LocalInvocationIndex;
     if (triangle >= range.y)
         return;
-    int first = int(range.x + 3u * triangle);
-    uvec3 corners = uvec3(texelFetch(index_fetch, first).x, texelFetch(index_fetch, first + 1).x,
-                          texelFetch(index_fetch, first + 2).x);
-    vec3 p0 = to_map(int(corners.x)), p1 = to_map(int(corners.y)), p2 = to_map(int(corners.z));
+    uvec3 corners = triangle_corners(triangle);
+    vec3 p0 = to_map(corners.x), p1 = to_map(corners.y), p2 = to_map(corners.z);
     vec2 low = min(p0.xy, min(p1.xy, p2.xy)), high = max(p0.xy, max(p1.xy, p2.xy));
     float side = float(LSF_BUNDLE_SIDE);
     if (!(min(high.x, high.y) >= 0.0 && max(low.x, low.y) <= side))
@@ -133,13 +96,13 @@ void main()
     f_area = abs(f_area) > 1e-12 ? f_area : 1e-12;
     vec2 b1_change = vec2(f2.y, -f2.x) / f_area, b2_change = vec2(-f1.y, f1.x) / f_area;
 
-    lsf_material_data material = instance_material();
+    lsf_material_data material = triangle_material();
     vec3 n0 = texelFetch(normal_fetch, int(corners.x)).xyz;
     vec3 n1 = texelFetch(normal_fetch, int(corners.y)).xyz - n0;
     vec3 n2 = texelFetch(normal_fetch, int(corners.z)).xyz - n0;
-    n0 = rows_direction(normal_transform, n0);
-    n1 = rows_direction(normal_transform, n1);
-    n2 = rows_direction(normal_transform, n2);
+    n0 = triangle_direction(normal_transform, n0);
+    n1 = triangle_direction(normal_transform, n1);
+    n2 = triangle_direction(normal_transform, n2);
     material_point point;
     point.front = anticlockwise != (range.w != 0u);
 #if LSF_TEXTURED
@@ -199,7 +162,7 @@ void main()
         vec4 t = texelFetch(tangent_fetch, int(corners.x));
         vec3 t1 = texelFetch(tangent_fetch, int(corners.y)).xyz;
         vec3 t2 = texelFetch(tangent_fetch, int(corners.z)).xyz;
-        point.tangent = vec4(rows_direction(transform, (1.0 - b1 - b2) * t.xyz + b1 * t1 + b2 * t2),
+        point.tangent = vec4(triangle_direction(transform, (1.0 - b1 - b2) * t.xyz + b1 * t1 + b2 * t2),
                              range.w != 0u ? -t.w : t.w);
 #endif
 #if LSF_VERTEX_COLOR

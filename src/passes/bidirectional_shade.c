@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "plan/light_map.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
 
@@ -54,10 +55,7 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
                         "bidirectional.suppression is clamp");
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", 0, "never: borders converge over iterations");
     lsf_plan_switch_add(plan, "LSF_SHADOW_HEMISPHERE", of_vpl, "the map is a VPL's");
-    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
-                        r->spot_lights);
-    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
-                        "there are directional lights (%u)", r->directional_lights);
+    lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_BUNDLE_IMPORTANCE", lsf_plan_find(plan, "bundle.pdf") != NULL,
                         "bundles are drawn by the environment's light");
     lsf_plan_switch_add(plan, "LSF_EMITTERS", use->vpl_emitter, "VPLs lie on emissive surfaces");

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "plan/light_map.h"
 #include "shared/scene_data.h"
 
 void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
@@ -14,10 +15,7 @@ void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
-    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
-                        r->spot_lights);
-    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
-                        "there are directional lights (%u)", r->directional_lights);
+    lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf, "shadow.filter is pcf");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the sum over lights");

@@ -3,6 +3,7 @@
 #define LSF_PASSES_RAY_BUNDLE_PARTS_H
 
 #include "passes/ray_bundle.h"
+#include "plan/triangle_fetch.h"
 
 /* Arrays of nodes; lib/ray_bundle.glsl says what they hold. Bound from LSF_BINDING_BUNDLE_NODES on.
  */
@@ -48,8 +49,8 @@ struct lsf_ray_bundle {
     GLuint tiles_program, fit_program, build_program, search_program, rest_program, tally_program;
     /* Only where small triangles are rasterised by a shader. */
     GLuint small_program;
-    GLuint large;      /* draws of large triangles, and their indices */
-    GLuint streams[7]; /* buffer textures of the scene's indices and vertices */
+    GLuint large; /* draws of large triangles, and their indices */
+    lsf_triangle_fetch fetch;
     lsf_ray_bundle_draw *draws;
     uint32_t draw_count;
     lsf_timer *bounds_timer, *build_timer, *search_timer;

@@ -7,7 +7,6 @@
 #include "passes/ray_bundle_parts.h"
 #include "shared/scene_data.h"
 
-#define FIRST_STREAM_UNIT 6
 #define DRAW_WORDS 5 /* DrawElementsIndirectCommand */
 
 /* In one dispatch: GL promises 65,535 work groups. */
@@ -49,23 +48,9 @@ bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, ls
     if (!lsf_plan_create_buffer(plan, pass->context, "ray_bundle.large", NULL,
                                 GL_DYNAMIC_STORAGE_BIT, &pass->large, error))
         return false;
-    glCreateTextures(GL_TEXTURE_BUFFER, LSF_COUNT(pass->streams), pass->streams);
+    lsf_triangle_fetch_create(&pass->fetch);
     pass->small_program = lsf_plan_program(plan, pass->context, "ray_bundle_build", files, error);
     return pass->small_program != 0;
-}
-
-static void bind_streams(const lsf_ray_bundle *pass, const lsf_scene_gpu *scene)
-{
-    const struct {
-        GLenum format;
-        GLuint buffer;
-    } streams[] = {{GL_R32UI, scene->indices},  {GL_RGB32F, scene->positions},
-                   {GL_RGB32F, scene->normals}, {GL_RGBA32F, scene->tangents},
-                   {GL_RG32F, scene->uv0},      {GL_RG32F, scene->uv1},
-                   {GL_RGBA32F, scene->colors}};
-    for (size_t i = 0; i < LSF_COUNT(streams); i++)
-        glTextureBuffer(pass->streams[i], streams[i].format, streams[i].buffer);
-    glBindTextures(FIRST_STREAM_UNIT, LSF_COUNT(streams), pass->streams);
 }
 
 /* Draws of no triangles yet, each with room for all of its instance's. */
@@ -79,19 +64,6 @@ static void reset_draws(lsf_ray_bundle *pass, const lsf_iteration *iteration)
     }
     glNamedBufferSubData(pass->large, 0, (GLsizeiptr)(pass->draw_count * sizeof *pass->draws),
                          pass->draws);
-}
-
-static void set_instance(const lsf_iteration *iteration, uint32_t index)
-{
-    const lsf_instance_state *instance = &iteration->state->instances[index];
-    const lsf_scene *scene = iteration->scene->scene;
-    struct lsf_material_data material = lsf_scene_gpu_material(scene, instance->material);
-    float normal[12] = {0};
-    for (int row = 0; row < 3; row++)
-        memcpy(normal + 4 * row, instance->normal_transform + 3 * row, 3 * sizeof *normal);
-    glUniform4fv(2, 3, instance->transform);
-    glUniform4fv(5, 3, normal);
-    glUniform4fv(9, sizeof material / sizeof(lsf_vec4), &material.base_color.x);
 }
 
 /* Coprime to `groups`, and near the golden section of it: multiples modulo `groups` visit all, the
@@ -116,7 +88,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     GLint bits = 0;
     glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
     reset_draws(pass, iteration);
-    bind_streams(pass, scene);
+    lsf_triangle_fetch_bind(&pass->fetch, scene);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_LARGE, pass->large);
     glUseProgram(pass->small_program);
     glUniform1ui(0, pass->room);
@@ -129,13 +101,11 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
             continue;
         if (instance->material != bound)
             lsf_scene_gpu_bind_material(scene, bound = instance->material, LSF_DRAW_POINTWISE);
-        set_instance(iteration, index);
         const lsf_primitive *primitive = &scene->scene->primitives[instance->primitive];
         for (uint32_t first = 0; first < primitive->index_count / 3; first += MAX_TRIANGLES) {
             uint32_t triangles = primitive->index_count / 3 - first;
             triangles = triangles < MAX_TRIANGLES ? triangles : MAX_TRIANGLES;
-            glUniform4ui(1, (GLuint)primitive->first_index + 3 * first, triangles, index,
-                         instance->mirrored);
+            lsf_triangle_fetch_instance(iteration, index, first, triangles);
             uint32_t groups = (triangles + LSF_BUNDLE_SMALL_SIZE - 1) / LSF_BUNDLE_SMALL_SIZE;
             glUniform1ui(24, stride_of(groups));
             glDispatchCompute(groups, 1, 1);
@@ -151,6 +121,6 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
 void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass)
 {
     lsf_buffer_destroy(pass->context, &pass->large);
-    glDeleteTextures(LSF_COUNT(pass->streams), pass->streams);
+    lsf_triangle_fetch_destroy(&pass->fetch);
     free(pass->draws);
 }

@@ -81,10 +81,7 @@ static void plan_pdf(lsf_plan *plan, uint32_t faces, uint32_t side)
     const lsf_requirements *r = &plan->requirements;
     uint64_t rows = (uint64_t)faces * side;
     lsf_plan_pass_add(plan, "reflective_shadow_map_pdf", "rsm.pdf is adaptive");
-    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
-                        r->spot_lights);
-    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
-                        "there are directional lights (%u)", r->directional_lights);
+    lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_buffer_add(plan, "reflective_shadow_map.sums", (rows * side + rows) * sizeof(float),
                         "running sums of importance");

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "plan/light_map.h"
 #include "shared/scene_data.h"
 
 /* Storage buffer beside LSF_BINDING_MATERIALS. */
@@ -25,10 +26,7 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
 {
     plan_program(plan, "voxel_light", use, "what voxels emit, and reflect of punctual lights");
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf, "shadow.filter is pcf");
-    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", plan->requirements.spot_lights > 0,
-                        "there are spots");
-    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", plan->requirements.directional_lights > 0,
-                        "there are directional lights");
+    lsf_light_switches(plan);
     lsf_voxel_texture_plan(plan, grid, "voxel_light.radiance", GL_RGBA16F, use->sides, use->levels,
                            "radiance of each side of a voxel's surface");
 }

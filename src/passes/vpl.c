@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "math/sampling.h"
+#include "plan/light_map.h"
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 
@@ -42,10 +43,7 @@ static void plan_draw(lsf_plan *plan, uint64_t count)
     const lsf_requirements *r = &plan->requirements;
     bool gloss = r->specular && (r->anisotropic || r->glossy || r->variable_ior);
     lsf_plan_pass_add(plan, "vpl_draw", "what punctual lights fall on");
-    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
-                        r->spot_lights);
-    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
-                        "there are directional lights (%u)", r->directional_lights);
+    lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE",
                         lsf_plan_find_pass(plan, "reflective_shadow_map_pdf") != NULL,
                         "rsm.pdf is adaptive");

@@ -25,6 +25,15 @@ lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light)
     return narrow ? LSF_LIGHT_MAP_SPOT : LSF_LIGHT_MAP_CUBE;
 }
 
+void lsf_light_switches(lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
+                        r->spot_lights);
+    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
+                        "there are directional lights (%u)", r->directional_lights);
+}
+
 static lsf_vec4 vec4_from(lsf_float3 v, float w)
 {
     return (lsf_vec4){v.x, v.y, v.z, w};

@@ -15,6 +15,9 @@ typedef enum lsf_light_map_kind {
 
 lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light);
 
+/* Adds to the pass in turn the switches of lib/light.glsl. */
+void lsf_light_switches(lsf_plan *plan);
+
 /* A map to project on. */
 typedef struct lsf_light_map_layout {
     uint32_t faces; /* of a directional light: one window holds the whole scene, several are nested
