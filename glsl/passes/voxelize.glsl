@@ -186,7 +186,8 @@ void write_surface(voxel_triangle t, ivec3 cell, vec3 low)
 #endif
 }
 #else
-/* The bid: nearer to the voxel's centre wins, by the distance of the plane, then the first triangle. */
+/* The bid: nearer to the voxel's centre wins, then the first triangle. The distance is that of the triangle,
+ * not of its plane: of two in one plane each gets the voxels whose centres lie over it. */
 void bid(voxel_triangle t, ivec3 cell, vec3 low)
 {
 #if LSF_MASK
@@ -195,9 +196,11 @@ void bid(voxel_triangle t, ivec3 cell, vec3 low)
     if (!surface_in(t, closest_weights(t, low + 0.5), s, emission))
         return;
 #endif
-    float distance = abs(dot(t.normal, low + 0.5 - t.a)) / length(t.normal);
+    vec3 weights = closest_weights(t, low + 0.5);
+    vec3 nearest_point = t.a * weights.x + t.b * weights.y + t.c * weights.z;
+    float distance = length(nearest_point - (low + 0.5));
     const uint nearest = 0xffffffffu >> LSF_VOXELIZE_ID_BITS;
-    /* A plane that meets a voxel is at most half its diagonal away, sqrt(3) / 2. */
+    /* What meets a voxel is at most half its diagonal away, sqrt(3) / 2. */
     uint near = uint((1.0 - min(distance / 0.8661, 1.0)) * float(nearest));
     uint key = (near << LSF_VOXELIZE_ID_BITS) | (id_mask - t.id);
     if (imageAtomicMax(key_image, cell, key) != 0u)

@@ -27,11 +27,13 @@ struct lsf_voxel_grid_data {
 
 /* Texture units. */
 #define LSF_UNIT_VOXEL_EMISSION 4
+#define LSF_UNIT_VOXEL_POINT 6
 #define LSF_UNIT_VOXEL_RADIANCE 9
 #define LSF_UNIT_VOXEL_OCCUPANCY 10 /* and the next two */
 #define LSF_UNIT_VOXEL_ALBEDO 13
 #define LSF_UNIT_VOXEL_NORMAL 14
 #define LSF_UNIT_VOXEL_GLOSS 15
+#define LSF_UNIT_PATH_RANDOM 7
 
 /* Occupied bricks, storage buffer: a dispatch of LSF_VOXEL_LIST_ROW groups by as many rows as hold
  * them, one group a brick; their number; then their places, packed as voxel_brick_pack does. */

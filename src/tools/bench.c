@@ -16,6 +16,7 @@ static const struct {
 } measurements[] = {
     {"rays", lsf_bench_rays},
     {"bidirectional", lsf_bench_bidirectional},
+    {"voxel_path", lsf_bench_voxel_path},
 };
 
 static const char *next_measurement(size_t index, void *user)
@@ -86,7 +87,8 @@ static bool run(lsf_bench *bench, lsf_error *error)
         }
     const char *nearest = lsf_nearest(name, next_measurement, NULL);
     return lsf_error_set(error, LSF_ERROR_USAGE, "%s: no such measurement%s%s%s", name,
-                         nearest ? "; did you mean " : "; bench takes rays or bidirectional",
+                         nearest ? "; did you mean "
+                                 : "; bench takes rays, bidirectional or voxel_path",
                          nearest ? nearest : "", nearest ? "?" : "");
 }
 

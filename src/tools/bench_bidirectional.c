@@ -1,6 +1,6 @@
 /* Table 1 of Y. Tokuyoshi and S. Ogaki, "Real-Time Bidirectional Path Tracing via Rasterization",
  * I3D 2012, row for row: what a frame of 21 VPLs and 21 ray-bundles takes. */
-#include "tools/bench.h"
+#include "tools/bench_table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,13 +29,7 @@ static const char *const frame_options[] = {
     "shadow.filter=pcf",     "interleave.size=4",
 };
 
-typedef struct table_row {
-    const char *title;
-    double paper_ms;
-    const char *passes[4]; /* of ours, by name */
-} table_row;
-
-static const table_row rows[] = {
+static const lsf_bench_row rows[] = {
     {"Create G-Buffer", 6.0, {"gbuffer"}},
     {"Create Reflective Shadow Maps",
      2.7,
@@ -53,76 +47,7 @@ static const table_row rows[] = {
     {"Output", 3.6, {"compose", "accumulate", "tonemap"}},
     {"Others", 0.4, {NULL}},
 };
-enum { ROWS = LSF_COUNT(rows), OTHERS = ROWS - 1 };
 #define PAPER_TOTAL 77.8
-
-typedef struct table {
-    double ms[ROWS];
-    bool ran[ROWS]; /* some pass of the row */
-    double total_ms;
-} table;
-
-static size_t row_of(const char *pass)
-{
-    for (size_t r = 0; r < OTHERS; r++)
-        for (size_t i = 0; i < LSF_COUNT(rows[r].passes) && rows[r].passes[i]; i++)
-            if (strcmp(rows[r].passes[i], pass) == 0)
-                return r;
-    return OTHERS;
-}
-
-/* Adds all that the passes took since the renderer was made, times `sign`. */
-static void add_passes(table *t, lsf_renderer *renderer, double sign)
-{
-    lsf_renderer_stats stats = lsf_renderer_get_stats(renderer);
-    for (uint32_t i = 0; i < stats.pass_count; i++) {
-        size_t row = row_of(stats.passes[i].name);
-        t->ms[row] += sign * stats.passes[i].milliseconds * (double)stats.samples;
-        t->ran[row] = t->ran[row] || stats.passes[i].runs > 0;
-    }
-}
-
-static bool iterate(lsf_renderer *renderer, uint32_t frames, lsf_error *error)
-{
-    for (uint32_t i = 0; i < frames; i++)
-        if (!lsf_renderer_iterate(renderer, error))
-            return false;
-    return true;
-}
-
-static double sum_of(const table *t)
-{
-    double sum = 0.0;
-    for (size_t r = 0; r < ROWS; r++)
-        sum += t->ms[r];
-    return sum;
-}
-
-/* Tone mapping belongs to the output, reading it back does not: it runs apart, by its own timer. */
-static bool measure(table *t, lsf_renderer *renderer, uint8_t *rgb, uint32_t frames,
-                    lsf_error *error)
-{
-    bool good =
-        iterate(renderer, WARM_UP, error) && lsf_renderer_read_rgb8(renderer, 0.0f, rgb, error);
-    add_passes(t, renderer, -1.0); /* which waits until all is done */
-    table before = *t;
-    double start = lsf_now();
-    good = good && iterate(renderer, frames, error);
-    add_passes(t, renderer, 1.0);
-    double milliseconds = 1e3 * (lsf_now() - start);
-    table drawn = *t;
-    for (uint32_t i = 0; good && i < frames; i++)
-        good = lsf_renderer_read_rgb8(renderer, 0.0f, rgb, error);
-    *t = before;
-    add_passes(t, renderer, 1.0);
-    milliseconds += sum_of(t) - sum_of(&drawn);
-    for (size_t r = 0; r < ROWS; r++)
-        t->ms[r] /= frames;
-    t->total_ms = milliseconds / frames;
-    t->ms[OTHERS] += t->total_ms - sum_of(t);
-    t->ran[OTHERS] = true;
-    return good;
-}
 
 /* --- the scene and its frame */
 
@@ -196,16 +121,8 @@ static bool prepare(frame *f, const lsf_bench *bench, lsf_error *error)
 
 /* --- the table */
 
-static bool print_row(const lsf_bench *bench, const char *title, bool ran, double ms,
-                      double paper_ms, lsf_error *error)
-{
-    char ours[32] = "-";
-    if (ran)
-        snprintf(ours, sizeof ours, "%.2f", ms);
-    return lsf_bench_print(bench, error, "%-42s%10s%10.1f\n", title, ours, paper_ms);
-}
-
-static bool print_table(const lsf_bench *bench, const frame *f, const table *t, lsf_error *error)
+static bool print_table(const lsf_bench *bench, const frame *f, const lsf_bench_table *t,
+                        lsf_error *error)
 {
     bool good = lsf_bench_print(
         bench, error,
@@ -215,18 +132,15 @@ static bool print_table(const lsf_bench *bench, const frame *f, const table *t, 
         f->height, f->params.width, f->params.height, BOUNCES, f->count);
     for (uint32_t i = 0; good && i < f->params.option_count; i++)
         good = lsf_bench_print(bench, error, "%s%s", i ? " " : "", f->options[i]);
-    good =
-        good && lsf_bench_print(bench, error, "\n\n%-42s%10s%10s\n", "procedure", "ms", "paper ms");
-    for (size_t r = 0; good && r < ROWS; r++)
-        good = print_row(bench, rows[r].title, t->ran[r], t->ms[r], rows[r].paper_ms, error);
-    return good && print_row(bench, "Total", true, t->total_ms, PAPER_TOTAL, error) &&
+    return good && lsf_bench_print(bench, error, "\n\n") &&
+           lsf_bench_table_print(t, bench, PAPER_TOTAL, error) &&
            lsf_bench_print(
                bench, error,
                "\nThe paper's: 1920x1088, 2x2 supersampling, 174 k triangles, AMD Radeon "
                "HD 6990\n");
 }
 
-static void add_json(lsf_json *json, const frame *f, const table *t)
+static void add_json(lsf_json *json, const frame *f, const lsf_bench_table *t)
 {
     lsf_json_integer(json, "triangles", f->triangles);
     lsf_json_integer(json, "tessellation_factor", f->factor);
@@ -238,27 +152,13 @@ static void add_json(lsf_json *json, const frame *f, const table *t)
     for (uint32_t i = 0; i < f->params.option_count; i++)
         lsf_json_string(json, NULL, f->options[i]);
     lsf_json_end(json, ']');
-    lsf_json_begin(json, "rows", '[');
-    for (size_t r = 0; r < ROWS; r++) {
-        lsf_json_begin(json, NULL, '{');
-        lsf_json_string(json, "procedure", rows[r].title);
-        lsf_json_number(json, "ms", t->ran[r] ? t->ms[r] : NAN);
-        lsf_json_number(json, "paper_ms", rows[r].paper_ms);
-        lsf_json_begin(json, "passes", '[');
-        for (size_t i = 0; i < LSF_COUNT(rows[r].passes) && rows[r].passes[i]; i++)
-            lsf_json_string(json, NULL, rows[r].passes[i]);
-        lsf_json_end(json, ']');
-        lsf_json_end(json, '}');
-    }
-    lsf_json_end(json, ']');
-    lsf_json_number(json, "total_ms", t->total_ms);
-    lsf_json_number(json, "paper_total_ms", PAPER_TOTAL);
+    lsf_bench_table_add(t, json, PAPER_TOTAL);
 }
 
 bool lsf_bench_bidirectional(lsf_bench *bench, lsf_error *error)
 {
     frame f = {0};
-    table t = {0};
+    lsf_bench_table t = {.rows = rows, .row_count = LSF_COUNT(rows)};
     lsf_renderer *renderer = NULL;
     uint8_t *rgb = NULL;
     bool good = prepare(&f, bench, error);
@@ -268,7 +168,8 @@ bool lsf_bench_bidirectional(lsf_bench *bench, lsf_error *error)
         good =
             renderer || (rgb == NULL && lsf_error_set(error, LSF_ERROR_RENDER, "no memory left"));
     }
-    good = good && measure(&t, renderer, rgb, f.count, error) && print_table(bench, &f, &t, error);
+    good = good && lsf_bench_table_measure(&t, renderer, rgb, WARM_UP, f.count, error) &&
+           print_table(bench, &f, &t, error);
     if (good)
         add_json(&bench->json, &f, &t);
     lsf_renderer_destroy(renderer);

@@ -88,9 +88,36 @@ class Bidirectional(CommandTest):
         self.assertLess(triangles, 174e3 * 2)
 
 
+class VoxelPath(CommandTest):
+    SMALL = ("-r", "24,16", "-s", "1", "-D", "voxel.resolution=16")
+
+    def test_json(self):
+        done = self.run_command("bench", "voxel_path", CORNELL, "--json", *self.SMALL)
+        report = json.loads(done.stdout)
+        self.assertEqual(report["measurement"], "voxel_path")
+        self.assertEqual(len(report["measured"]), 2)
+        for frame in report["measured"]:
+            self.assertEqual((frame["screen"], frame["frames"]), ([24, 16], 1))
+            self.assertEqual(frame["options"][-1], "voxel.resolution=16")
+            rows = {row["procedure"]: row for row in frame["rows"]}
+            self.assertAlmostEqual(sum(row["ms"] or 0 for row in frame["rows"]),
+                                   frame["total_ms"], places=3)
+            for name in ("Gather", "Trace", "Blur", "Output"):
+                self.assertGreater(rows[name]["ms"], 0, name)
+        full, coarse = report["measured"]
+        self.assertIsNone({row["procedure"]: row for row in full["rows"]}["Upsample"]["ms"])
+        self.assertGreater({row["procedure"]: row for row in coarse["rows"]}["Upsample"]["ms"], 0)
+
+    def test_table(self):
+        text = self.run_command("bench", "voxel_path", CORNELL, *self.SMALL).stdout.decode()
+        self.assertRegex(text, r"(?m)^Trace +[\d.]+ +-$")
+        self.assertRegex(text, r"(?m)^Total +[\d.]+ +57\.1$")
+        self.assertRegex(text, r"(?m)^Total +[\d.]+ +33\.3$")
+
+
 class Usage(CommandTest):
     def test_measurements(self):
-        self.refuse("bench", says=["rays|bidirectional"])
+        self.refuse("bench", says=["rays|bidirectional|voxel_path"])
         self.refuse("bench", "ray", says=["ray: no such measurement", "did you mean rays?"])
         self.refuse("bench", "rays", CORNELL, "more", says=["more", "one operand too many"])
         self.refuse("bench", "rays", "--output", "a.png", says=["an option of render"])

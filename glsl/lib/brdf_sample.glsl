@@ -1,0 +1,115 @@
+/* Directions drawn from the BRDF of lib/brdf.glsl: its diffuse lobe by the cosine, its specular lobe by
+ * the normals that are visible from the view; Schlick's Fresnel term decides which. Their density is that
+ * of both together, whichever was drawn. As reference/bsdf.c and math/sampling.c do. Switches
+ * LSF_SPECULAR, LSF_ANISOTROPY. */
+#ifndef LSF_LIB_BRDF_SAMPLE
+#define LSF_LIB_BRDF_SAMPLE
+
+#include "lib/brdf.glsl"
+
+/* Neither lobe is drawn more rarely than that where both count: either carries what the other cannot. */
+#define LOBE_LEAST 0.1
+
+struct brdf_sampler {
+    vec3 normal, tangent, bitangent;
+#if LSF_SPECULAR
+    vec3 view; /* in this frame, above its horizon */
+    float alpha_t, alpha;
+    float specular; /* with which probability this lobe is drawn */
+#endif
+};
+
+/* `view` as for brdf_evaluate. With `both`, the two lobes are summed apart: then each counts even if the
+ * surface reflects nothing by it. */
+brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
+{
+    brdf_sampler p;
+    p.normal = s.normal;
+    orthonormal_basis(s.normal, p.tangent, p.bitangent);
+#if LSF_SPECULAR
+    p.alpha = p.alpha_t = lsf_alpha_from_roughness(s.roughness);
+#if LSF_ANISOTROPY
+    float angle = 2.0 * LSF_PI * s.anisotropy_turn;
+    p.tangent = cos(angle) * p.tangent + sin(angle) * p.bitangent;
+    p.bitangent = cross(p.normal, p.tangent);
+    p.alpha_t = lsf_alpha_along_tangent(p.alpha, s.anisotropy);
+#endif
+    vec3 lifted = lift_to_horizon(view, s.normal);
+    p.view = vec3(dot(p.tangent, lifted), dot(p.bitangent, lifted),
+                  max(dot(p.normal, lifted), LSF_COSINE_MIN));
+    /* The share of the light that each would reflect if the surface were smooth. */
+    const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+    vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
+    float nv = min(p.view.z, 1.0);
+    float specular = lsf_fresnel_schlick(dot(f0, luminance), nv);
+    float diffuse = dot(surface_diffuse(s), luminance) * (1.0 - lsf_fresnel_schlick(s.f0, nv));
+    p.specular = clamp(specular / max(specular + diffuse, 1e-6), LOBE_LEAST, 1.0 - LOBE_LEAST);
+    if (!both && diffuse <= 0.0)
+        p.specular = 1.0;
+#endif
+    return p;
+}
+
+/* From the square to the disc: P. Shirley, K. Chiu, JGT 2(3), 1997. */
+vec2 brdf_disc(vec2 u)
+{
+    vec2 a = 2.0 * u - 1.0;
+    if (a == vec2(0.0))
+        return a;
+    bool wide = abs(a.x) > abs(a.y);
+    float phi = wide ? LSF_PI / 4.0 * (a.y / a.x) : LSF_PI / 2.0 - LSF_PI / 4.0 * (a.x / a.y);
+    return (wide ? a.x : a.y) * vec2(cos(phi), sin(phi));
+}
+
+vec3 brdf_hemisphere(vec2 disc)
+{
+    return vec3(disc, sqrt(max(0.0, 1.0 - dot(disc, disc))));
+}
+
+#if LSF_SPECULAR
+/* E. Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018. */
+vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
+{
+    vec3 stretched = normalize(vec3(p.alpha_t, p.alpha, 1.0) * p.view);
+    /* The half of the disc that shrinks lies where the hemisphere ends. */
+    float side = length(stretched.xy);
+    vec3 across = side > 1e-7 ? vec3(-stretched.y, stretched.x, 0.0) / side : vec3(1.0, 0.0, 0.0);
+    float share = 0.5 * (1.0 + stretched.z);
+    disc.y = mix(sqrt(max(0.0, 1.0 - disc.x * disc.x)), disc.y, share);
+    vec3 q = brdf_hemisphere(disc);
+    vec3 n = q.x * across + q.y * cross(stretched, across) + q.z * stretched;
+    return normalize(vec3(p.alpha_t * n.x, p.alpha * n.y, max(n.z, 1e-7)));
+}
+#endif
+
+/* A unit vector; `u`: three numbers in [0, 1). It may lie below the horizon. */
+vec3 brdf_draw(brdf_sampler p, vec3 u)
+{
+    vec2 disc = brdf_disc(u.xy);
+    vec3 local = brdf_hemisphere(disc);
+#if LSF_SPECULAR
+    if (u.z < p.specular) {
+        vec3 h = brdf_visible_normal(p, disc);
+        local = 2.0 * dot(p.view, h) * h - p.view;
+    }
+#endif
+    return normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
+}
+
+/* Density [1/sr] with which a direction above the horizon is drawn. */
+float brdf_pdf(brdf_sampler p, vec3 direction)
+{
+    float nl = dot(p.normal, direction);
+#if LSF_SPECULAR
+    vec3 h = normalize(p.view + vec3(dot(p.tangent, direction), dot(p.bitangent, direction), nl));
+    vec3 stretched = vec3(p.alpha_t, p.alpha, 1.0) * p.view;
+    float d = lsf_ggx_d_anisotropic(h.z, h.x, h.y, p.alpha_t, p.alpha);
+    /* D G1 / (4 nv) */
+    float specular = 0.5 * d / (p.view.z + length(stretched));
+    return mix(nl / LSF_PI, specular, p.specular);
+#else
+    return nl / LSF_PI;
+#endif
+}
+
+#endif

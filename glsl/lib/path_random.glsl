@@ -1,0 +1,84 @@
+/* Random numbers for the vertices of paths: functions of seed, pixel, sample and vertex, never of what
+ * was drawn before.
+ *
+ * Each vertex of a pixel's paths has a (0,2)-sequence of its own over the samples of all iterations:
+ * Owen-scrambled Sobol points in shuffled order, as math/sampling.h has them for the host (Burley 2020,
+ * "Practical Hash-based Owen Scrambling"). With LSF_RANDOM_TEXTURE they are read from a texture of plain
+ * random numbers instead, at a place that goes with pixel, sample and vertex, and is skewed along the
+ * depth of what the pixel sees, so that surfaces behind each other take other ones. */
+#ifndef LSF_LIB_PATH_RANDOM
+#define LSF_LIB_PATH_RANDOM
+
+#include "shared/voxel_data.h"
+
+/* M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d. */
+uvec3 path_hash(uvec3 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+struct path_random_key {
+    uint pixel, seed;
+    ivec2 place; /* of the texture's texel that the pixel goes with */
+};
+
+/* The 24 high bits, 0 <= u < 1. */
+vec3 path_unit(uvec3 bits)
+{
+    return vec3(bits >> 8) * (1.0 / 16777216.0);
+}
+
+#if LSF_RANDOM_TEXTURE
+layout(binding = LSF_UNIT_PATH_RANDOM) uniform sampler2D random_texture;
+
+/* Three numbers that decide how the path goes on from its vertex. */
+vec3 path_random(path_random_key key, uint index, uint vertex)
+{
+    uvec3 shift = path_hash(uvec3(index, vertex, key.seed));
+    ivec2 size = textureSize(random_texture, 0); /* powers of two */
+    return texelFetch(random_texture, (key.place + ivec2(shift.xy & 0xffffu)) & (size - 1), 0).rgb;
+}
+#else
+/* On bit-reversed values, see math/sampling.c. */
+uvec3 path_scramble(uvec3 x, uvec3 seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/* Sobol's second dimension, bit-reversed: its direction numbers are Pascal's triangle modulo 2, whose
+ * entry (i, j) is odd where the ones of i are among those of j (Lucas); a sum over supersets. */
+uint path_sobol_second(uint index)
+{
+    index ^= (index & 0xaaaaaaaau) >> 1;
+    index ^= (index & 0xccccccccu) >> 2;
+    index ^= (index & 0xf0f0f0f0u) >> 4;
+    index ^= (index & 0xff00ff00u) >> 8;
+    return index ^ ((index & 0xffff0000u) >> 16);
+}
+
+vec3 path_random(path_random_key key, uint index, uint vertex)
+{
+    uvec3 seed = path_hash(uvec3(key.pixel, vertex, key.seed));
+    uvec3 order = path_hash(seed);
+    /* One order for the pair, one for the number that stands alone. */
+    uvec3 shuffled =
+        bitfieldReverse(path_scramble(uvec3(bitfieldReverse(index)), uvec3(order.x, order.xy)));
+    return path_unit(bitfieldReverse(path_scramble(
+        uvec3(shuffled.x, path_sobol_second(shuffled.y), shuffled.z), seed)));
+}
+#endif
+
+#endif

@@ -1,0 +1,230 @@
+/* Uni-directional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches
+ * LSF_EMISSION (surfaces shine), LSF_ENVIRONMENT, LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS,
+ * LSF_VOXEL_GLOSS and those of the libraries. */
+#include "lib/brdf_sample.glsl"
+#include "lib/coarse.glsl"
+#include "lib/environment.glsl"
+#include "lib/path_random.glsl"
+#include "lib/voxel_trace.glsl"
+
+layout(binding = 0) uniform sampler2D depth_texture;
+layout(binding = 1) uniform usampler2D surface_texture;
+#if LSF_GLOSS
+layout(binding = 2) uniform usampler2D gloss_texture;
+#endif
+#if LSF_EMISSION
+layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
+#endif
+layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
+layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance;
+layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
+layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal;
+#if LSF_VOXEL_GLOSS
+layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D voxel_gloss;
+#endif
+
+layout(location = 0) uniform ivec4 lengths; /* bounces, segments, least and most samples */
+layout(location = 1) uniform uvec2 turn;    /* iteration, seed */
+
+layout(location = 0) out vec4 irradiance_out;
+#if LSF_SPLIT_DIRECT
+layout(location = 1) out vec4 direct_irradiance_out;
+#endif
+#if LSF_SPECULAR
+layout(location = 1 + LSF_SPLIT_DIRECT) out vec4 specular_out;
+#if LSF_SPLIT_DIRECT
+layout(location = 3) out vec4 direct_specular_out;
+#endif
+#endif
+
+/* Where a path has come to. */
+struct path_vertex {
+    vec3 position, view; /* [voxels]; unit, back along the path */
+    surface s;
+};
+
+/* Light in the two parts that compose wants. */
+struct light_parts {
+    vec3 irradiance, specular;
+};
+
+light_parts indirect, direct; /* sums over the pixel's paths; direct: from the first segment */
+
+void add_light(light_parts through, vec3 radiance, bool is_direct)
+{
+#if LSF_SPLIT_DIRECT
+    if (is_direct) {
+        direct.irradiance += through.irradiance * radiance;
+        direct.specular += through.specular * radiance;
+        return;
+    }
+#endif
+    indirect.irradiance += through.irradiance * radiance;
+    indirect.specular += through.specular * radiance;
+}
+
+/* Takes the ray out of the voxels that it starts in, but for one whose surface lies ahead. The start is as
+ * far above its own surface as a voxel reaches, so that these belong to others, which join it in a corner
+ * or pass close by. */
+bool leave_start(inout voxel_ray ray)
+{
+    int steps = voxel_ray_steps();
+    for (int i = 0; i < steps && voxel_occupied(ray.cell); i++) {
+        vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, ray.cell, 0).r);
+        vec3 q = vec3(ray.cell) + voxel_point_unpack(texelFetch(voxel_point, ray.cell, 0).r);
+        if (dot(n, q - ray.origin) * dot(n, ray.direction) > 0.0)
+            return true;
+        voxel_ray_step(ray, ray.cell, ivec3(1));
+        if (!voxel_inside(ray.cell))
+            return false;
+    }
+    return true;
+}
+
+/* The voxel that a path meets on its way from v. */
+bool trace(path_vertex v, vec3 direction, out ivec3 cell)
+{
+    /* A voxel that touches a plane reaches |n_x| + |n_y| + |n_z| above it at most. */
+    vec3 n = v.s.geometric_normal;
+    float lift = abs(n.x) + abs(n.y) + abs(n.z);
+    voxel_ray ray;
+    if (!voxel_ray_begin(v.position + lift * n, direction, ray) || !leave_start(ray) ||
+        !voxel_ray_trace(ray))
+        return false;
+    cell = ray.cell;
+    return true;
+}
+
+/* A voxel's surface as it is seen along `direction`; `side`: 0 from the side of its normal, else 1. */
+path_vertex vertex_at(ivec3 cell, vec3 direction, out int side)
+{
+    path_vertex v;
+    uint normal = texelFetch(voxel_normal, cell, 0).r;
+    vec3 n = voxel_normal_unpack(normal);
+    side = dot(n, direction) <= 0.0 ? 0 : 1;
+    v.position = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
+    v.view = -direction;
+    v.s.geometric_normal = v.s.normal = side == 0 ? n : -n;
+    v.s.base_color = voxel_albedo_unpack(texelFetch(voxel_albedo, cell, 0).r);
+    v.s.unlit = false;
+    v.s.metallic = 0.0;
+    v.s.roughness = 1.0;
+    v.s.f0 = 0.04; /* ior 1.5 */
+    v.s.anisotropy = 0.0;
+    v.s.anisotropy_turn = 0.0;
+#if LSF_VOXEL_GLOSS
+    vec4 gloss = unpackUnorm4x8(texelFetch(voxel_gloss, cell, 0).r);
+    v.s.roughness = gloss.y;
+    v.s.f0 = gloss.z * gloss.z;
+    v.s.metallic = gloss.w;
+#if LSF_ANISOTROPY
+    /* The inverse of lsf_alpha_along_tangent, and the turn from the frame of n to that of -n. */
+    float alpha = lsf_alpha_from_roughness(gloss.y);
+    v.s.anisotropy = sqrt(clamp((gloss.x * gloss.x - alpha) / max(1.0 - alpha, 1e-4), 0.0, 1.0));
+    vec3 t, b, own_t, own_b;
+    orthonormal_basis(n, t, b);
+    orthonormal_basis(v.s.normal, own_t, own_b);
+    float angle = 2.0 * LSF_PI * voxel_turn_unpack(normal);
+    vec3 along = cos(angle) * t + sin(angle) * b;
+    v.s.anisotropy_turn = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
+#endif
+#endif
+    return v;
+}
+
+/* Emission of the voxel towards one side, in the grid's unit. */
+vec3 emission_of(ivec3 cell, int side)
+{
+#if LSF_EMISSION
+    if (side == 0 || voxel_emits_both(texelFetch(voxel_point, cell, 0).r))
+        return voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r);
+#endif
+    return vec3(0.0);
+}
+
+void add_path(path_vertex v, path_random_key key, uint index)
+{
+    light_parts through = light_parts(vec3(1.0), vec3(1.0));
+    for (int segment = 0; segment < lengths.y; segment++) {
+        brdf_sampler sampler_of_v = brdf_sampler_of(v.s, v.view, segment == 0);
+        vec3 direction = brdf_draw(sampler_of_v, path_random(key, index, uint(segment)));
+        float cosine = dot(v.s.normal, direction);
+        if (cosine <= 0.0 || dot(v.s.geometric_normal, direction) <= 0.0)
+            return;
+        brdf_value f = brdf_evaluate(v.s, v.view, direction, 0.0);
+        float weight = cosine / brdf_pdf(sampler_of_v, direction);
+        if (segment == 0) {
+            through.irradiance = vec3(f.diffuse * weight);
+            through.specular = f.specular * weight;
+        } else {
+            vec3 reflected = brdf_sum(v.s, f) * weight;
+            through.irradiance *= reflected;
+            through.specular *= reflected;
+        }
+        ivec3 cell;
+        if (!trace(v, direction, cell)) {
+#if LSF_ENVIRONMENT
+            add_light(through, environment_radiance(direction), segment == 0);
+#endif
+            return;
+        }
+        int side;
+        v = vertex_at(cell, direction, side);
+        /* What the last segment meets may shine, but has no bounce left to reflect with; and what the
+         * first one meets shines as direct light. */
+        vec3 radiance = vec3(0.0);
+        if (segment < lengths.x)
+            radiance = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
+#if LSF_EMISSION
+        vec3 emission = emission_of(cell, side);
+        if (segment >= lengths.x)
+            radiance = emission;
+#if LSF_SPLIT_DIRECT
+        if (segment == 0) {
+            add_light(through, grid.unit.x * emission, true);
+            radiance = max(radiance - emission, 0.0);
+        }
+#endif
+#endif
+        add_light(through, grid.unit.x * radiance, false);
+    }
+}
+
+void main()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depth_texture, texel, 0).r;
+    uvec4 surface_texel = texelFetch(surface_texture, texel, 0);
+    indirect = direct = light_parts(vec3(0.0), vec3(0.0));
+    float share = 0.0;
+    if (depth != 0.0 && !surface_texel_unlit(surface_texel)) {
+        vec2 ndc = coarse_ndc(texel);
+        vec3 position = position_from_depth(ndc, depth);
+        path_vertex v;
+        v.position = voxel_from_position(position);
+        v.view = -normalize(view_ray_direction(ndc));
+        v.s = surface_unpack(surface_texel);
+#if LSF_GLOSS
+        gloss_unpack(texelFetch(gloss_texture, texel, 0).xy, v.s);
+#endif
+        /* More of them the rougher it is. */
+        int count = int(mix(float(lengths.z), float(lengths.w), v.s.roughness) + 0.5);
+        path_random_key key;
+        key.pixel = uint(texel.x) | (uint(texel.y) << 16);
+        key.seed = turn.y;
+        key.place = texel + int(view_depth(depth) * grid.size.w);
+        for (int i = 0; i < count; i++)
+            add_path(v, key, turn.x * uint(count) + uint(i));
+        share = 1.0 / float(count);
+    }
+    irradiance_out = vec4(share * indirect.irradiance, 0.0);
+#if LSF_SPLIT_DIRECT
+    direct_irradiance_out = vec4(share * direct.irradiance, 0.0);
+#endif
+#if LSF_SPECULAR
+    specular_out = vec4(share * indirect.specular, 0.0);
+#if LSF_SPLIT_DIRECT
+    direct_specular_out = vec4(share * direct.specular, 0.0);
+#endif
+#endif
+}

@@ -1,0 +1,182 @@
+#include "passes/voxel_path.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "math/sampling.h"
+#include "shared/scene_data.h"
+
+/* Of its random numbers. */
+#define PURPOSE_PATH 0x60000
+
+/* Side of the texture of random numbers, a power of two; as in the paper. */
+#define RANDOM_SIZE 512
+
+const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
+    {"voxel_path.min_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, min_samples), 1, 64,
+     NULL, "paths", "that begin at a pixel of roughness 0"},
+    {"voxel_path.max_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, max_samples), 1, 64,
+     NULL, "paths", "that begin at a pixel of roughness 1"},
+    {"voxel_path.sequence", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, sequence), 0, 0,
+     "sobol|texture", "", "random numbers: of low discrepancy, or from a texture as in the paper"},
+    {"voxel_path.denoise", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, denoise), 0, 0,
+     "auto|on|off", "", "blurs what paths find; auto: in pictures of one sample"},
+    {"voxel_path.scale", LSF_OPTION_FLOAT, offsetof(lsf_voxel_path_params, scale), 0.01, 1.0, NULL,
+     "", "sides of the grid of pixels on which paths begin, to those of the picture"},
+};
+
+uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual)
+{
+    const lsf_requirements *r = &plan->requirements;
+    if (r->emissive || r->unlit || r->environment)
+        return plan->bounces + 1;
+    return punctual ? plan->bounces : 0;
+}
+
+void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
+                         const lsf_voxel_path_use *use)
+{
+    const lsf_requirements *r = &plan->requirements;
+    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    bool voxel_gloss = lsf_plan_find(plan, "voxelize.gloss") != NULL;
+    bool emission = lsf_plan_find(plan, "voxelize.emission") != NULL;
+    bool texture = params->sequence == LSF_VOXEL_PATH_TEXTURE;
+    lsf_plan_pass_add(plan, "voxel_path", "paths of %u segments through the voxels", use->segments);
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_coarse_grid_switch(plan, use->width, use->height);
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", voxel_gloss, "they vary between voxels");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+                        "some material is anisotropic");
+    lsf_plan_switch_add(plan, "LSF_EMISSION", emission, "some material emits or is unlit");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "paths may leave the scene");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
+                        "the environment is a map");
+    lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
+    lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
+                        "direct light is asked for apart");
+    const struct {
+        const char *name, *why;
+        bool wanted;
+    } textures[] = {
+        {"voxel_path.irradiance", "the diffuse part, without albedo", true},
+        {"voxel_path.specular", "the specular part", r->specular},
+        {"voxel_path.direct_irradiance", "direct light, apart", use->split_direct},
+        {"voxel_path.direct_specular", "direct light, apart", use->split_direct && r->specular},
+    };
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        if (textures[i].wanted)
+            lsf_plan_texture_add(plan, textures[i].name, GL_RGBA32F, use->width, use->height, "%s",
+                                 textures[i].why);
+    if (texture)
+        lsf_plan_texture_add(plan, "voxel_path.random", GL_RGBA32F, RANDOM_SIZE, RANDOM_SIZE,
+                             "random numbers, the same for all iterations");
+}
+
+/* The same for every seed, which decides where it is read. */
+static bool create_random(lsf_voxel_path *pass, const lsf_plan *plan, lsf_error *error)
+{
+    if (!lsf_plan_create_texture(plan, pass->context, "voxel_path.random", &pass->random, error))
+        return false;
+    if (!pass->random)
+        return true;
+    const uint32_t count = 4 * RANDOM_SIZE * RANDOM_SIZE;
+    float *numbers = lsf_alloc(count, sizeof *numbers);
+    if (!numbers)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for random numbers");
+    for (uint32_t i = 0; i < count; i++)
+        numbers[i] = lsf_random_float(PURPOSE_PATH, i);
+    glTextureSubImage2D(pass->random, 0, 0, 0, RANDOM_SIZE, RANDOM_SIZE, GL_RGBA, GL_FLOAT,
+                        numbers);
+    free(numbers);
+    return true;
+}
+
+bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_voxel_path_params *params, const lsf_voxel_path_use *use,
+                           lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/voxel_path.frag.glsl"};
+    *pass = (lsf_voxel_path){.context = context, .params = *params, .segments = use->segments};
+    lsf_voxel_path_outputs *out = &pass->outputs;
+    const struct {
+        const char *name;
+        GLuint *texture;
+    } textures[] = {
+        {"voxel_path.irradiance", &out->irradiance},
+        {"voxel_path.direct_irradiance", &out->direct_irradiance},
+        {"voxel_path.specular", &out->specular},
+        {"voxel_path.direct_specular", &out->direct_specular},
+    };
+    lsf_framebuffer_desc desc = {.label = "voxel_path", .layer = -1};
+    for (size_t i = 0; i < LSF_COUNT(textures); i++) {
+        if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
+            return false;
+        if (*textures[i].texture)
+            desc.colors[desc.color_count++] = *textures[i].texture;
+    }
+    if (!create_random(pass, plan, error))
+        return false;
+    pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
+    pass->program = lsf_plan_program(plan, context, "voxel_path", files, error);
+    pass->timer = lsf_timer_create(context, "voxel_path", error);
+    return pass->framebuffer && pass->program && pass->timer;
+}
+
+static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iteration,
+                        const lsf_voxel_path_inputs *inputs)
+{
+    glBindTextureUnit(0, inputs->depth);
+    glBindTextureUnit(1, inputs->surface);
+    glBindTextureUnit(2, inputs->gloss);
+    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
+    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
+    glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->voxel_albedo);
+    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
+    glBindTextureUnit(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
+    glBindTextureUnit(LSF_UNIT_VOXEL_EMISSION, inputs->voxel_emission);
+    glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->voxel_gloss);
+    glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
+    glBindTextureUnit(LSF_UNIT_PATH_RANDOM, pass->random);
+    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
+    const lsf_environment *environment = &iteration->scene->scene->environment;
+    if (environment->present && !environment->width)
+        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+}
+
+void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
+                        const lsf_voxel_path_inputs *inputs)
+{
+    const lsf_voxel_path_params *p = &pass->params;
+    lsf_timer_begin(pass->timer);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
+    glViewport(0, 0, (GLsizei)inputs->grid->width, (GLsizei)inputs->grid->height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glUseProgram(pass->program);
+    lsf_coarse_grid_set(inputs->grid);
+    bind_inputs(pass, iteration, inputs);
+    glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
+                p->max_samples);
+    glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, PURPOSE_PATH));
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_voxel_path_destroy(lsf_voxel_path *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    GLuint *textures[] = {&pass->outputs.irradiance, &pass->outputs.specular,
+                          &pass->outputs.direct_irradiance, &pass->outputs.direct_specular,
+                          &pass->random};
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}

@@ -1,0 +1,78 @@
+/* Light at visible points by uni-directional paths through the voxels. See voxel_path.md. */
+#ifndef LSF_PASSES_VOXEL_PATH_H
+#define LSF_PASSES_VOXEL_PATH_H
+
+#include "plan/coarse_grid.h"
+#include "plan/option.h"
+#include "plan/voxel_grid.h"
+
+typedef enum lsf_voxel_path_sequence {
+    LSF_VOXEL_PATH_SOBOL,   /* low discrepancy over a pixel's samples of all iterations */
+    LSF_VOXEL_PATH_TEXTURE, /* a texture of plain random numbers, skewed along the depth */
+} lsf_voxel_path_sequence;
+
+typedef enum lsf_voxel_path_denoise {
+    LSF_VOXEL_PATH_DENOISE_AUTO, /* a picture of one iteration is blurred */
+    LSF_VOXEL_PATH_DENOISE_ON,
+    LSF_VOXEL_PATH_DENOISE_OFF,
+} lsf_voxel_path_denoise;
+
+typedef struct lsf_voxel_path_params {
+    int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1 */
+    int32_t sequence;                 /* lsf_voxel_path_sequence */
+    int32_t denoise;                  /* lsf_voxel_path_denoise */
+    float scale;                      /* of the grid on which paths begin, to the picture's sides */
+} lsf_voxel_path_params;
+
+#define LSF_VOXEL_PATH_PARAMS_DEFAULTS                                                             \
+    .min_samples = 1, .max_samples = 6, .sequence = LSF_VOXEL_PATH_SOBOL,                          \
+    .denoise = LSF_VOXEL_PATH_DENOISE_AUTO, .scale = 1.0f
+
+#define LSF_VOXEL_PATH_OPTION_COUNT 5
+extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];
+
+/* Lengths of a path that the plan's bounces and light take; 0: nothing to find by paths. What
+ * emits, environments included, takes one more than punctual lights, whose light voxels hold. */
+uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual);
+
+typedef struct lsf_voxel_path_use {
+    uint32_t width, height; /* of the grid of pixels on which paths begin */
+    uint32_t segments;
+    bool split_direct; /* what the first segment finds to shine is asked for apart */
+} lsf_voxel_path_use;
+
+typedef struct lsf_voxel_path_inputs {
+    const lsf_coarse_grid *grid;
+    GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
+    GLuint occupancy[2];          /* voxels and bricks */
+    GLuint voxel_albedo, voxel_normal, voxel_point, voxel_emission, voxel_gloss;
+    GLuint radiance; /* of voxels, two sides */
+} lsf_voxel_path_inputs;
+
+/* RGBA32F of the grid's size; 0 without specular lobes, or unless split. */
+typedef struct lsf_voxel_path_outputs {
+    GLuint irradiance, specular, direct_irradiance, direct_specular;
+} lsf_voxel_path_outputs;
+
+typedef struct lsf_voxel_path {
+    lsf_context *context;
+    lsf_voxel_path_params params;
+    lsf_voxel_path_outputs outputs;
+    uint32_t segments;
+    GLuint random; /* 0 with Sobol points */
+    GLuint framebuffer, program;
+    lsf_timer *timer;
+} lsf_voxel_path;
+
+/* Needs the G-buffer's plan and that of the voxels. */
+void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
+                         const lsf_voxel_path_use *use);
+bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_voxel_path_params *params, const lsf_voxel_path_use *use,
+                           lsf_error *error);
+/* The grid of voxels must be bound. */
+void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
+                        const lsf_voxel_path_inputs *inputs);
+void lsf_voxel_path_destroy(lsf_voxel_path *pass);
+
+#endif

@@ -1,0 +1,223 @@
+/* Voxel path tracing: direct light by shadow maps, everything else by uni-directional paths through
+ * the voxels, blurred and upsampled. docs/voxels.md has the chain. */
+#include <stdlib.h>
+
+#include "base/base.h"
+#include "passes/blur.h"
+#include "passes/compose.h"
+#include "passes/upsample_search.h"
+#include "passes/voxel_path.h"
+#include "techniques/voxel_chain.h"
+
+static const lsf_voxel_chain_use chain_use = {.sides = LSF_VOXEL_SIDES_SURFACE, .levels = 1};
+
+typedef struct voxel_path {
+    lsf_voxel_chain chain;
+    lsf_voxel_path path;
+    lsf_blur blur;
+    lsf_upsample_search upsample;
+    lsf_compose compose;
+    uint32_t width, height; /* of the grid on which paths begin; 0: no paths */
+} voxel_path;
+
+static bool denoised(const lsf_plan *plan, const lsf_pass_params *params)
+{
+    int32_t denoise = params->voxel_path.denoise;
+    return params->blur.phases > 0 &&
+           (denoise == LSF_VOXEL_PATH_DENOISE_ON ||
+            (denoise == LSF_VOXEL_PATH_DENOISE_AUTO && plan->samples == 1));
+}
+
+/* No segments where there are no voxels to find. */
+static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *params,
+                                   const lsf_state *state)
+{
+    lsf_voxel_path_use use = {
+        .width = lsf_coarse_grid_length(plan->width, params->voxel_path.scale),
+        .height = lsf_coarse_grid_length(plan->height, params->voxel_path.scale)};
+    const lsf_requirements *r = &plan->requirements;
+    uint32_t layers = LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR;
+    if (lsf_voxel_chain_has_voxels(plan))
+        use.segments = lsf_voxel_path_segments(plan, state->light_count > 0);
+    use.split_direct = use.segments > 0 && (r->emissive || r->unlit || r->environment) &&
+                       (plan->aovs & layers) && !denoised(plan, params) &&
+                       !lsf_coarse_grid_is_coarse(plan, use.width, use.height);
+    return use;
+}
+
+static void remark(lsf_plan *plan, const lsf_pass_params *params, const lsf_voxel_path_use *use)
+{
+    const lsf_requirements *r = &plan->requirements;
+    if (r->transmissive)
+        lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
+    if (use->segments == 0)
+        return;
+    if (denoised(plan, params) && plan->samples > 1)
+        lsf_plan_remark(plan,
+                        "voxel_path.denoise=on blurs each iteration: the picture converges to "
+                        "a blurred one");
+    if ((r->emissive || r->unlit || r->environment) && !use->split_direct &&
+        (plan->aovs & (LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR)))
+        lsf_plan_remark(plan,
+                        "where paths' light is blurred or upsampled, direct light of surfaces "
+                        "and environments is in the indirect layers");
+}
+
+static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
+{
+    lsf_voxel_path_use use = path_use(plan, params, state);
+    lsf_voxel_chain_plan(plan, params, state, &chain_use);
+    if (use.segments > 0) {
+        lsf_voxel_path_plan(plan, &params->voxel_path, &use);
+        if (denoised(plan, params))
+            lsf_blur_plan(plan, &params->blur, use.width, use.height);
+        else
+            lsf_plan_omit(plan, "blur", "%s",
+                          params->blur.phases == 0 ? "blur.phases is 0"
+                          : params->voxel_path.denoise == LSF_VOXEL_PATH_DENOISE_OFF
+                              ? "voxel_path.denoise is off"
+                              : "more than one sample: the picture converges without");
+        lsf_upsample_search_plan(plan, &params->upsample_search, use.width, use.height);
+    } else {
+        lsf_plan_omit(plan, "voxel_path",
+                      lsf_voxel_chain_has_voxels(plan) ? "no light bounces"
+                                                       : "the scene has no triangles");
+    }
+    lsf_compose_plan(plan, &(lsf_compose_use){.direct = state->light_count > 0,
+                                              .indirect = use.segments > 0,
+                                              .split_direct = use.split_direct});
+    remark(plan, params, &use);
+}
+
+static bool create_paths(voxel_path *v, lsf_context *context, const lsf_plan *plan,
+                         const lsf_pass_params *params, const lsf_voxel_path_use *use,
+                         lsf_error *error)
+{
+    v->width = use->width;
+    v->height = use->height;
+    return lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, error) &&
+           (!denoised(plan, params) ||
+            lsf_blur_create(&v->blur, context, plan, &params->blur, error)) &&
+           lsf_upsample_search_create(&v->upsample, context, plan, &params->upsample_search, error);
+}
+
+static bool create_voxel_path(void **self, lsf_context *context, const lsf_plan *plan,
+                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                              const lsf_state *state, lsf_error *error)
+{
+    voxel_path *v = *self = lsf_alloc(1, sizeof *v);
+    if (!v)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+    lsf_voxel_path_use use = path_use(plan, params, state);
+    return lsf_voxel_chain_create(&v->chain, context, plan, params, scene, state, &chain_use,
+                                  error) &&
+           (use.segments == 0 || create_paths(v, context, plan, params, &use, error)) &&
+           lsf_compose_create(&v->compose, context, plan, error);
+}
+
+/* Irradiance and specular of the picture's size, in `parts`. */
+static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose_inputs *parts)
+{
+    const lsf_gbuffer_outputs *gbuffer = &v->chain.direct.gbuffer.outputs;
+    const lsf_voxelize_outputs *voxels = v->chain.voxels;
+    const lsf_upsample_search_points points = {
+        .depth = gbuffer->depth, .surface = gbuffer->surface, .gloss = gbuffer->gloss};
+    lsf_upsample_search_points seen = points;
+    lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, v->width, v->height);
+    if (grid.coarse) {
+        lsf_upsample_search_split(&v->upsample, iteration, &points);
+        seen = v->upsample.coarse;
+    }
+    const lsf_voxel_path_inputs inputs = {.grid = &grid,
+                                          .depth = seen.depth,
+                                          .surface = seen.surface,
+                                          .gloss = seen.gloss,
+                                          .occupancy = {voxels->occupancy[0], voxels->occupancy[1]},
+                                          .voxel_albedo = voxels->albedo,
+                                          .voxel_normal = voxels->normal,
+                                          .voxel_point = voxels->point,
+                                          .voxel_emission = voxels->emission,
+                                          .voxel_gloss = voxels->gloss,
+                                          .radiance = v->chain.light.radiance};
+    lsf_voxel_path_run(&v->path, iteration, &inputs);
+    lsf_upsample_search_light light = {v->path.outputs.irradiance, v->path.outputs.specular};
+    if (v->blur.program) {
+        const lsf_blur_inputs noisy = {.grid = &grid,
+                                       .depth = seen.depth,
+                                       .surface = seen.surface,
+                                       .gloss = seen.gloss,
+                                       .irradiance = light.irradiance,
+                                       .specular = light.specular};
+        lsf_blur_run(&v->blur, iteration, &noisy);
+        light = (lsf_upsample_search_light){v->blur.outputs.irradiance, v->blur.outputs.specular};
+    }
+    if (grid.coarse) {
+        lsf_upsample_search_run(&v->upsample, iteration, &points, &light);
+        light = v->upsample.light;
+    }
+    parts->irradiance = light.irradiance;
+    parts->specular = light.specular;
+    parts->direct_irradiance = v->path.outputs.direct_irradiance;
+    parts->direct_specular = v->path.outputs.direct_specular;
+}
+
+static void run_voxel_path(void *self, const lsf_iteration *iteration,
+                           lsf_technique_outputs *outputs)
+{
+    voxel_path *v = self;
+    const lsf_gbuffer_outputs *gbuffer = &v->chain.direct.gbuffer.outputs;
+    lsf_voxel_chain_run(&v->chain, iteration);
+    GLuint direct = v->chain.direct.direct_light.radiance;
+    lsf_compose_inputs parts = {.depth = gbuffer->depth,
+                                .emission = gbuffer->emission,
+                                .direct = direct,
+                                .surface = gbuffer->surface};
+    if (v->width > 0)
+        run_paths(v, iteration, &parts);
+    lsf_compose_run(&v->compose, iteration, &parts);
+    *outputs = (lsf_technique_outputs){
+        .picture = v->compose.radiance,
+        .depth = gbuffer->depth,
+        .surface = gbuffer->surface,
+        .emission = v->compose.seen,
+        .direct = v->compose.direct ? v->compose.direct : direct,
+        .indirect_diffuse = v->compose.indirect_diffuse,
+        .indirect_specular = parts.specular,
+        .motion = gbuffer->motion,
+    };
+}
+
+static void destroy_voxel_path(void *self)
+{
+    voxel_path *v = self;
+    if (!v)
+        return;
+    lsf_compose_destroy(&v->compose);
+    lsf_upsample_search_destroy(&v->upsample);
+    lsf_blur_destroy(&v->blur);
+    lsf_voxel_path_destroy(&v->path);
+    lsf_voxel_chain_destroy(&v->chain);
+    free(v);
+}
+
+static uint32_t report_voxel_path(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES])
+{
+    voxel_path *v = self;
+    uint32_t count = lsf_voxel_chain_report(&v->chain, reports);
+    lsf_timer *const timers[] = {v->upsample.split_timer, v->path.timer, v->blur.timer,
+                                 v->upsample.timer, v->compose.timer};
+    for (size_t i = 0; i < LSF_COUNT(timers); i++)
+        if (timers[i])
+            reports[count++] = (lsf_pass_report){.timer = timers[i]};
+    return count;
+}
+
+const lsf_technique lsf_technique_voxel_path = {
+    .name = "voxel_path",
+    .help = "global illumination by paths through the scene's voxels, blurred and upsampled",
+    .plan = plan_voxel_path,
+    .create = create_voxel_path,
+    .run = run_voxel_path,
+    .destroy = destroy_voxel_path,
+    .report = report_voxel_path,
+};

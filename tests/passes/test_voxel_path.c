@@ -1,0 +1,342 @@
+/* Voxel path tracing against closed forms and by its rules: furnaces, an open plane, bounces of a
+ * point light, the same bits again, extremes. */
+#include <math.h>
+
+#include "base/base.h"
+#include "render_gl.h"
+#include "shared/brdf.h"
+
+enum { MAX_OPTIONS = 4 };
+
+static lsf_render_params params_of(uint32_t samples, uint32_t bounces, const char *const *options)
+{
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "voxel_path";
+    params.samples = samples;
+    params.bounces = bounces;
+    params.options = options;
+    while (options && params.option_count < MAX_OPTIONS && options[params.option_count])
+        params.option_count++;
+    return params;
+}
+
+static lsf_image *render(const lsf_scene *scene, lsf_render_params params, uint32_t size,
+                         lsf_float3 eye, lsf_float3 target)
+{
+    const float position[3] = {eye.x, eye.y, eye.z}, at[3] = {target.x, target.y, target.z};
+    params.width = params.height = size;
+    params.camera_position = position;
+    params.camera_target = at;
+    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+}
+
+static void mean_rgb(const lsf_image *image, double rgb[3])
+{
+    uint64_t pixels = (uint64_t)image->width * image->height;
+    rgb[0] = rgb[1] = rgb[2] = 0.0;
+    for (uint64_t i = 0; i < pixels; i++)
+        for (int c = 0; c < 3; c++) {
+            float value = image->pixels[i * image->channel_count + (uint64_t)c];
+            assert_true(isfinite(value) && value >= 0.0f);
+            rgb[c] += (double)value / (double)pixels;
+        }
+}
+
+static void expect(const char *what, const lsf_image *image, double expected, double allowed)
+{
+    double rgb[3];
+    mean_rgb(image, rgb);
+    print_message("%s: %.5f, expected %.5f\n", what, rgb[1], expected);
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs(rgb[c] / expected - 1.0) <= allowed);
+}
+
+static void set_environment(lsf_scene *scene, float radiance)
+{
+    scene->environment.present = true;
+    for (int c = 0; c < 3; c++)
+        scene->environment.radiance[c] = radiance;
+}
+
+static const char *const coarse_grid[MAX_OPTIONS] = {"voxel.resolution=32"};
+static const char *const by_texture[MAX_OPTIONS] = {"voxel.resolution=32",
+                                                    "voxel_path.sequence=texture"};
+static const char *const upsampled[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5"};
+static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.denoise=on"};
+
+/* A closed box seen from inside, every wall emitting 1 and reflecting rho:
+ * L = 1 + rho + ... + rho^(N + 1): emission seen, direct light of the walls, N bounces. Voxels hold
+ * albedo in 11 bits and emission in 9. */
+static void energy_in_a_furnace(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name;
+        float albedo;
+        uint32_t bounces;
+        const char *const *options;
+    } cases[] = {
+        {"black walls", 0.0f, 1, coarse_grid},   {"no bounce", 0.5f, 0, coarse_grid},
+        {"three bounces", 0.5f, 3, coarse_grid}, {"white walls", 1.0f, 1, coarse_grid},
+        {"by texture", 0.5f, 2, by_texture},     {"upsampled", 0.5f, 2, upsampled},
+        {"blurred", 0.5f, 2, blurred},
+    };
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        lsf_scene *scene = build_scene();
+        float rho = cases[i].albedo;
+        lsf_material *material = build_material(scene, rho, rho, rho);
+        for (int c = 0; c < 3; c++)
+            material->emission[c] = 1.0f;
+        build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
+        scene->diffuse_only = true;
+        finish_gl_scene(scene);
+        double expected = 1.0, power = 1.0;
+        for (uint32_t k = 0; k <= cases[i].bounces; k++)
+            expected += power *= (double)rho;
+        lsf_image *image = render(scene, params_of(4, cases[i].bounces, cases[i].options), 12,
+                                  lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
+        expect(cases[i].name, image, expected, 0.002);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* Nothing stands between an open plane and a constant environment L: its irradiance is pi L, which
+ * every single path finds. */
+static void open_plane(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    build_floor(scene, 0.0f, 4.0f);
+    scene->diffuse_only = true;
+    set_environment(scene, 0.7f);
+    finish_gl_scene(scene);
+    lsf_image *image =
+        render(scene, params_of(2, 1, NULL), 16, lsf_f3(0, 1, 0.5f), lsf_f3(0, 0, 0));
+    expect("open plane", image, 0.35, 1e-4);
+    lsf_image_destroy(image);
+    lsf_scene_destroy(scene);
+}
+
+/* A white sphere under a constant environment cannot be seen, but for paths that its own voxels
+ * catch. Facets lie deeper than the sphere by less than a voxel. */
+static void white_furnace(void **unused)
+{
+    (void)unused;
+    static const char *const fine[MAX_OPTIONS] = {"voxel.resolution=128"};
+    lsf_scene *scene = build_scene();
+    build_material(scene, 1.0f, 1.0f, 1.0f);
+    build_sphere(scene, 4, false);
+    scene->diffuse_only = true;
+    set_environment(scene, 0.5f);
+    finish_gl_scene(scene);
+    lsf_image *image = render(scene, params_of(8, 3, fine), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
+    expect("white furnace", image, 0.5, 0.01);
+    lsf_image_destroy(image);
+    lsf_scene_destroy(scene);
+}
+
+/* A light I in the middle of a sphere of radius R: every point has the irradiance I / R^2, and the
+ * radiance rho / pi I / R^2 (1 + rho + ... + rho^N) after N bounces. */
+static void bounces_in_a_sphere(void **unused)
+{
+    (void)unused;
+    const double rho = 0.6;
+    for (uint32_t bounces = 0; bounces <= 4; bounces += 2) {
+        lsf_scene *scene = build_scene();
+        build_material(scene, (float)rho, (float)rho, (float)rho);
+        build_sphere(scene, 4, true);
+        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 0, 0), lsf_f3(0, -1, 0), 3.0f);
+        scene->diffuse_only = true;
+        finish_gl_scene(scene);
+        double expected = 0.0, power = rho / (double)LSF_PI * 3.0;
+        for (uint32_t k = 0; k <= bounces; k++, power *= rho)
+            expected += power;
+        static const char *const options[MAX_OPTIONS] = {"voxel.resolution=64"};
+        lsf_image *image = render(scene, params_of(8, bounces, options), 16, lsf_f3(0, 0, 0.5f),
+                                  lsf_f3(0.3f, 0.2f, -1));
+        expect("sphere", image, expected, 0.02);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* A room of two walls with a glossy anisotropic box, a lamp and a light. */
+static lsf_scene *room(float intensity)
+{
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.7f, 0.6f, 0.5f);
+    build_floor(scene, 0.0f, 2.0f);
+    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
+    lsf_material *glossy = build_material(scene, 0.8f, 0.5f, 0.2f);
+    glossy->roughness = 0.3f;
+    glossy->metallic = 0.5f;
+    glossy->anisotropy_strength = 0.6f;
+    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
+    lsf_material *lamp = build_material(scene, 0.1f, 0.1f, 0.1f);
+    for (int c = 0; c < 3; c++)
+        lamp->emission[c] = 4.0f * intensity;
+    build_quad(scene, lsf_f3(-2, 0.5f, 1), lsf_f3(-2, 0.5f, -1), lsf_f3(-2, 2, -1),
+               lsf_f3(-2, 2, 1));
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.5f, 2, 0.5f), lsf_f3(0, -1, 0), 8.0f * intensity);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+static lsf_image *render_room(const lsf_scene *scene, lsf_render_params params)
+{
+    return render(scene, params, 33, lsf_f3(2.5f, 2, 3.5f), lsf_f3(-0.5f, 0.8f, -0.5f));
+}
+
+static void same_bits_again(void **unused)
+{
+    (void)unused;
+    static const char *const threads[] = {"0", "1", "8"};
+    static const char *const single[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5",
+                                                    "voxel_path.denoise=on"};
+    const char *const *const options[] = {coarse_grid, single};
+    lsf_scene *scene = room(1.0f);
+    for (int k = 0; k < 2; k++) {
+        lsf_render_params params = params_of(2, 2, options[k]);
+        lsf_image *expected = render_room(scene, params);
+        for (int i = 0; i < 3; i++) {
+            setenv("LP_NUM_THREADS", threads[i], 1);
+            lsf_image *image = render_room(scene, params);
+            assert_memory_equal(image->pixels, expected->pixels,
+                                sizeof(float) * image->width * image->height *
+                                    image->channel_count);
+            lsf_image_destroy(image);
+        }
+        unsetenv("LP_NUM_THREADS");
+        lsf_image_destroy(expected);
+    }
+    lsf_scene_destroy(scene);
+}
+
+/* Light times 2^k gives the picture times 2^k, to the bit. */
+static void light_scales(void **unused)
+{
+    (void)unused;
+    static const float scales[] = {0x1p-40f, 0x1p40f};
+    lsf_scene *scene = room(1.0f);
+    lsf_image *expected = render_room(scene, params_of(2, 2, coarse_grid));
+    for (int i = 0; i < 2; i++) {
+        lsf_scene *scaled = room(scales[i]);
+        lsf_image *image = render_room(scaled, params_of(2, 2, coarse_grid));
+        for (uint64_t p = 0; p < 33 * 33 * 3; p++)
+            assert_true(image->pixels[p] == expected->pixels[p] * scales[i]);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scaled);
+    }
+    lsf_image_destroy(expected);
+    lsf_scene_destroy(scene);
+}
+
+/* The layers add up to the picture, and paths of either sequence to the same one. */
+static void layers_and_sequences(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = room(1.0f);
+    double sum[2][3];
+    for (int k = 0; k < 2; k++) {
+        lsf_render_params params = params_of(64, 1, k ? by_texture : coarse_grid);
+        params.aovs = LSF_AOV_EMISSION | LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE |
+                      LSF_AOV_INDIRECT_SPECULAR;
+        lsf_image *image = render_room(scene, params);
+        assert_int_equal(image->channel_count, 15);
+        for (int c = 0; c < 3; c++)
+            sum[k][c] = 0.0;
+        for (uint32_t i = 0; i < image->width * image->height; i++) {
+            const float *p = image->pixels + (uint64_t)i * image->channel_count;
+            for (int c = 0; c < 3; c++) {
+                float parts = p[3 + c] + p[6 + c] + p[9 + c] + p[12 + c];
+                assert_true(fabsf(parts - p[c]) <= 1e-5f * (1.0f + p[c]));
+                sum[k][c] += (double)p[c];
+            }
+        }
+        lsf_image_destroy(image);
+    }
+    print_message("sobol %.3f, texture %.3f\n", sum[0][0], sum[1][0]);
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs(sum[1][c] / sum[0][c] - 1.0) <= 0.01);
+    lsf_scene_destroy(scene);
+}
+
+/* Two sealed rooms, one of them lit, with a wall of some voxels between them. What of the lit
+ * room's light is seen in the dark one. */
+static void sealed_room(void **unused)
+{
+    (void)unused;
+    static const float walls[] = {0.5f, 1.0f, 2.0f, 4.0f};
+    static const char *const options[MAX_OPTIONS] = {"voxel.resolution=34"};
+    for (size_t i = 0; i < LSF_COUNT(walls); i++) {
+        float half = 0.5f * walls[i] * 2.0f / 32.0f; /* of a scene 2 wide */
+        lsf_scene *scene = build_scene();
+        build_material(scene, 0.7f, 0.7f, 0.7f);
+        build_box(scene, lsf_f3(-1, -0.5f, -0.5f), lsf_f3(-half, 0.5f, 0.5f), true);
+        build_box(scene, lsf_f3(half, -0.5f, -0.5f), lsf_f3(1, 0.5f, 0.5f), true);
+        build_light(scene, LSF_LIGHT_POINT, lsf_f3(-0.5f, 0.2f, 0), lsf_f3(0, -1, 0), 1.0f);
+        scene->diffuse_only = true;
+        finish_gl_scene(scene);
+        double lit[3], dark[3];
+        for (int room_of = 0; room_of < 2; room_of++) {
+            float side = room_of ? 1.0f : -1.0f;
+            lsf_image *image = render(scene, params_of(8, 4, options), 32,
+                                      lsf_f3(0.9f * side, 0.1f, 0.05f), lsf_f3(0, 0, 0));
+            mean_rgb(image, room_of ? dark : lit);
+            lsf_image_destroy(image);
+        }
+        print_message("a wall of %g voxels lets %.2e through\n", (double)walls[i],
+                      dark[1] / lit[1]);
+        if (walls[i] >= 2.0f)
+            assert_true(dark[1] <= 1e-4 * lit[1]);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* Pictures of 1 x 1 and 7 x 13, an empty scene, one flat triangle, a camera in a surface, a light
+ * in a surface. */
+static void extremes(void **unused)
+{
+    (void)unused;
+    double rgb[3];
+    for (int kind = 0; kind < 4; kind++) {
+        lsf_scene *scene = build_scene();
+        if (kind > 0) {
+            build_material(scene, 0.8f, 0.8f, 0.8f)->roughness = kind == 2 ? 0.0f : 1.0f;
+            const lsf_float3 corners[3] = {lsf_f3(-1, 0, 1), lsf_f3(1, 0, 1), lsf_f3(0, 0, -1)};
+            build_triangles(scene, corners, 1);
+        }
+        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, kind == 3 ? 0.0f : 1.0f, 0), lsf_f3(0, -1, 0),
+                    3.0f);
+        set_environment(scene, 0.1f);
+        finish_gl_scene(scene);
+        lsf_render_params params = params_of(1, 2, coarse_grid);
+        params.width = kind == 0 ? 1 : 7;
+        params.height = kind == 0 ? 1 : 13;
+        const float eye[3] = {0, kind == 2 ? 0.0f : 0.8f, 0.9f}, target[3] = {0, 0, 0};
+        params.camera_position = eye;
+        params.camera_target = target;
+        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+        mean_rgb(image, rgb);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energy_in_a_furnace),
+        cmocka_unit_test(open_plane),
+        cmocka_unit_test(white_furnace),
+        cmocka_unit_test(bounces_in_a_sphere),
+        cmocka_unit_test(same_bits_again),
+        cmocka_unit_test(light_scales),
+        cmocka_unit_test(layers_and_sequences),
+        cmocka_unit_test(sealed_room),
+        cmocka_unit_test(extremes),
+    };
+    return cmocka_run_group_tests_name("voxel_path", tests, NULL, NULL);
+}
