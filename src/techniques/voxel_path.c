@@ -185,6 +185,7 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
         .indirect_specular = parts.specular,
         .motion = gbuffer->motion,
     };
+    lsf_voxel_chain_view(&v->chain, iteration, outputs);
 }
 
 static void destroy_voxel_path(void *self)
