@@ -8,16 +8,18 @@
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
 
-/* The specular lobe's albedo is tabulated at as many cosines and roughnesses, by as many samples. */
+/* The specular lobe's albedo is tabulated at as many cosines and roughnesses, by as many samples.
+ */
 #define ALBEDO_SIDE 32u
 #define ALBEDO_SAMPLES 128u
 
 /* Uniform of passes/cone_trace.frag.glsl. */
 #define LOCATION_LOBE 0
 
-/* Diameter of the specular cone by its length, to alpha. Half the normals of a GGX surface that one sees lie within atan(alpha) of its own, so that half the
- * mirrored light comes from within 2 alpha of the mirror's direction while alpha is small. A cone
- * has half its solid angle within 1 / sqrt(2) of its half aperture, which is sqrt(8) alpha then. */
+/* Diameter of the specular cone by its length, to alpha. Half the normals of a GGX surface that one
+ * sees lie within atan(alpha) of its own, so that half the mirrored light comes from within 2 alpha
+ * of the mirror's direction while alpha is small. A cone has half its solid angle within 1 /
+ * sqrt(2) of its half aperture, which is sqrt(8) alpha then. */
 #define LOBE_SPREAD (2.0f * 2.8284271f)
 
 void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t width,

@@ -11,8 +11,8 @@ typedef struct lsf_cone_trace_inputs {
     GLuint radiance;              /* the pyramid; voxel_light.h, voxel_mip.h */
 } lsf_cone_trace_inputs;
 
-/* RGBA32F, of the grid's size. Alpha of irradiance: ambient visibility, the share of the hemisphere, weighted by its
- * cosine, in which no voxel is met. */
+/* RGBA32F, of the grid's size. Alpha of irradiance: ambient visibility, the share of the
+ * hemisphere, weighted by its cosine, in which no voxel is met. */
 typedef struct lsf_cone_trace_outputs {
     GLuint irradiance;
     GLuint specular; /* radiance; 0 without specular lobes */

@@ -13,8 +13,8 @@
 const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
     {"cone.count", LSF_OPTION_INT, offsetof(lsf_cone_params, count), 1, LSF_CONE_MAX, NULL, "",
      "diffuse cones of a point; more are narrower"},
-    {"cone.sides", LSF_OPTION_ENUM, offsetof(lsf_cone_params, sides), 0, 0,
-     "isotropic|anisotropic", "", "whether voxels look the same from all directions, or not"},
+    {"cone.sides", LSF_OPTION_ENUM, offsetof(lsf_cone_params, sides), 0, 0, "isotropic|anisotropic",
+     "", "whether voxels look the same from all directions, or not"},
     {"cone.offset", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, offset), 0.0, 8.0, NULL, "voxels",
      "that cones start above the surface"},
     {"cone.step", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, step), 0.1, 2.0, NULL, "texels",
@@ -80,7 +80,7 @@ void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
     glUniform3f(LSF_LOCATION_CONE_TURN,
                 lsf_sobol_1d(index, lsf_iteration_seed(iteration, PURPOSE_TURN)), params->turn,
                 (float)params->count);
-    glUniform4f(LSF_LOCATION_CONE, params->step, params->offset * coarser, params->distance / grid->side,
-                params->opacity);
+    glUniform4f(LSF_LOCATION_CONE, params->step, params->offset * coarser,
+                params->distance / grid->side, params->opacity);
     glUniform2i(LSF_LOCATION_CONE_LIMITS, most_steps(params, grid), (GLint)finest);
 }

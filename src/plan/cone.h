@@ -35,8 +35,8 @@ extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
 uint32_t lsf_cone_slices(const lsf_cone_params *params);
 
 /* The set about z: in x y z unit directions, in w a cone's diameter by its length. Each of `count`
- * cones stands for an equal share of the cosine-weighted hemisphere. `elevation` in [0, 1) says where
- * in its share each lies. */
+ * cones stands for an equal share of the cosine-weighted hemisphere. `elevation` in [0, 1) says
+ * where in its share each lies. */
 void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones);
 
 /* Sets the uniforms of lib/voxel_cone.glsl and of a set for the program in use, and binds the

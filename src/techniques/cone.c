@@ -13,11 +13,11 @@
 
 /* How light goes, decided from the scene and the options. */
 typedef struct way {
-    bool traced;      /* to visible points otherwise than straight from punctual lights */
-    bool shines;      /* from surfaces or an environment */
-    bool coarse;      /* cones are traced on a grid of fewer texels than pixels */
+    bool traced;            /* to visible points otherwise than straight from punctual lights */
+    bool shines;            /* from surfaces or an environment */
+    bool coarse;            /* cones are traced on a grid of fewer texels than pixels */
     uint32_t width, height; /* of the grid */
-    uint32_t bounces; /* from voxel to voxel */
+    uint32_t bounces;       /* from voxel to voxel */
 } way;
 
 /* Light of punctual lights is on voxels already, and the last bounce is at visible points; light of
@@ -83,8 +83,8 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         lsf_direct_chain_plan(plan, params, state);
         lsf_plan_omit(plan, "cone_trace", "no light bounces");
     }
-    lsf_compose_plan(
-        plan, &(lsf_compose_use){.direct = state->light_count > 0, .indirect = w.traced});
+    lsf_compose_plan(plan,
+                     &(lsf_compose_use){.direct = state->light_count > 0, .indirect = w.traced});
     remark(plan, &w);
 }
 
@@ -111,9 +111,9 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
     if (!c)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     c->way = choose_way(plan, params);
-    return (c->way.traced ? create_traced(c, context, plan, params, scene, state, error)
-                          : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene,
-                                                    error)) &&
+    return (c->way.traced
+                ? create_traced(c, context, plan, params, scene, state, error)
+                : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene, error)) &&
            lsf_compose_create(&c->compose, context, plan, error);
 }
 
@@ -127,8 +127,8 @@ static void build_pyramid(cone *c, GLuint radiance)
     lsf_voxel_mip_run(&c->mip, &inputs);
 }
 
-/* Light on voxels, with as many bounces between them as there are to be; returns its pyramid. With E
- * what voxels emit, D what they reflect of punctual lights, and R what they reflect of each other
+/* Light on voxels, with as many bounces between them as there are to be; returns its pyramid. With
+ * E what voxels emit, D what they reflect of punctual lights, and R what they reflect of each other
  * and of the environment: X_0 = E or, where nothing shines, D; X_k = E + D + R(X_k-1). */
 static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
 {
