@@ -62,7 +62,7 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
         if (t >= end || light.transmittance < CONE_OPAQUE)
             break;
         float width = spread * (offset + t);
-        float texel = max(min(width, (offset + rise * t) * flatness), 0.25 * width);
+        float texel = max(min(width, (offset + rise * t) * flatness), 0.125 * width);
         float level = floor(log2(clamp(texel, finest, float(1 << (LSF_VOXEL_LEVELS - 1)))));
         texel = exp2(level);
         float dt = cone_march.x * texel;
