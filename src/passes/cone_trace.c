@@ -128,7 +128,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     glBindTextureUnit(3, pass->lobe_albedo);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, 0);
     glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
-    glUniform1f(LOCATION_LOBE, LOBE_SPREAD);
+    if (pass->lobe_albedo)
+        glUniform1f(LOCATION_LOBE, LOBE_SPREAD);
     const lsf_environment *environment = &iteration->scene->scene->environment;
     if (environment->present && !environment->width)
         glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
