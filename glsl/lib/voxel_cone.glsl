@@ -1,8 +1,12 @@
-/* Marches a cone through the pyramid of radiance. Switch LSF_SIDES as in voxel_mip. */
+/* Marches a cone through the pyramid of radiance. Switches: LSF_SIDES as in voxel_mip; LSF_SEALED: cones
+ * end where their axis meets a voxel, and look at nothing behind it. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
 
 #include "lib/voxel.glsl"
+#if LSF_SEALED
+#include "lib/voxel_trace.glsl"
+#endif
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
 
@@ -34,6 +38,31 @@ vec4 cone_slice(vec2 place, float z, float slice, float level)
 }
 #endif
 
+#if LSF_SEALED
+/* A sample, half a step on, and interpolation about it reach 1.5 texels beyond where the step begins. */
+#define CONE_REACH 1.5
+#define VOXEL_NOT_MET 1e9
+
+/* What one sees of the finest texel that holds a voxel. */
+vec3 cone_meet(ivec3 cell, vec3 direction)
+{
+    int level = cone_limits.y;
+    ivec3 texel = cell >> level;
+#if LSF_SIDES == 1
+    vec4 seen = texelFetch(radiance_texture, texel, level);
+#else
+    int slab = int(grid.size.z) >> level;
+    vec4 seen = vec4(0.0);
+    for (int axis = 0; axis < 3; axis++) {
+        int slice = 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
+        seen += abs(direction[axis]) *
+                texelFetch(radiance_texture, texel + ivec3(0, 0, slice * slab), level);
+    }
+#endif
+    return seen.rgb / max(seen.a, 1e-6);
+}
+#endif
+
 /* From a point in voxels, which lies `height` above the plane with the unit `normal` that it
  * starts from. `spread`: diameter by length. */
 cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
@@ -54,6 +83,13 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
     vec3 slice = vec3(0.0, 2.0, 4.0) + mix(vec3(0.0), vec3(1.0), lessThan(direction, vec3(0.0)));
 #endif
     float finest = exp2(float(cone_limits.y));
+#if LSF_SEALED
+    float met = VOXEL_NOT_MET; /* where the axis enters an occupied voxel */
+    voxel_ray ray;
+    if (voxel_ray_begin(start, direction, ray) && voxel_ray_trace(ray))
+        met = ray.distance;
+    end = min(end, met - CONE_REACH * finest);
+#endif
     cone_light light;
     light.radiance = vec3(0.0);
     light.transmittance = 1.0;
@@ -63,6 +99,9 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
             break;
         float width = spread * (offset + t);
         float texel = max(min(width, (offset + rise * t) * flatness), 0.125 * width);
+#if LSF_SEALED
+        texel = min(texel, max((met - t) / CONE_REACH, finest));
+#endif
         float level = floor(log2(clamp(texel, finest, float(1 << (LSF_VOXEL_LEVELS - 1)))));
         texel = exp2(level);
         float dt = cone_march.x * texel;
@@ -88,6 +127,12 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
         light.transmittance *= clear;
         t += dt;
     }
+#if LSF_SEALED
+    if (met < cone_march.z && light.transmittance >= CONE_OPAQUE) {
+        light.radiance += light.transmittance * cone_meet(ray.cell, direction);
+        light.transmittance = 0.0;
+    }
+#endif
     if (light.transmittance < CONE_OPAQUE)
         light.transmittance = 0.0;
     return light;

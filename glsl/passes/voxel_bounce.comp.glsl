@@ -8,7 +8,9 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0, rgba16f) uniform image3D radiance_image;
 layout(binding = 1) uniform sampler3D base_texture;
-layout(binding = LSF_UNIT_VOXEL_OCCUPANCY) uniform usampler3D occupancy_texture;
+#if !LSF_SEALED
+layout(binding = LSF_UNIT_VOXEL_OCCUPANCY) uniform usampler3D occupancy_voxels;
+#endif
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
@@ -81,7 +83,7 @@ void main()
     if (listed) {
         corner = voxel_brick_unpack(bricks[uint(LSF_VOXEL_LIST_HEADER) + at]) * LSF_VOXEL_BRICK;
         ivec3 cell = corner + cell_in_brick(self);
-        if ((texelFetch(occupancy_texture, occupancy_texel(cell), 0).r & occupancy_bit(cell)) != 0u) {
+        if ((texelFetch(occupancy_voxels, occupancy_texel(cell), 0).r & occupancy_bit(cell)) != 0u) {
 #if LSF_SIDES == 1
             sides[atomicAdd(side_count, 1u)] = self;
 #else

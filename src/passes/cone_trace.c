@@ -35,6 +35,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: a cone is round");
+    lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
                         "the environment is a map");
@@ -126,6 +127,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     glBindTextureUnit(1, inputs->surface);
     glBindTextureUnit(2, inputs->gloss);
     glBindTextureUnit(3, pass->lobe_albedo);
+    for (GLuint level = 0; level < 2; level++)
+        glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, 0);
     glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
     if (pass->lobe_albedo)

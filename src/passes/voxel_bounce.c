@@ -10,8 +10,8 @@
 #define UNIT_BASE 1
 #define LOCATION_SUM_OF 0
 
-/* Its own radiance is read and written at the same time: read above the finest level only. */
-#define FINEST_READ 1
+/* Its own radiance is read and written at the same time: it is read above the finest level only. */
+#define FINEST_READ_OF_OWN 1
 
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
                            const lsf_voxel_grid *grid)
@@ -20,6 +20,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     uint32_t slices = lsf_cone_slices(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
     lsf_plan_switch_add(plan, "LSF_SIDES", (int)slices, "cone.sides");
+    lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
                         "the environment is a map");
@@ -76,12 +77,14 @@ void lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration
     glUseProgram(pass->program);
     glUniform3i(LOCATION_SUM_OF, sum->keep, sum->base != 0, sum->source != 0);
     glBindTextureUnit(UNIT_BASE, sum->base);
-    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy);
+    for (GLuint level = 0; level < 2; level++)
+        glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
     glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
     glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
     glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->point);
     if (sum->source)
-        lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source, FINEST_READ);
+        lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source,
+                      sum->source == pass->radiance ? FINEST_READ_OF_OWN : 0);
     glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
     const lsf_environment *environment = &iteration->scene->scene->environment;
     if (environment->present && !environment->width)

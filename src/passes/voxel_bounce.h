@@ -7,7 +7,7 @@
 
 /* The voxels: what voxelize hands out. */
 typedef struct lsf_voxel_bounce_inputs {
-    GLuint occupancy; /* the finest level */
+    GLuint occupancy[2]; /* the finest levels */
     GLuint albedo, normal, point;
     GLuint bricks, previous_bricks;
     bool changed;

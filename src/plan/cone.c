@@ -27,6 +27,8 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
      "width and height of the grid that cones are traced on, to the picture's"},
     {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
      "other elevations each iteration, so that no direction is left out in the mean"},
+    {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
+     "cones end where their axis meets a voxel: no light comes through walls; noisier, and slower"},
     {"cone.turn", LSF_OPTION_BOOL, offsetof(lsf_cone_params, turn), 0, 0, NULL, "",
      "other directions for each pixel of a 4 x 4 pattern"},
 };

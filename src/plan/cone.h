@@ -21,14 +21,15 @@ typedef struct lsf_cone_params {
     float distance; /* that cones reach [half extents of the scene] */
     float scale;    /* of the grid that they are traced on to the picture, along each side */
     bool jitter;    /* of their elevation, each within its share, from iteration to iteration */
+    bool sealed;    /* cones end where their axis meets a voxel */
     bool turn;      /* the set is turned from pixel to pixel */
 } lsf_cone_params;
 
 #define LSF_CONE_PARAMS_DEFAULTS                                                                   \
     .count = 6, .sides = LSF_CONE_ANISOTROPIC, .offset = 1.5f, .step = 1.0f, .opacity = 1.0f,      \
-    .distance = 4.0f, .scale = 1.0f, .jitter = true, .turn = true
+    .distance = 4.0f, .scale = 1.0f, .jitter = true, .sealed = false, .turn = true
 
-#define LSF_CONE_OPTION_COUNT 9
+#define LSF_CONE_OPTION_COUNT 10
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
 
 /* Slices of radiance along z. */

@@ -133,13 +133,14 @@ static void build_pyramid(cone *c, GLuint radiance)
 static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
 {
     const lsf_voxelize_outputs *voxels = c->chain.voxels;
-    const lsf_voxel_bounce_inputs inputs = {.occupancy = voxels->occupancy[0],
-                                            .albedo = voxels->albedo,
-                                            .normal = voxels->normal,
-                                            .point = voxels->point,
-                                            .bricks = voxels->bricks,
-                                            .previous_bricks = voxels->previous_bricks,
-                                            .changed = voxels->changed};
+    const lsf_voxel_bounce_inputs inputs = {
+        .occupancy = {voxels->occupancy[0], voxels->occupancy[1]},
+        .albedo = voxels->albedo,
+        .normal = voxels->normal,
+        .point = voxels->point,
+        .bricks = voxels->bricks,
+        .previous_bricks = voxels->previous_bricks,
+        .changed = voxels->changed};
     GLuint base = c->chain.light.radiance, total = c->bounce.radiance;
     uint32_t done = 0;
     if (c->way.bounces > 0)
@@ -177,11 +178,13 @@ static lsf_cone_trace_outputs trace(cone *c, const lsf_iteration *iteration)
         grid = c->upsample.grid;
         points = c->upsample.coarse;
     }
-    const lsf_cone_trace_inputs inputs = {.grid = &grid,
-                                          .depth = points.depth,
-                                          .surface = points.surface,
-                                          .gloss = points.gloss,
-                                          .radiance = light_voxels(c, iteration)};
+    const lsf_cone_trace_inputs inputs = {
+        .grid = &grid,
+        .depth = points.depth,
+        .surface = points.surface,
+        .gloss = points.gloss,
+        .occupancy = {c->chain.voxels->occupancy[0], c->chain.voxels->occupancy[1]},
+        .radiance = light_voxels(c, iteration)};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
     if (!c->way.coarse)
         return c->trace.outputs;

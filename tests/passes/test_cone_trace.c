@@ -338,6 +338,7 @@ static void grids(void **state)
     static const char *const options[][3] = {
         {"voxel.resolution=1", "cone.count=1", "cone.step=2"},
         {"voxel.resolution=16", "cone.count=32", "cone.offset=0"},
+        {"voxel.resolution=24", "cone.sealed=true", "cone.offset=1"},
         {"voxel.resolution=32", "cone.sides=isotropic", "cone.turn=false"},
         {"voxel.resolution=32", "cone.distance=0", "cone.jitter=false"},
         {"voxel.resolution=32", "voxel.jitter=false", "cone.scale=0.01"},
