@@ -70,6 +70,12 @@ struct lsf_material_data {
 #define LSF_LOCATION_ADDED 16
 /* Location of the grid on which light is traced; see lib/coarse.glsl. */
 #define LSF_LOCATION_COARSE 17
+/* Locations of lib/voxel_cone.glsl. */
+#define LSF_LOCATION_CONE 18
+#define LSF_LOCATION_CONE_LIMITS 19
+#define LSF_LOCATION_CONE_TURN 20
+#define LSF_LOCATION_CONE_SET 21 /* LSF_CONE_MAX of them */
+#define LSF_CONE_MAX 32
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

@@ -25,6 +25,9 @@ struct lsf_voxel_grid_data {
 #define LSF_VOXEL_SIDES_SURFACE 2
 #define LSF_VOXEL_SIDES_AXES 6
 
+/* Levels of the pyramid of radiance: as many as keep slices whole in grids of whole blocks. */
+#define LSF_VOXEL_LEVELS 5
+
 /* Texture units. */
 #define LSF_UNIT_VOXEL_EMISSION 4
 #define LSF_UNIT_VOXEL_POINT 6

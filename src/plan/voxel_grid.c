@@ -5,7 +5,7 @@
 #include "math/sampling.h"
 
 /* Of its random numbers. */
-#define PURPOSE_SHIFT 0x50000
+#define PURPOSE_SHIFT 0x60000
 
 /* Of a 3D texture, that every device has (GL 4.5, table 23.53). */
 #define MAX_TEXTURE_DEPTH 2048

@@ -3,7 +3,7 @@
 #include "base/base.h"
 #include "techniques/technique.h"
 
-static const lsf_technique *const techniques[] = {&lsf_technique_bidirectional,
+static const lsf_technique *const techniques[] = {&lsf_technique_bidirectional, &lsf_technique_cone,
                                                   &lsf_technique_direct, &lsf_technique_voxel_path};
 
 static const lsf_pass_params defaults = {LSF_PASS_PARAMS_DEFAULTS};
@@ -24,6 +24,7 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(bidirectional_shade, LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT),
     TABLE(voxel_grid, LSF_VOXEL_GRID_OPTION_COUNT),
     TABLE(voxelize, LSF_VOXELIZE_OPTION_COUNT),
+    TABLE(cone, LSF_CONE_OPTION_COUNT),
     TABLE(voxel_path, LSF_VOXEL_PATH_OPTION_COUNT),
     TABLE(blur, LSF_BLUR_OPTION_COUNT),
     TABLE(upsample_search, LSF_UPSAMPLE_SEARCH_OPTION_COUNT),

@@ -13,6 +13,7 @@
 #include "passes/voxel_path.h"
 #include "passes/voxelize.h"
 #include "passes/vpl.h"
+#include "plan/cone.h"
 #include "plan/iteration.h"
 #include "plan/tessellation.h"
 
@@ -28,6 +29,7 @@ typedef struct lsf_pass_params {
     lsf_bidirectional_shade_params bidirectional_shade;
     lsf_voxel_grid_params voxel_grid;
     lsf_voxelize_params voxelize;
+    lsf_cone_params cone;
     lsf_voxel_path_params voxel_path;
     lsf_blur_params blur;
     lsf_upsample_search_params upsample_search;
@@ -41,8 +43,8 @@ typedef struct lsf_pass_params {
     .interleave = {LSF_INTERLEAVE_PARAMS_DEFAULTS},                                                \
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
-    .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS}, .blur = {LSF_BLUR_PARAMS_DEFAULTS},            \
-    .upsample_search = {LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS}
+    .cone = {LSF_CONE_PARAMS_DEFAULTS}, .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
+    .blur = {LSF_BLUR_PARAMS_DEFAULTS}, .upsample_search = {LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;
@@ -88,7 +90,7 @@ typedef struct lsf_technique {
     uint32_t (*report)(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES]);
 } lsf_technique;
 
-extern const lsf_technique lsf_technique_bidirectional, lsf_technique_direct,
+extern const lsf_technique lsf_technique_bidirectional, lsf_technique_cone, lsf_technique_direct,
     lsf_technique_voxel_path;
 
 /* NULL when unknown. */

@@ -82,26 +82,37 @@ static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
     lsf_voxel_light_add(&chain->light, inputs, &seen);
 }
 
-void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration)
+static lsf_voxel_light_inputs light_inputs(const lsf_voxelize_outputs *voxels)
 {
-    lsf_voxel_light_inputs inputs;
+    return (lsf_voxel_light_inputs){.occupancy = voxels->occupancy[0],
+                                    .albedo = voxels->albedo,
+                                    .normal = voxels->normal,
+                                    .point = voxels->point,
+                                    .emission = voxels->emission,
+                                    .bricks = voxels->bricks,
+                                    .previous_bricks = voxels->previous_bricks,
+                                    .changed = voxels->changed};
+}
+
+void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration)
+{
     lsf_direct_chain_begin(&chain->direct, iteration);
-    if (chain->voxelize) {
-        const lsf_voxelize_outputs *voxels = chain->voxels =
-            lsf_voxelize_run(chain->voxelize, iteration);
-        inputs = (lsf_voxel_light_inputs){.occupancy = voxels->occupancy[0],
-                                          .albedo = voxels->albedo,
-                                          .normal = voxels->normal,
-                                          .point = voxels->point,
-                                          .emission = voxels->emission,
-                                          .bricks = voxels->bricks,
-                                          .previous_bricks = voxels->previous_bricks,
-                                          .changed = voxels->changed};
-        lsf_voxel_light_begin(&chain->light, &inputs);
-    }
+    if (!chain->voxelize)
+        return;
+    chain->voxels = lsf_voxelize_run(chain->voxelize, iteration);
+    lsf_voxel_light_inputs inputs = light_inputs(chain->voxels);
+    lsf_voxel_light_begin(&chain->light, &inputs);
+}
+
+void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels)
+{
+    on_voxels = on_voxels && chain->voxelize;
+    lsf_voxel_light_inputs inputs = {0};
+    if (on_voxels)
+        inputs = light_inputs(chain->voxels);
     for (uint32_t i = 0; i < iteration->state->light_count; i++) {
         lsf_direct_chain_light(&chain->direct, iteration, i);
-        if (chain->voxelize)
+        if (on_voxels)
             light_voxels(chain, iteration, &inputs, i);
     }
 }
@@ -120,6 +131,12 @@ void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration
     outputs->voxel_albedo = chain->view.outputs.albedo;
     outputs->voxel_normal = chain->view.outputs.normal;
     outputs->voxel_radiance = chain->view.outputs.radiance;
+}
+
+void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration)
+{
+    lsf_voxel_chain_begin(chain, iteration);
+    lsf_voxel_chain_lights(chain, iteration, true);
 }
 
 void lsf_voxel_chain_destroy(lsf_voxel_chain *chain)

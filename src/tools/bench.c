@@ -16,6 +16,7 @@ static const struct {
 } measurements[] = {
     {"rays", lsf_bench_rays},
     {"bidirectional", lsf_bench_bidirectional},
+    {"cone", lsf_bench_cone},
     {"voxel_path", lsf_bench_voxel_path},
 };
 
@@ -88,7 +89,7 @@ static bool run(lsf_bench *bench, lsf_error *error)
     const char *nearest = lsf_nearest(name, next_measurement, NULL);
     return lsf_error_set(error, LSF_ERROR_USAGE, "%s: no such measurement%s%s%s", name,
                          nearest ? "; did you mean "
-                                 : "; bench takes rays, bidirectional or voxel_path",
+                                 : "; bench takes rays, bidirectional, cone or voxel_path",
                          nearest ? nearest : "", nearest ? "?" : "");
 }
 

@@ -18,6 +18,7 @@ typedef struct lsf_bench {
 /* Each prints its lines as it goes, or adds to `json`. */
 bool lsf_bench_rays(lsf_bench *bench, lsf_error *error);
 bool lsf_bench_bidirectional(lsf_bench *bench, lsf_error *error);
+bool lsf_bench_cone(lsf_bench *bench, lsf_error *error);
 bool lsf_bench_voxel_path(lsf_bench *bench, lsf_error *error);
 
 /* A part of the text, on standard output at once; nothing with --json or --quiet. */

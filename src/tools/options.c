@@ -32,13 +32,14 @@ static const lsf_command commands[] = {
     {LSF_COMMAND_PLAN, "plan", "[SCENE]", 0, 1, "say what a rendering would run, and why",
      "Prints the frame plan: the passes in order, each resource with its bytes, each shader's "
      "switches, and why each is there or was left out. It needs no OpenGL."},
-    {LSF_COMMAND_BENCH, "bench", "rays|bidirectional|voxel_path [SCENE]", 1, 2,
+    {LSF_COMMAND_BENCH, "bench", "rays|bidirectional|cone|voxel_path [SCENE]", 1, 2,
      "measure the speed of ray-bundles, or of a frame",
      "`rays` prints how many rays a second a ray-bundle answers, built and searched, beside the "
      "closest hits that Embree finds on the very same rays and cores, and the share of rays on "
      "which they agree. `bidirectional` prints what a frame of 21 VPLs and 21 ray-bundles takes, "
      "in the rows of Table 1 of Tokuyoshi and Ogaki 2012, on a scene that is tessellated to about "
-     "as many triangles as theirs. `voxel_path` prints what the procedures of voxel path tracing "
+     "as many triangles as theirs. `cone` prints what a frame of cone tracing takes whose voxels "
+     "are made anew. `voxel_path` prints what the procedures of voxel path tracing "
      "take in the two frames that its talk of 2018 reports."},
     {LSF_COMMAND_HELP, "help", "[COMMAND]", 0, 1, "explain a command and its options",
      "Prints the options of COMMAND, or the list of commands."},
@@ -90,7 +91,7 @@ static const lsf_command_option options[] = {
     {"resolution", 'r', "W,H", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_RESOLUTION,
      AT(resolution), 1, 16384, NULL, NULL,
      "the screen in pixels; without it, rays takes 512x512, 1024x1024 and 1920x1080, "
-     "bidirectional 1920x1088, or 480x270 where OpenGL is software, and voxel_path 1024x768 and "
+     "bidirectional 1920x1088, or 480x270 where OpenGL is software, cone 512x512, and voxel_path 1024x768 and "
      "1920x1080"},
     {"samples", 's', "N", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_COUNT, AT(samples), 1, 64,
      NULL, NULL,

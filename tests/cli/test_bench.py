@@ -88,6 +88,25 @@ class Bidirectional(CommandTest):
         self.assertLess(triangles, 174e3 * 2)
 
 
+class Cone(CommandTest):
+    SMALL = ("-r", "24,16", "-s", "1", "-D", "voxel.resolution=16")
+
+    def test_json(self):
+        done = self.run_command("bench", "cone", CORNELL, "--json", *self.SMALL)
+        report = json.loads(done.stdout)
+        self.assertEqual((report["measurement"], report["screen"]), ("cone", [24, 16]))
+        self.assertEqual(report["options"][-1], "voxel.resolution=16")
+        self.assertAlmostEqual(sum(row["ms"] or 0 for row in report["rows"]), report["total_ms"],
+                               places=3)
+        for row in report["rows"][:-1]:
+            self.assertGreater(row["ms"], 0, row["procedure"])
+
+    def test_table(self):
+        text = self.run_command("bench", "cone", CORNELL, *self.SMALL).stdout.decode()
+        self.assertRegex(text, r"(?m)^Trace cones +[\d.]+ +-$")
+        self.assertRegex(text, r"(?m)^Total +[\d.]+ +810\.0$")
+
+
 class VoxelPath(CommandTest):
     SMALL = ("-r", "24,16", "-s", "1", "-D", "voxel.resolution=16")
 
@@ -117,7 +136,7 @@ class VoxelPath(CommandTest):
 
 class Usage(CommandTest):
     def test_measurements(self):
-        self.refuse("bench", says=["rays|bidirectional|voxel_path"])
+        self.refuse("bench", says=["rays|bidirectional|cone|voxel_path"])
         self.refuse("bench", "ray", says=["ray: no such measurement", "did you mean rays?"])
         self.refuse("bench", "rays", CORNELL, "more", says=["more", "one operand too many"])
         self.refuse("bench", "rays", "--output", "a.png", says=["an option of render"])

@@ -1,0 +1,94 @@
+/* Light that arrives at visible points from voxels and from beyond them, by cones. */
+#include "lib/brdf.glsl"
+#include "lib/coarse.glsl"
+#include "lib/environment.glsl"
+#include "lib/voxel_cone.glsl"
+
+layout(binding = 0) uniform sampler2D depth_texture;
+layout(binding = 1) uniform usampler2D surface_texture;
+#if LSF_GLOSS
+layout(binding = 2) uniform usampler2D gloss_texture;
+#endif
+
+layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility */
+#if LSF_SPECULAR
+layout(binding = 3) uniform sampler2D albedo_texture; /* of the specular lobe */
+layout(location = 0) uniform float lobe_spread; /* diameter by length of the specular cone, to alpha */
+layout(location = 1) out vec4 specular_out;
+
+/* A right angle: the lobes of rough surfaces are not round any more. */
+#define CONE_WIDEST 2.0
+#endif
+
+vec3 arriving(cone_light light, vec3 direction)
+{
+    vec3 radiance = light.radiance * grid.unit.x;
+#if LSF_ENVIRONMENT
+    radiance += light.transmittance * environment_radiance(direction);
+#endif
+    return radiance;
+}
+
+/* Pixels of a 4 x 4 pattern take the turns 0 to 15 of 16, neighbours far from each other. */
+float pixel_turn()
+{
+    uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
+    uint x = p.x ^ p.y;
+    uint order = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
+    return float(order) / 16.0;
+}
+
+void main()
+{
+    irradiance_out = vec4(0.0);
+#if LSF_SPECULAR
+    specular_out = vec4(0.0);
+#endif
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depth_texture, pixel, 0).r;
+    if (depth == 0.0)
+        return;
+    surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
+    if (s.unlit)
+        return;
+#if LSF_GLOSS
+    gloss_unpack(texelFetch(gloss_texture, pixel, 0).xy, s);
+#endif
+    vec2 ndc = coarse_ndc(pixel);
+    vec3 point = voxel_from_position(position_from_depth(ndc, depth));
+    vec3 to_viewer = -normalize(view_ray_direction(ndc));
+    vec3 tangent, bitangent;
+    orthonormal_basis(s.normal, tangent, bitangent);
+    float angle = 2.0 * LSF_PI * (cone_gather.x + cone_gather.y * pixel_turn());
+    vec3 across = cos(angle) * tangent + sin(angle) * bitangent;
+    vec3 beside = cross(s.normal, across);
+    int count = int(cone_gather.z);
+    float share = 1.0 / cone_gather.z;
+    for (int i = 0; i < count; i++) {
+        vec4 cone = cone_set[i];
+        vec3 direction = cone.x * across + cone.y * beside + cone.z * s.normal;
+        if (dot(direction, s.geometric_normal) <= 0.0)
+            continue;
+        cone_light light = cone_trace(point, s.geometric_normal, direction, cone.w);
+        float reflected = 1.0;
+#if LSF_SPECULAR
+        vec3 h = normalize(to_viewer + direction);
+        reflected -= lsf_fresnel_schlick(s.f0, clamp(dot(to_viewer, h), 0.0, 1.0));
+#endif
+        irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction),
+                                       light.transmittance);
+    }
+#if LSF_SPECULAR
+    vec3 view_direction = lift_to_horizon(to_viewer, s.normal);
+    vec3 mirrored = reflect(-view_direction, s.normal);
+    if (dot(mirrored, s.geometric_normal) > 0.0) {
+        float alpha = lsf_alpha_from_roughness(s.roughness);
+        float spread = min(lobe_spread * alpha, CONE_WIDEST);
+        cone_light light = cone_trace(point, s.geometric_normal, mirrored, spread);
+        vec2 place = vec2(dot(s.normal, view_direction), s.roughness);
+        vec2 albedo = textureLod(albedo_texture, place, 0.0).rg;
+        vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
+        specular_out.rgb = (f0 * albedo.x + albedo.y) * arriving(light, mirrored);
+    }
+#endif
+}

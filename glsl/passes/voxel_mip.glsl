@@ -1,0 +1,49 @@
+/* A texel of a radiance pyramid's level from the eight below it. Switch LSF_SIDES: 1, where the
+ * texel is their mean, or LSF_VOXEL_SIDES_AXES, where it is what one sees of them along the slice's
+ * direction: the nearer of each pair before the farther, then the mean of the four pairs (Crassin,
+ * Neyret, Sainz, Green and Eisemann 2011, "Interactive Indirect Illumination Using Voxel Cone
+ * Tracing", section 6.2). Radiance is multiplied by opacity throughout. */
+#ifndef LSF_VOXEL_MIP
+#define LSF_VOXEL_MIP
+
+#include "lib/voxel.glsl"
+
+layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
+layout(rgba16f, binding = 0) uniform writeonly image3D level_image;
+
+/* The pair that begins at texel `front` and goes on by `onward`. */
+vec4 mip_pair(ivec3 front, ivec3 onward, int level)
+{
+    vec4 near = texelFetch(radiance_texture, front, level);
+    vec4 far = texelFetch(radiance_texture, front + onward, level);
+#if LSF_SIDES == 1
+    return near + far;
+#else
+    return near + (1.0 - near.a) * far;
+#endif
+}
+
+void mip_write(ivec3 cell, int side, int level, bool empty)
+{
+    int slab = int(grid.size.z) >> level;
+    ivec3 target = cell + ivec3(0, 0, side * slab);
+    vec4 sum = vec4(0.0);
+    if (!empty) {
+        int axis = side >> 1;
+        ivec3 along = ivec3(axis == 0, axis == 1, axis == 2);
+        ivec3 u = along.zxy, v = along.yzx;
+        bool backward = (side & 1) != 0;
+        ivec3 first = 2 * cell + ivec3(0, 0, side * 2 * slab) + (backward ? along : ivec3(0));
+        ivec3 onward = backward ? -along : along;
+        sum = mip_pair(first, onward, level - 1) + mip_pair(first + u, onward, level - 1) +
+              mip_pair(first + v, onward, level - 1) + mip_pair(first + u + v, onward, level - 1);
+    }
+#if LSF_SIDES == 1
+    sum *= 0.125;
+#else
+    sum *= 0.25;
+#endif
+    imageStore(level_image, target, sum);
+}
+
+#endif

@@ -1,0 +1,16 @@
+/* A whole level: the coarse ones, in which little is empty. */
+#include "passes/voxel_mip.glsl"
+
+layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+
+layout(location = 0) uniform int level;
+
+void main()
+{
+    ivec3 texel = ivec3(gl_GlobalInvocationID);
+    ivec3 size = ivec3(grid.size.xyz) >> level;
+    int side = texel.z / size.z;
+    if (texel.x >= size.x || texel.y >= size.y || side >= LSF_SIDES)
+        return;
+    mip_write(ivec3(texel.xy, texel.z - side * size.z), side, level, false);
+}

@@ -1,0 +1,153 @@
+#include "passes/cone_trace.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "math/sampling.h"
+#include "shared/brdf.h"
+#include "shared/scene_data.h"
+
+/* The specular lobe's albedo is tabulated at as many cosines and roughnesses, by as many samples.
+ */
+#define ALBEDO_SIDE 32u
+#define ALBEDO_SAMPLES 128u
+
+/* Uniform of passes/cone_trace.frag.glsl. */
+#define LOCATION_LOBE 0
+
+/* Diameter of the specular cone by its length, to alpha. Half the normals of a GGX surface that one
+ * sees lie within atan(alpha) of its own, so that half the mirrored light comes from within 2 alpha
+ * of the mirror's direction while alpha is small. A cone has half its solid angle within 1 /
+ * sqrt(2) of its half aperture, which is sqrt(8) alpha then. */
+#define LOBE_SPREAD (2.0f * 2.8284271f)
+
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t width,
+                         uint32_t height)
+{
+    const lsf_requirements *r = &plan->requirements;
+    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    lsf_plan_pass_add(plan, "cone_trace", "%d diffuse cones of each visible point%s", params->count,
+                      r->specular ? ", and a specular one" : "");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_coarse_grid_switch(plan, width, height);
+    lsf_plan_switch_add(plan, "LSF_SIDES", (int)lsf_cone_slices(params), "cone.sides");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: a cone is round");
+    lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
+                        "the environment is a map");
+    lsf_plan_texture_add(plan, "cone_trace.irradiance", GL_RGBA32F, width, height,
+                         "light for the diffuse lobe, without its albedo");
+    if (!r->specular)
+        return;
+    lsf_plan_texture_add(plan, "cone_trace.specular", GL_RGBA32F, width, height,
+                         "light of the specular lobe");
+    lsf_plan_texture_add(plan, "cone_trace.lobe_albedo", GL_RG32F, ALBEDO_SIDE, ALBEDO_SIDE,
+                         "what the specular lobe reflects, by view and roughness");
+}
+
+/* What the lobe of `alpha` reflects of a uniform environment: f0 albedo[0] + albedo[1] (Karis 2013,
+ * "Real Shading in Unreal Engine 4"), by samples of the normals that one sees. */
+static void lobe_albedo(float cosine, float alpha, float albedo[2])
+{
+    const lsf_float3 view = {sqrtf(fmaxf(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine};
+    double sums[2] = {0.0, 0.0};
+    for (uint32_t i = 0; i < ALBEDO_SAMPLES; i++) {
+        float u[2];
+        lsf_sobol_2d(i, 0, u);
+        lsf_float3 h = lsf_sample_ggx_visible_normal(view, alpha, alpha, u[0], u[1]);
+        float vh = lsf_f3_dot(view, h);
+        float nl = 2.0f * vh * h.z - view.z;
+        if (nl <= 0.0f || vh <= 0.0f)
+            continue;
+        float d = lsf_ggx_d(h.z, h.x * h.x + h.y * h.y, alpha);
+        double reflected = (double)(d * lsf_ggx_v(nl, cosine, alpha) * nl /
+                                    lsf_pdf_ggx_reflection(view, h, alpha, alpha));
+        double grazing = (double)lsf_fresnel_schlick(0.0f, fminf(vh, 1.0f));
+        sums[0] += (1.0 - grazing) * reflected;
+        sums[1] += grazing * reflected;
+    }
+    albedo[0] = (float)(sums[0] / ALBEDO_SAMPLES);
+    albedo[1] = (float)(sums[1] / ALBEDO_SAMPLES);
+}
+
+static void fill_lobe_albedo(GLuint texture)
+{
+    float table[ALBEDO_SIDE][ALBEDO_SIDE][2];
+    for (uint32_t y = 0; y < ALBEDO_SIDE; y++)
+        for (uint32_t x = 0; x < ALBEDO_SIDE; x++)
+            lobe_albedo(((float)x + 0.5f) / (float)ALBEDO_SIDE,
+                        lsf_alpha_from_roughness(((float)y + 0.5f) / (float)ALBEDO_SIDE),
+                        table[y][x]);
+    glTextureSubImage2D(texture, 0, 0, 0, ALBEDO_SIDE, ALBEDO_SIDE, GL_RG, GL_FLOAT, table);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_cone_params *params, const lsf_voxel_grid *grid,
+                           lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/cone_trace.frag.glsl"};
+    *pass = (lsf_cone_trace){.context = context, .params = *params, .grid = *grid};
+    lsf_cone_trace_outputs *out = &pass->outputs;
+    if (!lsf_plan_create_texture(plan, context, "cone_trace.irradiance", &out->irradiance, error) ||
+        !lsf_plan_create_texture(plan, context, "cone_trace.specular", &out->specular, error) ||
+        !lsf_plan_create_texture(plan, context, "cone_trace.lobe_albedo", &pass->lobe_albedo,
+                                 error))
+        return false;
+    if (pass->lobe_albedo)
+        fill_lobe_albedo(pass->lobe_albedo);
+    lsf_framebuffer_desc desc = {.label = "cone_trace",
+                                 .color_count = out->specular ? 2 : 1,
+                                 .colors = {out->irradiance, out->specular},
+                                 .layer = -1};
+    pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
+    pass->program = lsf_plan_program(plan, context, "cone_trace", files, error);
+    pass->timer = lsf_timer_create(context, "cone_trace", error);
+    return pass->framebuffer && pass->program && pass->timer;
+}
+
+void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
+                        const lsf_cone_trace_inputs *inputs)
+{
+    lsf_timer_begin(pass->timer);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
+    glViewport(0, 0, (GLsizei)inputs->grid->width, (GLsizei)inputs->grid->height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glUseProgram(pass->program);
+    lsf_coarse_grid_set(inputs->grid);
+    glBindTextureUnit(0, inputs->depth);
+    glBindTextureUnit(1, inputs->surface);
+    glBindTextureUnit(2, inputs->gloss);
+    glBindTextureUnit(3, pass->lobe_albedo);
+    for (GLuint level = 0; level < 2; level++)
+        glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
+    lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, 0);
+    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
+    if (pass->lobe_albedo)
+        glUniform1f(LOCATION_LOBE, LOBE_SPREAD);
+    const lsf_environment *environment = &iteration->scene->scene->environment;
+    if (environment->present && !environment->width)
+        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_cone_trace_destroy(lsf_cone_trace *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_texture_destroy(pass->context, &pass->outputs.irradiance);
+    lsf_texture_destroy(pass->context, &pass->outputs.specular);
+    lsf_texture_destroy(pass->context, &pass->lobe_albedo);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}

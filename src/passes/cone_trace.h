@@ -1,0 +1,43 @@
+/* Light that visible points gather by cones through voxels. See cone_trace.md. */
+#ifndef LSF_PASSES_CONE_TRACE_H
+#define LSF_PASSES_CONE_TRACE_H
+
+#include "plan/coarse_grid.h"
+#include "plan/cone.h"
+
+typedef struct lsf_cone_trace_inputs {
+    const lsf_coarse_grid *grid;
+    GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
+    GLuint occupancy[2];          /* of voxelize, the finest levels */
+    GLuint radiance;              /* the pyramid; voxel_light.h, voxel_mip.h */
+} lsf_cone_trace_inputs;
+
+/* RGBA32F, of the grid's size. Alpha of irradiance: ambient visibility, the share of the
+ * hemisphere, weighted by its cosine, in which no voxel is met. */
+typedef struct lsf_cone_trace_outputs {
+    GLuint irradiance;
+    GLuint specular; /* radiance; 0 without specular lobes */
+} lsf_cone_trace_outputs;
+
+typedef struct lsf_cone_trace {
+    lsf_context *context;
+    lsf_cone_params params;
+    lsf_voxel_grid grid;
+    lsf_cone_trace_outputs outputs;
+    GLuint lobe_albedo; /* RG32F by cosine of the view and roughness */
+    GLuint framebuffer, program;
+    lsf_timer *timer;
+} lsf_cone_trace;
+
+/* For a grid of width by height texels. */
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t width,
+                         uint32_t height);
+bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_cone_params *params, const lsf_voxel_grid *grid,
+                           lsf_error *error);
+/* The grid must be bound at LSF_BINDING_VOXEL. */
+void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
+                        const lsf_cone_trace_inputs *inputs);
+void lsf_cone_trace_destroy(lsf_cone_trace *pass);
+
+#endif

@@ -1,0 +1,103 @@
+#include "passes/voxel_bounce.h"
+
+#include <string.h>
+
+#include "shared/scene_data.h"
+
+/* Storage buffer. */
+#define BINDING_BRICKS 1
+/* Texture unit and uniform of passes/voxel_bounce.comp.glsl. */
+#define UNIT_BASE 1
+#define LOCATION_SUM_OF 0
+
+/* Its own radiance is read and written at the same time: it is read above the finest level only. */
+#define FINEST_READ_OF_OWN 1
+
+void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
+                           const lsf_voxel_grid *grid)
+{
+    const lsf_requirements *r = &plan->requirements;
+    uint32_t slices = lsf_cone_slices(params);
+    lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
+    lsf_plan_switch_add(plan, "LSF_SIDES", (int)slices, "cone.sides");
+    lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
+                        "the environment is a map");
+    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    lsf_voxel_texture_plan(plan, grid, "voxel_bounce.radiance", GL_RGBA16F, slices,
+                           LSF_VOXEL_LEVELS, "radiance of voxels with what they reflect");
+}
+
+bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const lsf_plan *plan,
+                             const lsf_cone_params *params, const lsf_voxel_grid *grid,
+                             lsf_error *error)
+{
+    static const char *const files[5] = {"passes/voxel_bounce.comp.glsl"};
+    static const char *const clear_files[5] = {"passes/voxel_bounce_clear.comp.glsl"};
+    *pass = (lsf_voxel_bounce){.context = context, .params = *params, .grid = *grid};
+    if (!lsf_plan_create_texture(plan, context, "voxel_bounce.radiance", &pass->radiance, error))
+        return false;
+    for (GLint level = 0; level < LSF_VOXEL_LEVELS; level++)
+        glClearTexImage(pass->radiance, level, GL_RGBA, GL_FLOAT, NULL);
+    pass->program = lsf_plan_program(plan, context, "voxel_bounce", files, error);
+    if (!pass->program)
+        return false;
+    pass->clear_program = lsf_plan_program(plan, context, "voxel_bounce", clear_files, error);
+    if (!pass->clear_program)
+        return false;
+    pass->timer = lsf_timer_create(context, "voxel_bounce", error);
+    return pass->timer != NULL;
+}
+
+static void dispatch(const lsf_voxel_bounce *pass, GLuint bricks)
+{
+    glBindImageTexture(0, pass->radiance, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, bricks);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, bricks);
+    glDispatchComputeIndirect(0);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxel_bounce_inputs *inputs)
+{
+    if (!inputs->changed)
+        return;
+    lsf_timer_begin(pass->timer);
+    glUseProgram(pass->clear_program);
+    dispatch(pass, inputs->previous_bricks);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
+                          const lsf_voxel_bounce_inputs *inputs, const lsf_voxel_bounce_sum *sum)
+{
+    lsf_timer_begin(pass->timer);
+    glUseProgram(pass->program);
+    glUniform3i(LOCATION_SUM_OF, sum->keep, sum->base != 0, sum->source != 0);
+    glBindTextureUnit(UNIT_BASE, sum->base);
+    for (GLuint level = 0; level < 2; level++)
+        glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
+    glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
+    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
+    glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->point);
+    if (sum->source)
+        lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source,
+                      sum->source == pass->radiance ? FINEST_READ_OF_OWN : 0);
+    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
+    const lsf_environment *environment = &iteration->scene->scene->environment;
+    if (environment->present && !environment->width)
+        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    dispatch(pass, inputs->bricks);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_voxel_bounce_destroy(lsf_voxel_bounce *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_texture_destroy(pass->context, &pass->radiance);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}

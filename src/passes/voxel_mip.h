@@ -1,0 +1,30 @@
+/* The pyramid of radiance over the voxels: what cones see at a distance. See voxel_mip.md. */
+#ifndef LSF_PASSES_VOXEL_MIP_H
+#define LSF_PASSES_VOXEL_MIP_H
+
+#include "plan/voxel_grid.h"
+
+typedef struct lsf_voxel_mip_inputs {
+    GLuint radiance; /* RGBA16F, LSF_VOXEL_LEVELS levels: level 0 is read, the others are written */
+    GLuint bricks;   /* of voxelize */
+    GLuint previous_bricks; /* that the run before wrote */
+    bool changed;           /* they differ */
+} lsf_voxel_mip_inputs;
+
+typedef struct lsf_voxel_mip {
+    lsf_context *context;
+    lsf_voxel_grid grid;
+    uint32_t sides;
+    GLuint bricks_program, whole_program;
+    lsf_timer *timer;
+} lsf_voxel_mip;
+
+/* `sides` slices along z: 1, or LSF_VOXEL_SIDES_AXES. */
+void lsf_voxel_mip_plan(lsf_plan *plan, uint32_t sides);
+bool lsf_voxel_mip_create(lsf_voxel_mip *pass, lsf_context *context, const lsf_plan *plan,
+                          const lsf_voxel_grid *grid, uint32_t sides, lsf_error *error);
+/* The grid must be bound at LSF_BINDING_VOXEL. Levels must be empty before the first run. */
+void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxel_mip_inputs *inputs);
+void lsf_voxel_mip_destroy(lsf_voxel_mip *pass);
+
+#endif

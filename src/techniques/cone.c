@@ -1,0 +1,268 @@
+/* Cone tracing: light that voxels send out, gathered by cones through its pyramid.
+ * C. Crassin, F. Neyret, M. Sainz, S. Green and E. Eisemann, "Interactive Indirect Illumination
+ * Using Voxel Cone Tracing", 2011. */
+#include <stdlib.h>
+
+#include "base/base.h"
+#include "passes/compose.h"
+#include "passes/cone_trace.h"
+#include "passes/upsample_search.h"
+#include "passes/voxel_bounce.h"
+#include "passes/voxel_mip.h"
+#include "techniques/voxel_chain.h"
+
+/* How light goes, decided from the scene and the options. */
+typedef struct way {
+    bool traced;            /* to visible points otherwise than straight from punctual lights */
+    bool shines;            /* from surfaces or an environment */
+    bool coarse;            /* cones are traced on a grid of fewer texels than pixels */
+    uint32_t width, height; /* of the grid */
+    uint32_t bounces;       /* from voxel to voxel */
+} way;
+
+/* Light of punctual lights is on voxels already, and the last bounce is at visible points; light of
+ * surfaces and environments has to come to voxels first. */
+static way choose_way(const lsf_plan *plan, const lsf_pass_params *params)
+{
+    const lsf_requirements *r = &plan->requirements;
+    way w = {.shines = r->emissive || r->unlit || r->environment,
+             .width = lsf_coarse_grid_length(plan->width, params->cone.scale),
+             .height = lsf_coarse_grid_length(plan->height, params->cone.scale)};
+    w.coarse = lsf_coarse_grid_is_coarse(plan, w.width, w.height);
+    w.traced = lsf_voxel_chain_has_voxels(plan) && (plan->bounces > 0 || w.shines);
+    if (w.traced && plan->bounces > 0)
+        w.bounces = plan->bounces - (w.shines ? 0 : 1);
+    return w;
+}
+
+typedef struct cone {
+    way way;
+    lsf_voxel_chain chain;
+    lsf_voxel_mip mip;
+    lsf_voxel_bounce bounce;
+    lsf_cone_trace trace;
+    lsf_upsample_search upsample;
+    lsf_compose compose;
+} cone;
+
+static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w)
+{
+    uint32_t slices = lsf_cone_slices(&params->cone);
+    return (lsf_voxel_chain_use){.sides = slices,
+                                 .levels = LSF_VOXEL_LEVELS,
+                                 .bytes_per_voxel = w->bounces > 0 ? 8 * slices * 8 / 7 + 1 : 0};
+}
+
+static void remark(lsf_plan *plan, const way *w)
+{
+    const lsf_requirements *r = &plan->requirements;
+    if (r->transmissive)
+        lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
+    if (w->shines)
+        lsf_plan_remark(plan, "with cones, direct light of surfaces and environments is in the "
+                              "indirect layers");
+    if (r->anisotropic)
+        lsf_plan_remark(plan, "cones of anisotropic surfaces are round");
+}
+
+static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
+{
+    way w = choose_way(plan, params);
+    if (w.traced) {
+        lsf_voxel_chain_use use = chain_use(params, &w);
+        lsf_voxel_chain_plan(plan, params, state, &use);
+        lsf_voxel_mip_plan(plan, use.sides);
+        lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &use);
+        if (w.bounces > 0)
+            lsf_voxel_bounce_plan(plan, &params->cone, &grid);
+        else
+            lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
+        lsf_cone_trace_plan(plan, &params->cone, w.width, w.height);
+        lsf_upsample_search_plan(plan, &params->upsample_search, w.width, w.height);
+    } else {
+        lsf_direct_chain_plan(plan, params, state);
+        lsf_plan_omit(plan, "cone_trace", "no light bounces");
+    }
+    lsf_compose_plan(plan,
+                     &(lsf_compose_use){.direct = state->light_count > 0, .indirect = w.traced});
+    remark(plan, &w);
+}
+
+static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
+                          const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                          const lsf_state *state, lsf_error *error)
+{
+    lsf_voxel_chain_use use = chain_use(params, &c->way);
+    const lsf_voxel_grid *grid = &c->chain.grid;
+    return lsf_voxel_chain_create(&c->chain, context, plan, params, scene, state, &use, error) &&
+           lsf_voxel_mip_create(&c->mip, context, plan, grid, use.sides, error) &&
+           (c->way.bounces == 0 ||
+            lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
+           lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
+           (!c->way.coarse || lsf_upsample_search_create(&c->upsample, context, plan,
+                                                         &params->upsample_search, error));
+}
+
+static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
+                        const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                        const lsf_state *state, lsf_error *error)
+{
+    cone *c = *self = lsf_alloc(1, sizeof *c);
+    if (!c)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+    c->way = choose_way(plan, params);
+    return (c->way.traced
+                ? create_traced(c, context, plan, params, scene, state, error)
+                : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene, error)) &&
+           lsf_compose_create(&c->compose, context, plan, error);
+}
+
+static void build_pyramid(cone *c, GLuint radiance)
+{
+    const lsf_voxelize_outputs *voxels = c->chain.voxels;
+    const lsf_voxel_mip_inputs inputs = {.radiance = radiance,
+                                         .bricks = voxels->bricks,
+                                         .previous_bricks = voxels->previous_bricks,
+                                         .changed = voxels->changed};
+    lsf_voxel_mip_run(&c->mip, &inputs);
+}
+
+/* Light on voxels, with as many bounces between them as there are to be; returns its pyramid. With
+ * E what voxels emit, D what they reflect of punctual lights, and R what they reflect of each other
+ * and of the environment: X_0 = E or, where nothing shines, D; X_k = E + D + R(X_k-1). */
+static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
+{
+    const lsf_voxelize_outputs *voxels = c->chain.voxels;
+    const lsf_voxel_bounce_inputs inputs = {
+        .occupancy = {voxels->occupancy[0], voxels->occupancy[1]},
+        .albedo = voxels->albedo,
+        .normal = voxels->normal,
+        .point = voxels->point,
+        .bricks = voxels->bricks,
+        .previous_bricks = voxels->previous_bricks,
+        .changed = voxels->changed};
+    GLuint base = c->chain.light.radiance, total = c->bounce.radiance;
+    uint32_t done = 0;
+    if (c->way.bounces > 0)
+        lsf_voxel_bounce_begin(&c->bounce, &inputs);
+    if (c->way.bounces > 0 && c->way.shines) {
+        const lsf_voxel_bounce_sum reflected = {.source = base};
+        const lsf_voxel_bounce_sum all = {.base = base, .keep = true};
+        build_pyramid(c, base);
+        lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &reflected);
+        lsf_voxel_chain_lights(&c->chain, iteration, true);
+        lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &all);
+        done = 1;
+    } else {
+        lsf_voxel_chain_lights(&c->chain, iteration, iteration->plan->bounces > 0);
+    }
+    build_pyramid(c, done ? total : base);
+    for (; done < c->way.bounces; done++) {
+        const lsf_voxel_bounce_sum sum = {.base = base, .source = done ? total : base};
+        lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &sum);
+        build_pyramid(c, total);
+    }
+    return done ? total : base;
+}
+
+/* What voxels and the environment shed on visible points. */
+static lsf_cone_trace_outputs trace(cone *c, const lsf_iteration *iteration)
+{
+    const lsf_gbuffer_outputs *gbuffer = &c->chain.direct.gbuffer.outputs;
+    lsf_voxel_chain_begin(&c->chain, iteration);
+    lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, c->way.width, c->way.height);
+    lsf_upsample_search_points all = {gbuffer->depth, gbuffer->surface, gbuffer->gloss};
+    lsf_upsample_search_points points = all;
+    if (c->way.coarse) {
+        lsf_upsample_search_split(&c->upsample, iteration, &all);
+        grid = c->upsample.grid;
+        points = c->upsample.coarse;
+    }
+    const lsf_cone_trace_inputs inputs = {
+        .grid = &grid,
+        .depth = points.depth,
+        .surface = points.surface,
+        .gloss = points.gloss,
+        .occupancy = {c->chain.voxels->occupancy[0], c->chain.voxels->occupancy[1]},
+        .radiance = light_voxels(c, iteration)};
+    lsf_cone_trace_run(&c->trace, iteration, &inputs);
+    if (!c->way.coarse)
+        return c->trace.outputs;
+    const lsf_upsample_search_light light = {c->trace.outputs.irradiance,
+                                             c->trace.outputs.specular};
+    lsf_upsample_search_run(&c->upsample, iteration, &all, &light);
+    return (lsf_cone_trace_outputs){c->upsample.light.irradiance, c->upsample.light.specular};
+}
+
+static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
+{
+    cone *c = self;
+    const lsf_direct_chain *direct = &c->chain.direct;
+    const lsf_gbuffer_outputs *gbuffer = &direct->gbuffer.outputs;
+    lsf_cone_trace_outputs light = {0};
+    if (c->way.traced)
+        light = trace(c, iteration);
+    else
+        lsf_direct_chain_run(&c->chain.direct, iteration);
+    lsf_compose_inputs parts = {.depth = gbuffer->depth,
+                                .emission = gbuffer->emission,
+                                .direct = direct->direct_light.radiance,
+                                .surface = gbuffer->surface,
+                                .irradiance = light.irradiance,
+                                .specular = light.specular};
+    lsf_compose_run(&c->compose, iteration, &parts);
+    *outputs = (lsf_technique_outputs){
+        .picture = c->compose.radiance,
+        .depth = gbuffer->depth,
+        .surface = gbuffer->surface,
+        .emission = c->compose.seen,
+        .direct = direct->direct_light.radiance,
+        .indirect_diffuse = c->compose.indirect_diffuse,
+        .indirect_specular = light.specular,
+        .motion = gbuffer->motion,
+    };
+    if (c->way.traced)
+        lsf_voxel_chain_view(&c->chain, iteration, outputs);
+}
+
+static void destroy_cone(void *self)
+{
+    cone *c = self;
+    if (!c)
+        return;
+    lsf_compose_destroy(&c->compose);
+    lsf_upsample_search_destroy(&c->upsample);
+    lsf_cone_trace_destroy(&c->trace);
+    lsf_voxel_bounce_destroy(&c->bounce);
+    lsf_voxel_mip_destroy(&c->mip);
+    lsf_voxel_chain_destroy(&c->chain);
+    free(c);
+}
+
+static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES])
+{
+    cone *c = self;
+    uint32_t count = lsf_voxel_chain_report(&c->chain, reports);
+    if (c->way.traced) {
+        if (c->way.bounces > 0)
+            reports[count++] = (lsf_pass_report){.timer = c->bounce.timer};
+        reports[count++] = (lsf_pass_report){.timer = c->mip.timer};
+        if (c->way.coarse)
+            reports[count++] = (lsf_pass_report){.timer = c->upsample.split_timer};
+        reports[count++] = (lsf_pass_report){.timer = c->trace.timer};
+        if (c->way.coarse)
+            reports[count++] = (lsf_pass_report){.timer = c->upsample.timer};
+    }
+    reports[count++] = (lsf_pass_report){.timer = c->compose.timer};
+    return count;
+}
+
+const lsf_technique lsf_technique_cone = {
+    .name = "cone",
+    .help = "global illumination by cones through voxels",
+    .plan = plan_cone,
+    .create = create_cone,
+    .run = run_cone,
+    .destroy = destroy_cone,
+    .report = report_cone,
+};
