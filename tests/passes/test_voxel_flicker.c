@@ -33,7 +33,10 @@ static lsf_image *render_frame(const char *technique, moving_part part, int fram
     static const float eye[3] = {0.6f, 0.3f, 0.95f}, target[3] = {-0.3f, -0.5f, -0.4f};
     lsf_scene *scene = frame_scene(part, frame);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    static const char *const options[] = {"shadow.filter=pcf"}; /* as frames are drawn */
     params.technique = technique;
+    params.options = options;
+    params.option_count = technique ? 1 : 0;
     params.width = params.height = SIZE;
     params.samples = technique ? 1 : 256;
     params.camera_position = eye;
