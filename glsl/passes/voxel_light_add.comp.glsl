@@ -15,11 +15,8 @@ void add(ivec3 cell, int slice, vec3 radiance)
     imageStore(radiance_image, texel, vec4(min(before.rgb + radiance, RADIANCE_MAX), before.a));
 }
 
-void main()
+void light_voxel(ivec3 cell)
 {
-    ivec3 cell;
-    if (!voxel_of_invocation(cell) || !voxel_occupied(cell))
-        return;
     vec3 n = voxel_normal_unpack(texelFetch(normal_texture, cell, 0).r);
     vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
     vec3 position = voxel_to_position(place);
@@ -46,4 +43,13 @@ void main()
 #else
     add(cell, front ? 0 : 1, radiance);
 #endif
+}
+
+void main()
+{
+    voxel_brick brick;
+    if (!voxel_brick_of_group(brick))
+        return;
+    for (int n = int(gl_LocalInvocationID.x); n < brick.count; n += LSF_VOXEL_BRICK_GROUP)
+        light_voxel(voxel_brick_cell(brick, n));
 }

@@ -1,11 +1,8 @@
 /* What voxels emit, in the place of what they held. */
 #include "passes/voxel_light.glsl"
 
-void main()
+void light_voxel(ivec3 cell)
 {
-    ivec3 cell;
-    if (!voxel_of_invocation(cell) || !voxel_occupied(cell))
-        return;
     vec3 front = vec3(0.0), back = vec3(0.0);
 #if LSF_EMISSION
     front = min(voxel_emission_unpack(texelFetch(emission_texture, cell, 0).r), RADIANCE_MAX);
@@ -29,4 +26,13 @@ void main()
     imageStore(radiance_image, slice_texel(cell, 1), vec4(back, 1.0));
 #endif
 #endif
+}
+
+void main()
+{
+    voxel_brick brick;
+    if (!voxel_brick_of_group(brick))
+        return;
+    for (int n = int(gl_LocalInvocationID.x); n < brick.count; n += LSF_VOXEL_BRICK_GROUP)
+        light_voxel(voxel_brick_cell(brick, n));
 }

@@ -1,5 +1,5 @@
 /* A fragment a column of voxels. */
-#include "passes/voxelize.glsl"
+#include "passes/voxelize_mark.glsl"
 
 in flat ivec2 triangle; /* and the axis that it is seen along */
 

@@ -1,30 +1,11 @@
-/* Triangle against voxels, exactly: they touch unless one of the axes of the box, of the triangle's
- * plane, or of their nine edge pairs separates them (Akenine-Moeller 2001; as edge functions in the
- * three projections: Schwarz and Seidel 2010, section 4). With LSF_VOXELIZE_FILL the winner of each
- * voxel writes its surface there, else each triangle bids for the voxels that it touches. */
+/* A triangle of the instance in turn in the grid. LSF_VOXELIZE_ID_BITS of a bid tell the triangle. */
+#ifndef LSF_PASSES_VOXELIZE
+#define LSF_PASSES_VOXELIZE
+
 #include "lib/triangle_fetch.glsl"
 #include "lib/voxel.glsl"
 
 layout(location = 0) uniform uint first_triangle; /* of the instance among all */
-
-layout(binding = 0, r32ui) uniform uimage3D key_image;
-#if LSF_VOXELIZE_FILL
-layout(binding = 1, r32ui) writeonly uniform uimage3D albedo_image;
-layout(binding = 2, r32ui) writeonly uniform uimage3D normal_image;
-layout(binding = 3, r32ui) writeonly uniform uimage3D point_image;
-#if LSF_EMISSION
-layout(binding = 4, r32ui) writeonly uniform uimage3D emission_image;
-#endif
-#if LSF_GLOSS
-layout(binding = 5, r32ui) writeonly uniform uimage3D gloss_image;
-#endif
-#else
-layout(binding = 1, r32ui) uniform uimage3D occupancy_image[LSF_VOXEL_OCCUPANCY_LEVELS];
-layout(std430, binding = LSF_BINDING_BRICKS) coherent buffer lsf_brick_block
-{
-    uint bricks[];
-};
-#endif
 
 /* Rounding of positions in a grid of 512 voxels is 2^-15 of a voxel, that of distances to edges a few
  * times as much; what comes closer than this counts as touching. [voxels] */
@@ -97,36 +78,6 @@ bool triangle_load(uint triangle, int axis, out voxel_triangle t)
     return true;
 }
 
-/* Whether the unit square at `low` reaches the inner side of the edge from p along e, where the
- * triangle turns to the left (1) or to the right (-1). */
-bool edge_reaches(vec2 p, vec2 e, float left, vec2 low)
-{
-    vec2 inward = left * vec2(-e.y, e.x);
-    vec2 nearest = low + vec2(greaterThan(inward, vec2(0.0)));
-    return dot(inward, nearest - p) >= -slack * (abs(e.x) + abs(e.y));
-}
-
-bool edges_reach_xy(voxel_triangle t, vec2 low)
-{
-    float left = t.normal.z >= 0.0 ? 1.0 : -1.0;
-    return edge_reaches(t.a.xy, t.ab.xy, left, low) && edge_reaches(t.b.xy, t.bc.xy, left, low) &&
-           edge_reaches(t.c.xy, t.ca.xy, left, low);
-}
-
-bool edges_reach_yz(voxel_triangle t, vec2 low)
-{
-    float left = t.normal.x >= 0.0 ? 1.0 : -1.0;
-    return edge_reaches(t.a.yz, t.ab.yz, left, low) && edge_reaches(t.b.yz, t.bc.yz, left, low) &&
-           edge_reaches(t.c.yz, t.ca.yz, left, low);
-}
-
-bool edges_reach_zx(voxel_triangle t, vec2 low)
-{
-    float left = t.normal.y >= 0.0 ? 1.0 : -1.0;
-    return edge_reaches(t.a.zx, t.ab.zx, left, low) && edge_reaches(t.b.zx, t.bc.zx, left, low) &&
-           edge_reaches(t.c.zx, t.ca.zx, left, low);
-}
-
 /* Barycentric coordinates of the triangle's point that is closest to p's projection on it. */
 vec3 closest_weights(voxel_triangle t, vec3 p)
 {
@@ -145,102 +96,4 @@ bool surface_in(voxel_triangle t, vec3 weights, out surface s, out vec3 emission
     return material_surface(triangle_material(), point, s, emission);
 }
 
-#if LSF_VOXELIZE_FILL
-void write_surface(voxel_triangle t, ivec3 cell, vec3 low)
-{
-    vec3 weights = closest_weights(t, low + 0.5);
-    surface s;
-    vec3 emission;
-    if (!surface_in(t, weights, s, emission))
-        return;
-    lsf_material_data material = triangle_material();
-    vec3 face = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;
-    if (range.w != 0u)
-        face = -face;
-    vec3 n = dot(s.geometric_normal, face) > 0.0 ? s.geometric_normal : normalize(face);
-    vec3 inside = t.a * weights.x + t.b * weights.y + t.c * weights.z - low;
-    inside = t.axis == 0 ? inside.zxy : t.axis == 1 ? inside.yzx : inside;
-    imageStore(albedo_image, cell,
-               uvec4(voxel_albedo_pack(s.unlit ? vec3(0.0) : s.base_color)));
-    float turn = 0.0;
-#if LSF_ANISOTROPY
-    vec3 basis_t, basis_b, along_t, along_b;
-    orthonormal_basis(s.normal, basis_t, basis_b);
-    float angle = 2.0 * LSF_PI * s.anisotropy_turn;
-    vec3 along = cos(angle) * basis_t + sin(angle) * basis_b;
-    orthonormal_basis(n, along_t, along_b);
-    turn = fract(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));
 #endif
-    imageStore(normal_image, cell, uvec4(voxel_normal_pack(n, turn)));
-    imageStore(point_image, cell,
-               uvec4(voxel_point_pack(inside, material_emits(material, false))));
-#if LSF_EMISSION
-    imageStore(emission_image, cell, uvec4(voxel_emission_pack(emission * grid.unit.y)));
-#endif
-#if LSF_GLOSS
-    float alpha = lsf_alpha_from_roughness(s.roughness);
-    float root = sqrt(s.f0); /* f0 = ((n - 1) / (n + 1))^2 */
-    imageStore(gloss_image, cell,
-               uvec4(packUnorm4x8(vec4(sqrt(lsf_alpha_along_tangent(alpha, s.anisotropy)),
-                                       s.roughness, root, s.metallic))));
-#endif
-}
-#else
-/* The bid: nearer to the voxel's centre wins, then the first triangle. The distance is that of the triangle,
- * not of its plane: of two in one plane each gets the voxels whose centres lie over it. */
-void bid(voxel_triangle t, ivec3 cell, vec3 low)
-{
-#if LSF_MASK
-    surface s;
-    vec3 emission;
-    if (!surface_in(t, closest_weights(t, low + 0.5), s, emission))
-        return;
-#endif
-    vec3 weights = closest_weights(t, low + 0.5);
-    vec3 nearest_point = t.a * weights.x + t.b * weights.y + t.c * weights.z;
-    float distance = length(nearest_point - (low + 0.5));
-    const uint nearest = 0xffffffffu >> LSF_VOXELIZE_ID_BITS;
-    /* What meets a voxel is at most half its diagonal away, sqrt(3) / 2. */
-    uint near = uint((1.0 - min(distance / 0.8661, 1.0)) * float(nearest));
-    uint key = (near << LSF_VOXELIZE_ID_BITS) | (id_mask - t.id);
-    if (imageAtomicMax(key_image, cell, key) != 0u)
-        return;
-    imageAtomicOr(occupancy_image[0], occupancy_texel(cell), occupancy_bit(cell));
-    ivec3 brick = cell >> 2;
-    uint bit = occupancy_bit(brick);
-    if ((imageAtomicOr(occupancy_image[1], occupancy_texel(brick), bit) & bit) != 0u)
-        return;
-    imageAtomicOr(occupancy_image[2], occupancy_texel(brick >> 2), occupancy_bit(brick >> 2));
-    uint at = atomicAdd(bricks[3], 1u);
-    bricks[LSF_VOXEL_LIST_HEADER + at] = voxel_brick_pack(brick);
-    atomicMax(bricks[1], at / LSF_VOXEL_LIST_ROW + 1u);
-}
-#endif
-
-void visit(voxel_triangle t, vec3 low)
-{
-    ivec3 cell = turned_back(ivec3(low), t.axis);
-    if (!voxel_inside(cell))
-        return;
-#if LSF_VOXELIZE_FILL
-    if ((imageLoad(key_image, cell).r & id_mask) == id_mask - t.id)
-        write_surface(t, cell, low);
-#else
-    if (edges_reach_yz(t, low.yz) && edges_reach_zx(t, low.zx))
-        bid(t, cell, low);
-#endif
-}
-
-/* The voxels along z that the plane passes through over a unit square. */
-void visit_column(voxel_triangle t, ivec2 column)
-{
-    vec2 low = vec2(column);
-    if (!edges_reach_xy(t, low))
-        return;
-    float middle = t.a.z + dot(t.plane_slope, low + 0.5 - t.a.xy);
-    float half_range = 0.5 * (abs(t.plane_slope.x) + abs(t.plane_slope.y)) + slack;
-    int first = max(int(floor(middle - half_range)), t.depth.x);
-    int last = min(int(floor(middle + half_range)), t.depth.y);
-    for (int z = first; z <= last; z++)
-        visit(t, vec3(low, float(z)));
-}

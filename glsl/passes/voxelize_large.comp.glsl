@@ -1,5 +1,5 @@
 /* A work group a tile of a large triangle, an invocation a column of voxels. */
-#include "passes/voxelize.glsl"
+#include "passes/voxelize_mark.glsl"
 
 layout(local_size_x = LSF_VOXELIZE_TILE, local_size_y = LSF_VOXELIZE_TILE) in;
 

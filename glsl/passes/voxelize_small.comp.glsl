@@ -1,6 +1,6 @@
 /* An invocation a triangle: small ones are done here, of large ones tiles are listed for work groups to
  * share. */
-#include "passes/voxelize.glsl"
+#include "passes/voxelize_mark.glsl"
 
 layout(local_size_x = LSF_VOXELIZE_GROUP) in;
 
@@ -36,6 +36,5 @@ void main()
     int columns = t.columns.x * t.columns.y;
     if (columns > LSF_VOXELIZE_SMALL && list_tiles(triangle, t.columns))
         return;
-    for (int i = 0; i < columns; i++)
-        visit_column(t, t.low + ivec2(i % t.columns.x, i / t.columns.x));
+    visit_all(t);
 }

@@ -41,6 +41,7 @@ struct lsf_voxel_grid_data {
 /* Occupied bricks, storage buffer: a dispatch of LSF_VOXEL_LIST_ROW groups by as many rows as hold
  * them, one group a brick; their number; then their places, packed as voxel_brick_pack does. */
 #define LSF_VOXEL_LIST_ROW 256
+#define LSF_VOXEL_BRICK_GROUP 32 /* invocations for a brick */
 #define LSF_VOXEL_LIST_HEADER 4 /* words: rows of groups in x and y, 1, number of bricks */
 
 #include "shared/shared_end.h"

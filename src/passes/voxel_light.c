@@ -71,7 +71,7 @@ static void bind_voxels(const lsf_voxel_light_inputs *inputs)
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
-    if (inputs->changed)
+    if (inputs->changed && pass->use.levels > 1)
         dispatch(pass, pass->clear_program, inputs->previous_bricks);
     bind_voxels(inputs);
     dispatch(pass, pass->begin_program, inputs->bricks);

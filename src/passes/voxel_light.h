@@ -20,7 +20,8 @@ typedef struct lsf_voxel_light_map {
 
 typedef struct lsf_voxel_light_use {
     uint32_t sides;  /* 1 (the front), LSF_VOXEL_SIDES_SURFACE or LSF_VOXEL_SIDES_AXES */
-    uint32_t levels; /* of the texture; the pass writes the finest */
+    uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and
+                      * texels of empty voxels mean nothing */
     bool pcf;        /* maps have no gradients */
 } lsf_voxel_light_use;
 
@@ -37,7 +38,7 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
                           const lsf_voxel_light_use *use);
 bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const lsf_plan *plan,
                             const lsf_voxel_light_use *use, lsf_error *error);
-/* Emission only; nothing is left of light before. The grid must be bound. */
+/* Emission only, in the place of light before. The grid must be bound. */
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs);
 /* Adds the light in turn. */
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs,

@@ -11,6 +11,8 @@
 /* Storage buffers beside LSF_BINDING_MATERIALS. */
 #define BINDING_BRICKS 1
 #define BINDING_TILES 2
+#define BINDING_DRAWS 2
+#define BINDING_WON 3
 
 /* Columns of voxels that one invocation does by itself, and those of a tile's side that a work
  * group shares; tiles in the list, 8 bytes each. */
@@ -25,8 +27,19 @@
 
 #define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
 
-/* Location in voxelize.geom.glsl. */
+/* Locations in voxelize.geom.glsl, and in voxelize_count and voxelize_write. */
 #define LOCATION_SIDE 24
+#define LOCATION_PLACE 25
+#define LOCATION_DRAW 25
+
+/* Room for voxels that are won: a storage block of 128 MiB. A grid of more voxels than this of
+ * which more are occupied, a quarter of all at 512^3, would leave the rest without a surface. */
+#define MAX_WON ((uint64_t)1 << 25)
+
+/* struct voxelize_draw in voxelize_list.glsl. */
+typedef struct voxelize_draw {
+    uint32_t groups[3], first, count, listed, first_triangle, triangles;
+} voxelize_draw;
 
 const lsf_option_row lsf_voxelize_options[LSF_VOXELIZE_OPTION_COUNT] = {
     {"voxel.method", LSF_OPTION_ENUM, offsetof(lsf_voxelize_params, method), 0, 0, "compute|raster",
@@ -47,7 +60,7 @@ static bool has_emission(const lsf_plan *plan)
 
 uint32_t lsf_voxelize_bytes(const lsf_plan *plan)
 {
-    return 4 * (4 + has_emission(plan) + has_gloss(plan)) + 1;
+    return 4 * (5 + has_emission(plan) + has_gloss(plan)) + 1;
 }
 
 /* Bits that tell a triangle among all, and one value more: a bid is never 0. */
@@ -59,21 +72,32 @@ static int id_bits(const lsf_plan *plan)
     return bits;
 }
 
-static void plan_program(lsf_plan *plan, const char *name, bool fill)
+static void plan_switches(lsf_plan *plan)
 {
-    lsf_plan_pass_add(plan, name, "%s",
-                      fill ? "the surfaces of those that won"
-                           : "triangles bid for the voxels that they touch");
-    lsf_plan_switch_add(plan, "LSF_VOXELIZE_FILL", fill, "surfaces are written");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_ID_BITS", id_bits(plan), "of a triangle's number");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_GROUP", GROUP, "triangles, or voxels, of a work group");
+    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    lsf_plan_switch_add(plan, "LSF_BINDING_DRAWS", BINDING_DRAWS, "always");
+    lsf_plan_switch_add(plan, "LSF_BINDING_WON", BINDING_WON, "always");
+}
+
+static void plan_programs(lsf_plan *plan)
+{
+    lsf_plan_pass_add(plan, "voxelize_clear", "what the grid held in the iteration before");
+    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    lsf_plan_pass_add(plan, "voxelize_mark", "triangles bid for the voxels that they touch");
+    plan_switches(plan);
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_SMALL", SMALL_COLUMNS, "columns of an invocation");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILE", TILE, "columns of a tile's side");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILES", MAX_TILES, "room in the list of tiles");
-    lsf_plan_switch_add(plan, "LSF_VOXELIZE_GROUP", GROUP, "triangles of a work group");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_ROW", ROW, "triangles of a row of work groups");
-    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     lsf_plan_switch_add(plan, "LSF_BINDING_TILES", BINDING_TILES, "always");
-    lsf_scene_gpu_material_switches(plan, fill && has_gloss(plan), fill && has_emission(plan));
+    lsf_scene_gpu_material_switches(plan, false, false);
+    lsf_plan_pass_add(plan, "voxelize_list", "the voxels that each instance has won");
+    plan_switches(plan);
+    lsf_plan_pass_add(plan, "voxelize_write", "the surfaces of those that won");
+    plan_switches(plan);
+    lsf_scene_gpu_material_switches(plan, has_gloss(plan), has_emission(plan));
 }
 
 static void plan_occupancy(lsf_plan *plan, const lsf_voxel_grid *grid)
@@ -98,14 +122,17 @@ static uint64_t list_bytes(const lsf_voxel_grid *grid)
     return 4 * (LSF_VOXEL_LIST_HEADER + voxels / BRICK_VOXELS);
 }
 
+static uint64_t won_voxels(const lsf_voxel_grid *grid)
+{
+    uint64_t voxels = (uint64_t)grid->size[0] * grid->size[1] * grid->size[2];
+    return voxels < MAX_WON ? voxels : MAX_WON;
+}
+
 void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                        const lsf_voxel_grid *grid)
 {
     (void)params;
-    lsf_plan_pass_add(plan, "voxelize_clear", "what the grid held in the iteration before");
-    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
-    plan_program(plan, "voxelize_mark", false);
-    plan_program(plan, "voxelize_fill", true);
+    plan_programs(plan);
     lsf_plan_buffer_add(plan, "voxelize.grid", sizeof(struct lsf_voxel_grid_data),
                         "where the grid lies: %u x %u x %u voxels", grid->size[0], grid->size[1],
                         grid->size[2]);
@@ -130,6 +157,11 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                         "those of the iteration before");
     lsf_plan_buffer_add(plan, "voxelize.tiles", 4 * LSF_VOXEL_LIST_HEADER + 8 * (uint64_t)MAX_TILES,
                         "tiles of large triangles");
+    uint64_t draws = plan->requirements.instances * sizeof(voxelize_draw);
+    lsf_plan_buffer_add(plan, "voxelize.draws_start", draws, "instances in the order of draws");
+    lsf_plan_buffer_add(plan, "voxelize.draws", draws,
+                        "the same with how many voxels they have won");
+    lsf_plan_buffer_add(plan, "voxelize.won", 4 * won_voxels(grid), "which voxels these are");
     lsf_voxelize_still_plan(plan, grid);
 }
 
@@ -177,6 +209,11 @@ static bool create_lists(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *er
                                 &pass->bricks[1], error) ||
         !lsf_plan_create_buffer(plan, pass->context, "voxelize.tiles", NULL, 0, &pass->tiles,
                                 error) ||
+        !lsf_plan_create_buffer(plan, pass->context, "voxelize.draws_start", NULL,
+                                GL_DYNAMIC_STORAGE_BIT, &pass->draws_start, error) ||
+        !lsf_plan_create_buffer(plan, pass->context, "voxelize.draws", NULL, 0, &pass->draws,
+                                error) ||
+        !lsf_plan_create_buffer(plan, pass->context, "voxelize.won", NULL, 0, &pass->won, error) ||
         !lsf_plan_create_buffer(plan, pass->context, "voxelize.grid", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->outputs.grid_buffer, error))
         return false;
@@ -185,20 +222,30 @@ static bool create_lists(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *er
     return true;
 }
 
-static bool create_round(lsf_voxelize_round *round, lsf_voxelize *pass, const lsf_plan *plan,
-                         const char *name, lsf_voxelize_method method, lsf_error *error)
+static bool create_programs(lsf_voxelize *pass, const lsf_plan *plan, bool raster, lsf_error *error)
 {
-    static const char *const small[5] = {"passes/voxelize_small.comp.glsl"};
-    static const char *const large[5] = {"passes/voxelize_large.comp.glsl"};
-    static const char *const raster[5] = {"passes/voxelize.vert.glsl", "passes/voxelize.geom.glsl",
-                                          "passes/voxelize.frag.glsl"};
-    if (method == LSF_VOXELIZE_RASTER) {
-        round->raster = lsf_plan_program(plan, pass->context, name, raster, error);
-        return round->raster != 0;
-    }
-    round->small = lsf_plan_program(plan, pass->context, name, small, error);
-    round->large = lsf_plan_program(plan, pass->context, name, large, error);
-    return round->small && round->large;
+    const struct {
+        const char *pass, *files[5];
+        GLuint *program;
+        bool wanted;
+    } programs[] = {
+        {"voxelize_clear", {"passes/voxelize_clear.comp.glsl"}, &pass->clear_program, true},
+        {"voxelize_mark", {"passes/voxelize_small.comp.glsl"}, &pass->small_program, !raster},
+        {"voxelize_mark", {"passes/voxelize_large.comp.glsl"}, &pass->large_program, !raster},
+        {"voxelize_mark",
+         {"passes/voxelize.vert.glsl", "passes/voxelize.geom.glsl", "passes/voxelize.frag.glsl"},
+         &pass->raster_program,
+         raster},
+        {"voxelize_list", {"passes/voxelize_count.comp.glsl"}, &pass->count_program, true},
+        {"voxelize_list", {"passes/voxelize_sum.comp.glsl"}, &pass->sum_program, true},
+        {"voxelize_write", {"passes/voxelize_write.comp.glsl"}, &pass->write_program, true},
+    };
+    for (size_t i = 0; i < LSF_COUNT(programs); i++)
+        if (programs[i].wanted &&
+            !(*programs[i].program = lsf_plan_program(plan, pass->context, programs[i].pass,
+                                                      programs[i].files, error)))
+            return false;
+    return true;
 }
 
 static bool create_framebuffer(lsf_voxelize *pass, lsf_error *error)
@@ -216,23 +263,19 @@ bool lsf_voxelize_create(lsf_voxelize **created, lsf_context *context, const lsf
                          const lsf_voxelize_params *params, const lsf_voxel_grid *grid,
                          const lsf_scene *scene, lsf_error *error)
 {
-    static const char *const clear[5] = {"passes/voxelize_clear.comp.glsl"};
     lsf_voxelize *pass = *created = lsf_alloc(1, sizeof *pass);
     if (!pass)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
-    lsf_voxelize_method method = (lsf_voxelize_method)params->method;
+    bool raster = params->method == LSF_VOXELIZE_RASTER;
     pass->context = context;
     pass->grid = *grid;
     lsf_triangle_fetch_create(&pass->fetch);
     if (!create_textures(pass, plan, error) || !create_lists(pass, plan, error) ||
         !lsf_voxelize_still_create(pass, plan, scene, error) ||
-        !create_round(&pass->mark, pass, plan, "voxelize_mark", method, error) ||
-        !create_round(&pass->fill, pass, plan, "voxelize_fill", method, error) ||
-        (method == LSF_VOXELIZE_RASTER && !create_framebuffer(pass, error)))
+        !create_programs(pass, plan, raster, error) || (raster && !create_framebuffer(pass, error)))
         return false;
-    pass->clear_program = lsf_plan_program(plan, context, "voxelize_clear", clear, error);
     pass->timer = lsf_timer_create(context, "voxelize", error);
-    return pass->clear_program && pass->timer;
+    return pass->timer != NULL;
 }
 
 static void bind_image(GLuint unit, GLuint texture)
@@ -267,10 +310,10 @@ static void clear_before(lsf_voxelize *pass)
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-/* An instance's triangles, of which the first is `first_triangle` among all. */
+/* An instance of the draws. */
 typedef struct instance_turn {
     const lsf_iteration *iteration;
-    uint32_t instance, triangles, first_triangle;
+    uint32_t draw, instance, triangles, first_triangle;
 } instance_turn;
 
 static void use_program(GLuint program, const instance_turn *turn)
@@ -280,36 +323,32 @@ static void use_program(GLuint program, const instance_turn *turn)
     lsf_triangle_fetch_instance(turn->iteration, turn->instance, 0, turn->triangles);
 }
 
-static void compute_instance(lsf_voxelize *pass, const lsf_voxelize_round *round,
-                             const instance_turn *turn)
+static void mark_by_compute(lsf_voxelize *pass, const instance_turn *turn)
 {
     uint32_t groups = (turn->triangles + GROUP - 1) / GROUP;
     empty_list(pass->tiles);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    use_program(round->small, turn);
+    use_program(pass->small_program, turn);
     glDispatchCompute(groups < ROW_GROUPS ? groups : ROW_GROUPS,
                       (groups + ROW_GROUPS - 1) / ROW_GROUPS, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
-    use_program(round->large, turn);
+    use_program(pass->large_program, turn);
     glDispatchComputeIndirect(0);
 }
 
-static void draw_instance(lsf_voxelize *pass, const lsf_voxelize_round *round,
-                          const instance_turn *turn)
+static void mark_by_raster(lsf_voxelize *pass, const instance_turn *turn)
 {
-    use_program(round->raster, turn);
+    use_program(pass->raster_program, turn);
     glUniform1f(LOCATION_SIDE, (float)pass->side);
     lsf_draw_vertices(pass->context, 3 * turn->triangles);
 }
 
-static void set_raster_state(const lsf_voxelize *pass)
+static void write_surfaces(lsf_voxelize *pass, const instance_turn *turn)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)pass->side, (GLsizei)pass->side);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
+    use_program(pass->write_program, turn);
+    glUniform1ui(LOCATION_DRAW, turn->draw);
+    glDispatchComputeIndirect((GLintptr)(turn->draw * sizeof(voxelize_draw)));
 }
 
 /* Which instances: those that move, the others, or, where nothing is kept apart, all. */
@@ -321,19 +360,15 @@ static bool in_group(const lsf_voxelize *pass, uint32_t instance, instance_group
     return moves == (group == GROUP_MOVING);
 }
 
-/* One round over the triangles of a group, instances in the order of their materials. */
-static void run_round(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group,
-                      const lsf_voxelize_round *round)
+/* Calls `turn_of` for the instances of a group, in the order of their materials. */
+static void for_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group,
+                      void (*turn_of)(lsf_voxelize *pass, const instance_turn *turn))
 {
     const lsf_scene_gpu *scene = iteration->scene;
     instance_turn turn = {.iteration = iteration};
     uint32_t bound = LSF_NONE;
-    if (round->raster)
-        set_raster_state(pass);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, pass->outputs.bricks);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TILES, pass->tiles);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->tiles);
     for (uint32_t i = 0; i < scene->draw_count; i++, turn.first_triangle += turn.triangles) {
+        turn.draw = i;
         turn.instance = scene->draw_order[i];
         const lsf_instance_state *instance = &iteration->state->instances[turn.instance];
         turn.triangles = (uint32_t)(scene->scene->primitives[instance->primitive].index_count / 3);
@@ -341,31 +376,88 @@ static void run_round(lsf_voxelize *pass, const lsf_iteration *iteration, instan
             continue;
         if (instance->material != bound)
             lsf_scene_gpu_bind_material(scene, bound = instance->material, LSF_DRAW_SHADING);
-        if (round->raster)
-            draw_instance(pass, round, &turn);
-        else
-            compute_instance(pass, round, &turn);
+        turn_of(pass, &turn);
+    }
+}
+
+static void count_turn(lsf_voxelize *pass, const instance_turn *turn)
+{
+    pass->counts[LSF_VOXELIZE_INSTANCES]++;
+    pass->counts[LSF_VOXELIZE_TRIANGLES] += turn->triangles;
+}
+
+static void set_raster_state(const lsf_voxelize *pass)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
+    glViewport(0, 0, (GLsizei)pass->side, (GLsizei)pass->side);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+}
+
+static void mark_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group)
+{
+    bind_occupancy(pass);
+    if (pass->raster_program)
+        set_raster_state(pass);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, pass->outputs.bricks);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TILES, pass->tiles);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->tiles);
+    for_group(pass, iteration, group, pass->raster_program ? mark_by_raster : mark_by_compute);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+/* Sorts voxels by the instance that has won them: counts, sums, and places. */
+static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
+{
+    glCopyNamedBufferSubData(pass->draws_start, pass->draws, 0, 0,
+                             (GLsizeiptr)(iteration->scene->draw_count * sizeof(voxelize_draw)));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_DRAWS, pass->draws);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_WON, pass->won);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->outputs.bricks);
+    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, pass->outputs.occupancy[0]);
+    for (int place = 0; place < 2; place++) {
+        glUseProgram(pass->count_program);
+        glUniform1i(LOCATION_PLACE, place);
+        glDispatchComputeIndirect(0);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        if (place == 1)
+            break;
+        glUseProgram(pass->sum_program);
+        glDispatchCompute(1, 1, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
 }
 
 /* Adds a group to the grid: bids, then surfaces. */
 static void add_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group)
 {
-    const lsf_scene *scene = iteration->scene->scene;
-    for (uint32_t i = 0; i < iteration->state->instance_count; i++) {
-        const lsf_instance_state *instance = &iteration->state->instances[i];
-        if (instance->skipped || !in_group(pass, i, group))
-            continue;
-        pass->counts[LSF_VOXELIZE_INSTANCES]++;
-        pass->counts[LSF_VOXELIZE_TRIANGLES] +=
-            scene->primitives[instance->primitive].index_count / 3;
-    }
-    bind_occupancy(pass);
-    run_round(pass, iteration, group, &pass->mark);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    for_group(pass, iteration, group, count_turn);
+    mark_group(pass, iteration, group);
+    list_winners(pass, iteration);
+    /* The occupancy's unit is one of the vertices'. */
+    lsf_triangle_fetch_bind(&pass->fetch, iteration->scene);
     bind_attributes(pass);
-    run_round(pass, iteration, group, &pass->fill);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->draws);
+    for_group(pass, iteration, group, write_surfaces);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+/* The numbers of each instance's triangles, which draws keep. */
+static void upload_draws(lsf_voxelize *pass, const lsf_iteration *iteration)
+{
+    const lsf_scene_gpu *scene = iteration->scene;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < scene->draw_count; i++) {
+        const lsf_instance_state *instance = &iteration->state->instances[scene->draw_order[i]];
+        uint32_t triangles =
+            (uint32_t)(scene->scene->primitives[instance->primitive].index_count / 3);
+        const voxelize_draw draw = {.first_triangle = first, .triangles = triangles};
+        glNamedBufferSubData(pass->draws_start, (GLintptr)(i * sizeof draw), sizeof draw, &draw);
+        first += triangles;
+    }
 }
 
 /* The lists change places; what the last one lists is emptied. */
@@ -389,6 +481,8 @@ const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_itera
     if (!o->changed)
         return o;
     lsf_timer_begin(pass->timer);
+    if (pass->runs == 0)
+        upload_draws(pass, iteration);
     begin_run(pass);
     lsf_triangle_fetch_bind(&pass->fetch, iteration->scene);
     if (anew) {
@@ -431,6 +525,9 @@ void lsf_voxelize_destroy(lsf_voxelize *pass)
     lsf_buffer_destroy(pass->context, &pass->bricks[0]);
     lsf_buffer_destroy(pass->context, &pass->bricks[1]);
     lsf_buffer_destroy(pass->context, &pass->tiles);
+    lsf_buffer_destroy(pass->context, &pass->draws_start);
+    lsf_buffer_destroy(pass->context, &pass->draws);
+    lsf_buffer_destroy(pass->context, &pass->won);
     lsf_buffer_destroy(pass->context, &pass->outputs.grid_buffer);
     lsf_triangle_fetch_destroy(&pass->fetch);
     lsf_timer_destroy(pass->timer);

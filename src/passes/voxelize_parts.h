@@ -5,12 +5,6 @@
 #include "passes/voxelize.h"
 #include "plan/triangle_fetch.h"
 
-/* What one of the two rounds runs: an instance's small triangles, then its large ones; or all of
- * them on the raster pipeline. */
-typedef struct lsf_voxelize_round {
-    GLuint small, large, raster;
-} lsf_voxelize_round;
-
 /* The grid with what stands still, where something moves: each run begins with a copy of it. */
 typedef struct lsf_voxelize_still {
     bool *moves;             /* of each instance; NULL: nothing is kept */
@@ -24,13 +18,17 @@ struct lsf_voxelize {
     lsf_context *context;
     lsf_voxel_grid grid;
     lsf_voxelize_outputs outputs;
-    GLuint key;       /* R32UI: the winner's bid; 0: empty */
-    GLuint tiles;     /* of large triangles */
-    GLuint bricks[2]; /* lists of this run and of the run before */
+    GLuint key;         /* R32UI: the winner's bid; 0: empty */
+    GLuint tiles;       /* of large triangles */
+    GLuint draws_start; /* instances in the order of draws, with their triangles' numbers */
+    GLuint draws, won;  /* the same with the voxels that they have won, and these */
+    GLuint bricks[2];   /* lists of this run and of the run before */
     uint32_t runs;
-    GLuint clear_program, framebuffer;
+    GLuint clear_program, count_program, sum_program, write_program;
+    /* Bids: an instance's small triangles, then its large ones; or all on the raster pipeline. */
+    GLuint small_program, large_program, raster_program;
+    GLuint framebuffer;
     uint32_t side; /* of the framebuffer: the grid's longest */
-    lsf_voxelize_round mark, fill;
     lsf_triangle_fetch fetch;
     lsf_voxelize_still still;
     uint64_t counts[LSF_VOXELIZE_COUNTS];

@@ -6,7 +6,7 @@
 #include "shared/scene_data.h"
 
 /* Random numbers that pick the pixel of each block. */
-#define PURPOSE_OFFSET 0x50000
+#define PURPOSE_OFFSET 0x70000
 
 uint32_t lsf_coarse_grid_length(uint32_t length, float scale)
 {

@@ -4,10 +4,13 @@
 
 #define MAP_RESOLUTION 512
 
+/* Of the radiance, so that it is kept fit to be filtered. */
+#define LEVELS 2
+
 static void init_light(voxel_rig *rig)
 {
     lsf_error error = {0};
-    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = 1};
+    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = LEVELS};
     lsf_plan *plan = rig->setup.plan;
     if (!lsf_shadow_map_create(&rig->shadow_map, rig->context, plan, &error) ||
         !lsf_voxel_light_create(&rig->light, rig->context, plan, &use, &error))
@@ -17,7 +20,7 @@ static void init_light(voxel_rig *rig)
 static void plan_light(voxel_rig *rig)
 {
     const lsf_shadow_map_params shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS};
-    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = 1};
+    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = LEVELS};
     lsf_shadow_map_plan(rig->setup.plan, &shadow_map, &rig->setup.state);
     lsf_shadow_map_plan_scene(rig->setup.plan, &shadow_map, &rig->setup.state, MAP_RESOLUTION);
     lsf_voxel_light_plan(rig->setup.plan, &rig->grid, &use);

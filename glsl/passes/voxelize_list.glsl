@@ -1,0 +1,46 @@
+/* Voxels sorted by the instance that has won them. */
+#ifndef LSF_PASSES_VOXELIZE_LIST
+#define LSF_PASSES_VOXELIZE_LIST
+
+#include "lib/voxel.glsl"
+
+layout(binding = 0, r32ui) readonly uniform uimage3D key_image;
+
+/* An instance, in the order of draws. */
+struct voxelize_draw {
+    uint groups_x, groups_y, groups_z; /* a dispatch over its voxels */
+    uint first, count;                 /* of its voxels in the list */
+    uint listed;
+    uint first_triangle, triangles;    /* among all */
+};
+
+layout(std430, binding = LSF_BINDING_DRAWS) coherent buffer lsf_draw_block
+{
+    voxelize_draw draws[];
+};
+layout(std430, binding = LSF_BINDING_WON) coherent buffer lsf_won_block
+{
+    uint won[]; /* cells, packed as bricks are */
+};
+
+uint winner(ivec3 cell)
+{
+    const uint mask = (1u << LSF_VOXELIZE_ID_BITS) - 1u;
+    return mask - (imageLoad(key_image, cell).r & mask);
+}
+
+/* The draw whose triangle it is, by bisection. */
+uint draw_of(uint triangle)
+{
+    uint low = 0u, high = uint(draws.length());
+    for (int i = 0; i < 32 && high - low > 1u; i++) {
+        uint middle = (low + high) / 2u;
+        if (draws[middle].first_triangle <= triangle)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+#endif

@@ -1,0 +1,19 @@
+/* Where in the list each instance's voxels begin. */
+#include "passes/voxelize_list.glsl"
+
+layout(local_size_x = 1) in;
+
+void main()
+{
+    uint first = 0u, room = uint(won.length());
+    for (uint i = 0u; i < uint(draws.length()); i++) {
+        uint count = min(draws[i].count, room - first);
+        uint groups = (count + LSF_VOXELIZE_GROUP - 1u) / LSF_VOXELIZE_GROUP;
+        draws[i].groups_x = LSF_VOXEL_LIST_ROW;
+        draws[i].groups_y = (groups + LSF_VOXEL_LIST_ROW - 1u) / LSF_VOXEL_LIST_ROW;
+        draws[i].groups_z = 1u;
+        draws[i].first = first;
+        draws[i].count = count;
+        first += count;
+    }
+}

@@ -1,0 +1,70 @@
+/* The surface of the winning triangle of each voxel that the instance in turn has won. */
+#include "passes/voxelize.glsl"
+#include "passes/voxelize_list.glsl"
+
+layout(local_size_x = LSF_VOXELIZE_GROUP) in;
+
+layout(location = 25) uniform uint draw; /* the instance's place in the order of draws */
+
+layout(binding = 1, r32ui) writeonly uniform uimage3D albedo_image;
+layout(binding = 2, r32ui) writeonly uniform uimage3D normal_image;
+layout(binding = 3, r32ui) writeonly uniform uimage3D point_image;
+#if LSF_EMISSION
+layout(binding = 4, r32ui) writeonly uniform uimage3D emission_image;
+#endif
+#if LSF_GLOSS
+layout(binding = 5, r32ui) writeonly uniform uimage3D gloss_image;
+#endif
+
+void write_surface(voxel_triangle t, ivec3 cell)
+{
+    vec3 low = turned(vec3(cell), t.axis);
+    vec3 weights = closest_weights(t, low + 0.5);
+    surface s;
+    vec3 emission;
+    if (!surface_in(t, weights, s, emission))
+        return;
+    lsf_material_data material = triangle_material();
+    vec3 face = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;
+    if (range.w != 0u)
+        face = -face;
+    vec3 n = dot(s.geometric_normal, face) > 0.0 ? s.geometric_normal : normalize(face);
+    vec3 inside = t.a * weights.x + t.b * weights.y + t.c * weights.z - low;
+    inside = t.axis == 0 ? inside.zxy : t.axis == 1 ? inside.yzx : inside;
+    imageStore(albedo_image, cell,
+               uvec4(voxel_albedo_pack(s.unlit ? vec3(0.0) : s.base_color)));
+    float turn = 0.0;
+#if LSF_ANISOTROPY
+    vec3 basis_t, basis_b, along_t, along_b;
+    orthonormal_basis(s.normal, basis_t, basis_b);
+    float angle = 2.0 * LSF_PI * s.anisotropy_turn;
+    vec3 along = cos(angle) * basis_t + sin(angle) * basis_b;
+    orthonormal_basis(n, along_t, along_b);
+    turn = fract(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));
+#endif
+    imageStore(normal_image, cell, uvec4(voxel_normal_pack(n, turn)));
+    imageStore(point_image, cell,
+               uvec4(voxel_point_pack(inside, material_emits(material, false))));
+#if LSF_EMISSION
+    imageStore(emission_image, cell, uvec4(voxel_emission_pack(emission * grid.unit.y)));
+#endif
+#if LSF_GLOSS
+    float alpha = lsf_alpha_from_roughness(s.roughness);
+    float root = sqrt(s.f0); /* f0 = ((n - 1) / (n + 1))^2 */
+    imageStore(gloss_image, cell,
+               uvec4(packUnorm4x8(vec4(sqrt(lsf_alpha_along_tangent(alpha, s.anisotropy)),
+                                       s.roughness, root, s.metallic))));
+#endif
+}
+
+void main()
+{
+    uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * LSF_VOXEL_LIST_ROW;
+    uint at = group * LSF_VOXELIZE_GROUP + gl_LocalInvocationID.x;
+    if (at >= draws[draw].count)
+        return;
+    ivec3 cell = voxel_brick_unpack(won[draws[draw].first + at]);
+    voxel_triangle t;
+    if (triangle_load(winner(cell) - first_triangle, -1, t))
+        write_surface(t, cell);
+}
