@@ -29,8 +29,8 @@ static double room_light(const char *technique, const lsf_scene *scene, float ro
     const float eye[3] = {1.9f * room, 0.4f, -0.8f}, target[3] = {0.0f, -0.4f, 0.5f};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
     params.technique = technique;
-    params.width = params.height = 48;
-    params.samples = getenv("LSF_TEST_QUICK") ? 4 : 16;
+    params.width = params.height = 32;
+    params.samples = getenv("LSF_TEST_QUICK") ? 2 : 8;
     params.bounces = 2;
     params.camera_position = eye;
     params.camera_target = target;
@@ -42,7 +42,7 @@ static double room_light(const char *technique, const lsf_scene *scene, float ro
     for (uint32_t i = 0; i < image->width * image->height; i++)
         sum += (double)image->pixels[i * image->channel_count + 1];
     lsf_image_destroy(image);
-    return sum / (48.0 * 48.0);
+    return sum / (32.0 * 32.0);
 }
 
 static double leak(const char *technique, float thickness, const char *remedy)
@@ -58,22 +58,27 @@ static double leak(const char *technique, float thickness, const char *remedy)
     return dark / lit;
 }
 
+static const float walls[] = {0.5f, 1.0f, 2.0f, 4.0f};
+
+/* Voxels that look the same from both sides let light through, and so do wide cones where a texel
+ * of the pyramid reaches through the wall; cones that end where their axis meets a voxel do not. */
 static void cones(void **unused)
 {
     (void)unused;
-    leak("cone", 0.5f, NULL);
-    leak("cone", 1.0f, NULL);
-    assert_true(leak("cone", 2.0f, NULL) <= 1e-4);
-    assert_true(leak("cone", 4.0f, NULL) <= 1e-4);
+    for (size_t i = 0; i < 4; i++) {
+        double isotropic = leak("cone", walls[i], "cone.sides=isotropic");
+        double anisotropic = leak("cone", walls[i], NULL);
+        double sealed = leak("cone", walls[i], "cone.sealed=on");
+        assert_true(anisotropic < isotropic);
+        assert_true(walls[i] < 2.0f || sealed <= 1e-4);
+    }
 }
 
 static void paths(void **unused)
 {
     (void)unused;
-    leak("voxel_path", 0.5f, NULL);
-    leak("voxel_path", 1.0f, NULL);
-    assert_true(leak("voxel_path", 2.0f, NULL) <= 1e-4);
-    assert_true(leak("voxel_path", 4.0f, NULL) <= 1e-4);
+    for (size_t i = 0; i < 4; i++)
+        assert_true(leak("voxel_path", walls[i], NULL) <= (walls[i] < 2.0f ? 1e-3 : 1e-4));
 }
 
 int main(void)
