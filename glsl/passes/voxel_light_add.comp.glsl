@@ -38,7 +38,8 @@ void light_voxel(ivec3 cell)
     vec3 radiance = albedo * irradiance * (abs(cosine) / LSF_PI * grid.unit.y);
 #if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_AXES
     for (int axis = 0; axis < 3; axis++)
-        add(cell, lobe_slice(axis, side[axis]), side[axis] * side[axis] * radiance);
+        if (side[axis] != 0.0)
+            add(cell, lobe_slice(axis, side[axis]), side[axis] * side[axis] * radiance);
 #else
     add(cell, front ? 0 : 1, radiance);
 #endif

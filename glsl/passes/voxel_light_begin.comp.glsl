@@ -13,6 +13,8 @@ void light_voxel(ivec3 cell)
     vec3 n = voxel_normal_unpack(texelFetch(normal_texture, cell, 0).r);
     for (int axis = 0; axis < 3; axis++) {
         float share = n[axis] * n[axis];
+        if (share == 0.0)
+            continue; /* empty before, too */
         imageStore(radiance_image, slice_texel(cell, lobe_slice(axis, n[axis])),
                    share * vec4(front, 1.0));
         imageStore(radiance_image, slice_texel(cell, lobe_slice(axis, -n[axis])),
