@@ -4,12 +4,9 @@
 
 #include "math/sampling.h"
 #include "passes/ray_bundle_parts.h"
+#include "plan/purpose.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
-
-/* Purposes of lsf_iteration_seed. */
-#define SEED_TURN 0x10000
-#define SEED_SHIFT 0x10001
 
 /* Depth is kept in 2^16 steps; finer ones than a position's rounding, 2^-24, say nothing. */
 #define MIN_LENGTH 0x1p-8f
@@ -67,8 +64,8 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
 {
     float turn[2], shift[2], texels = (float)pass->params.resolution;
     uint32_t index = iteration->index * pass->use.count + bundle;
-    lsf_sobol_2d(index, lsf_iteration_seed(iteration, SEED_TURN), turn);
-    lsf_sobol_2d(index, lsf_iteration_seed(iteration, SEED_SHIFT), shift);
+    lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_TURN), turn);
+    lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_SHIFT), shift);
     lsf_float3 axes[3];
     axes[2] = lsf_f3_load(direction->direction);
     turned_axes(axes[2], turn[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);

@@ -1,4 +1,5 @@
 #include "passes/reflective_shadow_map.h"
+#include "plan/purpose.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -6,9 +7,6 @@
 #include "base/base.h"
 #include "math/vector.h"
 #include "shared/scene_data.h"
-
-/* Of its random numbers: past those of shadow maps. */
-#define FIRST_PURPOSE 0x20000
 
 /* Of the rows' shader: an invocation a row. */
 #define GROUP_SIZE 64
@@ -220,7 +218,8 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     static const GLfloat zero[4] = {0};
     const lsf_light_state *light = &iteration->state->lights[light_index];
     const lsf_reflective_shadow_map_target *target = &pass->targets[lsf_light_map_kind_of(light)];
-    const lsf_light_map_layout layout = {target->faces, target->resolution, FIRST_PURPOSE};
+    const lsf_light_map_layout layout = {target->faces, target->resolution,
+                                         LSF_PURPOSE_REFLECTIVE_SHADOW_MAP};
     lsf_reflective_shadow_map_outputs *out = &pass->outputs;
     lsf_timer_begin(pass->timer);
     lsf_light_map_project(&out->light, iteration, light_index, &layout);

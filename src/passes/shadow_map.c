@@ -1,4 +1,5 @@
 #include "passes/shadow_map.h"
+#include "plan/purpose.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,9 +12,6 @@
  * GL 4.5 promises this much. */
 #define MIN_SIDE 128
 #define MAX_SIDE 16384
-
-/* Of its random numbers. */
-#define FIRST_PURPOSE 1
 
 const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
     {"shadow.filter", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0, "none|pcf",
@@ -143,7 +141,7 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
                      const lsf_iteration *iteration, uint32_t light_index)
 {
     static const GLfloat zero[4] = {0};
-    const lsf_light_map_layout layout = {target->faces, target->resolution, FIRST_PURPOSE};
+    const lsf_light_map_layout layout = {target->faces, target->resolution, LSF_PURPOSE_SHADOW_MAP};
     struct lsf_light_data *data = &pass->outputs.light;
     lsf_timer_begin(pass->timer);
     lsf_light_map_project(data, iteration, light_index, &layout);

@@ -1,4 +1,5 @@
 #include "passes/voxel_path.h"
+#include "plan/purpose.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -6,9 +7,6 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "shared/scene_data.h"
-
-/* Of its random numbers. */
-#define PURPOSE_PATH 0x60000
 
 /* Side of the texture of random numbers, a power of two; as in the paper. */
 #define RANDOM_SIZE 512
@@ -87,7 +85,7 @@ static bool create_random(lsf_voxel_path *pass, const lsf_plan *plan, lsf_error 
     if (!numbers)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for random numbers");
     for (uint32_t i = 0; i < count; i++)
-        numbers[i] = lsf_random_float(PURPOSE_PATH, i);
+        numbers[i] = lsf_random_float(LSF_PURPOSE_VOXEL_PATH, i);
     glTextureSubImage2D(pass->random, 0, 0, 0, RANDOM_SIZE, RANDOM_SIZE, GL_RGBA, GL_FLOAT,
                         numbers);
     free(numbers);
@@ -162,7 +160,7 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
     bind_inputs(pass, iteration, inputs);
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
                 p->max_samples);
-    glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, PURPOSE_PATH));
+    glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_PATH));
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

@@ -1,4 +1,5 @@
 #include "passes/vpl.h"
+#include "plan/purpose.h"
 
 #include <string.h>
 
@@ -7,10 +8,6 @@
 #include "plan/light_map.h"
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
-
-/* Purposes of its random numbers, past those of shadow maps. */
-#define PURPOSE_DIRECTION 0x10000
-#define PURPOSE_TURN 0x10001
 
 /* Bytes from one VPL's map description to the next: a uniform buffer's offset is a multiple of at
  * most 256 (GL 4.5, table 23.64). The shader's array has the same stride. */
@@ -149,14 +146,14 @@ bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
 /* Of the map of VPL `index` of all iterations about its normal, 0..1. */
 static float turn_of(const lsf_iteration *iteration, uint32_t index)
 {
-    return lsf_sobol_1d(index, lsf_iteration_seed(iteration, PURPOSE_TURN));
+    return lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_TURN));
 }
 
 /* The VPLs of all iterations are one low-discrepancy sequence. */
 static lsf_vec4 random_of(const lsf_iteration *iteration, uint32_t index, float light_probability)
 {
     uint32_t point[2];
-    lsf_iteration_sample(iteration, index, PURPOSE_DIRECTION, point);
+    lsf_iteration_sample(iteration, index, LSF_PURPOSE_VPL_DIRECTION, point);
     return (lsf_vec4){lsf_unit_float(point[0]), lsf_unit_float(point[1]), turn_of(iteration, index),
                       light_probability};
 }

@@ -1,12 +1,10 @@
 #include "plan/coarse_grid.h"
+#include "plan/purpose.h"
 
 #include <math.h>
 
 #include "math/sampling.h"
 #include "shared/scene_data.h"
-
-/* Random numbers that pick the pixel of each block. */
-#define PURPOSE_OFFSET 0x70000
 
 uint32_t lsf_coarse_grid_length(uint32_t length, float scale)
 {
@@ -28,7 +26,8 @@ void lsf_coarse_grid_switch(lsf_plan *plan, uint32_t width, uint32_t height)
 lsf_coarse_grid lsf_coarse_grid_at(const lsf_iteration *iteration, uint32_t width, uint32_t height)
 {
     uint32_t bits[2];
-    lsf_sobol_2d_bits(iteration->index, lsf_iteration_seed(iteration, PURPOSE_OFFSET), bits);
+    lsf_sobol_2d_bits(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_COARSE_GRID),
+                      bits);
     return (lsf_coarse_grid){
         .width = width,
         .height = height,

@@ -1,14 +1,11 @@
 #include "plan/cone.h"
+#include "plan/purpose.h"
 
 #include <math.h>
 
 #include "math/sampling.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
-
-/* Purposes of its random numbers. */
-#define PURPOSE_TURN 0x70000
-#define PURPOSE_ELEVATION 0x70001
 
 const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
     {"cone.count", LSF_OPTION_INT, offsetof(lsf_cone_params, count), 1, LSF_CONE_MAX, NULL, "",
@@ -75,13 +72,13 @@ void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
     uint32_t index = iteration->index;
     float elevation = 0.5f;
     if (params->jitter)
-        elevation = lsf_sobol_1d(index, lsf_iteration_seed(iteration, PURPOSE_ELEVATION));
+        elevation = lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_ELEVATION));
     lsf_cone_set((uint32_t)params->count, elevation, cones);
     float coarser = exp2f((float)finest);
     glUniform4fv(LSF_LOCATION_CONE_SET, params->count, &cones[0].x);
     glUniform3f(LSF_LOCATION_CONE_TURN,
-                lsf_sobol_1d(index, lsf_iteration_seed(iteration, PURPOSE_TURN)), params->turn,
-                (float)params->count);
+                lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_TURN)),
+                params->turn, (float)params->count);
     glUniform4f(LSF_LOCATION_CONE, params->step, params->offset * coarser,
                 params->distance / grid->side, params->opacity);
     glUniform2i(LSF_LOCATION_CONE_LIMITS, most_steps(params, grid), (GLint)finest);

@@ -1,4 +1,5 @@
 #include "plan/iteration.h"
+#include "plan/purpose.h"
 
 #include <math.h>
 #include <string.h>
@@ -118,7 +119,7 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index)
 {
     float point[2];
     iteration->index = index;
-    lsf_sobol_2d(index, lsf_iteration_seed(iteration, 0), point);
+    lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_PIXEL), point);
     float x = (2.0f * point[0] - 1.0f) * iteration->view.size.z;
     float y = (2.0f * point[1] - 1.0f) * iteration->view.size.w;
     iteration->view.jitter = (lsf_vec4){x, y, 0.0f, 0.0f};

@@ -1,11 +1,9 @@
 #include "plan/voxel_grid.h"
+#include "plan/purpose.h"
 
 #include <math.h>
 
 #include "math/sampling.h"
-
-/* Of its random numbers. */
-#define PURPOSE_SHIFT 0x60000
 
 /* Of a 3D texture, that every device has (GL 4.5, table 23.53). */
 #define MAX_TEXTURE_DEPTH 2048
@@ -100,8 +98,10 @@ struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
 {
     float shift[3] = {0.5f, 0.5f, 0.5f}, point[2];
     if (grid->jitter) {
-        lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, PURPOSE_SHIFT), shift);
-        lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, PURPOSE_SHIFT + 1), point);
+        lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_SHIFT),
+                     shift);
+        lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_SHIFT + 1),
+                     point);
         shift[2] = point[0];
     }
     for (int axis = 0; axis < 3; axis++)

@@ -13,15 +13,11 @@
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl.h"
+#include "plan/purpose.h"
 #include "shared/scene_data.h"
 #include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
-
-/* Random numbers that pick the light of each sample. */
-#define PURPOSE_LIGHT 0x40000
-/* And those that pick a point on emissive surfaces. */
-#define PURPOSE_EMITTER 0x40001
 
 typedef struct bidirectional {
     lsf_context *context;
@@ -133,7 +129,7 @@ static void pick_lights(bidirectional *b, const lsf_iteration *iteration, uint32
     uint32_t picked = b->sampling.vpl_count > 0 ? b->sampling.vpl_count : count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t bits[2];
-        lsf_iteration_sample(iteration, iteration->index * picked + i, PURPOSE_LIGHT, bits);
+        lsf_iteration_sample(iteration, iteration->index * picked + i, LSF_PURPOSE_VPL_LIGHT, bits);
         b->lights[i] =
             i < picked
                 ? (uint32_t)lsf_distribution_sample(&b->light_picks, lsf_unit_double(bits[0]), NULL)
@@ -272,7 +268,7 @@ static void place_on_emitter(sample_turn *turn, uint32_t i)
     bidirectional *b = turn->b;
     uint32_t bits[2];
     lsf_iteration_sample(turn->iteration, turn->iteration->index * b->sampling.emitter_count + i,
-                         PURPOSE_EMITTER, bits);
+                         LSF_PURPOSE_VPL_EMITTER, bits);
     const double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
     lsf_emitter_sample sample = lsf_emitters_sample(&b->emitters, u);
     turn->emitter = b->vpl.first_emitter + i;

@@ -1,4 +1,5 @@
 #include "techniques/bundle_directions.h"
+#include "plan/purpose.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -6,8 +7,6 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "shared/brdf.h"
-
-#define PURPOSE_DIRECTION 0x30000
 
 static uint32_t cells_around(uint32_t map_width)
 {
@@ -141,7 +140,7 @@ void lsf_bundle_directions_draw(const lsf_bundle_directions *directions,
     for (uint32_t i = 0; i < count; i++) {
         uint32_t bits[2];
         uint32_t index = independent ? iteration->index : iteration->index * count + i;
-        uint32_t purpose = PURPOSE_DIRECTION + (independent ? i : 0);
+        uint32_t purpose = LSF_PURPOSE_BUNDLE_DIRECTION + (independent ? i : 0);
         lsf_iteration_sample(iteration, index, purpose, bits);
         lsf_float3 direction;
         drawn[i].pdf = 0.5f / LSF_PI;

@@ -1,0 +1,24 @@
+/* What random numbers are for: a purpose names a sequence of its own (lsf_iteration_seed), so that
+ * no two choices go together by accident. */
+#ifndef LSF_PLAN_PURPOSE_H
+#define LSF_PLAN_PURPOSE_H
+
+typedef enum lsf_purpose {
+    LSF_PURPOSE_PIXEL = 0,
+    LSF_PURPOSE_SHADOW_MAP = 1,                  /* turn and shift, two for each light */
+    LSF_PURPOSE_REFLECTIVE_SHADOW_MAP = 0x20000, /* the same */
+    LSF_PURPOSE_BUNDLE_DIRECTION = 0x40000,      /* one for each bundle of an iteration */
+    LSF_PURPOSE_BUNDLE_TURN = 0x60000,
+    LSF_PURPOSE_BUNDLE_SHIFT,
+    LSF_PURPOSE_VPL_DIRECTION,
+    LSF_PURPOSE_VPL_TURN,
+    LSF_PURPOSE_VPL_LIGHT,
+    LSF_PURPOSE_VPL_EMITTER,
+    LSF_PURPOSE_VOXEL_SHIFT, /* two */
+    LSF_PURPOSE_COARSE_GRID = LSF_PURPOSE_VOXEL_SHIFT + 2,
+    LSF_PURPOSE_VOXEL_PATH,
+    LSF_PURPOSE_CONE_TURN,
+    LSF_PURPOSE_CONE_ELEVATION,
+} lsf_purpose;
+
+#endif
