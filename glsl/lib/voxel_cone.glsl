@@ -1,4 +1,4 @@
-/* Marches a cone through the pyramid of radiance. Switches: LSF_SIDES as in voxel_mip; LSF_SEALED: cones
+/* Marches a cone through the pyramid of radiance. Switches: LSF_VOXEL_SIDES as in voxel_mip; LSF_SEALED: cones
  * end where their axis meets a voxel, and look at nothing behind it. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
@@ -31,10 +31,10 @@ struct cone_light {
     float transmittance; /* how much of the environment is seen */
 };
 
-#if LSF_SIDES > 1
+#if LSF_VOXEL_SIDES > 1
 vec4 cone_slice(vec2 place, float z, float slice, float level)
 {
-    return textureLod(radiance_texture, vec3(place, (z + slice) * (1.0 / float(LSF_SIDES))), level);
+    return textureLod(radiance_texture, vec3(place, (z + slice) * (1.0 / float(LSF_VOXEL_SIDES))), level);
 }
 #endif
 
@@ -48,7 +48,7 @@ vec3 cone_meet(ivec3 cell, vec3 direction)
 {
     int level = cone_limits.y;
     ivec3 texel = cell >> level;
-#if LSF_SIDES == 1
+#if LSF_VOXEL_SIDES == 1
     vec4 seen = texelFetch(radiance_texture, texel, level);
 #else
     int slab = int(grid.size.z) >> level;
@@ -79,7 +79,7 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
     vec3 tilt = abs(normal);
     float flatness = 1.0 / (1.5 * (tilt.x + tilt.y + tilt.z));
     float rise = dot(normal, direction);
-#if LSF_SIDES > 1
+#if LSF_VOXEL_SIDES > 1
     vec3 slice = vec3(0.0, 2.0, 4.0) + mix(vec3(0.0), vec3(1.0), lessThan(direction, vec3(0.0)));
 #endif
     float finest = exp2(float(cone_limits.y));
@@ -106,7 +106,7 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
         texel = exp2(level);
         float dt = cone_march.x * texel;
         vec3 p = start + (t + 0.5 * dt) * direction;
-#if LSF_SIDES == 1
+#if LSF_VOXEL_SIDES == 1
         vec4 seen = textureLod(radiance_texture, p / size, level);
         float clear =
             exp2(cone_march.x * log2(max(1.0 - cone_march.w * seen.a, CONE_CLEAR_MIN)));

@@ -84,7 +84,7 @@ void main()
         corner = voxel_brick_unpack(bricks[uint(LSF_VOXEL_LIST_HEADER) + at]) * LSF_VOXEL_BRICK;
         ivec3 cell = corner + cell_in_brick(self);
         if ((texelFetch(occupancy_voxels, occupancy_texel(cell), 0).r & occupancy_bit(cell)) != 0u) {
-#if LSF_SIDES == 1
+#if LSF_VOXEL_SIDES == 1
             sides[atomicAdd(side_count, 1u)] = self;
 #else
             uint first = atomicAdd(side_count, 2u);
@@ -107,7 +107,7 @@ void main()
             if (max(albedo.r, max(albedo.g, albedo.b)) > 0.0)
                 reflected = albedo * gather(place, n, cell_turn(cell));
         }
-#if LSF_SIDES == 1
+#if LSF_VOXEL_SIDES == 1
         write(cell, 0, 1.0, reflected);
 #else
         write(cell, n.x > 0.0 ? 1 : 0, n.x * n.x, reflected);

@@ -1,4 +1,4 @@
-/* A texel of a radiance pyramid's level from the eight below it. Switch LSF_SIDES: 1, where the
+/* A texel of a radiance pyramid's level from the eight below it. Switch LSF_VOXEL_SIDES: 1, where the
  * texel is their mean, or LSF_VOXEL_SIDES_AXES, where it is what one sees of them along the slice's
  * direction: the nearer of each pair before the farther, then the mean of the four pairs (Crassin,
  * Neyret, Sainz, Green and Eisemann 2011, "Interactive Indirect Illumination Using Voxel Cone
@@ -16,7 +16,7 @@ vec4 mip_pair(ivec3 front, ivec3 onward, int level)
 {
     vec4 near = texelFetch(radiance_texture, front, level);
     vec4 far = texelFetch(radiance_texture, front + onward, level);
-#if LSF_SIDES == 1
+#if LSF_VOXEL_SIDES == 1
     return near + far;
 #else
     return near + (1.0 - near.a) * far;
@@ -38,7 +38,7 @@ void mip_write(ivec3 cell, int side, int level, bool empty)
         sum = mip_pair(first, onward, level - 1) + mip_pair(first + u, onward, level - 1) +
               mip_pair(first + v, onward, level - 1) + mip_pair(first + u + v, onward, level - 1);
     }
-#if LSF_SIDES == 1
+#if LSF_VOXEL_SIDES == 1
     sum *= 0.125;
 #else
     sum *= 0.25;

@@ -10,7 +10,7 @@ void main()
     ivec3 texel = ivec3(gl_GlobalInvocationID);
     ivec3 size = ivec3(grid.size.xyz) >> level;
     int side = texel.z / size.z;
-    if (texel.x >= size.x || texel.y >= size.y || side >= LSF_SIDES)
+    if (texel.x >= size.x || texel.y >= size.y || side >= LSF_VOXEL_SIDES)
         return;
     mip_write(ivec3(texel.xy, texel.z - side * size.z), side, level, false);
 }

@@ -5,7 +5,14 @@
 #include "plan/coarse_grid.h"
 #include "plan/option.h"
 
+typedef enum lsf_blur_when {
+    LSF_BLUR_AUTO, /* in pictures of one sample: where iterations converge it would be a bias */
+    LSF_BLUR_ON,
+    LSF_BLUR_OFF,
+} lsf_blur_when;
+
 typedef struct lsf_blur_params {
+    int32_t when;   /* lsf_blur_when */
     int32_t phases; /* 0: no blur */
     float step;     /* between the taps of the first phase at the viewer [texels] */
     float ratio;    /* of a phase's step to that of the one before */
@@ -17,11 +24,15 @@ typedef struct lsf_blur_params {
 } lsf_blur_params;
 
 #define LSF_BLUR_PARAMS_DEFAULTS                                                                   \
-    .phases = 5, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f, .min_roughness = 0.1f,              \
-    .cutoff = 6.0f, .slope = 0.25f, .normal_weight = 4.0f
+    .when = LSF_BLUR_AUTO, .phases = 5, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f,              \
+    .min_roughness = 0.1f, .cutoff = 6.0f, .slope = 0.25f, .normal_weight = 4.0f
 
-#define LSF_BLUR_OPTION_COUNT 8
+#define LSF_BLUR_OPTION_COUNT 9
 extern const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT];
+
+/* Whether light is to be blurred; says so where it is a bias. */
+bool lsf_blur_wanted(const lsf_plan *plan, const lsf_blur_params *params);
+void lsf_blur_remark(lsf_plan *plan, const lsf_blur_params *params);
 
 /* All of the grid's size. */
 typedef struct lsf_blur_inputs {
@@ -47,7 +58,7 @@ typedef struct lsf_blur {
 } lsf_blur;
 
 /* Lists "blur_guide" and "blur" for light on a grid of width by height texels; leaves them out
- * without phases. Needs the G-buffer's plan. */
+ * where it is not wanted. Needs the G-buffer's plan. */
 void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width, uint32_t height);
 bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
                      const lsf_blur_params *params, lsf_error *error);

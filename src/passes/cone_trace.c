@@ -31,7 +31,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
                       r->specular ? ", and a specular one" : "");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
-    lsf_plan_switch_add(plan, "LSF_SIDES", (int)lsf_cone_slices(params), "cone.sides");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)lsf_cone_slices(params), "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: a cone is round");

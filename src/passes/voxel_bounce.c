@@ -19,7 +19,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     const lsf_requirements *r = &plan->requirements;
     uint32_t slices = lsf_cone_slices(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
-    lsf_plan_switch_add(plan, "LSF_SIDES", (int)slices, "cone.sides");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
@@ -34,7 +34,7 @@ bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const
                              lsf_error *error)
 {
     static const char *const files[5] = {"passes/voxel_bounce.comp.glsl"};
-    static const char *const clear_files[5] = {"passes/voxel_bounce_clear.comp.glsl"};
+    static const char *const clear_files[5] = {"passes/voxel_light_clear.comp.glsl"};
     *pass = (lsf_voxel_bounce){.context = context, .params = *params, .grid = *grid};
     if (!lsf_plan_create_texture(plan, context, "voxel_bounce.radiance", &pass->radiance, error))
         return false;

@@ -18,8 +18,6 @@ const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
      NULL, "paths", "that begin at a pixel of roughness 1"},
     {"voxel_path.sequence", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, sequence), 0, 0,
      "sobol|texture", "", "random numbers: of low discrepancy, or from a texture as in the paper"},
-    {"voxel_path.denoise", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, denoise), 0, 0,
-     "auto|on|off", "", "blurs what paths find; auto: in pictures of one sample"},
     {"voxel_path.scale", LSF_OPTION_FLOAT, offsetof(lsf_voxel_path_params, scale), 0.01, 1.0, NULL,
      "", "sides of the grid of pixels on which paths begin, to those of the picture"},
 };

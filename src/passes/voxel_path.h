@@ -11,24 +11,16 @@ typedef enum lsf_voxel_path_sequence {
     LSF_VOXEL_PATH_TEXTURE, /* a texture of plain random numbers, skewed along the depth */
 } lsf_voxel_path_sequence;
 
-typedef enum lsf_voxel_path_denoise {
-    LSF_VOXEL_PATH_DENOISE_AUTO, /* a picture of one iteration is blurred */
-    LSF_VOXEL_PATH_DENOISE_ON,
-    LSF_VOXEL_PATH_DENOISE_OFF,
-} lsf_voxel_path_denoise;
-
 typedef struct lsf_voxel_path_params {
     int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1 */
     int32_t sequence;                 /* lsf_voxel_path_sequence */
-    int32_t denoise;                  /* lsf_voxel_path_denoise */
     float scale;                      /* of the grid on which paths begin, to the picture's sides */
 } lsf_voxel_path_params;
 
 #define LSF_VOXEL_PATH_PARAMS_DEFAULTS                                                             \
-    .min_samples = 1, .max_samples = 6, .sequence = LSF_VOXEL_PATH_SOBOL,                          \
-    .denoise = LSF_VOXEL_PATH_DENOISE_AUTO, .scale = 1.0f
+    .min_samples = 1, .max_samples = 6, .sequence = LSF_VOXEL_PATH_SOBOL, .scale = 1.0f
 
-#define LSF_VOXEL_PATH_OPTION_COUNT 5
+#define LSF_VOXEL_PATH_OPTION_COUNT 4
 extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];
 
 /* Lengths of a path that the plan's bounces and light take; 0: nothing to find by paths. What

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/base.h"
+#include "passes/blur.h"
 #include "passes/compose.h"
 #include "passes/cone_trace.h"
 #include "passes/upsample_search.h"
@@ -41,6 +42,7 @@ typedef struct cone {
     lsf_voxel_mip mip;
     lsf_voxel_bounce bounce;
     lsf_cone_trace trace;
+    lsf_blur blur;
     lsf_upsample_search upsample;
     lsf_compose compose;
 } cone;
@@ -78,7 +80,9 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
         lsf_cone_trace_plan(plan, &params->cone, w.width, w.height);
+        lsf_blur_plan(plan, &params->blur, w.width, w.height);
         lsf_upsample_search_plan(plan, &params->upsample_search, w.width, w.height);
+        lsf_blur_remark(plan, &params->blur);
     } else {
         lsf_direct_chain_plan(plan, params, state);
         lsf_plan_omit(plan, "cone_trace", "no light bounces");
@@ -99,6 +103,8 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
            (c->way.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
+           (!lsf_blur_wanted(plan, &params->blur) ||
+            lsf_blur_create(&c->blur, context, plan, &params->blur, error)) &&
            (!c->way.coarse || lsf_upsample_search_create(&c->upsample, context, plan,
                                                          &params->upsample_search, error));
 }
@@ -186,10 +192,19 @@ static lsf_cone_trace_outputs trace(cone *c, const lsf_iteration *iteration)
         .occupancy = {c->chain.voxels->occupancy[0], c->chain.voxels->occupancy[1]},
         .radiance = light_voxels(c, iteration)};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
+    lsf_upsample_search_light light = {c->trace.outputs.irradiance, c->trace.outputs.specular};
+    if (c->blur.program) {
+        const lsf_blur_inputs patterned = {.grid = &grid,
+                                           .depth = points.depth,
+                                           .surface = points.surface,
+                                           .gloss = points.gloss,
+                                           .irradiance = light.irradiance,
+                                           .specular = light.specular};
+        lsf_blur_run(&c->blur, iteration, &patterned);
+        light = (lsf_upsample_search_light){c->blur.outputs.irradiance, c->blur.outputs.specular};
+    }
     if (!c->way.coarse)
-        return c->trace.outputs;
-    const lsf_upsample_search_light light = {c->trace.outputs.irradiance,
-                                             c->trace.outputs.specular};
+        return (lsf_cone_trace_outputs){light.irradiance, light.specular};
     lsf_upsample_search_run(&c->upsample, iteration, &all, &light);
     return (lsf_cone_trace_outputs){c->upsample.light.irradiance, c->upsample.light.specular};
 }
@@ -232,6 +247,7 @@ static void destroy_cone(void *self)
         return;
     lsf_compose_destroy(&c->compose);
     lsf_upsample_search_destroy(&c->upsample);
+    lsf_blur_destroy(&c->blur);
     lsf_cone_trace_destroy(&c->trace);
     lsf_voxel_bounce_destroy(&c->bounce);
     lsf_voxel_mip_destroy(&c->mip);
@@ -250,6 +266,8 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
         if (c->way.coarse)
             reports[count++] = (lsf_pass_report){.timer = c->upsample.split_timer};
         reports[count++] = (lsf_pass_report){.timer = c->trace.timer};
+        if (c->blur.program)
+            reports[count++] = (lsf_pass_report){.timer = c->blur.timer};
         if (c->way.coarse)
             reports[count++] = (lsf_pass_report){.timer = c->upsample.timer};
     }

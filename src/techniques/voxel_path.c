@@ -20,14 +20,6 @@ typedef struct voxel_path {
     uint32_t width, height; /* of the grid on which paths begin; 0: no paths */
 } voxel_path;
 
-static bool denoised(const lsf_plan *plan, const lsf_pass_params *params)
-{
-    int32_t denoise = params->voxel_path.denoise;
-    return params->blur.phases > 0 &&
-           (denoise == LSF_VOXEL_PATH_DENOISE_ON ||
-            (denoise == LSF_VOXEL_PATH_DENOISE_AUTO && plan->samples == 1));
-}
-
 /* No segments where there are no voxels to find. */
 static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *params,
                                    const lsf_state *state)
@@ -40,7 +32,7 @@ static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *
     if (lsf_voxel_chain_has_voxels(plan))
         use.segments = lsf_voxel_path_segments(plan, state->light_count > 0);
     use.split_direct = use.segments > 0 && (r->emissive || r->unlit || r->environment) &&
-                       (plan->aovs & layers) && !denoised(plan, params) &&
+                       (plan->aovs & layers) && !lsf_blur_wanted(plan, &params->blur) &&
                        !lsf_coarse_grid_is_coarse(plan, use.width, use.height);
     return use;
 }
@@ -52,10 +44,7 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params, const lsf_voxe
         lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
     if (use->segments == 0)
         return;
-    if (denoised(plan, params) && plan->samples > 1)
-        lsf_plan_remark(plan,
-                        "voxel_path.denoise=on blurs each iteration: the picture converges to "
-                        "a blurred one");
+    lsf_blur_remark(plan, &params->blur);
     if ((r->emissive || r->unlit || r->environment) && !use->split_direct &&
         (plan->aovs & (LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR)))
         lsf_plan_remark(plan,
@@ -69,14 +58,7 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_voxel_chain_plan(plan, params, state, &chain_use);
     if (use.segments > 0) {
         lsf_voxel_path_plan(plan, &params->voxel_path, &use);
-        if (denoised(plan, params))
-            lsf_blur_plan(plan, &params->blur, use.width, use.height);
-        else
-            lsf_plan_omit(plan, "blur", "%s",
-                          params->blur.phases == 0 ? "blur.phases is 0"
-                          : params->voxel_path.denoise == LSF_VOXEL_PATH_DENOISE_OFF
-                              ? "voxel_path.denoise is off"
-                              : "more than one sample: the picture converges without");
+        lsf_blur_plan(plan, &params->blur, use.width, use.height);
         lsf_upsample_search_plan(plan, &params->upsample_search, use.width, use.height);
     } else {
         lsf_plan_omit(plan, "voxel_path",
@@ -96,7 +78,7 @@ static bool create_paths(voxel_path *v, lsf_context *context, const lsf_plan *pl
     v->width = use->width;
     v->height = use->height;
     return lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, error) &&
-           (!denoised(plan, params) ||
+           (!lsf_blur_wanted(plan, &params->blur) ||
             lsf_blur_create(&v->blur, context, plan, &params->blur, error)) &&
            lsf_upsample_search_create(&v->upsample, context, plan, &params->upsample_search, error);
 }

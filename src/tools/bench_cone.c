@@ -17,7 +17,7 @@
 
 /* A grid that shifts is never the one before. */
 static const char *const frame_options[] = {"voxel.resolution=128", "voxel.jitter=on",
-                                            "cone.scale=0.5"};
+                                            "cone.scale=0.25", "blur.when=on", "shadow.filter=pcf"};
 
 static const lsf_bench_row rows[] = {
     {"G-buffer", NAN, {"gbuffer"}},
@@ -26,6 +26,7 @@ static const lsf_bench_row rows[] = {
     {"Light voxels", NAN, {"voxel_light", "voxel_bounce"}},
     {"Build pyramid", NAN, {"voxel_mip"}},
     {"Trace cones", NAN, {"upsample_search_split", "cone_trace"}},
+    {"Blur", NAN, {"blur"}},
     {"Upsample", NAN, {"upsample_search"}},
     {"Output", NAN, {"compose", "accumulate", "tonemap"}},
     {"Others", NAN, {NULL}},

@@ -14,7 +14,7 @@
 
 /* As the talk has it: what does not move is voxelised once, and every frame stands alone. */
 static const char *const common_options[] = {"voxel.resolution=128", "voxel.jitter=off",
-                                             "voxel_path.denoise=on"};
+                                             "blur.when=on"};
 enum { OPTIONS = LSF_COUNT(common_options) + 1 };
 
 /* The talk gives frames a second, of another atrium. */

@@ -20,6 +20,7 @@ static void rig_begin_view(rig *r, uint32_t width, uint32_t height, bool orthogr
 {
     memset(r, 0, sizeof *r);
     r->params = (lsf_blur_params){LSF_BLUR_PARAMS_DEFAULTS};
+    r->params.when = LSF_BLUR_ON;
     surface_rig_begin(&r->s, width, height, orthographic);
     r->in = calloc(width * height, sizeof *r->in);
     r->out = calloc(width * height, sizeof *r->out);

@@ -62,7 +62,7 @@ static const char *const coarse_grid[MAX_OPTIONS] = {"voxel.resolution=32"};
 static const char *const by_texture[MAX_OPTIONS] = {"voxel.resolution=32",
                                                     "voxel_path.sequence=texture"};
 static const char *const upsampled[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5"};
-static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.denoise=on"};
+static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "blur.when=on"};
 
 /* A closed box seen from inside, every wall emitting 1 and reflecting rho:
  * L = 1 + rho + ... + rho^(N + 1): emission seen, direct light of the walls, N bounces. Voxels hold
@@ -194,7 +194,7 @@ static void same_bits_again(void **unused)
     (void)unused;
     static const char *const threads[] = {"0", "1", "8"};
     static const char *const single[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5",
-                                                    "voxel_path.denoise=on"};
+                                                    "blur.when=on"};
     const char *const *const options[] = {coarse_grid, single};
     lsf_scene *scene = room(1.0f);
     for (int k = 0; k < 2; k++) {
@@ -300,7 +300,7 @@ static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
     static const char *const options[MAX_OPTIONS] = {"voxel.resolution=16", "voxel_path.scale=0.5",
-                                                     "voxel_path.denoise=on",
+                                                     "blur.when=on",
                                                      "voxel_path.sequence=texture"};
     lsf_scene *scene = room(1.0f);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
