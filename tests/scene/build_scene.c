@@ -45,6 +45,11 @@ void destroy_scene(lsf_scene *scene)
         free(scene->images[i].name);
         free(scene->images[i].texels);
     }
+    for (uint32_t i = 0; i < scene->channel_count; i++) {
+        free(scene->channels[i].times);
+        free(scene->channels[i].values);
+    }
+    free(scene->channels);
     free(scene->cameras[0].name);
     free(scene->cameras);
     free(scene->vertices.position);
