@@ -73,7 +73,6 @@ static void plan_vpl(lsf_plan *plan, const lsf_bidirectional_shade_params *param
 static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
                      const lsf_bidirectional_shade_use *use, bool deep)
 {
-    const lsf_requirements *r = &plan->requirements;
     lsf_plan_pass_add(plan, hit_names[deep], "%s",
                       deep ? "what later segments of a path bring" : "what bundles bring");
     plan_switches(plan, params, use, false, deep);
@@ -85,9 +84,7 @@ static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *param
                         lsf_plan_find_pass(plan, "reflective_shadow_map_pdf") != NULL,
                         "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_PUNCTUAL", use->hit_light, "hits reflect punctual lights");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
-                        "the environment is a map");
+    lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct && !deep,
                         "direct light is asked for apart");
     lsf_plan_switch_add(plan, "LSF_CONTINUE", use->vertices > (deep ? 1u : 0u),
@@ -314,10 +311,7 @@ void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iterat
     set_sample(pass, sample, deep);
     glBindTextureUnit(4, inputs->hits);
     glBindTextureUnit(LSF_UNIT_EMISSION, inputs->importance);
-    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
-    const lsf_environment *environment = &iteration->scene->scene->environment;
-    if (environment->present && !environment->width)
-        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    lsf_scene_gpu_bind_environment(iteration->scene);
     glUniform4f(LSF_LOCATION_ADDED, emission, light, sample->path_count, sample->emitter_weight);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);

@@ -28,9 +28,7 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: lobes were evaluated before");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment is seen");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
-                        "the environment is a map");
+    lsf_scene_gpu_environment_switches(plan, "an environment is seen");
     lsf_plan_texture_add(plan, "compose.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the iteration's picture");
     int target = 1;
@@ -84,10 +82,7 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     glBindTextureUnit(6, inputs->specular);
     glBindTextureUnit(7, inputs->direct_irradiance);
     glBindTextureUnit(8, inputs->direct_specular);
-    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
-    const lsf_environment *environment = &iteration->scene->scene->environment;
-    if (environment->present && !environment->width)
-        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    lsf_scene_gpu_bind_environment(iteration->scene);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

@@ -36,9 +36,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: a cone is round");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
-                        "the environment is a map");
+    lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_texture_add(plan, "cone_trace.irradiance", GL_RGBA32F, width, height,
                          "light for the diffuse lobe, without its albedo");
     if (!r->specular)
@@ -130,12 +128,9 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     for (GLuint level = 0; level < 2; level++)
         glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, 0);
-    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
+    lsf_scene_gpu_bind_environment(iteration->scene);
     if (pass->lobe_albedo)
         glUniform1f(LOCATION_LOBE, LOBE_SPREAD);
-    const lsf_environment *environment = &iteration->scene->scene->environment;
-    if (environment->present && !environment->width)
-        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

@@ -16,14 +16,11 @@
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
                            const lsf_voxel_grid *grid)
 {
-    const lsf_requirements *r = &plan->requirements;
     uint32_t slices = lsf_cone_slices(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "an environment shines");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
-                        "the environment is a map");
+    lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     lsf_voxel_texture_plan(plan, grid, "voxel_bounce.radiance", GL_RGBA16F, slices,
                            LSF_VOXEL_LEVELS, "radiance of voxels with what they reflect");
@@ -85,10 +82,7 @@ void lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration
     if (sum->source)
         lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source,
                       sum->source == pass->radiance ? FINEST_READ_OF_OWN : 0);
-    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
-    const lsf_environment *environment = &iteration->scene->scene->environment;
-    if (environment->present && !environment->width)
-        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    lsf_scene_gpu_bind_environment(iteration->scene);
     dispatch(pass, inputs->bricks);
     lsf_timer_end(pass->timer);
 }

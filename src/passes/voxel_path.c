@@ -47,9 +47,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
     lsf_plan_switch_add(plan, "LSF_EMISSION", emission, "some material emits or is unlit");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "paths may leave the scene");
-    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
-                        "the environment is a map");
+    lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
@@ -136,10 +134,7 @@ static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iterati
     glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->voxel_gloss);
     glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     glBindTextureUnit(LSF_UNIT_PATH_RANDOM, pass->random);
-    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, iteration->scene->environment);
-    const lsf_environment *environment = &iteration->scene->scene->environment;
-    if (environment->present && !environment->width)
-        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    lsf_scene_gpu_bind_environment(iteration->scene);
 }
 
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,

@@ -98,6 +98,14 @@ void lsf_scene_gpu_mask_switches(lsf_plan *plan)
                         "masked primitives have vertex colours");
 }
 
+void lsf_scene_gpu_environment_switches(lsf_plan *plan, const char *why)
+{
+    const lsf_requirements *r = &plan->requirements;
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT", r->environment, "%s", why);
+    lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
+                        "the environment is a map");
+}
+
 void lsf_scene_gpu_plan_triangles(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -418,6 +426,14 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
         }
     }
     unbind_samplers(gpu);
+}
+
+void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu)
+{
+    const lsf_environment *environment = &gpu->scene->environment;
+    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, gpu->environment);
+    if (environment->present && !environment->width)
+        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
 }
 
 void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material, lsf_draw_mode mode)

@@ -36,6 +36,9 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission);
 /* Adds those of lib/mask.glsl. */
 void lsf_scene_gpu_mask_switches(lsf_plan *plan);
 
+/* Adds LSF_ENVIRONMENT, with the reason `why`, and that of lib/environment.glsl. */
+void lsf_scene_gpu_environment_switches(lsf_plan *plan, const char *why);
+
 /* Lists a table of the scene's triangles for shaders that fetch them themselves, unless the scene
  * is larger than such shaders can read on any device. */
 void lsf_scene_gpu_plan_triangles(lsf_plan *plan);
@@ -62,6 +65,9 @@ extern const char *const lsf_draw_count_names[LSF_DRAW_COUNTS];
  * framebuffer, and adds to `counts` (LSF_DRAW_COUNTS of them). */
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
                         const lsf_draw_region *region, uint64_t *counts);
+
+/* For lib/environment.glsl in the program in use. */
+void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu);
 
 /* For passes that rasterise by themselves: a material as shaders have it; its textures, bound as
  * `mode` says; and draws of triangles that such a pass lists in `buffer`: a
