@@ -302,6 +302,17 @@ lsf_context_info lsf_context_get_info(const lsf_context *context)
     };
 }
 
+void lsf_begin_fullscreen(GLuint framebuffer, uint32_t width, uint32_t height, GLuint program)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, (GLsizei)width, (GLsizei)height);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glUseProgram(program);
+}
+
 void lsf_draw_fullscreen(lsf_context *context)
 {
     glBindVertexArray(context->empty_vertex_array);

@@ -39,9 +39,9 @@ const char *lsf_format_name(GLenum internal_format); /* "GL_RGBA16F" */
 typedef struct lsf_framebuffer_desc {
     const char *label;
     uint32_t color_count;
-    GLuint colors[8]; /* textures */
-    GLuint depth;     /* texture, 0: none */
-    int32_t layer;    /* -1: whole textures (layered rendering); else one layer of each */
+    GLuint colors[8];       /* textures */
+    GLuint depth;           /* texture, 0: none */
+    int32_t layer;          /* -1: whole textures (layered rendering); else one layer of each */
     uint32_t width, height; /* of one without attachments, whose shaders write buffers; else 0 */
 } lsf_framebuffer_desc;
 GLuint lsf_framebuffer_create(lsf_context *context, const lsf_framebuffer_desc *desc,
@@ -80,6 +80,9 @@ typedef struct lsf_program_desc {
  * declaration. */
 GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error);
 
+/* Before lsf_draw_fullscreen: every texel of the framebuffer up to that size is replaced, without
+ * depth test, culling and blending, by what the program gives. */
+void lsf_begin_fullscreen(GLuint framebuffer, uint32_t width, uint32_t height, GLuint program);
 /* Draws one triangle that covers the viewport with an empty vertex array. Pair with
  * "lib/fullscreen.vert.glsl". */
 void lsf_draw_fullscreen(lsf_context *context);

@@ -113,20 +113,10 @@ bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
     return pass->guide_program && pass->program && pass->timer;
 }
 
-static void begin_draw(const lsf_coarse_grid *grid, GLuint framebuffer, GLuint program)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, (GLsizei)grid->width, (GLsizei)grid->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(program);
-}
-
 static void make_guide(lsf_blur *pass, const lsf_blur_inputs *inputs)
 {
-    begin_draw(inputs->grid, pass->guide_framebuffer, pass->guide_program);
+    lsf_begin_fullscreen(pass->guide_framebuffer, inputs->grid->width, inputs->grid->height,
+                         pass->guide_program);
     lsf_coarse_grid_set(inputs->grid);
     glBindTextureUnit(0, inputs->depth);
     glBindTextureUnit(1, inputs->surface);
@@ -139,7 +129,7 @@ static void blur_along(lsf_blur *pass, const lsf_coarse_grid *grid, int phase, i
                        GLuint framebuffer, GLuint irradiance, GLuint specular)
 {
     const lsf_blur_params *p = &pass->params;
-    begin_draw(grid, framebuffer, pass->program);
+    lsf_begin_fullscreen(framebuffer, grid->width, grid->height, pass->program);
     glBindTextureUnit(3, irradiance);
     glBindTextureUnit(4, specular);
     glUniform3i(0, x, y, phase);

@@ -67,13 +67,8 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
                      const lsf_compose_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
+                         pass->program);
     glBindTextureUnit(0, inputs->depth);
     glBindTextureUnit(1, inputs->emission);
     glBindTextureUnit(2, inputs->direct);

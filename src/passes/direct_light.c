@@ -48,11 +48,8 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
                           const lsf_direct_light_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
+                         pass->program);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE);
@@ -61,7 +58,6 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     glBindTextureUnit(2, inputs->gloss);
     glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
     glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
-    glUseProgram(pass->program);
     lsf_draw_fullscreen(pass->context);
     glDisable(GL_BLEND);
     lsf_timer_end(pass->timer);

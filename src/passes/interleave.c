@@ -144,13 +144,8 @@ bool lsf_interleave_create(lsf_interleave *pass, lsf_context *context, const lsf
 
 static void begin_draw(const lsf_iteration *iteration, GLuint framebuffer, GLuint program)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(program);
+    const lsf_plan *plan = iteration->plan;
+    lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
 }
 
 static void bind_points(const lsf_interleave_points *points)

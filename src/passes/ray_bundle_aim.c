@@ -92,13 +92,10 @@ static void fit(lsf_ray_bundle *pass, const lsf_iteration *iteration, GLuint dep
 {
     const lsf_plan *plan = iteration->plan;
     lsf_timer_begin(pass->bounds_timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->tiles_framebuffer);
-    glViewport(0, 0, (GLsizei)((plan->width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE),
-               (GLsizei)((plan->height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE));
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
+    lsf_begin_fullscreen(
+        pass->tiles_framebuffer, (plan->width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
+        (plan->height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE, pass->tiles_program);
     glBindTextureUnit(0, depth);
-    glUseProgram(pass->tiles_program);
     glUniform1i(0, LSF_BUNDLE_TILE * LSF_BUNDLE_TILE);
     lsf_draw_fullscreen(pass->context);
     glBindTextureUnit(0, pass->tiles);

@@ -28,13 +28,7 @@ bool lsf_tonemap_create(lsf_tonemap *pass, lsf_context *context, const lsf_plan 
 void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure)
 {
     lsf_timer_begin(pass->timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)pass->width, (GLsizei)pass->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, pass->width, pass->height, pass->program);
     glUniform1f(0, exp2f(exposure));
     glBindTextureUnit(0, radiance);
     lsf_draw_fullscreen(pass->context);

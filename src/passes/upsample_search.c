@@ -107,23 +107,13 @@ bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
     return pass->split_timer && pass->timer;
 }
 
-static void begin_draw(uint32_t width, uint32_t height, GLuint framebuffer, GLuint program)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, (GLsizei)width, (GLsizei)height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(program);
-}
-
 void lsf_upsample_search_split(lsf_upsample_search *pass, const lsf_iteration *iteration,
                                const lsf_upsample_search_points *gbuffer)
 {
     lsf_timer_begin(pass->split_timer);
     pass->grid = lsf_coarse_grid_at(iteration, pass->grid.width, pass->grid.height);
-    begin_draw(pass->grid.width, pass->grid.height, pass->split_framebuffer, pass->split_program);
+    lsf_begin_fullscreen(pass->split_framebuffer, pass->grid.width, pass->grid.height,
+                         pass->split_program);
     lsf_coarse_grid_set(&pass->grid);
     glBindTextureUnit(0, gbuffer->depth);
     glBindTextureUnit(1, gbuffer->surface);
@@ -137,8 +127,8 @@ void lsf_upsample_search_run(lsf_upsample_search *pass, const lsf_iteration *ite
                              const lsf_upsample_search_light *coarse_light)
 {
     lsf_timer_begin(pass->timer);
-    begin_draw(iteration->plan->width, iteration->plan->height, pass->light_framebuffer,
-               pass->program);
+    lsf_begin_fullscreen(pass->light_framebuffer, iteration->plan->width, iteration->plan->height,
+                         pass->program);
     lsf_coarse_grid_set(&pass->grid);
     const GLuint textures[6] = {gbuffer->depth,           gbuffer->surface,
                                 pass->coarse.depth,       pass->coarse.surface,

@@ -59,13 +59,8 @@ void lsf_voxel_view_run(lsf_voxel_view *pass, const lsf_iteration *iteration,
                         const lsf_voxel_view_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
+                         pass->program);
     glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
     glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
     glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
