@@ -2,13 +2,9 @@
  * no view rays. See src/passes/blur.md. */
 #include "lib/coarse.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/gbuffer_textures.glsl"
 #include "passes/blur_texel.glsl"
 
-layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform usampler2D surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2D gloss_texture;
-#endif
 layout(location = 0) out uvec4 guide_out;
 
 layout(location = 0) uniform vec2 brackets; /* min_roughness, phases */

@@ -1,14 +1,9 @@
 /* Light that one punctual light sends to the eye by one reflection: f V E, added to the target. */
 #include "lib/brdf.glsl"
+#include "lib/gbuffer_textures.glsl"
 #include "lib/light.glsl"
 #include "lib/shadow.glsl"
 #include "lib/view.glsl"
-
-layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform usampler2D surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2D gloss_texture;
-#endif
 
 layout(location = 0) out vec4 radiance_out;
 

@@ -1,13 +1,9 @@
 /* Cross-bilateral filter along one axis, guided by the G-buffer; the weights are derived in
  * src/passes/interleave.md. Switch LSF_INTERLEAVE, the size of the pattern. */
 #include "lib/gbuffer.glsl"
+#include "lib/gbuffer_textures.glsl"
 #include "lib/view.glsl"
 
-layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform usampler2D surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2D gloss_texture;
-#endif
 layout(binding = 3) uniform sampler2D irradiance_texture;
 layout(location = 0) out vec4 irradiance_out;
 #if LSF_SPECULAR
