@@ -327,6 +327,19 @@ void lsf_draw_fullscreen_indirect(lsf_context *context, GLuint buffer)
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
+void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program)
+{
+    glViewport(0, 0, (GLsizei)width, (GLsizei)height);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    glUseProgram(program);
+}
+
 void lsf_draw_vertices(lsf_context *context, uint32_t count)
 {
     glBindVertexArray(context->empty_vertex_array);

@@ -45,14 +45,15 @@ GLuint lsf_framebuffer_create(lsf_context *context, const lsf_framebuffer_desc *
     GLuint framebuffer = 0;
     glCreateFramebuffers(1, &framebuffer);
     GLenum buffers[LSF_COUNT(desc->colors)] = {GL_NONE};
-    for (uint32_t i = 0; i < desc->color_count; i++) {
-        buffers[i] = GL_COLOR_ATTACHMENT0 + i;
-        attach(framebuffer, buffers[i], desc->colors[i], desc->layer);
-    }
+    uint32_t colors = 0;
+    for (uint32_t i = 0; i < desc->color_count; i++)
+        if (desc->colors[i]) {
+            buffers[colors] = GL_COLOR_ATTACHMENT0 + colors;
+            attach(framebuffer, buffers[colors++], desc->colors[i], desc->layer);
+        }
     if (desc->depth)
         attach(framebuffer, GL_DEPTH_ATTACHMENT, desc->depth, desc->layer);
-    glNamedFramebufferDrawBuffers(framebuffer, desc->color_count ? (GLsizei)desc->color_count : 1,
-                                  buffers);
+    glNamedFramebufferDrawBuffers(framebuffer, colors ? (GLsizei)colors : 1, buffers);
     glNamedFramebufferReadBuffer(framebuffer, buffers[0]);
     if (desc->width) {
         glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, (GLint)desc->width);

@@ -39,7 +39,7 @@ const char *lsf_format_name(GLenum internal_format); /* "GL_RGBA16F" */
 typedef struct lsf_framebuffer_desc {
     const char *label;
     uint32_t color_count;
-    GLuint colors[8];       /* textures */
+    GLuint colors[8];       /* textures; those that are 0 are left out, without a gap */
     GLuint depth;           /* texture, 0: none */
     int32_t layer;          /* -1: whole textures (layered rendering); else one layer of each */
     uint32_t width, height; /* of one without attachments, whose shaders write buffers; else 0 */
@@ -90,6 +90,10 @@ void lsf_draw_fullscreen(lsf_context *context);
 void lsf_draw_fullscreen_indirect(lsf_context *context, GLuint buffer);
 /* Draws triangles of `count` vertices that the vertex shader makes from gl_VertexID alone. */
 void lsf_draw_vertices(lsf_context *context, uint32_t count);
+
+/* Before surfaces are drawn: of those in a texel the nearest stays. Depth is reversed: the greater,
+ * the nearer. */
+void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program);
 
 /* --- pass groups and time --- */
 

@@ -130,16 +130,6 @@ void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_
                "roughness of vertices");
 }
 
-static GLuint create_framebuffer(lsf_context *context, const char *label, const GLuint *textures,
-                                 uint32_t count, lsf_error *error)
-{
-    lsf_framebuffer_desc desc = {.label = label, .layer = -1};
-    for (uint32_t i = 0; i < count; i++)
-        if (textures[i])
-            desc.colors[desc.color_count++] = textures[i];
-    return lsf_framebuffer_create(context, &desc, error);
-}
-
 static bool create_textures(lsf_bidirectional_shade *pass, const lsf_plan *plan, lsf_error *error)
 {
     lsf_bidirectional_shade_outputs *out = &pass->outputs;
@@ -173,18 +163,17 @@ static bool create_hit(lsf_bidirectional_shade *pass, const lsf_plan *plan, bool
     const lsf_bidirectional_shade_outputs *out = &pass->outputs;
     bool split = lsf_plan_switch_value(plan, hit_names[deep], "LSF_SPLIT_DIRECT");
     bool onward = lsf_plan_switch_value(plan, hit_names[deep], "LSF_CONTINUE");
-    const GLuint textures[8] = {out->irradiance,
-                                out->specular,
-                                split ? out->direct_irradiance : 0,
-                                split ? out->direct_specular : 0,
-                                onward ? out->position : 0,
-                                onward ? out->surface : 0,
-                                onward ? pass->throughput : 0,
-                                onward ? out->gloss : 0};
+    lsf_framebuffer_desc desc = {.label = hit_names[deep],
+                                 .color_count = 8,
+                                 .colors = {out->irradiance, out->specular,
+                                            split ? out->direct_irradiance : 0,
+                                            split ? out->direct_specular : 0,
+                                            onward ? out->position : 0, onward ? out->surface : 0,
+                                            onward ? pass->throughput : 0, onward ? out->gloss : 0},
+                                 .layer = -1};
     for (uint32_t i = 0; i < 4; i++)
-        pass->hit_floats[deep] += textures[i] != 0;
-    pass->hit_framebuffers[deep] =
-        create_framebuffer(pass->context, hit_names[deep], textures, 8, error);
+        pass->hit_floats[deep] += desc.colors[i] != 0;
+    pass->hit_framebuffers[deep] = lsf_framebuffer_create(pass->context, &desc, error);
     pass->hit_programs[deep] = lsf_plan_program(plan, pass->context, hit_names[deep], files, error);
     return pass->hit_framebuffers[deep] && pass->hit_programs[deep];
 }
@@ -205,8 +194,11 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
     for (int direct = 0; direct < 2; direct++) {
         if (!sums[direct][0])
             continue;
-        pass->vpl_framebuffers[direct] =
-            create_framebuffer(context, vpl_names[0], sums[direct], 2, error);
+        lsf_framebuffer_desc desc = {.label = vpl_names[0],
+                                     .color_count = 2,
+                                     .colors = {sums[direct][0], sums[direct][1]},
+                                     .layer = -1};
+        pass->vpl_framebuffers[direct] = lsf_framebuffer_create(context, &desc, error);
         if (!pass->vpl_framebuffers[direct])
             return false;
     }

@@ -78,9 +78,8 @@ void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width
 static GLuint create_framebuffer(lsf_context *context, const char *label, GLuint first,
                                  GLuint second, lsf_error *error)
 {
-    lsf_framebuffer_desc desc = {.label = label, .layer = -1, .color_count = 1, .colors = {first}};
-    if (second)
-        desc.colors[desc.color_count++] = second;
+    lsf_framebuffer_desc desc = {
+        .label = label, .layer = -1, .color_count = 2, .colors = {first, second}};
     return lsf_framebuffer_create(context, &desc, error);
 }
 

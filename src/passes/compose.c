@@ -52,11 +52,11 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
                                  error) ||
         !lsf_plan_create_texture(plan, context, "compose.direct", &pass->direct, error))
         return false;
-    const GLuint textures[4] = {pass->radiance, pass->seen, pass->indirect_diffuse, pass->direct};
-    lsf_framebuffer_desc desc = {.label = "compose", .layer = -1};
-    for (int i = 0; i < 4; i++)
-        if (textures[i])
-            desc.colors[desc.color_count++] = textures[i];
+    lsf_framebuffer_desc desc = {
+        .label = "compose",
+        .color_count = 4,
+        .colors = {pass->radiance, pass->seen, pass->indirect_diffuse, pass->direct},
+        .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "compose", files, error);
     pass->timer = lsf_timer_create(context, "compose", error);

@@ -78,11 +78,11 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
         !lsf_plan_create_texture(plan, context, "gbuffer.emission", &out->emission, error) ||
         !lsf_plan_create_texture(plan, context, "gbuffer.motion", &out->motion, error))
         return false;
-    lsf_framebuffer_desc desc = {.label = "gbuffer", .depth = out->depth, .layer = -1};
-    const GLuint colors[] = {out->surface, out->gloss, out->emission, out->motion};
-    for (size_t i = 0; i < LSF_COUNT(colors); i++)
-        if (colors[i])
-            desc.colors[desc.color_count++] = colors[i];
+    lsf_framebuffer_desc desc = {.label = "gbuffer",
+                                 .color_count = 4,
+                                 .colors = {out->surface, out->gloss, out->emission, out->motion},
+                                 .depth = out->depth,
+                                 .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "gbuffer", files, error);
     pass->timer = lsf_timer_create(context, "gbuffer", error);
@@ -100,14 +100,7 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
     static const GLfloat zero[4] = {0};
     lsf_timer_begin(pass->timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthFunc(GL_GREATER);
+    lsf_begin_surfaces(iteration->plan->width, iteration->plan->height, pass->program);
     GLint at = 0;
     glClearNamedFramebufferfv(pass->framebuffer, GL_DEPTH, 0, zero);
     glClearNamedFramebufferuiv(pass->framebuffer, GL_COLOR, at++, zero_uint);
@@ -117,7 +110,6 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
     if (pass->outputs.motion)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
-    glUseProgram(pass->program);
     lsf_draw_region region;
     lsf_iteration_region(iteration, &region);
     lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region, pass->counts);

@@ -77,16 +77,6 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
               "filtered along x");
 }
 
-static GLuint create_framebuffer(lsf_context *context, const char *label, const GLuint textures[3],
-                                 lsf_error *error)
-{
-    lsf_framebuffer_desc desc = {.label = label, .layer = -1};
-    for (int i = 0; i < 3; i++)
-        if (textures[i])
-            desc.colors[desc.color_count++] = textures[i];
-    return lsf_framebuffer_create(context, &desc, error);
-}
-
 static bool create_filter(lsf_interleave *pass, const lsf_plan *plan, lsf_error *error)
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl",
@@ -96,9 +86,11 @@ static bool create_filter(lsf_interleave *pass, const lsf_plan *plan, lsf_error 
         !lsf_plan_create_texture(plan, pass->context, "interleave.between_specular",
                                  &pass->between.specular, error))
         return false;
-    const GLuint textures[3] = {pass->between.irradiance, pass->between.specular};
-    pass->between_framebuffer =
-        create_framebuffer(pass->context, "interleave_filter", textures, error);
+    lsf_framebuffer_desc desc = {.label = "interleave_filter",
+                                 .color_count = 2,
+                                 .colors = {pass->between.irradiance, pass->between.specular},
+                                 .layer = -1};
+    pass->between_framebuffer = lsf_framebuffer_create(pass->context, &desc, error);
     pass->filter_program = lsf_plan_program(plan, pass->context, "interleave_filter", files, error);
     pass->filter_timer = lsf_timer_create(pass->context, "interleave_filter", error);
     return pass->between_framebuffer && pass->filter_program && pass->filter_timer;
@@ -125,10 +117,17 @@ bool lsf_interleave_create(lsf_interleave *pass, lsf_context *context, const lsf
     for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
         if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
             return false;
-    const GLuint points[3] = {pass->split.depth, pass->split.surface, pass->split.gloss};
-    const GLuint light[3] = {pass->light.irradiance, pass->light.specular};
-    pass->split_framebuffer = create_framebuffer(context, "interleave_split", points, error);
-    pass->light_framebuffer = create_framebuffer(context, "interleave_gather", light, error);
+    lsf_framebuffer_desc points = {
+        .label = "interleave_split",
+        .color_count = 3,
+        .colors = {pass->split.depth, pass->split.surface, pass->split.gloss},
+        .layer = -1};
+    lsf_framebuffer_desc light = {.label = "interleave_gather",
+                                  .color_count = 2,
+                                  .colors = {pass->light.irradiance, pass->light.specular},
+                                  .layer = -1};
+    pass->split_framebuffer = lsf_framebuffer_create(context, &points, error);
+    pass->light_framebuffer = lsf_framebuffer_create(context, &light, error);
     if (!pass->split_framebuffer || !pass->light_framebuffer)
         return false;
     pass->split_program = lsf_plan_program(plan, context, "interleave_split", split_files, error);

@@ -137,7 +137,7 @@ static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context 
     target->resolution = resource->texture.width;
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_framebuffer_desc desc = {.label = name,
-                                     .color_count = target->gloss ? 3 : 2,
+                                     .color_count = 3,
                                      .colors = {target->gradient, target->surface, target->gloss},
                                      .depth = target->depth,
                                      .layer = (int32_t)face};
@@ -225,15 +225,7 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     lsf_light_map_project(&out->light, iteration, light_index, &layout);
     glNamedBufferSubData(out->light_buffer, 0, sizeof out->light, &out->light);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->light_buffer);
-    glViewport(0, 0, (GLsizei)target->resolution, (GLsizei)target->resolution);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthFunc(GL_GREATER);
-    glUseProgram(pass->program);
+    lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
         lsf_light_map_region(&out->light, face, &region);

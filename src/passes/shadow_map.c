@@ -107,7 +107,7 @@ static bool create_target(lsf_shadow_map_target *target, lsf_context *context, c
         return false;
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_framebuffer_desc desc = {.label = depth_name,
-                                     .color_count = target->gradient ? 1 : 0,
+                                     .color_count = 1,
                                      .colors = {target->gradient},
                                      .depth = target->depth,
                                      .layer = (int32_t)face};
@@ -147,15 +147,7 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
     lsf_light_map_project(data, iteration, light_index, &layout);
     glNamedBufferSubData(pass->outputs.light_buffer, 0, sizeof *data, data);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, pass->outputs.light_buffer);
-    glViewport(0, 0, (GLsizei)target->resolution, (GLsizei)target->resolution);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthFunc(GL_GREATER);
-    glUseProgram(pass->program);
+    lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
         lsf_light_map_region(data, face, &region);

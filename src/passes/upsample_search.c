@@ -54,16 +54,6 @@ void lsf_upsample_search_plan(lsf_plan *plan, const lsf_upsample_search_params *
                              plan->height, "upsampled");
 }
 
-static GLuint create_framebuffer(lsf_context *context, const char *label, const GLuint textures[3],
-                                 lsf_error *error)
-{
-    lsf_framebuffer_desc desc = {.label = label, .layer = -1};
-    for (int i = 0; i < 3; i++)
-        if (textures[i])
-            desc.colors[desc.color_count++] = textures[i];
-    return lsf_framebuffer_create(context, &desc, error);
-}
-
 bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
                                 const lsf_plan *plan, const lsf_upsample_search_params *params,
                                 lsf_error *error)
@@ -91,10 +81,17 @@ bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
     const lsf_plan_resource *depth = lsf_plan_find(plan, "upsample_search.depth");
     pass->grid.width = depth->texture.width;
     pass->grid.height = depth->texture.height;
-    const GLuint points[3] = {pass->coarse.depth, pass->coarse.surface, pass->coarse.gloss};
-    const GLuint light[3] = {pass->light.irradiance, pass->light.specular};
-    pass->split_framebuffer = create_framebuffer(context, "upsample_search_split", points, error);
-    pass->light_framebuffer = create_framebuffer(context, "upsample_search", light, error);
+    lsf_framebuffer_desc points = {
+        .label = "upsample_search_split",
+        .color_count = 3,
+        .colors = {pass->coarse.depth, pass->coarse.surface, pass->coarse.gloss},
+        .layer = -1};
+    lsf_framebuffer_desc light = {.label = "upsample_search",
+                                  .color_count = 2,
+                                  .colors = {pass->light.irradiance, pass->light.specular},
+                                  .layer = -1};
+    pass->split_framebuffer = lsf_framebuffer_create(context, &points, error);
+    pass->light_framebuffer = lsf_framebuffer_create(context, &light, error);
     if (!pass->split_framebuffer || !pass->light_framebuffer)
         return false;
     pass->split_program =
