@@ -1,10 +1,20 @@
 /* The glTF 2.0 metallic-roughness BRDF, one definition for the shaders and for the reference.
- * glTF 2.0 specification, appendix B; KHR_materials_ior; KHR_materials_anisotropy.
+ * glTF 2.0 specification, appendix B; KHR_materials_ior; KHR_materials_anisotropy;
+ * KHR_materials_transmission; KHR_materials_volume.
  *
- *   f = (1 - metallic) (1 - F(f0_dielectric)) base / pi  +  F(f0) V D
+ *   f = (1 - metallic) (1 - F(f0_dielectric)) ((1 - t) base / pi  +  t base f_t)  +  F(f0) V D
  *   f0_dielectric = ((ior - 1) / (ior + 1))^2,  f0 = mix(f0_dielectric, base, metallic)
  *
  * F: Schlick, D: Trowbridge-Reitz (GGX), V: height-correlated Smith visibility, G / (4 nl nv).
+ * t is the material's transmission and f_t the specular lobe on the surface's other side: through a thin
+ * wall that of the reflection, mirrored; into a medium, Walter, Marschner, Li and Torrance 2007,
+ * "Microfacet Models for Refraction through Rough Surfaces". Seen from within a denser medium, F is that of
+ * the angle outside, and 1 where light cannot leave.
+ *
+ * Radiance is divided by the square of the index of the medium that it is in, everywhere: so divided, it is
+ * the same on both sides of a surface that lets all light pass (E. Veach 1997, section 5.2), and what shines
+ * or looks in air is as it was.
+ *
  * All cosines are of unit vectors and clamped by the caller to (0, 1]; every function stays finite
  * there for alpha >= LSF_ALPHA_MIN. `h` is the half vector, `t` and `b` the tangent frame. */
 #ifndef LSF_SHARED_BRDF_H
@@ -45,6 +55,39 @@ LSF_SHARED_FUNCTION float lsf_fresnel_schlick(float f0, float vh)
     return f0 + (1.0f - f0) * (m2 * m2 * m);
 }
 
+/* Refractive indices nearer to 1 than this turn no ray: the half vector of the directions on both sides
+ * has lost too many digits. */
+#define LSF_REFRACTION_MIN (1.0f / 128.0f)
+
+/* Index beyond a surface over the index before it: `ior` is that of what is behind the front; 1 where rays
+ * go straight on. */
+LSF_SHARED_FUNCTION float lsf_relative_ior(float ior, bool front)
+{
+    if (ior < 1.0f + LSF_REFRACTION_MIN)
+        return 1.0f;
+    return front ? ior : 1.0f / ior;
+}
+
+/* Cosine beyond a surface of a ray that comes with cosine vh: Snell's law; 0: nothing passes. */
+LSF_SHARED_FUNCTION float lsf_refracted_cosine(float vh, float eta)
+{
+    return sqrt(max(0.0f, 1.0f - (1.0f - vh * vh) / (eta * eta)));
+}
+
+/* Schlick's term of a surface that light meets from either side. */
+LSF_SHARED_FUNCTION float lsf_fresnel_interface(float f0, float vh, float eta)
+{
+    return lsf_fresnel_schlick(f0, eta < 1.0f ? lsf_refracted_cosine(vh, eta) : vh);
+}
+
+/* Solid angle of half vectors to that of refracted directions, |d omega_h / d omega_l| (Walter et al. 2007,
+ * equation 17); vh > 0 and lh < 0 are the cosines at the half vector. */
+LSF_SHARED_FUNCTION float lsf_refraction_jacobian(float vh, float lh, float eta)
+{
+    float sum = vh + eta * lh;
+    return eta * eta * -lh / max(sum * sum, 1e-12f);
+}
+
 /* GGX distribution of normals [1/sr]. sin^2 of h is passed apart, because 1 - nh^2 loses all its
  * digits near the peak: sin2_h = |cross(n, h)|^2. */
 LSF_SHARED_FUNCTION float lsf_ggx_d(float nh, float sin2_h, float alpha)
@@ -79,6 +122,13 @@ LSF_SHARED_FUNCTION float lsf_ggx_v_anisotropic(float nl, float nv, float tl, fl
     float v = nl * sqrt(vt * vt + vb * vb + nv * nv);
     float l = nv * sqrt(lt * lt + lb * lb + nl * nl);
     return 0.5f / max(v + l, 1e-12f);
+}
+
+/* Smith's masking of one direction, whose cosine is nl. */
+LSF_SHARED_FUNCTION float lsf_ggx_g1(float nl, float tl, float bl, float alpha_t, float alpha_b)
+{
+    float t = alpha_t * tl, b = alpha_b * bl;
+    return 2.0f * nl / (nl + sqrt(t * t + b * b + nl * nl));
 }
 
 #include "shared/shared_end.h"

@@ -9,6 +9,7 @@
 #ifndef LSF_SHARED_TYPES
 #define LSF_SHARED_TYPES
 #include <math.h>
+#include <stdbool.h>
 #define LSF_SHARED_FUNCTION static inline
 #define LSF_SHARED_STRUCT(name) struct name
 typedef unsigned int lsf_uint;

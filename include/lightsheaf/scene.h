@@ -45,11 +45,12 @@ typedef struct lsf_requirements {
     bool glossy;                 /* some roughness < 1 or metallic > 0, by factor or texture */
     bool anisotropic;            /* KHR_materials_anisotropy with strength > 0 */
     bool transmissive;           /* KHR_materials_transmission with factor > 0 */
+    bool refractive;             /* ... on the surface of a medium: KHR_materials_volume */
     bool variable_ior;           /* some index of refraction other than 1.5 */
     bool masked;                 /* alphaMode MASK */
     bool normal_mapped;
     bool base_color_textured, metallic_roughness_textured, emissive_textured;
-    bool anisotropy_textured;
+    bool anisotropy_textured, transmission_textured;
     bool texture_transformed;    /* KHR_texture_transform other than identity */
     bool second_uv;              /* some texture in use reads TEXCOORD_1 */
     bool vertex_colored;

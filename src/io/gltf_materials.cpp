@@ -213,6 +213,9 @@ static lsf_material default_material()
     material.normal_scale = 1.0f;
     material.alpha_cutoff = 0.5f;
     material.ior = 1.5f;
+    material.attenuation_distance = INFINITY;
+    for (float &color : material.attenuation_color)
+        color = 1.0f;
     material.base_color_texture = material.metallic_roughness_texture = material.normal_texture =
         material.occlusion_texture = material.emissive_texture = material.anisotropy_texture =
             material.transmission_texture = empty_slot;
@@ -252,6 +255,18 @@ static void read_base(texture_importer &textures, const tinygltf::Material &sour
     }
 }
 
+/* The mesh says how thick its medium is: the extension's thickness, a stand-in for renderers that
+ * do not know what is behind a surface, only tells whether there is a medium at all. */
+static void read_volume(const Value &extension, lsf_material &material)
+{
+    material.volume = number_in(extension, "thicknessFactor", 0.0) > 0.0;
+    material.attenuation_distance = (float)number_in(extension, "attenuationDistance", INFINITY);
+    if (extension.IsObject() && extension.Has("attenuationColor"))
+        for (int c = 0; c < 3; c++)
+            material.attenuation_color[c] =
+                (float)extension.Get("attenuationColor").Get(c).GetNumberAsDouble();
+}
+
 static void read_surface(texture_importer &textures, const tinygltf::Material &source,
                          const std::string &location, lsf_material &material)
 {
@@ -274,6 +289,8 @@ static void read_surface(texture_importer &textures, const tinygltf::Material &s
             material.transmission = (float)number_in(extension, "transmissionFactor", 0.0);
             material.transmission_texture =
                 extension_slot(textures, extension, "transmissionTexture", location);
+        } else if (name == "KHR_materials_volume") {
+            read_volume(extension, material);
         } else if (name == "KHR_materials_anisotropy") {
             material.anisotropy_strength = (float)number_in(extension, "anisotropyStrength", 0.0);
             material.anisotropy_rotation = (float)number_in(extension, "anisotropyRotation", 0.0);

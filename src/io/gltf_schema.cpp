@@ -25,7 +25,7 @@ static const uint64_t BYTES_PER_TEXT_BYTE = 32, BYTES_PER_ENTRY = 1024;
 static const char *const supported_extensions[] = {
     "KHR_lights_punctual",   "KHR_materials_anisotropy",   "KHR_materials_emissive_strength",
     "KHR_materials_ior",     "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_mesh_quantization", "KHR_texture_transform",
+    "KHR_materials_volume",  "KHR_mesh_quantization",      "KHR_texture_transform",
 };
 
 bool extension_is_supported(const std::string &name)

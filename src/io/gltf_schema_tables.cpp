@@ -166,6 +166,11 @@ static const schema ior = of(ior_rules);
 static const rule transmission_rules[] = {number("transmissionFactor", OPTIONAL, 0, 1),
                                           object("transmissionTexture", OPTIONAL, &texture_info)};
 static const schema transmission = of(transmission_rules);
+static const rule volume_rules[] = {number("thicknessFactor", OPTIONAL, 0),
+                                    object("thicknessTexture", OPTIONAL, &texture_info),
+                                    number("attenuationDistance", OPTIONAL, POSITIVE),
+                                    numbers("attenuationColor", 3, 0, 1)};
+static const schema volume = of(volume_rules);
 static const rule anisotropy_rules[] = {number("anisotropyStrength", OPTIONAL, 0, 1),
                                         number("anisotropyRotation"),
                                         object("anisotropyTexture", OPTIONAL, &texture_info)};
@@ -175,6 +180,7 @@ static const rule material_extension_rules[] = {
     object("KHR_materials_emissive_strength", OPTIONAL, &emissive_strength),
     object("KHR_materials_ior", OPTIONAL, &ior),
     object("KHR_materials_transmission", OPTIONAL, &transmission),
+    object("KHR_materials_volume", OPTIONAL, &volume),
     object("KHR_materials_anisotropy", OPTIONAL, &anisotropy),
     object("KHR_materials_unlit", OPTIONAL, &nothing)};
 static const schema material_extensions = of(material_extension_rules);

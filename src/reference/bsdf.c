@@ -9,22 +9,42 @@ static lsf_float3 specular_f0(const lsf_reference_surface *s)
     return lsf_f3_mad(lsf_f3_scale(dielectric, 1.0f - s->metallic), s->base_color, s->metallic);
 }
 
-static lsf_float3 fresnel(lsf_float3 f0, float vh)
+/* What is reflected of light that meets a microfacet under the cosine vh. */
+static lsf_float3 fresnel(const lsf_reference_surface *s, float vh)
 {
-    return lsf_f3(lsf_fresnel_schlick(f0.x, vh), lsf_fresnel_schlick(f0.y, vh),
-                  lsf_fresnel_schlick(f0.z, vh));
+    lsf_float3 f0 = specular_f0(s);
+    return lsf_f3(lsf_fresnel_interface(f0.x, vh, s->eta), lsf_fresnel_interface(f0.y, vh, s->eta),
+                  lsf_fresnel_interface(f0.z, vh, s->eta));
 }
 
-/* By the share of the light that each lobe would reflect if the surface were smooth. */
+/* ... and what is transmitted. */
+static lsf_float3 transmittance(const lsf_reference_surface *s, float vh)
+{
+    float passes = 1.0f - lsf_fresnel_interface(s->f0_dielectric, vh, s->eta);
+    return lsf_f3_scale(s->base_color, passes * s->transmission * (1.0f - s->metallic));
+}
+
+/* The share of its light that a microfacet is drawn to reflect, not to transmit. */
+static float reflected_share(const lsf_reference_surface *s, float vh)
+{
+    float transmitted = lsf_f3_luminance(transmittance(s, vh));
+    if (!(transmitted > 0.0f))
+        return 1.0f;
+    float reflected = lsf_f3_luminance(fresnel(s, vh));
+    return reflected / (reflected + transmitted);
+}
+
+/* By the share of the light that each lobe would send on if the surface were smooth. */
 static float choose_specular_probability(const lsf_reference_surface *s, float nv)
 {
-    float diffuse = lsf_f3_luminance(s->base_color) * (1.0f - s->metallic);
+    float diffuse =
+        lsf_f3_luminance(s->base_color) * (1.0f - s->metallic) * (1.0f - s->transmission);
     if (!s->specular)
         return diffuse > 0.0f ? 0.0f : -1.0f;
-    diffuse *= 1.0f - lsf_fresnel_schlick(s->f0_dielectric, nv);
-    float specular = lsf_f3_luminance(fresnel(specular_f0(s), nv));
-    if (!(diffuse > 0.0f))
+    if (!(diffuse * (1.0f - s->f0_dielectric) > 0.0f))
         return 1.0f;
+    diffuse *= 1.0f - lsf_fresnel_interface(s->f0_dielectric, nv, s->eta);
+    float specular = lsf_f3_luminance(lsf_f3_add(fresnel(s, nv), transmittance(s, nv)));
     /* Both lobes stay likely enough for either to carry what the other cannot. */
     return fminf(fmaxf(specular / (specular + diffuse), 0.1f), 0.9f);
 }
@@ -54,39 +74,105 @@ static float ggx(const lsf_reference_surface *s, lsf_float3 view, float nv, lsf_
            lsf_ggx_v(nl, nv, s->alpha_b);
 }
 
-static float pdf(const lsf_reference_bsdf *bsdf, lsf_float3 light, lsf_float3 half)
+/* A pair of directions on the same side, and the microfacet between them. */
+typedef struct mirror {
+    lsf_float3 half;
+    float vh, nl;
+    float lobe; /* D V nl */
+    float pdf;  /* of drawing the microfacet, per steradian of the direction */
+} mirror;
+
+static mirror mirror_between(const lsf_reference_bsdf *bsdf, lsf_float3 l)
 {
     const lsf_reference_surface *s = bsdf->surface;
-    float p = bsdf->specular_probability;
-    float result = (1.0f - p) * light.z / LSF_PI;
-    if (p > 0.0f)
-        result += p * lsf_pdf_ggx_reflection(bsdf->view, half, s->alpha_t, s->alpha_b);
+    lsf_float3 sum = lsf_f3_add(bsdf->view, l);
+    mirror m = {
+        .half = lsf_f3_normalize_or(sum, lsf_f3(0.0f, 0.0f, 1.0f)),
+        /* v.h = |v + l| / 2, which keeps its sign at grazing angles as the product would not. */
+        .vh = fminf(0.5f * lsf_f3_length(sum), 1.0f),
+        .nl = fminf(l.z, 1.0f)};
+    if (s->specular && bsdf->specular_probability > 0.0f) {
+        m.lobe = ggx(s, bsdf->view, fminf(bsdf->view.z, 1.0f), l, m.nl, m.half) * m.nl;
+        m.pdf = bsdf->specular_probability *
+                lsf_pdf_ggx_reflection(bsdf->view, m.half, s->alpha_t, s->alpha_b);
+    }
+    return m;
+}
+
+static lsf_reference_reflection reflect(const lsf_reference_bsdf *bsdf, lsf_float3 l)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    mirror m = mirror_between(bsdf, l);
+    lsf_reference_reflection result = {.pdf = (1.0f - bsdf->specular_probability) * l.z / LSF_PI};
+    float diffuse = (1.0f - s->metallic) * (1.0f - s->transmission) * m.nl / LSF_PI;
+    if (s->specular) {
+        result.pdf += m.pdf * reflected_share(s, m.vh);
+        diffuse *= 1.0f - lsf_fresnel_interface(s->f0_dielectric, m.vh, s->eta);
+        result.specular = lsf_f3_scale(fresnel(s, m.vh), m.lobe);
+    }
+    result.diffuse = lsf_f3_scale(s->base_color, diffuse);
     return result;
+}
+
+/* A thin wall: the reflection, mirrored to the other side (KHR_materials_transmission). */
+static lsf_reference_reflection pass_wall(const lsf_reference_bsdf *bsdf, lsf_float3 l)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    mirror m = mirror_between(bsdf, lsf_f3(l.x, l.y, -l.z));
+    return (lsf_reference_reflection){.specular = lsf_f3_scale(transmittance(s, m.vh), m.lobe),
+                                      .pdf = m.pdf * (1.0f - reflected_share(s, m.vh))};
+}
+
+/* Walter et al. 2007, equation 21, for radiance over the square of the index: T D_v(h) G1(l) J. */
+static lsf_reference_reflection refract(const lsf_reference_bsdf *bsdf, lsf_float3 l)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    lsf_float3 half =
+        lsf_f3_normalize_or(lsf_f3_mad(bsdf->view, l, s->eta), lsf_f3(0.0f, 0.0f, 1.0f));
+    if (half.z < 0.0f)
+        half = lsf_f3_scale(half, -1.0f);
+    float vh = lsf_f3_dot(bsdf->view, half), lh = lsf_f3_dot(l, half);
+    if (vh <= 0.0f || lh >= 0.0f)
+        return (lsf_reference_reflection){.pdf = 0.0f};
+    vh = fminf(vh, 1.0f);
+    float drawn = lsf_pdf_ggx_visible_normal(bsdf->view, half, s->alpha_t, s->alpha_b) *
+                  lsf_refraction_jacobian(vh, lh, s->eta);
+    float unmasked = lsf_ggx_g1(-l.z, l.x, l.y, s->alpha_t, s->alpha_b);
+    float share = 1.0f - reflected_share(s, vh);
+    return (lsf_reference_reflection){.specular =
+                                          lsf_f3_scale(transmittance(s, vh), drawn * unmasked),
+                                      .pdf = bsdf->specular_probability * drawn * share};
 }
 
 lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *bsdf,
                                                      lsf_float3 light)
 {
-    lsf_reference_reflection result = {.pdf = 0.0f};
     const lsf_reference_surface *s = bsdf->surface;
     lsf_float3 l = lsf_basis_to_local(&s->frame, light);
-    if (bsdf->specular_probability < 0.0f || l.z <= 0.0f ||
-        lsf_f3_dot(s->geometric_normal, light) <= 0.0f)
-        return result;
-    lsf_float3 sum = lsf_f3_add(bsdf->view, l);
-    lsf_float3 half = lsf_f3_normalize_or(sum, lsf_f3(0.0f, 0.0f, 1.0f));
-    /* v.h = |v + l| / 2, which keeps its sign at grazing angles as the product would not. */
-    float vh = fminf(0.5f * lsf_f3_length(sum), 1.0f);
-    float nl = fminf(l.z, 1.0f);
-    result.pdf = pdf(bsdf, l, half);
-    float diffuse = (1.0f - s->metallic) * nl / LSF_PI;
-    if (s->specular) {
-        diffuse *= 1.0f - lsf_fresnel_schlick(s->f0_dielectric, vh);
-        float specular = ggx(s, bsdf->view, fminf(bsdf->view.z, 1.0f), l, nl, half) * nl;
-        result.specular = lsf_f3_scale(fresnel(specular_f0(s), vh), specular);
-    }
-    result.diffuse = lsf_f3_scale(s->base_color, diffuse);
-    return result;
+    float side = lsf_f3_dot(s->geometric_normal, light);
+    if (bsdf->specular_probability >= 0.0f && l.z > 0.0f && side > 0.0f)
+        return reflect(bsdf, l);
+    if (bsdf->specular_probability > 0.0f && s->transmission > 0.0f && l.z < 0.0f && side < 0.0f)
+        return s->eta == 1.0f ? pass_wall(bsdf, l) : refract(bsdf, l);
+    return (lsf_reference_reflection){.pdf = 0.0f};
+}
+
+/* From a microfacet; `u` decides between the two ways. A rough surface's microfacet may send light
+ * to the wrong side of the surface, where other microfacets meet it: such light is lost. */
+static lsf_float3 leave_microfacet(const lsf_reference_bsdf *bsdf, lsf_float3 half, float u)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    const lsf_float3 lost = {0.0f, 0.0f, 0.0f};
+    float vh = lsf_f3_dot(bsdf->view, half);
+    lsf_float3 mirrored = lsf_f3_sub(lsf_f3_scale(half, 2.0f * vh), bsdf->view);
+    if (u < reflected_share(s, fminf(vh, 1.0f)))
+        return mirrored.z > 0.0f ? mirrored : lost;
+    if (s->eta == 1.0f)
+        return mirrored.z > 0.0f ? lsf_f3(mirrored.x, mirrored.y, -mirrored.z) : lost;
+    float beyond = lsf_refracted_cosine(vh, s->eta);
+    lsf_float3 along = lsf_f3_scale(bsdf->view, -1.0f / s->eta);
+    lsf_float3 refracted = lsf_f3_mad(along, half, vh / s->eta - beyond);
+    return refracted.z < 0.0f ? refracted : lost;
 }
 
 lsf_float3 lsf_reference_bsdf_sample(const lsf_reference_bsdf *bsdf, float lobe, const float u[2])
@@ -96,10 +182,9 @@ lsf_float3 lsf_reference_bsdf_sample(const lsf_reference_bsdf *bsdf, float lobe,
     if (lobe < bsdf->specular_probability) {
         lsf_float3 half =
             lsf_sample_ggx_visible_normal(bsdf->view, s->alpha_t, s->alpha_b, u[0], u[1]);
-        float vh = lsf_f3_dot(bsdf->view, half);
-        light = lsf_f3_sub(lsf_f3_scale(half, 2.0f * vh), bsdf->view);
+        light = leave_microfacet(bsdf, half, lobe / bsdf->specular_probability);
     } else {
         light = lsf_sample_cosine_hemisphere(u[0], u[1]);
     }
-    return lsf_f3_normalize(lsf_basis_to_world(&s->frame, light));
+    return lsf_f3_normalize_or(lsf_basis_to_world(&s->frame, light), light);
 }

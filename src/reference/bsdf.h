@@ -1,5 +1,5 @@
-/* The glTF metallic-roughness BRDF of glsl/shared/brdf.h at one surface point: value, sampling
- * and density. */
+/* What glTF's materials do with light at one surface point, as in glsl/shared/brdf.h: value,
+ * sampling and density. Materials that transmit do so to the side away from the viewer. */
 #ifndef LSF_REFERENCE_BSDF_H
 #define LSF_REFERENCE_BSDF_H
 
@@ -8,21 +8,27 @@
 typedef struct lsf_reference_bsdf {
     const lsf_reference_surface *surface;
     lsf_float3 view;            /* local to surface->frame, lifted above the shading horizon */
-    float specular_probability; /* of choosing the GGX lobe; negative: the surface is black */
+    float specular_probability; /* of a microfacet, which reflects or transmits, and not of the
+                                 * diffuse lobe; negative: the surface is black */
 } lsf_reference_bsdf;
 
 void lsf_reference_bsdf_init(lsf_reference_bsdf *bsdf, const lsf_reference_surface *surface);
 
 typedef struct lsf_reference_reflection {
-    lsf_float3 diffuse, specular; /* f times the cosine of the light's direction */
+    lsf_float3 diffuse, specular; /* f times the cosine of the light's direction; transmitted light
+                                   * is specular */
     float pdf;                    /* of lsf_reference_bsdf_sample, per steradian */
 } lsf_reference_reflection;
 
-/* `light` is unit, in normalised space. Zero below the horizon of either normal. */
+/* `light` is unit, in normalised space. Zero where it is above the horizon of one of the two
+ * normals and below that of the other. */
 lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *bsdf,
                                                      lsf_float3 light);
 
-/* Draws a direction from (1 - p) cos / pi + p D_v(h) / (4 v.h); numbers uniform in [0, 1). */
+/* Draws a direction from (1 - p) cos / pi + p D_v(h) (r(h) / (4 v.h) + (1 - r(h)) J), with J the
+ * Jacobian of refraction at h, or of mirroring, and r the share of the two that is reflected;
+ * numbers uniform in [0, 1). A zero vector where the microfacet drawn sends light to the wrong
+ * side. */
 lsf_float3 lsf_reference_bsdf_sample(const lsf_reference_bsdf *bsdf, float lobe, const float u[2]);
 
 #endif

@@ -86,6 +86,7 @@ typedef struct walk {
     lsf_reference_path *path;
     uint32_t vertex; /* 0: the first hit */
     lsf_float3 diffuse, specular;
+    lsf_float3 absorption; /* of the medium that the path last came through; 0: air */
     lsf_reference_surface surface;
     lsf_reference_bsdf bsdf;
 } walk;
@@ -104,15 +105,36 @@ static void add_reflected(walk *w, const lsf_reference_reflection *reflection, l
     path->indirect_specular = lsf_f3_add(path->indirect_specular, lsf_f3_mul(w->specular, f));
 }
 
-static lsf_float3 ray_origin(const lsf_reference_surface *s)
+/* On the side that the ray leaves to. */
+static lsf_float3 ray_origin(const lsf_reference_surface *s, lsf_float3 direction)
 {
-    return lsf_f3_mad(s->position, s->geometric_normal, s->ray_offset);
+    float side = lsf_f3_dot(s->geometric_normal, direction);
+    return lsf_f3_mad(s->position, s->geometric_normal, copysignf(s->ray_offset, side));
+}
+
+/* Absorption of the medium that a ray from the current vertex goes through. A medium ends where its
+ * surface is crossed, to air: media do not nest. */
+static lsf_float3 absorption_along(const walk *w, lsf_float3 direction)
+{
+    const lsf_reference_surface *s = &w->surface;
+    if (!s->volume)
+        return w->absorption;
+    bool outwards = (lsf_f3_dot(s->geometric_normal, direction) > 0.0f) == s->front;
+    return outwards ? lsf_f3(0.0f, 0.0f, 0.0f) : s->absorption;
+}
+
+/* Beer and Lambert's law: what is left of light after a distance. */
+static lsf_float3 left_after(lsf_float3 absorption, float distance)
+{
+    return lsf_f3(expf(-absorption.x * distance), expf(-absorption.y * distance),
+                  expf(-absorption.z * distance));
 }
 
 /* Nothing between the current vertex and `target`. */
 static bool reaches(walk *w, lsf_float3 target)
 {
-    lsf_float3 origin = ray_origin(&w->surface);
+    lsf_float3 to = lsf_f3_sub(target, w->surface.position);
+    lsf_float3 origin = ray_origin(&w->surface, to);
     w->path->rays++;
     /* The last few bits stay out, for the target is known to no more than that. */
     return !lsf_reference_occluded(&w->world->geometry, origin, lsf_f3_sub(target, origin),
@@ -122,8 +144,8 @@ static bool reaches(walk *w, lsf_float3 target)
 static bool reaches_sky(walk *w, lsf_float3 direction)
 {
     w->path->rays++;
-    return !lsf_reference_occluded(&w->world->geometry, ray_origin(&w->surface), direction,
-                                   INFINITY);
+    return !lsf_reference_occluded(&w->world->geometry, ray_origin(&w->surface, direction),
+                                   direction, INFINITY);
 }
 
 static float spot_factor(const lsf_light_state *light, lsf_float3 to_light)
@@ -135,23 +157,29 @@ static float spot_factor(const lsf_light_state *light, lsf_float3 to_light)
     return lsf_spot_attenuation(cosine, scale, -light->cos_outer * scale);
 }
 
+/* Light of punctual lights is reflected but never transmitted, and ends at every surface, as in
+ * shadow maps: what comes through a surface comes from emitters, the environment, and surfaces lit
+ * by any light.
+ */
 static void add_light(walk *w, const lsf_light_state *light, float weight)
 {
     lsf_float3 intensity = lsf_f3_scale(lsf_f3_load(light->intensity), weight);
     lsf_float3 position = lsf_f3_load(light->position);
     lsf_float3 direction;
-    float attenuation = 1.0f;
+    float attenuation = 1.0f, distance = 0.0f;
     if (light->type == LSF_LIGHT_DIRECTIONAL) {
         direction = lsf_f3_scale(lsf_f3_load(light->direction), -1.0f);
     } else {
         lsf_float3 to = lsf_f3_sub(position, w->surface.position);
         direction = lsf_f3_normalize_or(to, w->surface.geometric_normal);
+        distance = lsf_f3_length(to);
         float inverse_range2 = isinf(light->range) ? 0.0f : 1.0f / (light->range * light->range);
         attenuation = lsf_distance_attenuation(lsf_f3_dot(to, to), inverse_range2) *
                       spot_factor(light, direction);
     }
-    if (!(attenuation > 0.0f))
+    if (!(attenuation > 0.0f) || lsf_f3_dot(w->surface.geometric_normal, direction) <= 0.0f)
         return;
+    intensity = lsf_f3_mul(intensity, left_after(absorption_along(w, direction), distance));
     lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
     if (!(reflection.pdf > 0.0f))
         return;
@@ -198,9 +226,12 @@ static void add_emitter(walk *w)
     if (!(reflection.pdf > 0.0f) || !reaches(w, light.target))
         return;
     float weight = mis_weight(light.pdf, reflection.pdf) / light.pdf;
-    add_reflected(w, &reflection, lsf_f3_scale(light.radiance, weight));
+    lsf_float3 to = lsf_f3_sub(light.target, w->surface.position);
+    lsf_float3 left = left_after(absorption_along(w, light.direction), lsf_f3_length(to));
+    add_reflected(w, &reflection, lsf_f3_scale(lsf_f3_mul(light.radiance, left), weight));
 }
 
+/* Outside of the scene is air: what comes from there to a medium comes through its surface. */
 static void add_sky(walk *w)
 {
     const lsf_reference_sky *sky = &w->world->sky;
@@ -260,8 +291,8 @@ static bool step(walk *w)
     lsf_float3 from = w->surface.position;
     lsf_reference_hit hit;
     w->path->rays++;
-    if (!lsf_reference_trace(&world->geometry, ray_origin(&w->surface), direction, 0.0f, INFINITY,
-                             &hit)) {
+    if (!lsf_reference_trace(&world->geometry, ray_origin(&w->surface, direction), direction, 0.0f,
+                             INFINITY, &hit)) {
         if (world->sky.environment->present) {
             float other = world->sky.sampled ? lsf_reference_sky_pdf(&world->sky, direction) : 0.0f;
             float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
@@ -270,6 +301,10 @@ static bool step(walk *w)
         }
         return false;
     }
+    w->absorption = absorption_along(w, direction);
+    lsf_float3 left = left_after(w->absorption, hit.distance);
+    reflection.diffuse = lsf_f3_mul(reflection.diffuse, left);
+    reflection.specular = lsf_f3_mul(reflection.specular, left);
     lsf_reference_surface next;
     lsf_reference_surface_init(&next, &world->geometry, &hit, direction);
     if (lsf_f3_max(next.emission) > 0.0f) {

@@ -27,7 +27,7 @@ static void interpolate(const float *stream, int components, const corner_weight
 }
 
 static lsf_texel sample_slot(const lsf_scene *scene, const lsf_texture_slot *slot,
-                                       const corner_weights *at)
+                             const corner_weights *at)
 {
     float uv[2] = {0.0f, 0.0f};
     const float *stream = slot->uv_set == 0 ? scene->vertices.uv0 : scene->vertices.uv1;
@@ -38,7 +38,7 @@ static lsf_texel sample_slot(const lsf_scene *scene, const lsf_texture_slot *slo
 
 /* Base colour and alpha: factor, texture and vertex colour. */
 static lsf_texel base_color(const lsf_scene *scene, const lsf_material *material,
-                                      const corner_weights *at)
+                            const corner_weights *at)
 {
     const float *f = material->base_color;
     lsf_texel color = {f[0], f[1], f[2], f[3]};
@@ -49,8 +49,7 @@ static lsf_texel base_color(const lsf_scene *scene, const lsf_material *material
     if (scene->vertices.color != NULL) {
         float c[4];
         interpolate(scene->vertices.color, 4, at, c);
-        color =
-            (lsf_texel){color.r * c[0], color.g * c[1], color.b * c[2], color.a * c[3]};
+        color = (lsf_texel){color.r * c[0], color.g * c[1], color.b * c[2], color.a * c[3]};
     }
     return color;
 }
@@ -190,6 +189,25 @@ static float saturate(float x)
     return fminf(fmaxf(x, 0.0f), 1.0f);
 }
 
+static void read_transmission(lsf_reference_surface *surface, const lsf_scene *scene,
+                              const lsf_material *material, const corner_weights *at)
+{
+    float transmission = material->transmission;
+    if (material->transmission_texture.texture != LSF_NONE)
+        transmission *= sample_slot(scene, &material->transmission_texture, at).r;
+    surface->transmission = saturate(transmission);
+    surface->volume = material->volume && material->transmission > 0.0f;
+    if (!surface->volume)
+        return;
+    float absorption[3];
+    lsf_scene_absorption(scene, material, absorption);
+    surface->absorption = lsf_f3_load(absorption);
+    surface->eta = lsf_relative_ior(material->ior, surface->front);
+    /* Without a change of index nothing is scattered, however rough. */
+    if (surface->eta == 1.0f)
+        surface->alpha_t = surface->alpha_b = LSF_ALPHA_MIN;
+}
+
 static void read_lobes(lsf_reference_surface *surface, const lsf_scene *scene,
                        const lsf_material *material, const corner_weights *at)
 {
@@ -203,6 +221,7 @@ static void read_lobes(lsf_reference_surface *surface, const lsf_scene *scene,
     surface->f0_dielectric = lsf_f0_from_ior(material->ior);
     surface->alpha_b = lsf_alpha_from_roughness(saturate(roughness));
     surface->alpha_t = surface->alpha_b;
+    read_transmission(surface, scene, material, at);
     if (material->anisotropy_strength > 0.0f) {
         float strength = orient_anisotropy(scene, material, at, &surface->frame);
         surface->alpha_t = lsf_alpha_along_tangent(surface->alpha_b, saturate(strength));
@@ -241,6 +260,8 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
         .specular = !scene->diffuse_only && !material->unlit,
         .alpha_t = 1.0f,
         .alpha_b = 1.0f,
+        .eta = 1.0f,
+        .front = front,
     };
     lsf_texel color = base_color(scene, material, &at);
     surface->base_color = lsf_f3(color.r, color.g, color.b);

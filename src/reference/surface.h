@@ -20,6 +20,10 @@ typedef struct lsf_reference_surface {
     float metallic;
     float alpha_t, alpha_b; /* GGX, along and across frame.t */
     float f0_dielectric;
+    float transmission; /* of what the dielectric does not reflect */
+    float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
+    bool volume, front; /* bounds a medium; seen from the front, which is outside of it */
+    lsf_float3 absorption; /* of that medium */
 } lsf_reference_surface;
 
 /* `direction` is the ray's, unit. */

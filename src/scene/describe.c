@@ -35,7 +35,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 20 };
+enum { FLAG_COUNT = 22 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -48,6 +48,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"glossy", r->glossy},
         {"anisotropic", r->anisotropic},
         {"transmissive", r->transmissive},
+        {"refractive", r->refractive},
         {"variable_ior", r->variable_ior},
         {"masked", r->masked},
         {"normal_mapped", r->normal_mapped},
@@ -55,6 +56,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"metallic_roughness_textured", r->metallic_roughness_textured},
         {"emissive_textured", r->emissive_textured},
         {"anisotropy_textured", r->anisotropy_textured},
+        {"transmission_textured", r->transmission_textured},
         {"texture_transformed", r->texture_transformed},
         {"second_uv", r->second_uv},
         {"vertex_colored", r->vertex_colored},

@@ -52,7 +52,8 @@ static void add_material(lsf_requirements *r, const lsf_material *material, bool
     }
     if (material->transmission > 0.0f) {
         r->transmissive = true;
-        in_use(r, &material->transmission_texture);
+        r->refractive |= material->volume;
+        r->transmission_textured |= in_use(r, &material->transmission_texture);
     }
 }
 

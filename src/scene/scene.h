@@ -101,7 +101,10 @@ typedef struct lsf_material {
     bool double_sided;         /* also emits from its back */
     bool unlit;                /* shown as emission of its base colour */
     float ior;
-    float transmission;
+    float transmission;        /* of what is not reflected [1] */
+    bool volume;               /* bounds a medium that light is refracted into; else a thin wall */
+    float attenuation_distance; /* after which white light has attenuation_color; scene units */
+    float attenuation_color[3];
     float anisotropy_strength, anisotropy_rotation; /* 0..1, radians from the tangent */
     lsf_texture_slot base_color_texture, metallic_roughness_texture, normal_texture,
         occlusion_texture, emissive_texture, anisotropy_texture, transmission_texture;
@@ -185,6 +188,11 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
 /* Sets which nodes an animation moves, by themselves or with an ancestor. `moves`: one for each node,
  * all false. */
 void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves);
+
+/* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a d) of
+ * the light is left after the distance d (KHR_materials_volume, "Attenuation"). */
+void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,
+                          float absorption[3]);
 
 /* Fills scene->requirements from what the instances use (requirements.c). */
 void lsf_scene_compute_requirements(lsf_scene *scene);

@@ -461,10 +461,16 @@ for name, expected, material in [
         ('ok', 'ok', {'emissiveFactor': [1, 0.5, 0], 'extensions': {
             'KHR_materials_emissive_strength': {'emissiveStrength': 10},
             'KHR_materials_ior': {'ior': 1.33}, 'KHR_materials_transmission': {'transmissionFactor': 1},
+            'KHR_materials_volume': {'thicknessFactor': 0.1, 'attenuationDistance': 0.5,
+                                     'attenuationColor': [1, 0.5, 0.25]},
             'KHR_materials_anisotropy': {'anisotropyStrength': 0.5}}}),
         ('metallic', 'VALUE_NOT_IN_RANGE', {'pbrMetallicRoughness': {'metallicFactor': 1.5}}),
         ('color', 'ARRAY_LENGTH_NOT_IN_LIST', {'pbrMetallicRoughness': {'baseColorFactor': [1, 1, 1]}}),
         ('ior', 'VALUE_NOT_IN_RANGE', {'extensions': {'KHR_materials_ior': {'ior': 0.5}}}),
+        ('attenuation', 'VALUE_NOT_IN_RANGE',
+         {'extensions': {'KHR_materials_volume': {'attenuationDistance': 0}}}),
+        ('thickness', 'UNRESOLVED_REFERENCE',
+         {'extensions': {'KHR_materials_volume': {'thicknessTexture': {'index': 0}}}}),
         ('emission', 'VALUE_NOT_IN_RANGE', {'emissiveFactor': [1e30, 0, 0], 'extensions': {
             'KHR_materials_emissive_strength': {'emissiveStrength': 1e30}}}),
         ('integer', 'VALUE_NOT_IN_RANGE', {'extensions': {

@@ -83,6 +83,8 @@ lsf_material *build_material(lsf_scene *scene, float r, float g, float b)
         .normal_scale = 1.0f,
         .alpha_cutoff = 0.5f,
         .ior = 1.5f,
+        .attenuation_distance = INFINITY,
+        .attenuation_color = {1.0f, 1.0f, 1.0f},
         .base_color_texture = none,
         .metallic_roughness_texture = none,
         .normal_texture = none,
