@@ -7,7 +7,20 @@ from shapes import Mesh, Placement
 from writer import Gltf
 
 
-def _box(gltf, glossy):
+def _glass(gltf):
+    """A ball of greenish glass, and a blue pane that leans on the tall block's corner."""
+    gltf.material("glass", (1.0, 1.0, 1.0), roughness=0.0, transmission=1.0, thickness=0.76, ior=1.5,
+                  attenuation=(1.5, (0.6, 0.95, 0.7)))
+    ball = Mesh()
+    ball.sphere(0.38, 64, Placement(0.42, 0.38, 0.32))
+    gltf.node("ball", mesh=gltf.mesh("ball", {"glass": ball}))
+    gltf.material("pane", (0.55, 0.75, 0.95), roughness=0.0, transmission=1.0, double_sided=True)
+    pane = Mesh()
+    pane.quad((-0.9, 0.0, 0.35), (-0.15, 0.0, 0.55), (-0.15, 0.9, 0.55), (-0.9, 0.9, 0.35))
+    gltf.node("pane", mesh=gltf.mesh("pane", {"pane": pane}))
+
+
+def _box(gltf, content):
     gltf.material("white", (0.73, 0.73, 0.73))
     gltf.material("red", (0.63, 0.06, 0.05))
     gltf.material("green", (0.15, 0.48, 0.09))
@@ -25,7 +38,9 @@ def _box(gltf, glossy):
     tall.box((0.6, 1.2, 0.6), Placement(-0.33, 0.6, -0.3, 17))
     gltf.node("tall block", mesh=gltf.mesh("tall block", {"white": tall}))
     short = Mesh()
-    if glossy:
+    if content == "glass":
+        _glass(gltf)
+    elif content == "glossy":
         gltf.material("copper", (0.955, 0.638, 0.538), roughness=0.25, metallic=1.0)
         short.sphere(0.38, 64, Placement(0.38, 0.38, 0.32))
         gltf.node("sphere", mesh=gltf.mesh("sphere", {"copper": short}))
@@ -35,14 +50,15 @@ def _box(gltf, glossy):
     gltf.camera("Camera", (0, 1, 3.9), (0, 1, 0), 39)
 
 
-def cornell(folder, name, emissive=False, glossy=False):
+def cornell(folder, name, lamp_size=None, emission=(24.0, 18.5, 11.5), content="blocks"):
+    """`lamp_size`: of a lamp below the ceiling [m]; None: a point light."""
     gltf = Gltf()
-    _box(gltf, glossy)
-    if emissive:
-        gltf.material("lamp", (0.78, 0.78, 0.78), emission=(24.0, 18.5, 11.5))
+    _box(gltf, content)
+    if lamp_size:
+        gltf.material("lamp", (0.78, 0.78, 0.78), emission=emission)
         lamp = Mesh()
-        lamp.quad((-0.25, 1.99, -0.22), (0.25, 1.99, -0.22), (0.25, 1.99, 0.22),
-                  (-0.25, 1.99, 0.22))
+        x, z = lamp_size[0] / 2, lamp_size[1] / 2
+        lamp.quad((-x, 1.99, -z), (x, 1.99, -z), (x, 1.99, z), (-x, 1.99, z))
         gltf.node("lamp", mesh=gltf.mesh("lamp", {"lamp": lamp}))
     else:
         gltf.light("Lamp", "point", (1.0, 0.85, 0.65), 2.6, (0, 1.8, 0.1))

@@ -73,8 +73,8 @@ class Gltf:
 
     def material(self, name, color=(0.8, 0.8, 0.8), roughness=1.0, metallic=0.0, texture=None,
                  roughness_texture=None, normal_texture=None, normal_scale=1.0, emission=None,
-                 double_sided=False):
-        """`emission` is a radiance [W/(m^2 sr)]."""
+                 double_sided=False, transmission=0.0, thickness=0.0, ior=1.5, attenuation=None):
+        """`emission` is a radiance [W/(m^2 sr)]; `attenuation` a distance [m] and a colour."""
         pbr = {"baseColorFactor": [real(c) for c in color] + [1.0],
                "metallicFactor": real(metallic), "roughnessFactor": real(roughness)}
         material = {"name": name, "pbrMetallicRoughness": pbr}
@@ -88,13 +88,24 @@ class Gltf:
             strength = max(emission)
             material["emissiveFactor"] = [real(c / strength) for c in emission]
             if strength != 1.0:
-                material["extensions"] = {
-                    "KHR_materials_emissive_strength": {"emissiveStrength": real(strength)}}
-                self._use("KHR_materials_emissive_strength")
+                self._extend(material, "emissive_strength", emissiveStrength=real(strength))
+        if transmission > 0.0:
+            self._extend(material, "transmission", transmissionFactor=real(transmission))
+        if thickness > 0.0:
+            distance, color = attenuation
+            self._extend(material, "ior", ior=real(ior))
+            self._extend(material, "volume", thicknessFactor=real(thickness),
+                         attenuationDistance=real(distance),
+                         attenuationColor=[real(c) for c in color])
         if double_sided:
             material["doubleSided"] = True
         self.material_index[name] = len(self.root["materials"])
         self.root["materials"].append(material)
+
+    def _extend(self, material, name, **values):
+        name = f"KHR_materials_{name}"
+        material.setdefault("extensions", {})[name] = values
+        self._use(name)
 
     def mesh(self, name, parts):
         """`parts`: material name -> Mesh. Returns the mesh's index."""

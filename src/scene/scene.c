@@ -2,8 +2,6 @@
 
 #include "base/base.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,18 +58,6 @@ const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index)
 const lsf_requirements *lsf_scene_get_requirements(const lsf_scene *scene)
 {
     return &scene->requirements;
-}
-
-/* --- media */
-
-void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material, float absorption[3])
-{
-    double distance = (double)material->attenuation_distance * scene->requirements.scale;
-    for (int c = 0; c < 3; c++) {
-        /* Black stays finite: what passes is then less than a float can tell from nothing. */
-        double color = fmax((double)material->attenuation_color[c], (double)FLT_MIN);
-        absorption[c] = (float)fmin(-log(color) / distance, (double)FLT_MAX);
-    }
 }
 
 /* --- destroying */

@@ -11,7 +11,7 @@ import zlib
 from validate_gltf import validate
 
 SCENES = pathlib.Path(os.environ["LSF_SOURCE_ROOT"]) / "data/scenes"
-NAMES = ("cornell_emissive", "cornell_glossy", "cornell_point", "interior")
+NAMES = ("cornell_emissive", "cornell_glass", "cornell_glossy", "cornell_point", "interior")
 
 
 def content(data):

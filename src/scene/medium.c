@@ -1,0 +1,14 @@
+#include <float.h>
+#include <math.h>
+
+#include "scene/scene.h"
+
+void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material, float absorption[3])
+{
+    double distance = (double)material->attenuation_distance * scene->requirements.scale;
+    for (int c = 0; c < 3; c++) {
+        /* Black stays finite: what passes is then less than a float can tell from nothing. */
+        double color = fmax((double)material->attenuation_color[c], (double)FLT_MIN);
+        absorption[c] = (float)fmin(-log(color) / distance, (double)FLT_MAX);
+    }
+}
