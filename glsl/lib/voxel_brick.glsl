@@ -1,17 +1,36 @@
-/* A work group an occupied brick, of which most voxels are empty: its invocations share the occupied
- * ones, so that lanes that work are together. */
+/* Work groups on occupied bricks, of which most voxels are empty: a brick's invocations share the
+ * occupied ones, so that lanes that work are together. */
 #ifndef LSF_LIB_VOXEL_BRICK
 #define LSF_LIB_VOXEL_BRICK
 
 #include "lib/voxel.glsl"
 
-layout(local_size_x = LSF_VOXEL_BRICK_GROUP) in;
+/* Invocations for a brick. */
+#ifndef VOXEL_BRICK_LANES
+#define VOXEL_BRICK_LANES LSF_VOXEL_BRICK_LANES
+#endif
 
-layout(binding = LSF_UNIT_VOXEL_OCCUPANCY) uniform usampler3D occupancy_texture;
-layout(std430, binding = LSF_BINDING_BRICKS) readonly buffer lsf_brick_block
+layout(local_size_x = VOXEL_BRICK_LANES * LSF_VOXEL_GROUP_BRICKS) in;
+
+layout(std430, binding = LSF_BINDING_BRICKS) buffer lsf_brick_block
 {
-    uint bricks[];
+    uint brick_groups_x, brick_groups_y, brick_groups_z, brick_count;
+    lsf_voxel_brick_data bricks[];
 };
+
+/* Among those of its brick. */
+int voxel_brick_lane()
+{
+    return int(gl_LocalInvocationID.x % uint(VOXEL_BRICK_LANES));
+}
+
+/* In the list; false past its end. */
+bool voxel_brick_listed(out uint at)
+{
+    uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * (LSF_VOXEL_LIST_ROW / LSF_VOXEL_GROUP_BRICKS);
+    at = group * LSF_VOXEL_GROUP_BRICKS + gl_LocalInvocationID.x / VOXEL_BRICK_LANES;
+    return at < brick_count;
+}
 
 /* Place of the bit that is set after n others, by bisection. */
 int nth_bit(uint word, int n)
@@ -26,33 +45,27 @@ int nth_bit(uint word, int n)
     return place;
 }
 
-struct voxel_brick {
-    ivec3 corner;
-    uint low, high; /* the voxels' bits, half a brick each */
-    int in_low, count;
-};
-
-/* False past the list's end. */
-bool voxel_brick_of_group(out voxel_brick brick)
+int voxel_brick_voxels(lsf_voxel_brick_data brick)
 {
-    uint at = gl_WorkGroupID.x + gl_WorkGroupID.y * LSF_VOXEL_LIST_ROW;
-    if (at >= bricks[3])
-        return false;
-    brick.corner = voxel_brick_unpack(bricks[LSF_VOXEL_LIST_HEADER + at]) * LSF_VOXEL_BRICK;
-    ivec3 texel = occupancy_texel(brick.corner);
-    brick.low = texelFetch(occupancy_texture, texel, 0).r;
-    brick.high = texelFetch(occupancy_texture, texel + ivec3(1, 0, 0), 0).r;
-    brick.in_low = bitCount(brick.low);
-    brick.count = brick.in_low + bitCount(brick.high);
-    return true;
+    return bitCount(brick.low) + bitCount(brick.high);
 }
 
-/* The brick's n-th occupied voxel. */
-ivec3 voxel_brick_cell(voxel_brick brick, int n)
+/* Its n-th occupied voxel. */
+ivec3 voxel_brick_cell(lsf_voxel_brick_data brick, int n)
 {
-    int bit = n < brick.in_low ? nth_bit(brick.low, n)
-                               : 32 + nth_bit(brick.high, n - brick.in_low);
-    return brick.corner + ivec3(bit & 3, (bit >> 2) & 3, bit >> 4);
+    int in_low = bitCount(brick.low);
+    bool above = n >= in_low;
+    int bit = nth_bit(above ? brick.high : brick.low, above ? n - in_low : n);
+    return voxel_brick_unpack(brick.place) * LSF_VOXEL_BRICK +
+           ivec3(bit & 3, (bit >> 2) & 3, 2 * int(above) + (bit >> 4));
+}
+
+/* The n-th of a brick's things times its sides: which thing, and which slice. */
+void voxel_brick_side(lsf_voxel_brick_data brick, int n, out int thing, out int slice)
+{
+    int sides = bitCount(brick.sides);
+    thing = int((float(n) + 0.5) / float(sides)); /* exact, and vectors know no integer division */
+    slice = nth_bit(brick.sides, n - thing * sides);
 }
 
 #endif

@@ -1,35 +1,14 @@
-/* What voxels reflect of the light that arrives at them from others and from beyond: a work group a
- * brick. A brick's voxels are mostly empty, so that those with a surface are listed first, a side
- * each; in which order the list comes does not matter. */
+/* What voxels reflect of the light that arrives at them from others and from beyond, on each side of
+ * their surface. */
 #include "lib/environment.glsl"
 #include "lib/voxel_cone.glsl"
+#include "lib/voxel_sides.glsl"
 
-layout(local_size_x = 64) in;
-
-layout(binding = 0, rgba16f) uniform image3D radiance_image;
 layout(binding = 1) uniform sampler3D base_texture;
-#if !LSF_SEALED
-layout(binding = LSF_UNIT_VOXEL_OCCUPANCY) uniform usampler3D occupancy_voxels;
-#endif
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
-layout(std430, binding = LSF_BINDING_BRICKS) readonly buffer lsf_brick_block
-{
-    uint bricks[];
-};
 layout(location = 0) uniform bvec3 sum_of; /* what was there, the base, what is reflected */
-
-/* The largest half float. */
-#define RADIANCE_MAX 65504.0
-
-shared uint side_count;
-shared uint sides[2 * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK];
-
-ivec3 cell_in_brick(uint i)
-{
-    return ivec3(uvec3(i, i >> 2, i >> 4) & 3u);
-}
 
 /* Voxels take the turns of a 4 x 4 x 4 pattern. */
 float cell_turn(ivec3 cell)
@@ -62,7 +41,7 @@ vec3 gather(vec3 place, vec3 n, float turn)
 
 void write(ivec3 cell, int slice, float share, vec3 reflected)
 {
-    ivec3 texel = cell + ivec3(0, 0, slice * int(grid.size.z));
+    ivec3 texel = slice_texel(cell, slice);
     vec3 sum = share * reflected;
     if (sum_of.x)
         sum += imageLoad(radiance_image, texel).rgb;
@@ -71,48 +50,33 @@ void write(ivec3 cell, int slice, float share, vec3 reflected)
     imageStore(radiance_image, texel, vec4(min(sum, RADIANCE_MAX), share));
 }
 
+void light_side(ivec3 cell, bool back)
+{
+    vec3 n = voxel_normal_unpack(texelFetch(normal_texture, cell, 0).r);
+    n = back ? -n : n;
+    vec3 reflected = vec3(0.0);
+    if (sum_of.z) {
+        vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
+        vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
+        if (max(albedo.r, max(albedo.g, albedo.b)) > 0.0)
+            reflected = albedo * gather(place, n, cell_turn(cell));
+    }
+#if LSF_VOXEL_SIDES == 1
+    write(cell, 0, 1.0, reflected);
+#else
+    for (int axis = 0; axis < 3; axis++)
+        write(cell, lobe_slice(axis, n[axis]), n[axis] * n[axis], reflected);
+#endif
+}
+
 void main()
 {
-    uint at = gl_WorkGroupID.x + gl_WorkGroupID.y * uint(LSF_VOXEL_LIST_ROW);
-    bool listed = at < bricks[LSF_VOXEL_LIST_HEADER - 1];
-    uint self = gl_LocalInvocationIndex;
-    ivec3 corner = ivec3(0);
-    if (self == 0u)
-        side_count = 0u;
-    barrier();
-    if (listed) {
-        corner = voxel_brick_unpack(bricks[uint(LSF_VOXEL_LIST_HEADER) + at]) * LSF_VOXEL_BRICK;
-        ivec3 cell = corner + cell_in_brick(self);
-        if ((texelFetch(occupancy_voxels, occupancy_texel(cell), 0).r & occupancy_bit(cell)) != 0u) {
-#if LSF_VOXEL_SIDES == 1
-            sides[atomicAdd(side_count, 1u)] = self;
-#else
-            uint first = atomicAdd(side_count, 2u);
-            sides[first] = self;
-            sides[first + 1u] = self | 64u;
-#endif
-        }
-    }
-    barrier();
-    uint count = side_count;
-    for (uint i = self; i < count; i += 64u) {
-        bool back = (sides[i] & 64u) != 0u;
-        ivec3 cell = corner + cell_in_brick(sides[i] & 63u);
-        vec3 n = voxel_normal_unpack(texelFetch(normal_texture, cell, 0).r);
-        n = back ? -n : n;
-        vec3 reflected = vec3(0.0);
-        if (sum_of.z) {
-            vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
-            vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
-            if (max(albedo.r, max(albedo.g, albedo.b)) > 0.0)
-                reflected = albedo * gather(place, n, cell_turn(cell));
-        }
-#if LSF_VOXEL_SIDES == 1
-        write(cell, 0, 1.0, reflected);
-#else
-        write(cell, n.x > 0.0 ? 1 : 0, n.x * n.x, reflected);
-        write(cell, n.y > 0.0 ? 3 : 2, n.y * n.y, reflected);
-        write(cell, n.z > 0.0 ? 5 : 4, n.z * n.z, reflected);
-#endif
-    }
+    const int faces = LSF_VOXEL_SIDES == 1 ? 1 : 2;
+    uint at;
+    if (!voxel_brick_listed(at))
+        return;
+    lsf_voxel_brick_data brick = bricks[at];
+    int count = faces * voxel_brick_voxels(brick);
+    for (int n = voxel_brick_lane(); n < count; n += VOXEL_BRICK_LANES)
+        light_side(voxel_brick_cell(brick, n / faces), n % faces != 0);
 }

@@ -1,9 +1,13 @@
 /* Adds what each voxel reflects of the light in turn, from the side that faces it. */
 #include "lib/light.glsl"
 #include "lib/shadow.glsl"
-#include "passes/voxel_light.glsl"
+#include "lib/voxel_sides.glsl"
 #include "shared/brdf.h"
 #include "shared/light.h"
+
+layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
+layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
+layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
 
 /* Places in voxels are kept to 2^-10 of a voxel; the receiver is lifted off its surface by as much. */
 #define LIFT (1.0 / 1024.0)
@@ -32,10 +36,11 @@ void light_voxel(ivec3 cell)
     if (!front)
         return;
 #endif
-    if (shadow_visibility(position + LIFT * grid.origin.w * side, side) == 0.0)
+    float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
+    if (visibility == 0.0)
         return;
     vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
-    vec3 radiance = albedo * irradiance * (abs(cosine) / LSF_PI * grid.unit.y);
+    vec3 radiance = albedo * irradiance * (visibility * abs(cosine) / LSF_PI * grid.unit.y);
 #if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_AXES
     for (int axis = 0; axis < 3; axis++)
         if (side[axis] != 0.0)
@@ -47,9 +52,11 @@ void light_voxel(ivec3 cell)
 
 void main()
 {
-    voxel_brick brick;
-    if (!voxel_brick_of_group(brick))
+    uint at;
+    if (!voxel_brick_listed(at))
         return;
-    for (int n = int(gl_LocalInvocationID.x); n < brick.count; n += LSF_VOXEL_BRICK_GROUP)
+    lsf_voxel_brick_data brick = bricks[at];
+    int voxels = voxel_brick_voxels(brick);
+    for (int n = voxel_brick_lane(); n < voxels; n += VOXEL_BRICK_LANES)
         light_voxel(voxel_brick_cell(brick, n));
 }

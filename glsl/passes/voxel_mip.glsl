@@ -9,7 +9,6 @@
 #include "lib/voxel.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
-layout(rgba16f, binding = 0) uniform writeonly image3D level_image;
 
 /* The pair that begins at texel `front` and goes on by `onward`. */
 vec4 mip_pair(ivec3 front, ivec3 onward, int level)
@@ -23,27 +22,28 @@ vec4 mip_pair(ivec3 front, ivec3 onward, int level)
 #endif
 }
 
-void mip_write(ivec3 cell, int side, int level, bool empty)
+/* From the texels of the level below. */
+vec4 mip_texel(ivec3 cell, int side, int level)
 {
-    int slab = int(grid.size.z) >> level;
-    ivec3 target = cell + ivec3(0, 0, side * slab);
-    vec4 sum = vec4(0.0);
-    if (!empty) {
-        int axis = side >> 1;
-        ivec3 along = ivec3(axis == 0, axis == 1, axis == 2);
-        ivec3 u = along.zxy, v = along.yzx;
-        bool backward = (side & 1) != 0;
-        ivec3 first = 2 * cell + ivec3(0, 0, side * 2 * slab) + (backward ? along : ivec3(0));
-        ivec3 onward = backward ? -along : along;
-        sum = mip_pair(first, onward, level - 1) + mip_pair(first + u, onward, level - 1) +
-              mip_pair(first + v, onward, level - 1) + mip_pair(first + u + v, onward, level - 1);
-    }
+    int axis = side >> 1, slab = int(grid.size.z) >> (level - 1);
+    ivec3 along = ivec3(axis == 0, axis == 1, axis == 2);
+    ivec3 u = along.zxy, v = along.yzx;
+    bool backward = (side & 1) != 0;
+    ivec3 first = 2 * cell + ivec3(0, 0, side * slab) + (backward ? along : ivec3(0));
+    ivec3 onward = backward ? -along : along;
+    vec4 sum =
+        mip_pair(first, onward, level - 1) + mip_pair(first + u, onward, level - 1) +
+        mip_pair(first + v, onward, level - 1) + mip_pair(first + u + v, onward, level - 1);
 #if LSF_VOXEL_SIDES == 1
-    sum *= 0.125;
+    return 0.125 * sum;
 #else
-    sum *= 0.25;
+    return 0.25 * sum;
 #endif
-    imageStore(level_image, target, sum);
+}
+
+ivec3 mip_place(ivec3 cell, int side, int level)
+{
+    return cell + ivec3(0, 0, side * (int(grid.size.z) >> level));
 }
 
 #endif

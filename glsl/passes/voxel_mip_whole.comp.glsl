@@ -3,6 +3,7 @@
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
+layout(binding = 0, rgba16f) writeonly uniform image3D level_image;
 layout(location = 0) uniform int level;
 
 void main()
@@ -12,5 +13,6 @@ void main()
     int side = texel.z / size.z;
     if (texel.x >= size.x || texel.y >= size.y || side >= LSF_VOXEL_SIDES)
         return;
-    mip_write(ivec3(texel.xy, texel.z - side * size.z), side, level, false);
+    ivec3 cell = ivec3(texel.xy, texel.z - side * size.z);
+    imageStore(level_image, texel, mip_texel(cell, side, level));
 }

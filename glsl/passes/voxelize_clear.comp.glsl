@@ -1,24 +1,24 @@
-/* Empties the bricks that were occupied, a work group each. */
-#include "lib/voxel.glsl"
-
-layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+/* Empties what was occupied. */
+#include "lib/voxel_brick.glsl"
 
 layout(binding = 0, r32ui) writeonly uniform uimage3D key_image;
 layout(binding = 1, r32ui) writeonly uniform uimage3D occupancy_image[LSF_VOXEL_OCCUPANCY_LEVELS];
-layout(std430, binding = LSF_BINDING_BRICKS) readonly buffer lsf_brick_block
-{
-    uint bricks[];
-};
 
 void main()
 {
-    uint at = gl_WorkGroupID.x + gl_WorkGroupID.y * LSF_VOXEL_LIST_ROW;
-    if (at >= bricks[3])
+    uint at;
+    if (!voxel_brick_listed(at))
         return;
-    ivec3 cell = voxel_brick_unpack(bricks[LSF_VOXEL_LIST_HEADER + at]) * LSF_VOXEL_BRICK +
-                 ivec3(gl_LocalInvocationID);
-    imageStore(key_image, cell, uvec4(0u));
-    imageStore(occupancy_image[0], occupancy_texel(cell), uvec4(0u));
-    imageStore(occupancy_image[1], occupancy_texel(cell >> 2), uvec4(0u));
-    imageStore(occupancy_image[2], occupancy_texel(cell >> 4), uvec4(0u));
+    lsf_voxel_brick_data brick = bricks[at];
+    ivec3 corner = voxel_brick_unpack(brick.place);
+    int voxels = voxel_brick_voxels(brick), lane = voxel_brick_lane();
+    for (int n = lane; n < voxels; n += VOXEL_BRICK_LANES)
+        imageStore(key_image, voxel_brick_cell(brick, n), uvec4(0u));
+    if (lane < 2)
+        imageStore(occupancy_image[0],
+                   occupancy_texel(corner * LSF_VOXEL_BRICK) + ivec3(lane, 0, 0), uvec4(0u));
+    if (lane == 0) {
+        imageStore(occupancy_image[1], occupancy_texel(corner), uvec4(0u));
+        imageStore(occupancy_image[2], occupancy_texel(corner >> 2), uvec4(0u));
+    }
 }

@@ -1,23 +1,23 @@
-/* How many voxels each instance has won, or, when that is known, which. */
+/* Lists each brick's voxels with it, and how many of them each instance has won. */
 #include "lib/voxel_brick.glsl"
 #include "passes/voxelize_list.glsl"
 
-layout(location = 25) uniform bool place;
+layout(binding = LSF_UNIT_VOXEL_OCCUPANCY) uniform usampler3D occupancy_texture;
 
 void main()
 {
-    voxel_brick brick;
-    if (!voxel_brick_of_group(brick))
+    uint at;
+    if (!voxel_brick_listed(at))
         return;
-    for (int n = int(gl_LocalInvocationID.x); n < brick.count; n += LSF_VOXEL_BRICK_GROUP) {
-        ivec3 cell = voxel_brick_cell(brick, n);
-        uint draw = draw_of(winner(cell));
-        if (place) {
-            uint at = draws[draw].first + atomicAdd(draws[draw].listed, 1u);
-            if (at < uint(won.length()))
-                won[at] = voxel_brick_pack(cell);
-        } else {
-            atomicAdd(draws[draw].count, 1u);
-        }
+    lsf_voxel_brick_data brick = bricks[at];
+    ivec3 texel = occupancy_texel(voxel_brick_unpack(brick.place) * LSF_VOXEL_BRICK);
+    brick.low = texelFetch(occupancy_texture, texel, 0).r;
+    brick.high = texelFetch(occupancy_texture, texel + ivec3(1, 0, 0), 0).r;
+    int voxels = voxel_brick_voxels(brick), lane = voxel_brick_lane();
+    for (int n = lane; n < voxels; n += VOXEL_BRICK_LANES)
+        atomicAdd(draws[draw_of(winner(voxel_brick_cell(brick, n)))].count, 1u);
+    if (lane == 0) {
+        bricks[at].low = brick.low;
+        bricks[at].high = brick.high;
     }
 }

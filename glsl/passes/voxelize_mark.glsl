@@ -7,7 +7,8 @@ layout(binding = 0, r32ui) coherent uniform uimage3D key_image;
 layout(binding = 1, r32ui) uniform uimage3D occupancy_image[LSF_VOXEL_OCCUPANCY_LEVELS];
 layout(std430, binding = LSF_BINDING_BRICKS) coherent buffer lsf_brick_block
 {
-    uint bricks[];
+    uint brick_groups_x, brick_groups_y, brick_groups_z, brick_count;
+    lsf_voxel_brick_data bricks[];
 };
 
 /* Whether the unit square at `low` reaches the inner side of the edge from p along e, where the
@@ -66,10 +67,12 @@ void bid(voxel_triangle t, ivec3 cell, vec3 low)
     if ((imageAtomicOr(occupancy_image[1], occupancy_texel(brick), bit) & bit) != 0u)
         return;
     imageAtomicOr(occupancy_image[2], occupancy_texel(brick >> 2), occupancy_bit(brick >> 2));
-    uint at = atomicAdd(bricks[3], 1u);
-    bricks[LSF_VOXEL_LIST_HEADER + at] = voxel_brick_pack(brick);
-    atomicMax(bricks[1], at / LSF_VOXEL_LIST_ROW + 1u);
+    uint at = atomicAdd(brick_count, 1u);
+    bricks[at].place = voxel_brick_pack(brick);
+    bricks[at].sides = 0u;
+    atomicMax(brick_groups_y, at / LSF_VOXEL_LIST_ROW + 1u);
 }
+
 /* A walk over the voxels that a triangle touches, column by column. */
 struct voxel_walk {
     int column, z, last;

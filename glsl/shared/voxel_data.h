@@ -38,11 +38,20 @@ struct lsf_voxel_grid_data {
 #define LSF_UNIT_VOXEL_GLOSS 15
 #define LSF_UNIT_PATH_RANDOM 7
 
-/* Occupied bricks, storage buffer: a dispatch of LSF_VOXEL_LIST_ROW groups by as many rows as hold
- * them, one group a brick; their number; then their places, packed as voxel_brick_pack does. */
+/* Lists, storage buffers: how many work groups a dispatch takes, as rows of LSF_VOXEL_LIST_ROW entries
+ * each, and the number of entries; then the entries. */
 #define LSF_VOXEL_LIST_ROW 256
-#define LSF_VOXEL_BRICK_GROUP 32 /* invocations for a brick */
-#define LSF_VOXEL_LIST_HEADER 4 /* words: rows of groups in x and y, 1, number of bricks */
+#define LSF_VOXEL_LIST_HEADER 4 /* words: groups in x, y and z, entries */
+
+/* Occupied bricks: such a list. Work groups take several each, with as many invocations for each as
+ * software GL has lanes. */
+#define LSF_VOXEL_GROUP_BRICKS 8
+#define LSF_VOXEL_BRICK_LANES 8
+struct lsf_voxel_brick_data {
+    uint place;     /* as voxel_brick_pack does */
+    uint low, high; /* the voxels' bits, half a brick each, as occupancy has them */
+    uint sides;     /* of the sides that radiance is kept for, those that some voxel has */
+};
 
 #include "shared/shared_end.h"
 #endif

@@ -31,7 +31,7 @@ bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const
                              lsf_error *error)
 {
     static const char *const files[5] = {"passes/voxel_bounce.comp.glsl"};
-    static const char *const clear_files[5] = {"passes/voxel_light_clear.comp.glsl"};
+    static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
     *pass = (lsf_voxel_bounce){.context = context, .params = *params, .grid = *grid};
     if (!lsf_plan_create_texture(plan, context, "voxel_bounce.radiance", &pass->radiance, error))
         return false;

@@ -36,7 +36,7 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
 {
     static const char *const begin[5] = {"passes/voxel_light_begin.comp.glsl"};
     static const char *const add[5] = {"passes/voxel_light_add.comp.glsl"};
-    static const char *const clear[5] = {"passes/voxel_light_clear.comp.glsl"};
+    static const char *const clear[5] = {"lib/voxel_sides_clear.comp.glsl"};
     *pass = (lsf_voxel_light){.context = context, .use = *use};
     if (!lsf_plan_create_texture(plan, context, "voxel_light.radiance", &pass->radiance, error))
         return false;

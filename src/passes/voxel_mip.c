@@ -2,17 +2,17 @@
 
 #include <string.h>
 
+#include "base/base.h"
 #include "shared/scene_data.h"
 
-/* Levels that are written where bricks are; one brick is one texel of the last of them. */
-#define LISTED_LEVELS 2
+/* The last of the levels that are written where bricks are: one brick is one texel of it. */
+#define BRICK_LEVEL 2
 
 /* Storage buffer. */
 #define BINDING_BRICKS 1
 
-/* Locations of the uniforms. */
+/* Uniform of voxel_mip_whole. */
 #define LOCATION_LEVEL 0
-#define LOCATION_EMPTY 1
 
 /* Side of the work groups that write whole levels. */
 #define GROUP 4
@@ -28,29 +28,47 @@ void lsf_voxel_mip_plan(lsf_plan *plan, uint32_t sides)
 bool lsf_voxel_mip_create(lsf_voxel_mip *pass, lsf_context *context, const lsf_plan *plan,
                           const lsf_voxel_grid *grid, uint32_t sides, lsf_error *error)
 {
-    static const char *const bricks_files[5] = {"passes/voxel_mip_bricks.comp.glsl"};
-    static const char *const whole_files[5] = {"passes/voxel_mip_whole.comp.glsl"};
     *pass = (lsf_voxel_mip){.context = context, .grid = *grid, .sides = sides};
-    pass->bricks_program = lsf_plan_program(plan, context, "voxel_mip", bricks_files, error);
-    if (!pass->bricks_program)
-        return false;
-    pass->whole_program = lsf_plan_program(plan, context, "voxel_mip", whole_files, error);
-    if (!pass->whole_program)
-        return false;
+    const struct {
+        const char *files[5];
+        GLuint *program;
+    } programs[] = {{{"passes/voxel_mip_clear.comp.glsl"}, &pass->clear_program},
+                    {{"passes/voxel_mip_fine.comp.glsl"}, &pass->fine_program},
+                    {{"passes/voxel_mip_brick.comp.glsl"}, &pass->brick_program},
+                    {{"passes/voxel_mip_whole.comp.glsl"}, &pass->whole_program}};
+    for (size_t i = 0; i < LSF_COUNT(programs); i++)
+        if (!(*programs[i].program =
+                  lsf_plan_program(plan, context, "voxel_mip", programs[i].files, error)))
+            return false;
     pass->timer = lsf_timer_create(context, "voxel_mip", error);
     return pass->timer != NULL;
 }
 
-static void write_listed(GLuint radiance, GLuint bricks, int level, bool empty)
+static void bind_level(GLuint unit, GLuint radiance, int level)
 {
+    glBindImageTexture(unit, radiance, level, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+}
+
+static void dispatch_bricks(GLuint program, GLuint bricks)
+{
+    glUseProgram(program);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, bricks);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, bricks);
-    glBindImageTexture(0, radiance, level, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
-    glUniform1i(LOCATION_LEVEL, level);
-    glUniform1i(LOCATION_EMPTY, empty);
     glDispatchComputeIndirect(0);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+/* Levels 1 and 2, which are empty where no brick is. */
+static void write_bricks(const lsf_voxel_mip *pass, const lsf_voxel_mip_inputs *inputs)
+{
+    bind_level(0, inputs->radiance, 1);
+    bind_level(1, inputs->radiance, BRICK_LEVEL);
+    if (inputs->changed)
+        dispatch_bricks(pass->clear_program, inputs->previous_bricks);
+    dispatch_bricks(pass->fine_program, inputs->bricks);
+    bind_level(0, inputs->radiance, BRICK_LEVEL);
+    dispatch_bricks(pass->brick_program, inputs->bricks);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
 static GLuint groups(uint32_t texels)
@@ -61,7 +79,7 @@ static GLuint groups(uint32_t texels)
 static void write_whole(const lsf_voxel_mip *pass, GLuint radiance, int level)
 {
     const uint32_t *size = pass->grid.size;
-    glBindImageTexture(0, radiance, level, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    bind_level(0, radiance, level);
     glUniform1i(LOCATION_LEVEL, level);
     glDispatchCompute(groups(size[0] >> level), groups(size[1] >> level),
                       groups((size[2] >> level) * pass->sides));
@@ -72,14 +90,9 @@ void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxel_mip_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
     glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
-    glUseProgram(pass->bricks_program);
-    for (int level = 1; level <= LISTED_LEVELS; level++) {
-        if (inputs->changed)
-            write_listed(inputs->radiance, inputs->previous_bricks, level, true);
-        write_listed(inputs->radiance, inputs->bricks, level, false);
-    }
+    write_bricks(pass, inputs);
     glUseProgram(pass->whole_program);
-    for (int level = LISTED_LEVELS + 1; level < LSF_VOXEL_LEVELS; level++)
+    for (int level = BRICK_LEVEL + 1; level < LSF_VOXEL_LEVELS; level++)
         write_whole(pass, inputs->radiance, level);
     lsf_timer_end(pass->timer);
 }

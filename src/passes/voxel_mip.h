@@ -15,7 +15,7 @@ typedef struct lsf_voxel_mip {
     lsf_context *context;
     lsf_voxel_grid grid;
     uint32_t sides;
-    GLuint bricks_program, whole_program;
+    GLuint clear_program, fine_program, brick_program, whole_program;
     lsf_timer *timer;
 } lsf_voxel_mip;
 

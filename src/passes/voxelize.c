@@ -25,11 +25,13 @@
 #define ROW_GROUPS 1024u
 #define ROW (GROUP * ROW_GROUPS)
 
+/* Work groups of a row of bricks. */
+#define BRICK_GROUPS (LSF_VOXEL_LIST_ROW / LSF_VOXEL_GROUP_BRICKS)
+
 #define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
 
-/* Locations in voxelize.geom.glsl, and in voxelize_count and voxelize_write. */
+/* Locations in voxelize.geom.glsl and voxelize_write. */
 #define LOCATION_SIDE 24
-#define LOCATION_PLACE 25
 #define LOCATION_DRAW 25
 
 /* Room for voxels that are won: a storage block of 128 MiB. A grid of more voxels than this of
@@ -58,9 +60,11 @@ static bool has_emission(const lsf_plan *plan)
     return plan->requirements.emissive || plan->requirements.unlit;
 }
 
-uint32_t lsf_voxelize_bytes(const lsf_plan *plan)
+/* Without lists and the coarser occupancy, which take half a byte together. */
+uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter)
 {
-    return 4 * (5 + has_emission(plan) + has_gloss(plan)) + 1;
+    uint32_t bytes = 4 * (5 + has_emission(plan) + has_gloss(plan)) + 1;
+    return lsf_voxelize_keeps_still(plan, jitter) ? 2 * bytes : bytes;
 }
 
 /* Bits that tell a triangle among all, and one value more: a bid is never 0. */
@@ -119,7 +123,7 @@ static void plan_occupancy(lsf_plan *plan, const lsf_voxel_grid *grid)
 static uint64_t list_bytes(const lsf_voxel_grid *grid)
 {
     uint64_t voxels = (uint64_t)grid->size[0] * grid->size[1] * grid->size[2];
-    return 4 * (LSF_VOXEL_LIST_HEADER + voxels / BRICK_VOXELS);
+    return 4 * LSF_VOXEL_LIST_HEADER + voxels / BRICK_VOXELS * sizeof(struct lsf_voxel_brick_data);
 }
 
 static uint64_t won_voxels(const lsf_voxel_grid *grid)
@@ -131,7 +135,6 @@ static uint64_t won_voxels(const lsf_voxel_grid *grid)
 void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                        const lsf_voxel_grid *grid)
 {
-    (void)params;
     plan_programs(plan);
     lsf_plan_buffer_add(plan, "voxelize.grid", sizeof(struct lsf_voxel_grid_data),
                         "where the grid lies: %u x %u x %u voxels", grid->size[0], grid->size[1],
@@ -155,8 +158,10 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
     lsf_plan_buffer_add(plan, "voxelize.bricks", list_bytes(grid), "occupied bricks of 4^3 voxels");
     lsf_plan_buffer_add(plan, "voxelize.previous_bricks", list_bytes(grid),
                         "those of the iteration before");
-    lsf_plan_buffer_add(plan, "voxelize.tiles", 4 * LSF_VOXEL_LIST_HEADER + 8 * (uint64_t)MAX_TILES,
-                        "tiles of large triangles");
+    if (params->method == LSF_VOXELIZE_COMPUTE)
+        lsf_plan_buffer_add(plan, "voxelize.tiles",
+                            4 * LSF_VOXEL_LIST_HEADER + 8 * (uint64_t)MAX_TILES,
+                            "tiles of large triangles");
     uint64_t draws = plan->requirements.instances * sizeof(voxelize_draw);
     lsf_plan_buffer_add(plan, "voxelize.draws_start", draws, "instances in the order of draws");
     lsf_plan_buffer_add(plan, "voxelize.draws", draws,
@@ -194,9 +199,10 @@ static bool create_textures(lsf_voxelize *pass, const lsf_plan *plan, lsf_error 
     return true;
 }
 
-static void empty_list(GLuint list)
+/* `groups`: that a row of the list takes. */
+static void empty_list(GLuint list, GLuint groups)
 {
-    static const GLuint header[LSF_VOXEL_LIST_HEADER] = {LSF_VOXEL_LIST_ROW, 0, 1, 0};
+    const GLuint header[LSF_VOXEL_LIST_HEADER] = {groups, 0, 1, 0};
     glClearNamedBufferSubData(list, GL_RGBA32UI, 0, sizeof header, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                               header);
 }
@@ -217,8 +223,8 @@ static bool create_lists(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *er
         !lsf_plan_create_buffer(plan, pass->context, "voxelize.grid", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->outputs.grid_buffer, error))
         return false;
-    empty_list(pass->bricks[0]);
-    empty_list(pass->bricks[1]);
+    empty_list(pass->bricks[0], BRICK_GROUPS);
+    empty_list(pass->bricks[1], BRICK_GROUPS);
     return true;
 }
 
@@ -238,6 +244,7 @@ static bool create_programs(lsf_voxelize *pass, const lsf_plan *plan, bool raste
          raster},
         {"voxelize_list", {"passes/voxelize_count.comp.glsl"}, &pass->count_program, true},
         {"voxelize_list", {"passes/voxelize_sum.comp.glsl"}, &pass->sum_program, true},
+        {"voxelize_list", {"passes/voxelize_place.comp.glsl"}, &pass->place_program, true},
         {"voxelize_write", {"passes/voxelize_write.comp.glsl"}, &pass->write_program, true},
     };
     for (size_t i = 0; i < LSF_COUNT(programs); i++)
@@ -326,7 +333,7 @@ static void use_program(GLuint program, const instance_turn *turn)
 static void mark_by_compute(lsf_voxelize *pass, const instance_turn *turn)
 {
     uint32_t groups = (turn->triangles + GROUP - 1) / GROUP;
-    empty_list(pass->tiles);
+    empty_list(pass->tiles, LSF_VOXEL_LIST_ROW);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     use_program(pass->small_program, turn);
     glDispatchCompute(groups < ROW_GROUPS ? groups : ROW_GROUPS,
@@ -418,17 +425,15 @@ static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_WON, pass->won);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->outputs.bricks);
     glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, pass->outputs.occupancy[0]);
-    for (int place = 0; place < 2; place++) {
-        glUseProgram(pass->count_program);
-        glUniform1i(LOCATION_PLACE, place);
-        glDispatchComputeIndirect(0);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        if (place == 1)
-            break;
-        glUseProgram(pass->sum_program);
-        glDispatchCompute(1, 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    }
+    glUseProgram(pass->count_program);
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(pass->sum_program);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glUseProgram(pass->place_program);
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 /* Adds a group to the grid: bids, then surfaces. */
@@ -487,7 +492,7 @@ const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_itera
     lsf_triangle_fetch_bind(&pass->fetch, iteration->scene);
     if (anew) {
         glNamedBufferSubData(o->grid_buffer, 0, sizeof data, &data);
-        empty_list(o->bricks);
+        empty_list(o->bricks, BRICK_GROUPS);
         add_group(pass, iteration, GROUP_STILL);
         if (pass->still.moves)
             lsf_voxelize_still_keep(pass);

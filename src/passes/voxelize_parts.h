@@ -24,7 +24,7 @@ struct lsf_voxelize {
     GLuint draws, won;  /* the same with the voxels that they have won, and these */
     GLuint bricks[2];   /* lists of this run and of the run before */
     uint32_t runs;
-    GLuint clear_program, count_program, sum_program, write_program;
+    GLuint clear_program, count_program, sum_program, place_program, write_program;
     /* Bids: an instance's small triangles, then its large ones; or all on the raster pipeline. */
     GLuint small_program, large_program, raster_program;
     GLuint framebuffer;
@@ -45,6 +45,8 @@ void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[9])
 
 /* --- voxelize_still.c --- */
 
+/* Whether the grid is copied: something moves in it, and it does not itself. */
+bool lsf_voxelize_keeps_still(const lsf_plan *plan, bool jitter);
 /* Lists the copies of everything that the pass has planned; nothing where nothing moves or the grid
  * does. */
 void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid);

@@ -16,12 +16,17 @@ static void still_name(char name[64], const char *of)
     snprintf(name, 64, "voxelize.still_%s", of + sizeof prefix - 1);
 }
 
+bool lsf_voxelize_keeps_still(const lsf_plan *plan, bool jitter)
+{
+    return plan->requirements.moving && !jitter;
+}
+
 void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid)
 {
     lsf_voxelize none = {0};
     lsf_voxelize_texture textures[TEXTURES];
     char name[64];
-    if (!plan->requirements.moving || grid->jitter) {
+    if (!lsf_voxelize_keeps_still(plan, grid->jitter)) {
         lsf_plan_omit(plan, "voxelize.still", "%s",
                       grid->jitter ? "the grid moves every iteration" : "nothing moves");
         return;

@@ -1,13 +1,11 @@
-/* An occupied voxel, and the texels of its sides. */
+/* The sides of occupied voxels that radiance is kept for, texels of slices along z. Switch
+ * LSF_VOXEL_SIDES. */
+#ifndef LSF_LIB_VOXEL_SIDES
+#define LSF_LIB_VOXEL_SIDES
+
 #include "lib/voxel_brick.glsl"
 
 layout(binding = 0, rgba16f) uniform image3D radiance_image;
-layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
-layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
-layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
-#if LSF_EMISSION
-layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D emission_texture;
-#endif
 
 /* The largest half float. */
 #define RADIANCE_MAX 65504.0
@@ -22,3 +20,5 @@ int lobe_slice(int axis, float facing)
 {
     return 2 * axis + (facing > 0.0 ? 1 : 0);
 }
+
+#endif

@@ -1,0 +1,27 @@
+/* The eight texels of level 1 in a brick, those that hold voxels. */
+#ifndef LSF_PASSES_VOXEL_MIP_CHILDREN
+#define LSF_PASSES_VOXEL_MIP_CHILDREN
+
+#include "lib/voxel_brick.glsl"
+
+/* Of two times two columns of voxels, as half a brick's bits have them. */
+const uint corner_voxels = 0x00330033u;
+
+/* A bit each. */
+uint brick_children(lsf_voxel_brick_data brick)
+{
+    uint children = 0u;
+    for (int i = 0; i < 4; i++) {
+        uint voxels = corner_voxels << (2 * (i & 1) + 8 * (i >> 1));
+        children |= (brick.low & voxels) != 0u ? 1u << i : 0u;
+        children |= (brick.high & voxels) != 0u ? 16u << i : 0u;
+    }
+    return children;
+}
+
+ivec3 child_cell(lsf_voxel_brick_data brick, int child)
+{
+    return 2 * voxel_brick_unpack(brick.place) + ivec3(child & 1, (child >> 1) & 1, child >> 2);
+}
+
+#endif
