@@ -1,5 +1,5 @@
-/* Visibility from the light's map. Switches LSF_SHADOW_PCF, and LSF_SHADOW_HEMISPHERE for the map of
- * a VPL (see lib/hemisphere.glsl).
+/* Visibility from the light's map. Switches LSF_SHADOW_PCF, the side of a filter or 0, and
+ * LSF_SHADOW_HEMISPHERE for the map of a VPL (see lib/hemisphere.glsl).
  *
  * A texel knows the depth of the surface at its centre; the receiver lies elsewhere in the texel.
  * Depth is affine over a plane, so either surface can be continued to the other's place:
@@ -102,21 +102,24 @@ float shadow_tolerance(shadow_receiver r)
 
 #if LSF_SHADOW_PCF
 
-/* Percentage-closer filter over 4 x 4 texels about the receiver, whose plane each is compared
- * with. Reeves et al. 1987. */
+/* Percentage-closer filter over as many texels' squares about the receiver along each axis as
+ * LSF_SHADOW_PCF says, an even number; each is compared with the receiver's plane. Reeves et al. 1987. */
 float shadow_visibility(vec3 position, vec3 normal)
 {
+    const int squares = LSF_SHADOW_PCF / 2; /* of 2 x 2 texels, which are read at once */
     shadow_receiver r = shadow_project(position, normal);
-    int last = int(light.map_shape.z) - 1;
-    ivec2 corner = ivec2(floor(r.texel - 0.5)) - 1;
-    float lit = 0.0;
-    for (int i = 0; i < 16; i++) {
-        ivec2 at = clamp(corner + ivec2(i & 3, i >> 2), ivec2(0), ivec2(last));
-        float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
-        float receiver = r.depth + dot(r.gradient, vec2(at) + 0.5 - r.texel);
-        lit += depth > receiver + shadow_tolerance(r) ? 0.0 : 1.0;
+    vec2 corner = floor(r.texel - 0.5) - float(squares - 1);
+    float tolerance = shadow_tolerance(r);
+    vec4 lit = vec4(0.0);
+    for (int i = 0; i < squares * squares; i++) {
+        vec2 at = corner + 2.0 * vec2(i % squares, i / squares); /* the least of the four */
+        at = clamp(at, vec2(0.0), vec2(light.map_shape.z - 2.0));
+        vec4 depth = textureGather(shadow_depth, vec3((at + 1.0) / light.map_shape.z, r.face));
+        vec4 receiver = r.depth + r.gradient.x * (vec4(at.x) + vec4(0.5, 1.5, 1.5, 0.5) - r.texel.x) +
+                        r.gradient.y * (vec4(at.y) + vec4(1.5, 1.5, 0.5, 0.5) - r.texel.y);
+        lit += vec4(lessThanEqual(depth, receiver + tolerance));
     }
-    return lit / 16.0;
+    return dot(lit, vec4(1.0)) / float(LSF_SHADOW_PCF * LSF_SHADOW_PCF);
 }
 
 #else

@@ -1,7 +1,8 @@
-/* A work group a tile of a large triangle, an invocation a column of voxels. */
+/* Tiles of large triangles. An invocation takes a row of a tile's columns, so that what it costs to
+ * load the triangle is shared. */
 #include "passes/voxelize_mark.glsl"
 
-layout(local_size_x = LSF_VOXELIZE_TILE, local_size_y = LSF_VOXELIZE_TILE) in;
+layout(local_size_x = LSF_VOXELIZE_TILE * LSF_VOXELIZE_GROUP_TILES) in;
 
 layout(std430, binding = LSF_BINDING_TILES) readonly buffer lsf_tile_block
 {
@@ -10,7 +11,9 @@ layout(std430, binding = LSF_BINDING_TILES) readonly buffer lsf_tile_block
 
 void main()
 {
-    uint at = gl_WorkGroupID.x + gl_WorkGroupID.y * LSF_VOXEL_LIST_ROW;
+    uint group = gl_WorkGroupID.x +
+                 gl_WorkGroupID.y * uint(LSF_VOXEL_LIST_ROW / LSF_VOXELIZE_GROUP_TILES);
+    uint at = group * LSF_VOXELIZE_GROUP_TILES + gl_LocalInvocationID.x / LSF_VOXELIZE_TILE;
     if (at >= min(tiles[3], LSF_VOXELIZE_TILES))
         return;
     uint triangle = tiles[LSF_VOXEL_LIST_HEADER + 2u * at];
@@ -19,8 +22,9 @@ void main()
     if (triangle == LSF_NO_NODE || !triangle_load(triangle, -1, t))
         return;
     int across = (t.columns.x + LSF_VOXELIZE_TILE - 1) / LSF_VOXELIZE_TILE;
-    ivec2 column = ivec2(tile % across, tile / across) * LSF_VOXELIZE_TILE +
-                   ivec2(gl_LocalInvocationID.xy);
-    if (all(lessThan(column, t.columns)))
-        visit_column(t, t.low + column);
+    ivec2 first = ivec2(tile % across, tile / across) * LSF_VOXELIZE_TILE;
+    first.y += int(gl_LocalInvocationID.x % uint(LSF_VOXELIZE_TILE));
+    int end = first.y < t.columns.y ? min(first.x + LSF_VOXELIZE_TILE, t.columns.x) : first.x;
+    for (int x = first.x; x < end; x++)
+        visit_column(t, t.low + ivec2(x, first.y));
 }

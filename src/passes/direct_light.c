@@ -16,7 +16,7 @@ void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
     lsf_light_switches(plan);
-    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf, "shadow.filter is pcf");
+    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf ? 4 : 0, "shadow.filter");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the sum over lights");
 }

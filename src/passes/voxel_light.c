@@ -9,24 +9,40 @@
 /* Storage buffer beside LSF_BINDING_MATERIALS. */
 #define BINDING_BRICKS 1
 
-static void plan_program(lsf_plan *plan, const char *name, const lsf_voxel_light_use *use,
-                         const char *why)
+/* The light in turn is one program, with or without what voxels emit. */
+static const struct {
+    const char *name, *what;
+    bool emit, reflect;
+} variants[] = {
+    {"voxel_light_emit", "what voxels emit, in the place of what was there", true, false},
+    {"voxel_light_first", "the same, and what they reflect of the first light", true, true},
+    {"voxel_light_add", "what they reflect of another light", false, true},
+};
+
+static void plan_sides(lsf_plan *plan, const lsf_voxel_light_use *use)
 {
-    const lsf_requirements *r = &plan->requirements;
-    lsf_plan_pass_add(plan, name, "%s", why);
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)use->sides,
                         "sides that radiance is kept for");
-    lsf_plan_switch_add(plan, "LSF_EMISSION", r->emissive || r->unlit,
-                        "some material emits or is unlit");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
 }
 
 void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
                           const lsf_voxel_light_use *use)
 {
-    plan_program(plan, "voxel_light", use, "what voxels emit, and reflect of punctual lights");
-    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf, "shadow.filter is pcf");
-    lsf_light_switches(plan);
+    const lsf_requirements *r = &plan->requirements;
+    lsf_plan_pass_add(plan, "voxel_light_clear", "the light of voxels that were");
+    plan_sides(plan, use);
+    for (size_t i = 0; i < LSF_COUNT(variants); i++) {
+        lsf_plan_pass_add(plan, variants[i].name, "%s", variants[i].what);
+        plan_sides(plan, use);
+        lsf_plan_switch_add(plan, "LSF_EMIT", variants[i].emit, "part of the program's purpose");
+        lsf_plan_switch_add(plan, "LSF_REFLECT", variants[i].reflect, "the same");
+        lsf_plan_switch_add(plan, "LSF_EMISSION", r->emissive || r->unlit,
+                            "some material emits or is unlit");
+        lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf ? 2 : 0,
+                            "shadow.filter; texels are small beside voxels");
+        lsf_light_switches(plan);
+    }
     lsf_voxel_texture_plan(plan, grid, "voxel_light.radiance", GL_RGBA16F, use->sides, use->levels,
                            "radiance of each side of a voxel's surface");
 }
@@ -34,19 +50,20 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
 bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const lsf_plan *plan,
                             const lsf_voxel_light_use *use, lsf_error *error)
 {
-    static const char *const begin[5] = {"passes/voxel_light_begin.comp.glsl"};
-    static const char *const add[5] = {"passes/voxel_light_add.comp.glsl"};
-    static const char *const clear[5] = {"lib/voxel_sides_clear.comp.glsl"};
+    static const char *const files[5] = {"passes/voxel_light.comp.glsl"};
+    static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
     *pass = (lsf_voxel_light){.context = context, .use = *use};
+    GLuint *const programs[] = {&pass->emit_program, &pass->first_program, &pass->add_program};
     if (!lsf_plan_create_texture(plan, context, "voxel_light.radiance", &pass->radiance, error))
         return false;
     for (uint32_t level = 0; level < use->levels; level++)
         glClearTexImage(pass->radiance, (GLint)level, GL_RGBA, GL_FLOAT, NULL);
-    pass->begin_program = lsf_plan_program(plan, context, "voxel_light", begin, error);
-    pass->clear_program = lsf_plan_program(plan, context, "voxel_light", clear, error);
-    pass->add_program = lsf_plan_program(plan, context, "voxel_light", add, error);
+    for (size_t i = 0; i < LSF_COUNT(variants); i++)
+        if (!(*programs[i] = lsf_plan_program(plan, context, variants[i].name, files, error)))
+            return false;
+    pass->clear_program = lsf_plan_program(plan, context, "voxel_light_clear", clear_files, error);
     pass->timer = lsf_timer_create(context, "voxel_light", error);
-    return pass->begin_program && pass->clear_program && pass->add_program && pass->timer;
+    return pass->clear_program && pass->timer;
 }
 
 static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list)
@@ -61,7 +78,6 @@ static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list)
 
 static void bind_voxels(const lsf_voxel_light_inputs *inputs)
 {
-    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy);
     glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
     glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
     glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->point);
@@ -70,12 +86,23 @@ static void bind_voxels(const lsf_voxel_light_inputs *inputs)
 
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs)
 {
+    pass->written = false;
+    if (!inputs->changed || pass->use.levels == 1)
+        return;
     lsf_timer_begin(pass->timer);
-    if (inputs->changed && pass->use.levels > 1)
-        dispatch(pass, pass->clear_program, inputs->previous_bricks);
-    bind_voxels(inputs);
-    dispatch(pass, pass->begin_program, inputs->bricks);
+    dispatch(pass, pass->clear_program, inputs->previous_bricks);
     lsf_timer_end(pass->timer);
+}
+
+void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs)
+{
+    if (pass->written)
+        return;
+    lsf_timer_begin(pass->timer);
+    bind_voxels(inputs);
+    dispatch(pass, pass->emit_program, inputs->bricks);
+    lsf_timer_end(pass->timer);
+    pass->written = true;
 }
 
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs,
@@ -85,8 +112,9 @@ void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *in
     bind_voxels(inputs);
     glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, map->depth);
     glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, map->gradient);
-    dispatch(pass, pass->add_program, inputs->bricks);
+    dispatch(pass, pass->written ? pass->add_program : pass->first_program, inputs->bricks);
     lsf_timer_end(pass->timer);
+    pass->written = true;
 }
 
 void lsf_voxel_light_destroy(lsf_voxel_light *pass)

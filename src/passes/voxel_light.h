@@ -7,7 +7,6 @@
 
 /* The voxels to light: what voxelize hands out. */
 typedef struct lsf_voxel_light_inputs {
-    GLuint occupancy; /* the finest level */
     GLuint albedo, normal, point, emission;
     GLuint bricks, previous_bricks;
     bool changed;
@@ -30,7 +29,8 @@ typedef struct lsf_voxel_light {
     GLuint radiance; /* RGBA16F in the grid's unit; slices along z are the sides; alpha: how much of
                       * a surface faces that way */
     lsf_voxel_light_use use;
-    GLuint begin_program, add_program, clear_program;
+    bool written; /* since it began */
+    GLuint clear_program, emit_program, first_program, add_program;
     lsf_timer *timer;
 } lsf_voxel_light;
 
@@ -38,9 +38,11 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
                           const lsf_voxel_light_use *use);
 bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const lsf_plan *plan,
                             const lsf_voxel_light_use *use, lsf_error *error);
-/* Emission only, in the place of light before. The grid must be bound. */
+/* Light before goes. The grid must be bound, then and below. */
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs);
-/* Adds the light in turn. */
+/* What voxels emit, for whom wants it alone or knows of no light; nothing to do after others. */
+void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs);
+/* Adds the light in turn, to what voxels emit. */
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs,
                          const lsf_voxel_light_map *map);
 void lsf_voxel_light_destroy(lsf_voxel_light *pass);

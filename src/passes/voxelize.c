@@ -18,6 +18,7 @@
  * group shares; tiles in the list, 8 bytes each. */
 #define SMALL_COLUMNS 16
 #define TILE 8
+#define GROUP_TILES 8
 #define MAX_TILES (1u << 20)
 
 /* Work groups of triangles are laid out in rows: GL promises 65,535 along an axis. */
@@ -93,6 +94,7 @@ static void plan_programs(lsf_plan *plan)
     plan_switches(plan);
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_SMALL", SMALL_COLUMNS, "columns of an invocation");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILE", TILE, "columns of a tile's side");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_GROUP_TILES", GROUP_TILES, "tiles of a work group");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILES", MAX_TILES, "room in the list of tiles");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_ROW", ROW, "triangles of a row of work groups");
     lsf_plan_switch_add(plan, "LSF_BINDING_TILES", BINDING_TILES, "always");
@@ -333,7 +335,7 @@ static void use_program(GLuint program, const instance_turn *turn)
 static void mark_by_compute(lsf_voxelize *pass, const instance_turn *turn)
 {
     uint32_t groups = (turn->triangles + GROUP - 1) / GROUP;
-    empty_list(pass->tiles, LSF_VOXEL_LIST_ROW);
+    empty_list(pass->tiles, LSF_VOXEL_LIST_ROW / GROUP_TILES);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     use_program(pass->small_program, turn);
     glDispatchCompute(groups < ROW_GROUPS ? groups : ROW_GROUPS,

@@ -154,6 +154,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     if (c->way.bounces > 0 && c->way.shines) {
         const lsf_voxel_bounce_sum reflected = {.source = base};
         const lsf_voxel_bounce_sum all = {.base = base, .keep = true};
+        lsf_voxel_chain_emit(&c->chain);
         build_pyramid(c, base);
         lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &reflected);
         lsf_voxel_chain_lights(&c->chain, iteration, true);

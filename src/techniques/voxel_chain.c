@@ -85,8 +85,7 @@ static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
 
 static lsf_voxel_light_inputs light_inputs(const lsf_voxelize_outputs *voxels)
 {
-    return (lsf_voxel_light_inputs){.occupancy = voxels->occupancy[0],
-                                    .albedo = voxels->albedo,
+    return (lsf_voxel_light_inputs){.albedo = voxels->albedo,
                                     .normal = voxels->normal,
                                     .point = voxels->point,
                                     .emission = voxels->emission,
@@ -105,6 +104,14 @@ void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteratio
     lsf_voxel_light_begin(&chain->light, &inputs);
 }
 
+void lsf_voxel_chain_emit(lsf_voxel_chain *chain)
+{
+    if (!chain->voxelize)
+        return;
+    lsf_voxel_light_inputs inputs = light_inputs(chain->voxels);
+    lsf_voxel_light_emit(&chain->light, &inputs);
+}
+
 void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels)
 {
     on_voxels = on_voxels && chain->voxelize;
@@ -116,6 +123,7 @@ void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iterati
         if (on_voxels)
             light_voxels(chain, iteration, &inputs, i);
     }
+    lsf_voxel_chain_emit(chain); /* where no light has brought it along */
 }
 
 void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration,

@@ -34,13 +34,14 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
                             const lsf_state *state, const lsf_voxel_chain_use *use,
                             lsf_error *error);
 void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration);
+/* The same in parts: what is seen, and voxels; what voxels emit, for who has a use for that alone; then
+ * the punctual lights, on voxels only where asked for. */
+void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration);
+void lsf_voxel_chain_emit(lsf_voxel_chain *chain);
+void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels);
 /* Sets the layers of voxels, where asked for; to be called when the voxels' light is complete. */
 void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration,
                           lsf_technique_outputs *outputs);
-/* The same in parts, for a technique that has a use for what voxels emit: what is seen, voxels and
- * their emission; then the punctual lights, on voxels only where asked for. */
-void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration);
-void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels);
 void lsf_voxel_chain_destroy(lsf_voxel_chain *chain);
 /* As lsf_technique's report. */
 uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports);

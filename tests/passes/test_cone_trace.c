@@ -39,7 +39,8 @@ static float *at(const pyramid *p, float *data, uint32_t level, uint32_t side, u
 static void fill(pyramid *p, uint32_t parity, GLuint bricks)
 {
     float *data = calloc(texels(p, 0), 4 * sizeof(float));
-    uint32_t list[4 + WIDTH * HEIGHT * DEPTH / 64] = {LSF_VOXEL_LIST_ROW, 1, 1, 0};
+    uint32_t header[LSF_VOXEL_LIST_HEADER] = {LSF_VOXEL_LIST_ROW / LSF_VOXEL_GROUP_BRICKS, 1, 1, 0};
+    struct lsf_voxel_brick_data list[WIDTH * HEIGHT * DEPTH / 64];
     srand(parity);
     for (uint32_t z = 0; z < DEPTH; z++)
         for (uint32_t y = 0; y < HEIGHT; y++)
@@ -47,7 +48,11 @@ static void fill(pyramid *p, uint32_t parity, GLuint bricks)
                 if ((x / 4 + y / 4 + z / 4) % 2 != parity)
                     continue;
                 if (x % 4 == 0 && y % 4 == 0 && z % 4 == 0)
-                    list[4 + list[3]++] = x / 4 | y / 4 << 10 | z / 4 << 20;
+                    list[header[3]++] =
+                        (struct lsf_voxel_brick_data){.place = x / 4 | y / 4 << 10 | z / 4 << 20,
+                                                      .low = UINT32_MAX,
+                                                      .high = UINT32_MAX,
+                                                      .sides = (1u << p->sides) - 1};
                 for (uint32_t side = 0; side < p->sides && rand() % 2; side++) {
                     float *texel = at(p, data, 0, side, x, y, z);
                     texel[3] = (float)(rand() % 256) / 255.0f;
@@ -57,7 +62,8 @@ static void fill(pyramid *p, uint32_t parity, GLuint bricks)
             }
     glTextureSubImage3D(p->radiance, 0, 0, 0, 0, WIDTH, HEIGHT, (GLsizei)(DEPTH * p->sides),
                         GL_RGBA, GL_FLOAT, data);
-    glNamedBufferSubData(bricks, 0, (GLsizeiptr)((4 + list[3]) * sizeof *list), list);
+    glNamedBufferSubData(bricks, 0, sizeof header, header);
+    glNamedBufferSubData(bricks, sizeof header, (GLsizeiptr)(header[3] * sizeof *list), list);
     free(data);
 }
 

@@ -41,7 +41,7 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
     if (!lsf_setup_begin(&rig->setup, scene, &params, &error))
         fail_msg("%s", error.message);
     lsf_plan *plan = rig->setup.plan;
-    const lsf_voxel_grid_use use = {.bytes = lsf_voxelize_bytes(plan), .sides = 1};
+    const lsf_voxel_grid_use use = {.bytes = lsf_voxelize_bytes(plan, jitter), .sides = 1};
     rig->grid = lsf_voxel_grid_fit(&grid, &rig->setup.state, &use);
     lsf_voxel_grid_set_unit(&rig->grid, scene, &rig->setup.state);
     lsf_voxelize_plan(plan, &voxelize, &rig->grid);
@@ -61,8 +61,7 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
 static void run_light(voxel_rig *rig)
 {
     const lsf_voxelize_outputs *o = rig->outputs;
-    const lsf_voxel_light_inputs inputs = {.occupancy = o->occupancy[0],
-                                           .albedo = o->albedo,
+    const lsf_voxel_light_inputs inputs = {.albedo = o->albedo,
                                            .normal = o->normal,
                                            .point = o->point,
                                            .emission = o->emission,
@@ -76,6 +75,7 @@ static void run_light(voxel_rig *rig)
                                          rig->shadow_map.outputs.gradient};
         lsf_voxel_light_add(&rig->light, &inputs, &map);
     }
+    lsf_voxel_light_emit(&rig->light, &inputs);
 }
 
 void voxel_rig_run(voxel_rig *rig, uint32_t iteration)

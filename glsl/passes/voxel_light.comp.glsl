@@ -1,0 +1,108 @@
+/* What each voxel sends out. Switches LSF_EMIT: what it emits, in the place of what was there, else what
+ * follows is added; LSF_REFLECT: what it reflects of the light in turn, from the side that faces it. */
+#include "lib/voxel_sides.glsl"
+#include "shared/brdf.h"
+#if LSF_REFLECT
+#include "lib/light.glsl"
+#include "lib/shadow.glsl"
+#include "shared/light.h"
+#endif
+
+layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
+layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
+layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
+#if LSF_EMIT && LSF_EMISSION
+layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D emission_texture;
+#endif
+
+/* Places in voxels are kept to 2^-10 of a voxel; the receiver is lifted off its surface by as much. */
+#define LIFT (1.0 / 1024.0)
+
+/* Radiance of the side that faces the light. */
+#if LSF_REFLECT
+vec3 reflected(ivec3 cell, vec3 n, out bool front)
+{
+    vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
+    vec3 position = voxel_to_position(place);
+    vec3 irradiance;
+    float distance2;
+    vec3 to_light = light_direction(position, irradiance, distance2);
+    float cosine = dot(n, to_light);
+    front = cosine > 0.0;
+    vec3 side = front ? n : -n;
+    float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
+    vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
+    return albedo * irradiance * (visibility * abs(cosine) / LSF_PI * grid.unit.y);
+}
+#endif
+
+void put(ivec3 cell, int slice, float share, vec3 radiance)
+{
+    ivec3 texel = slice_texel(cell, slice);
+#if LSF_EMIT
+    vec4 sum = vec4(share * radiance, share);
+#else
+    vec4 sum = imageLoad(radiance_image, texel) + vec4(share * radiance, 0.0);
+#endif
+    imageStore(radiance_image, texel, min(sum, RADIANCE_MAX));
+}
+
+/* Where a side's radiance belongs; returns the slices, a bit each. */
+uint put_side(ivec3 cell, vec3 n, bool front, vec3 radiance)
+{
+#if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_AXES
+    uint slices = 0u;
+    for (int axis = 0; axis < 3; axis++) {
+        int slice = lobe_slice(axis, front ? n[axis] : -n[axis]);
+        if (n[axis] == 0.0)
+            continue; /* empty before, too */
+        put(cell, slice, n[axis] * n[axis], radiance);
+        slices |= 1u << slice;
+    }
+    return slices;
+#else
+    int slice = front ? 0 : 1;
+    if (slice < LSF_VOXEL_SIDES)
+        put(cell, slice, 1.0, radiance);
+    return slice < LSF_VOXEL_SIDES ? 1u << slice : 0u;
+#endif
+}
+
+uint light_voxel(ivec3 cell)
+{
+    vec3 n = voxel_normal_unpack(texelFetch(normal_texture, cell, 0).r);
+#if LSF_REFLECT
+    bool lit_front;
+    vec3 light = reflected(cell, n, lit_front);
+#endif
+#if LSF_EMIT
+    vec3 front = vec3(0.0), back = vec3(0.0);
+#if LSF_EMISSION
+    front = voxel_emission_unpack(texelFetch(emission_texture, cell, 0).r);
+    if (voxel_emits_both(texelFetch(point_texture, cell, 0).r))
+        back = front;
+#endif
+#if LSF_REFLECT
+    front += lit_front ? light : vec3(0.0);
+    back += lit_front ? vec3(0.0) : light;
+#endif
+    return put_side(cell, n, true, front) | put_side(cell, n, false, back);
+#else
+    return put_side(cell, n, lit_front, light);
+#endif
+}
+
+void main()
+{
+    uint at;
+    if (!voxel_brick_listed(at))
+        return;
+    lsf_voxel_brick_data brick = bricks[at];
+    int voxels = voxel_brick_voxels(brick);
+    uint slices = 0u;
+    for (int n = voxel_brick_lane(); n < voxels; n += VOXEL_BRICK_LANES)
+        slices |= light_voxel(voxel_brick_cell(brick, n));
+#if LSF_EMIT
+    atomicOr(bricks[at].sides, slices);
+#endif
+}
