@@ -3,54 +3,8 @@
 #include <math.h>
 
 #include "../gl/shader_folder.h"
-#include "render_gl.h"
+#include "bidirectional_rig.h"
 #include "shared/scene_data.h"
-
-/* Small maps: what is tested here does not depend on their resolution. */
-#define SMALL_MAPS                                                                                 \
-    "rsm.resolution=64", "vpl.shadow_resolution=64", "bundle.resolution=96",                       \
-        "shadow.texels_per_pixel=4"
-enum { SMALL_MAP_OPTIONS = 4 };
-
-static lsf_render_params params_of(uint32_t samples, uint32_t bounces)
-{
-    static const char *const options[] = {SMALL_MAPS};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    params.technique = "bidirectional";
-    params.samples = getenv("LSF_TEST_QUICK") && samples > 16 ? samples / 4 : samples;
-    params.bounces = bounces;
-    params.options = options;
-    params.option_count = SMALL_MAP_OPTIONS;
-    return params;
-}
-
-static lsf_image *render(const lsf_scene *scene, lsf_render_params params, uint32_t size,
-                         lsf_float3 eye, lsf_float3 target)
-{
-    const float position[3] = {eye.x, eye.y, eye.z}, at[3] = {target.x, target.y, target.z};
-    params.width = params.height = size;
-    params.camera_position = position;
-    params.camera_target = at;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
-}
-
-static void mean_rgb(const lsf_image *image, double rgb[3])
-{
-    uint64_t pixels = (uint64_t)image->width * image->height;
-    rgb[0] = rgb[1] = rgb[2] = 0.0;
-    for (uint64_t i = 0; i < pixels; i++)
-        for (int c = 0; c < 3; c++) {
-            float value = image->pixels[i * image->channel_count + (uint64_t)c];
-            assert_true(isfinite(value) && value >= 0.0f);
-            rgb[c] += (double)value / (double)pixels;
-        }
-}
-
-static void same_bits(const lsf_image *a, const lsf_image *b)
-{
-    assert_memory_equal(a->pixels, b->pixels,
-                        sizeof(float) * a->width * a->height * a->channel_count);
-}
 
 /* A closed box seen from inside, every wall emitting 1 and reflecting `albedo`. */
 static lsf_scene *furnace(float albedo)
@@ -71,22 +25,22 @@ static void energy_in_a_furnace(void **unused)
     (void)unused;
     static const struct {
         float albedo;
-        uint32_t bounces;
-    } cases[] = {{0.0f, 1}, {0.5f, 0}, {0.5f, 3}, {1.0f, 1}};
+        uint32_t bounces, samples; /* of black walls any number will do: nothing is random */
+    } cases[] = {{0.0f, 1, 16}, {0.5f, 0, 512}, {0.5f, 3, 512}, {1.0f, 1, 512}};
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
         lsf_scene *scene = furnace(cases[i].albedo);
         double rgb[3], expected = 1.0, power = 1.0;
         for (uint32_t k = 0; k <= cases[i].bounces; k++)
             expected += power *= (double)cases[i].albedo;
         /* Rays that graze an edge of the room are lost, fewer with finer bundles. */
-        static const char *const finer = "bundle.resolution=512";
-        lsf_render_params params = params_of(512, cases[i].bounces);
-        params.samples = 512; /* always: with fewer, noise alone passes the bound */
+        static const char *const finer = "bundle.resolution=256";
+        lsf_render_params params = bidirectional_params(cases[i].samples, cases[i].bounces);
+        params.samples = cases[i].samples; /* always: with fewer, noise alone passes the bound */
         params.options = &finer;
         params.option_count = 1;
         lsf_image *image =
-            render(scene, params, 8, lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
-        mean_rgb(image, rgb);
+            render_gl_from(scene, params, 8, lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
+        mean_rgb(image, 0, rgb);
         print_message("albedo %g, %u bounces: %.5f, expected %.5f\n", (double)cases[i].albedo,
                       cases[i].bounces, rgb[1], expected);
         for (int c = 0; c < 3; c++)
@@ -104,15 +58,13 @@ static void white_furnace(void **unused)
     build_material(scene, 1.0f, 1.0f, 1.0f);
     build_sphere(scene, 3, false);
     scene->diffuse_only = true;
-    scene->environment.present = true;
-    for (int c = 0; c < 3; c++)
-        scene->environment.radiance[c] = 0.5f;
+    build_environment(scene, 0.5f);
     finish_gl_scene(scene);
-    lsf_render_params params = params_of(256, 0);
+    lsf_render_params params = bidirectional_params(256, 0);
     params.option_count = 0; /* rays leave facets closer by than a texel, too */
-    lsf_image *image = render(scene, params, 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
+    lsf_image *image = render_gl_from(scene, params, 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
     double rgb[3];
-    mean_rgb(image, rgb);
+    mean_rgb(image, 0, rgb);
     print_message("white furnace: %.5f of 0.5\n", rgb[0]);
     for (int c = 0; c < 3; c++)
         assert_true(fabs(rgb[c] / 0.5 - 1.0) <= 0.01);
@@ -120,19 +72,12 @@ static void white_furnace(void **unused)
     lsf_scene_destroy(scene);
 }
 
-/* A room of three walls, a box and a sphere; light `which` of two, or both. */
+/* A corner under light `which` of two, or both. */
 enum { LIGHT_A = 1, LIGHT_B = 2 };
 static lsf_scene *room(int which, float intensity)
 {
     lsf_scene *scene = build_scene();
-    build_material(scene, 0.7f, 0.6f, 0.5f);
-    build_floor(scene, 0.0f, 2.0f);
-    build_material(scene, 0.3f, 0.6f, 0.8f);
-    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
-    build_material(scene, 0.8f, 0.3f, 0.2f);
-    build_quad(scene, lsf_f3(-2, 0, 2), lsf_f3(-2, 0, -2), lsf_f3(-2, 3, -2), lsf_f3(-2, 3, 2));
-    build_material(scene, 0.6f, 0.6f, 0.6f)->roughness = 0.5f;
-    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
+    build_corner(scene);
     if (which & LIGHT_A)
         build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.5f, 2, 0.5f), lsf_f3(0, -1, 0),
                     8.0f * intensity);
@@ -146,20 +91,15 @@ static lsf_scene *room(int which, float intensity)
     return scene;
 }
 
-static lsf_image *render_room(const lsf_scene *scene, lsf_render_params params, uint32_t size)
-{
-    return render(scene, params, size, lsf_f3(2.5f, 2, 3.5f), lsf_f3(-0.5f, 0.8f, -0.5f));
-}
-
 static void lights_add_up(void **unused)
 {
     (void)unused;
     double sum[3] = {0}, both[3];
     for (int which = LIGHT_A; which <= (LIGHT_A | LIGHT_B); which++) {
         lsf_scene *scene = room(which, 1.0f);
-        lsf_image *image = render_room(scene, params_of(256, 1), 24);
+        lsf_image *image = render_corner(scene, bidirectional_params(256, 1), 24);
         double rgb[3];
-        mean_rgb(image, rgb);
+        mean_rgb(image, 0, rgb);
         for (int c = 0; c < 3; c++) {
             sum[c] += which == (LIGHT_A | LIGHT_B) ? 0.0 : rgb[c];
             both[c] = rgb[c];
@@ -185,12 +125,12 @@ static void strategies_agree(void **unused)
     for (uint32_t bounces = 1; bounces <= 2; bounces++) {
         double rgb[3][3];
         for (int i = 0; i < 3; i++) {
-            lsf_render_params params = params_of(512, bounces);
+            lsf_render_params params = bidirectional_params(512, bounces);
             options[SMALL_MAP_OPTIONS] = strategies[i];
             params.options = options;
             params.option_count = SMALL_MAP_OPTIONS + 1;
-            lsf_image *image = render_room(scene, params, 16);
-            mean_rgb(image, rgb[i]);
+            lsf_image *image = render_corner(scene, params, 16);
+            mean_rgb(image, 0, rgb[i]);
             print_message("%u bounces, %s: %.5f %.5f %.5f\n", bounces, strategies[i], rgb[i][0],
                           rgb[i][1], rgb[i][2]);
             lsf_image_destroy(image);
@@ -208,12 +148,11 @@ static void light_scales(void **unused)
     (void)unused;
     static const float scales[] = {0x1p-60f, 0x1p60f};
     lsf_scene *scene = room(LIGHT_A | LIGHT_B, 1.0f);
-    lsf_image *expected = render_room(scene, params_of(4, 2), 24);
+    lsf_image *expected = render_corner(scene, bidirectional_params(4, 2), 24);
     for (int i = 0; i < 2; i++) {
         lsf_scene *scaled = room(LIGHT_A | LIGHT_B, scales[i]);
-        lsf_image *image = render_room(scaled, params_of(4, 2), 24);
-        for (uint64_t p = 0; p < 24 * 24 * 3; p++)
-            assert_true(image->pixels[p] == expected->pixels[p] * scales[i]);
+        lsf_image *image = render_corner(scaled, bidirectional_params(4, 2), 24);
+        assert_scaled_pixels(image, expected, scales[i]);
         lsf_image_destroy(image);
         lsf_scene_destroy(scaled);
     }
@@ -224,17 +163,9 @@ static void light_scales(void **unused)
 static void same_bits_again(void **unused)
 {
     (void)unused;
-    static const char *const threads[] = {"0", "1", "8"};
     lsf_scene *scene = room(LIGHT_A | LIGHT_B, 1.0f);
-    lsf_image *expected = render_room(scene, params_of(3, 2), 33);
-    for (int i = 0; i < 3; i++) {
-        setenv("LP_NUM_THREADS", threads[i], 1);
-        lsf_image *image = render_room(scene, params_of(3, 2), 33);
-        same_bits(image, expected);
-        lsf_image_destroy(image);
-    }
-    unsetenv("LP_NUM_THREADS");
-    lsf_image_destroy(expected);
+    lsf_render_params params = corner_params(bidirectional_params(3, 2), 33);
+    assert_same_for_any_threads(scene, &params);
     lsf_scene_destroy(scene);
 }
 
@@ -243,30 +174,7 @@ static void same_bits_again(void **unused)
 static void extremes(void **unused)
 {
     (void)unused;
-    double rgb[3];
-    lsf_render_params params = params_of(4, 2);
-    for (int kind = 0; kind < 4; kind++) {
-        lsf_scene *scene = build_scene();
-        lsf_float3 light = lsf_f3(0, 1, 0);
-        if (kind > 0) {
-            build_material(scene, 0.8f, 0.8f, 0.8f)->roughness = kind == 2 ? 0.0f : 1.0f;
-            const lsf_float3 corners[3] = {lsf_f3(-1, 0, 1), lsf_f3(1, 0, 1), lsf_f3(0, 0, -1)};
-            build_triangles(scene, corners, 1);
-        }
-        if (kind == 3)
-            light.y = 0.0f;
-        build_light(scene, LSF_LIGHT_POINT, light, lsf_f3(0, -1, 0), 3.0f);
-        finish_gl_scene(scene);
-        params.width = kind == 0 ? 1 : 7;
-        params.height = kind == 0 ? 1 : 13;
-        const float eye[3] = {0, kind == 2 ? 0.0f : 0.8f, 0.9f}, target[3] = {0, 0, 0};
-        params.camera_position = eye;
-        params.camera_target = target;
-        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
-        mean_rgb(image, rgb);
-        lsf_image_destroy(image);
-        lsf_scene_destroy(scene);
-    }
+    assert_finite_extremes(bidirectional_params(4, 2), 0.0f);
 }
 
 /* Unequal numbers of samples, interleaved or not, have the same mean. */
@@ -283,11 +191,11 @@ static void counts_do_not_change_the_mean(void **unused)
     lsf_scene *scene = room(LIGHT_A, 1.0f);
     double rgb[4][3];
     for (int i = 0; i < 4; i++) {
-        lsf_render_params params = params_of(256, 1);
+        lsf_render_params params = bidirectional_params(256, 1);
         params.options = options[i];
         params.option_count = OPTIONS;
-        lsf_image *image = render_room(scene, params, 24);
-        mean_rgb(image, rgb[i]);
+        lsf_image *image = render_corner(scene, params, 24);
+        mean_rgb(image, 0, rgb[i]);
         lsf_image_destroy(image);
         print_message("%s %s %s: %.5f %.5f %.5f\n", options[i][4], options[i][5], options[i][6],
                       rgb[i][0], rgb[i][1], rgb[i][2]);

@@ -3,16 +3,11 @@
 #include <math.h>
 
 #include "base/base.h"
+#include "bidirectional_rig.h"
 #include "math/sampling.h"
-#include "render_gl.h"
 #include "scene/emitters.h"
 
 /* Small maps: what is tested here does not depend on their resolution. */
-#define SMALL_MAPS                                                                                 \
-    "rsm.resolution=64", "vpl.shadow_resolution=64", "bundle.resolution=96",                       \
-        "shadow.texels_per_pixel=4"
-enum { SMALL_MAP_OPTIONS = 4 };
-
 enum { POINT = 1, LAMP = 2, PLAIN = 0, BOTH_SIDES = 4, TEXTURED = 8 };
 
 static void add_lamp(lsf_scene *scene, int kind, float radiance)
@@ -30,18 +25,11 @@ static void add_lamp(lsf_scene *scene, int kind, float radiance)
                lsf_f3(0.2f, 1.9f, 0.5f), lsf_f3(-0.4f, 1.9f, 0.5f));
 }
 
-/* A corner of three walls with a box in it; lights as `kind` says. */
+/* A corner with lights as `kind` says. */
 static lsf_scene *room(int kind, float radiance)
 {
     lsf_scene *scene = build_scene();
-    build_material(scene, 0.7f, 0.6f, 0.5f);
-    build_floor(scene, 0.0f, 2.0f);
-    build_material(scene, 0.3f, 0.6f, 0.8f);
-    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
-    build_material(scene, 0.8f, 0.3f, 0.2f);
-    build_quad(scene, lsf_f3(-2, 0, 2), lsf_f3(-2, 0, -2), lsf_f3(-2, 3, -2), lsf_f3(-2, 3, 2));
-    build_material(scene, 0.6f, 0.6f, 0.6f)->roughness = 0.5f;
-    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
+    build_corner(scene);
     if (kind & LAMP)
         add_lamp(scene, kind, radiance);
     if (kind & POINT)
@@ -58,32 +46,12 @@ static lsf_scene *room(int kind, float radiance)
 static lsf_image *render(const lsf_scene *scene, uint32_t samples, uint32_t bounces, uint32_t size,
                          const char *option)
 {
-    static const float eye[3] = {2.5f, 2, 3.5f}, target[3] = {-0.5f, 0.8f, -0.5f};
     const char *options[] = {SMALL_MAPS, option};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    params.technique = "bidirectional";
-    params.samples = getenv("LSF_TEST_QUICK") && samples > 16 ? samples / 4 : samples;
-    params.bounces = bounces;
-    params.width = params.height = size;
-    params.camera_position = eye;
-    params.camera_target = target;
+    lsf_render_params params = bidirectional_params(samples, bounces);
     params.options = options;
     params.option_count = option ? SMALL_MAP_OPTIONS + 1 : SMALL_MAP_OPTIONS;
     params.aovs = LSF_AOV_DIRECT | LSF_AOV_EMISSION;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
-}
-
-/* Of three channels from `first` on. */
-static void mean_rgb(const lsf_image *image, uint32_t first, double rgb[3])
-{
-    uint64_t pixels = (uint64_t)image->width * image->height;
-    rgb[0] = rgb[1] = rgb[2] = 0.0;
-    for (uint64_t i = 0; i < pixels; i++)
-        for (uint32_t c = 0; c < 3; c++) {
-            float value = image->pixels[i * image->channel_count + first + c];
-            assert_true(isfinite(value) && value >= 0.0f);
-            rgb[c] += (double)value / (double)pixels;
-        }
+    return render_corner(scene, params, size);
 }
 
 static void same_mean(const double a[3], const double b[3], double bound)
@@ -209,18 +177,10 @@ static void a_lamp_lights_directly(void **unused)
 static void same_bits_again(void **unused)
 {
     (void)unused;
-    static const char *const threads[] = {"0", "1", "8"};
     lsf_scene *scene = room(LAMP | POINT, 5.0f);
-    lsf_image *expected = render(scene, 3, 2, 33, NULL);
-    for (int i = 0; i < 3; i++) {
-        setenv("LP_NUM_THREADS", threads[i], 1);
-        lsf_image *image = render(scene, 3, 2, 33, NULL);
-        assert_memory_equal(image->pixels, expected->pixels,
-                            sizeof(float) * 33 * 33 * image->channel_count);
-        lsf_image_destroy(image);
-    }
-    unsetenv("LP_NUM_THREADS");
-    lsf_image_destroy(expected);
+    lsf_render_params params = corner_params(bidirectional_params(3, 2), 33);
+    params.aovs = LSF_AOV_DIRECT | LSF_AOV_EMISSION;
+    assert_same_for_any_threads(scene, &params);
     lsf_scene_destroy(scene);
 }
 
@@ -234,8 +194,7 @@ static void extremes(void **unused)
     for (int i = 0; i < 2; i++) {
         lsf_scene *scaled = room(LAMP, 5.0f * scales[i]);
         lsf_image *image = render(scaled, 4, 1, 24, NULL);
-        for (uint64_t p = 0; p < 24 * 24 * image->channel_count; p++)
-            assert_true(image->pixels[p] == expected->pixels[p] * scales[i]);
+        assert_scaled_pixels(image, expected, scales[i]);
         lsf_image_destroy(image);
         lsf_scene_destroy(scaled);
     }

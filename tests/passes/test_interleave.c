@@ -101,9 +101,7 @@ static lsf_image *render_floor(int periods)
     build_material(scene, 0.8f, 0.8f, 0.8f);
     build_floor(scene, 0.0f, 4.0f);
     scene->diffuse_only = true;
-    scene->environment.present = true;
-    for (int c = 0; c < 3; c++)
-        scene->environment.radiance[c] = 1.0f;
+    build_environment(scene, 1.0f);
     finish_gl_scene(scene);
     const float eye[3] = {0, 1, 0.01f}, target[3] = {0, 0, 0};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};

@@ -20,42 +20,13 @@ static lsf_render_params params_of(uint32_t samples, uint32_t bounces, const cha
     return params;
 }
 
-static lsf_image *render(const lsf_scene *scene, lsf_render_params params, uint32_t size,
-                         lsf_float3 eye, lsf_float3 target)
-{
-    const float position[3] = {eye.x, eye.y, eye.z}, at[3] = {target.x, target.y, target.z};
-    params.width = params.height = size;
-    params.camera_position = position;
-    params.camera_target = at;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
-}
-
-static void mean_rgb(const lsf_image *image, double rgb[3])
-{
-    uint64_t pixels = (uint64_t)image->width * image->height;
-    rgb[0] = rgb[1] = rgb[2] = 0.0;
-    for (uint64_t i = 0; i < pixels; i++)
-        for (int c = 0; c < 3; c++) {
-            float value = image->pixels[i * image->channel_count + (uint64_t)c];
-            assert_true(isfinite(value) && value >= 0.0f);
-            rgb[c] += (double)value / (double)pixels;
-        }
-}
-
 static void expect(const char *what, const lsf_image *image, double expected, double allowed)
 {
     double rgb[3];
-    mean_rgb(image, rgb);
+    mean_rgb(image, 0, rgb);
     print_message("%s: %.5f, expected %.5f\n", what, rgb[1], expected);
     for (int c = 0; c < 3; c++)
         assert_true(fabs(rgb[c] / expected - 1.0) <= allowed);
-}
-
-static void set_environment(lsf_scene *scene, float radiance)
-{
-    scene->environment.present = true;
-    for (int c = 0; c < 3; c++)
-        scene->environment.radiance[c] = radiance;
 }
 
 static const char *const coarse_grid[MAX_OPTIONS] = {"voxel.resolution=32"};
@@ -93,8 +64,8 @@ static void energy_in_a_furnace(void **unused)
         double expected = 1.0, power = 1.0;
         for (uint32_t k = 0; k <= cases[i].bounces; k++)
             expected += power *= (double)rho;
-        lsf_image *image = render(scene, params_of(4, cases[i].bounces, cases[i].options), 12,
-                                  lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
+        lsf_image *image = render_gl_from(scene, params_of(4, cases[i].bounces, cases[i].options),
+                                          12, lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
         expect(cases[i].name, image, expected, 0.002);
         lsf_image_destroy(image);
         lsf_scene_destroy(scene);
@@ -110,10 +81,10 @@ static void open_plane(void **unused)
     build_material(scene, 0.5f, 0.5f, 0.5f);
     build_floor(scene, 0.0f, 4.0f);
     scene->diffuse_only = true;
-    set_environment(scene, 0.7f);
+    build_environment(scene, 0.7f);
     finish_gl_scene(scene);
     lsf_image *image =
-        render(scene, params_of(2, 1, NULL), 16, lsf_f3(0, 1, 0.5f), lsf_f3(0, 0, 0));
+        render_gl_from(scene, params_of(2, 1, NULL), 16, lsf_f3(0, 1, 0.5f), lsf_f3(0, 0, 0));
     expect("open plane", image, 0.35, 1e-4);
     lsf_image_destroy(image);
     lsf_scene_destroy(scene);
@@ -129,9 +100,10 @@ static void white_furnace(void **unused)
     build_material(scene, 1.0f, 1.0f, 1.0f);
     build_sphere(scene, 4, false);
     scene->diffuse_only = true;
-    set_environment(scene, 0.5f);
+    build_environment(scene, 0.5f);
     finish_gl_scene(scene);
-    lsf_image *image = render(scene, params_of(8, 3, fine), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
+    lsf_image *image =
+        render_gl_from(scene, params_of(8, 3, fine), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
     expect("white furnace", image, 0.5, 0.01);
     lsf_image_destroy(image);
     lsf_scene_destroy(scene);
@@ -154,8 +126,8 @@ static void bounces_in_a_sphere(void **unused)
         for (uint32_t k = 0; k <= bounces; k++, power *= rho)
             expected += power;
         static const char *const options[MAX_OPTIONS] = {"voxel.resolution=64"};
-        lsf_image *image = render(scene, params_of(8, bounces, options), 16, lsf_f3(0, 0, 0.5f),
-                                  lsf_f3(0.3f, 0.2f, -1));
+        lsf_image *image = render_gl_from(scene, params_of(8, bounces, options), 16,
+                                          lsf_f3(0, 0, 0.5f), lsf_f3(0.3f, 0.2f, -1));
         expect("sphere", image, expected, 0.02);
         lsf_image_destroy(image);
         lsf_scene_destroy(scene);
@@ -184,32 +156,16 @@ static lsf_scene *room(float intensity)
     return scene;
 }
 
-static lsf_image *render_room(const lsf_scene *scene, lsf_render_params params)
-{
-    return render(scene, params, 33, lsf_f3(2.5f, 2, 3.5f), lsf_f3(-0.5f, 0.8f, -0.5f));
-}
-
 static void same_bits_again(void **unused)
 {
     (void)unused;
-    static const char *const threads[] = {"0", "1", "8"};
     static const char *const single[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5",
                                                     "blur.when=on"};
     const char *const *const options[] = {coarse_grid, single};
     lsf_scene *scene = room(1.0f);
     for (int k = 0; k < 2; k++) {
-        lsf_render_params params = params_of(2, 2, options[k]);
-        lsf_image *expected = render_room(scene, params);
-        for (int i = 0; i < 3; i++) {
-            setenv("LP_NUM_THREADS", threads[i], 1);
-            lsf_image *image = render_room(scene, params);
-            assert_memory_equal(image->pixels, expected->pixels,
-                                sizeof(float) * image->width * image->height *
-                                    image->channel_count);
-            lsf_image_destroy(image);
-        }
-        unsetenv("LP_NUM_THREADS");
-        lsf_image_destroy(expected);
+        lsf_render_params params = corner_params(params_of(2, 2, options[k]), 33);
+        assert_same_for_any_threads(scene, &params);
     }
     lsf_scene_destroy(scene);
 }
@@ -220,12 +176,11 @@ static void light_scales(void **unused)
     (void)unused;
     static const float scales[] = {0x1p-40f, 0x1p40f};
     lsf_scene *scene = room(1.0f);
-    lsf_image *expected = render_room(scene, params_of(2, 2, coarse_grid));
+    lsf_image *expected = render_corner(scene, params_of(2, 2, coarse_grid), 33);
     for (int i = 0; i < 2; i++) {
         lsf_scene *scaled = room(scales[i]);
-        lsf_image *image = render_room(scaled, params_of(2, 2, coarse_grid));
-        for (uint64_t p = 0; p < 33 * 33 * 3; p++)
-            assert_true(image->pixels[p] == expected->pixels[p] * scales[i]);
+        lsf_image *image = render_corner(scaled, params_of(2, 2, coarse_grid), 33);
+        assert_scaled_pixels(image, expected, scales[i]);
         lsf_image_destroy(image);
         lsf_scene_destroy(scaled);
     }
@@ -243,7 +198,7 @@ static void layers_and_sequences(void **unused)
         lsf_render_params params = params_of(64, 1, k ? by_texture : coarse_grid);
         params.aovs = LSF_AOV_EMISSION | LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE |
                       LSF_AOV_INDIRECT_SPECULAR;
-        lsf_image *image = render_room(scene, params);
+        lsf_image *image = render_corner(scene, params, 33);
         assert_int_equal(image->channel_count, 15);
         for (int c = 0; c < 3; c++)
             sum[k][c] = 0.0;
@@ -282,9 +237,9 @@ static void sealed_room(void **unused)
         double lit[3], dark[3];
         for (int room_of = 0; room_of < 2; room_of++) {
             float side = room_of ? 1.0f : -1.0f;
-            lsf_image *image = render(scene, params_of(8, 4, options), 32,
-                                      lsf_f3(0.9f * side, 0.1f, 0.05f), lsf_f3(0, 0, 0));
-            mean_rgb(image, room_of ? dark : lit);
+            lsf_image *image = render_gl_from(scene, params_of(8, 4, options), 32,
+                                              lsf_f3(0.9f * side, 0.1f, 0.05f), lsf_f3(0, 0, 0));
+            mean_rgb(image, 0, room_of ? dark : lit);
             lsf_image_destroy(image);
         }
         print_message("a wall of %g voxels lets %.2e through\n", (double)walls[i],
@@ -300,8 +255,7 @@ static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
     static const char *const options[MAX_OPTIONS] = {"voxel.resolution=16", "voxel_path.scale=0.5",
-                                                     "blur.when=on",
-                                                     "voxel_path.sequence=texture"};
+                                                     "blur.when=on", "voxel_path.sequence=texture"};
     lsf_scene *scene = room(1.0f);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = params_of(1, 1, options);
@@ -332,29 +286,7 @@ static void every_allocation_may_fail(void **unused)
 static void extremes(void **unused)
 {
     (void)unused;
-    double rgb[3];
-    for (int kind = 0; kind < 4; kind++) {
-        lsf_scene *scene = build_scene();
-        if (kind > 0) {
-            build_material(scene, 0.8f, 0.8f, 0.8f)->roughness = kind == 2 ? 0.0f : 1.0f;
-            const lsf_float3 corners[3] = {lsf_f3(-1, 0, 1), lsf_f3(1, 0, 1), lsf_f3(0, 0, -1)};
-            build_triangles(scene, corners, 1);
-        }
-        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, kind == 3 ? 0.0f : 1.0f, 0), lsf_f3(0, -1, 0),
-                    3.0f);
-        set_environment(scene, 0.1f);
-        finish_gl_scene(scene);
-        lsf_render_params params = params_of(1, 2, coarse_grid);
-        params.width = kind == 0 ? 1 : 7;
-        params.height = kind == 0 ? 1 : 13;
-        const float eye[3] = {0, kind == 2 ? 0.0f : 0.8f, 0.9f}, target[3] = {0, 0, 0};
-        params.camera_position = eye;
-        params.camera_target = target;
-        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
-        mean_rgb(image, rgb);
-        lsf_image_destroy(image);
-        lsf_scene_destroy(scene);
-    }
+    assert_finite_extremes(params_of(1, 2, coarse_grid), 0.1f);
 }
 
 int main(void)

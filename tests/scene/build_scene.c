@@ -248,6 +248,25 @@ lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 positio
     return light;
 }
 
+void build_environment(lsf_scene *scene, float radiance)
+{
+    scene->environment.present = true;
+    for (int c = 0; c < 3; c++)
+        scene->environment.radiance[c] = radiance;
+}
+
+void build_corner(lsf_scene *scene)
+{
+    build_material(scene, 0.7f, 0.6f, 0.5f);
+    build_floor(scene, 0.0f, 2.0f);
+    build_material(scene, 0.3f, 0.6f, 0.8f);
+    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
+    build_material(scene, 0.8f, 0.3f, 0.2f);
+    build_quad(scene, lsf_f3(-2, 0, 2), lsf_f3(-2, 0, -2), lsf_f3(-2, 3, -2), lsf_f3(-2, 3, 2));
+    build_material(scene, 0.6f, 0.6f, 0.6f)->roughness = 0.5f;
+    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
+}
+
 uint32_t build_texture(lsf_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
                        const uint8_t *texels, bool srgb)
 {

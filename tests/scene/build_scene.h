@@ -28,6 +28,12 @@ lsf_node *build_sphere(lsf_scene *scene, uint32_t levels, bool inside);
 lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 position,
                        lsf_float3 direction, float intensity);
 
+/* A uniform environment. */
+void build_environment(lsf_scene *scene, float radiance);
+
+/* A corner of three walls with a glossy box in it. */
+void build_corner(lsf_scene *scene);
+
 /* A texture of `channels` bytes a texel; returns its index. */
 uint32_t build_texture(lsf_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
                        const uint8_t *texels, bool srgb);
