@@ -55,6 +55,18 @@ class CommandTest(unittest.TestCase):
         return sorted(os.listdir(self.folder))
 
 
+def shown_by(terminal):
+    """What a pseudoterminal shows, part by part, until nobody writes to it any more."""
+    while True:
+        try:
+            part = os.read(terminal, 65536)
+        except OSError:
+            return
+        if not part:
+            return
+        yield part
+
+
 def write_scene(path, emissive=False, light=True, camera=True, animated=False, name="Front"):
     """A square metre facing +z, a point light half a metre before it, a camera two metres away."""
     positions = struct.pack("<12f", -.5, -.5, 0, .5, -.5, 0, .5, .5, 0, -.5, .5, 0)

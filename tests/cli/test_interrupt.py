@@ -5,7 +5,7 @@ import signal
 import subprocess
 import unittest
 
-from command import COMMAND, DONE, RENDERING, CommandTest, exr_channels, main
+from command import COMMAND, DONE, RENDERING, CommandTest, exr_channels, main, shown_by
 
 ENDLESS = ("--resolution", "32,24", "--samples", "1000000000")
 
@@ -30,13 +30,7 @@ class Interrupt(CommandTest):
         self.addCleanup(process.kill)
         seen, sent = b"", False
         try:
-            while True:
-                try:
-                    part = os.read(mine, 65536)
-                except OSError:
-                    break
-                if not part:
-                    break
+            for part in shown_by(mine):
                 seen += part
                 if not sent and b" samples" in seen:
                     process.send_signal(number)

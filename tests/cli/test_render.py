@@ -2,9 +2,11 @@
 import json
 import os
 import pty
+import subprocess
 import unittest
 
-from command import NO_GL, SOURCE_ROOT, USAGE, CommandTest, exr_channels, main, png_size
+from command import (COMMAND, NO_GL, SOURCE_ROOT, USAGE, CommandTest, exr_channels, main, png_size,
+                     shown_by)
 
 SMALL = ("--resolution", "16,12", "--samples", "2", "--quiet", "--gl-debug")
 
@@ -112,21 +114,11 @@ class Progress(CommandTest):
         """What a terminal sees on stderr."""
         mine, theirs = pty.openpty()
         try:
-            import subprocess
-            from command import COMMAND
             with subprocess.Popen([COMMAND, *words], cwd=self.folder, stdin=subprocess.DEVNULL,
                                   stdout=subprocess.PIPE, stderr=theirs) as process:
                 os.close(theirs)
                 theirs = -1
-                seen = b""
-                while True:
-                    try:
-                        part = os.read(mine, 65536)
-                    except OSError:
-                        break
-                    if not part:
-                        break
-                    seen += part
+                seen = b"".join(shown_by(mine))
                 process.wait(60)
                 self.assertEqual(process.returncode, 0, seen)
             return seen.decode()

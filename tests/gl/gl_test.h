@@ -14,8 +14,8 @@
 
 #include "gl/gl.h"
 
-/* NULL and a skipped test when the machine lacks this backend. */
-static inline lsf_context *gl_test_context(lsf_backend backend, const char *shader_dir)
+/* NULL when the machine lacks this backend. */
+static inline lsf_context *gl_test_open(lsf_backend backend, const char *shader_dir)
 {
     lsf_context_params params = {LSF_CONTEXT_PARAMS_DEFAULTS};
     params.backend = backend;
@@ -26,8 +26,16 @@ static inline lsf_context *gl_test_context(lsf_backend backend, const char *shad
     if (!context) {
         print_message("no context: %s\n", error.message);
         assert_int_equal(error.code, LSF_ERROR_NO_GL);
-        skip();
     }
+    return context;
+}
+
+/* ... and then the test is skipped. */
+static inline lsf_context *gl_test_context(lsf_backend backend, const char *shader_dir)
+{
+    lsf_context *context = gl_test_open(backend, shader_dir);
+    if (!context)
+        skip();
     return context;
 }
 

@@ -7,14 +7,7 @@ static lsf_context *context;
 
 static int setup(void **state)
 {
-    lsf_context_params params = {LSF_CONTEXT_PARAMS_DEFAULTS};
-    params.backend = *(const lsf_backend *)*state;
-    params.fail_on_gl_error = true;
-    params.shader_dir = folder.path;
-    lsf_error error = {0};
-    context = lsf_context_create(&params, &error);
-    if (!context)
-        print_message("no context: %s\n", error.message);
+    context = gl_test_open(*(const lsf_backend *)*state, folder.path);
     return 0;
 }
 
