@@ -2,7 +2,8 @@
  *
  * voxelize.albedo R32UI    square roots of R and G in 11 bits each, of B in 10
  * voxelize.normal R32UI    unit normal, octahedral, 2 x 12 bits | turn of the tangent about it << 24
- * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30
+ * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30 |
+ *                          unlit << 31
  * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
  * voxelize.gloss R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
  *                          index n, metallic; 8 bits each */
@@ -94,10 +95,10 @@ float voxel_turn_unpack(uint bits)
 }
 
 /* `inside`: from the voxel's least corner, 0..1. */
-uint voxel_point_pack(vec3 inside, bool emits_both)
+uint voxel_point_pack(vec3 inside, bool emits_both, bool unlit)
 {
     uvec3 q = uvec3(clamp(inside, 0.0, 1.0) * 1023.0 + 0.5);
-    return q.x | (q.y << 10) | (q.z << 20) | (emits_both ? 1u << 30 : 0u);
+    return q.x | (q.y << 10) | (q.z << 20) | (emits_both ? 1u << 30 : 0u) | (unlit ? 1u << 31 : 0u);
 }
 
 vec3 voxel_point_unpack(uint bits)
@@ -108,6 +109,11 @@ vec3 voxel_point_unpack(uint bits)
 bool voxel_emits_both(uint bits)
 {
     return (bits & (1u << 30)) != 0u;
+}
+
+bool voxel_unlit(uint bits)
+{
+    return (bits & (1u << 31)) != 0u;
 }
 
 /* Shared exponent as of GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), which images cannot have. */

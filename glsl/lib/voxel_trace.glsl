@@ -84,11 +84,14 @@ int voxel_ray_steps()
     return int(grid.size.x + grid.size.y + grid.size.z);
 }
 
-/* On to the first occupied voxel, the cell that it is in included. False: it leaves the grid. */
-bool voxel_ray_trace(inout voxel_ray ray)
+/* On to the first occupied voxel that it enters before `end`, the cell that it is in included. False: there
+ * is none, or it leaves the grid. */
+bool voxel_ray_trace(inout voxel_ray ray, float end)
 {
     int steps = voxel_ray_steps();
     for (int i = 0; i < steps; i++) {
+        if (ray.distance >= end)
+            return false;
         ivec3 brick = ray.cell >> 2;
         uint bricks = texelFetch(occupancy_bricks, occupancy_texel(brick), 0).r;
         uint voxels = texelFetch(occupancy_voxels, occupancy_texel(ray.cell), 0).r;
@@ -104,6 +107,11 @@ bool voxel_ray_trace(inout voxel_ray ray)
             return false;
     }
     return false;
+}
+
+bool voxel_ray_trace(inout voxel_ray ray)
+{
+    return voxel_ray_trace(ray, VOXEL_FAR);
 }
 
 #endif

@@ -1,24 +1,25 @@
 /* Uni-directional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches
- * LSF_EMISSION (surfaces shine), LSF_ENVIRONMENT, LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS,
- * LSF_VOXEL_GLOSS and those of the libraries. */
+ * LSF_EMISSION (surfaces shine), LSF_EMITTERS (points on them are drawn), LSF_ENVIRONMENT,
+ * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/coarse.glsl"
 #include "lib/environment.glsl"
 #include "lib/path_random.glsl"
-#include "lib/voxel_trace.glsl"
+#include "lib/voxel_sight.glsl"
+#if LSF_EMITTERS
+#include "lib/voxel_emitter.glsl"
+#endif
 
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform usampler2D surface_texture;
 #if LSF_GLOSS
 layout(binding = 2) uniform usampler2D gloss_texture;
 #endif
-#if LSF_EMISSION
+#if LSF_EMISSION && !LSF_EMITTERS
 layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
 #endif
-layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance;
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
-layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal;
 #if LSF_VOXEL_GLOSS
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D voxel_gloss;
 #endif
@@ -63,33 +64,12 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
     indirect.specular += through.specular * radiance;
 }
 
-/* Takes the ray out of the voxels that it starts in, but for one whose surface lies ahead. The start is as
- * far above its own surface as a voxel reaches, so that these belong to others, which join it in a corner
- * or pass close by. */
-bool leave_start(inout voxel_ray ray)
-{
-    int steps = voxel_ray_steps();
-    for (int i = 0; i < steps && voxel_occupied(ray.cell); i++) {
-        vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, ray.cell, 0).r);
-        vec3 q = vec3(ray.cell) + voxel_point_unpack(texelFetch(voxel_point, ray.cell, 0).r);
-        if (dot(n, q - ray.origin) * dot(n, ray.direction) > 0.0)
-            return true;
-        voxel_ray_step(ray, ray.cell, ivec3(1));
-        if (!voxel_inside(ray.cell))
-            return false;
-    }
-    return true;
-}
-
 /* The voxel that a path meets on its way from v. */
 bool trace(path_vertex v, vec3 direction, out ivec3 cell)
 {
-    /* A voxel that touches a plane reaches |n_x| + |n_y| + |n_z| above it at most. */
-    vec3 n = v.s.geometric_normal;
-    float lift = abs(n.x) + abs(n.y) + abs(n.z);
     voxel_ray ray;
-    if (!voxel_ray_begin(v.position + lift * n, direction, ray) || !leave_start(ray) ||
-        !voxel_ray_trace(ray))
+    if (!voxel_ray_begin(v.position + voxel_lift(v.s.geometric_normal), direction, ray) ||
+        !voxel_leave_start(ray) || !voxel_ray_trace(ray))
         return false;
     cell = ray.cell;
     return true;
@@ -142,25 +122,62 @@ vec3 emission_of(ivec3 cell, int side)
     return vec3(0.0);
 }
 
+/* What light from a direction counts for: `through` the path so far, times f cos / density. */
+light_parts reflect_by(light_parts through, path_vertex v, brdf_value f, float weight, int segment)
+{
+    if (segment == 0)
+        return light_parts(vec3(f.diffuse * weight), f.specular * weight);
+    vec3 reflected = brdf_sum(v.s, f) * weight;
+    return light_parts(through.irradiance * reflected, through.specular * reflected);
+}
+
+#if LSF_EMITTERS
+/* Light of points that are drawn on emitters, its share of what the segment from v finds. */
+void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
+                  path_random_key key, uint index, int segment)
+{
+    uint count = uint(emitters.y);
+    for (uint i = 0u; i < count; i++) {
+        emitter_view e;
+        vec2 u = path_random(key, index * count + i, ~uint(segment)).xy;
+        if (!emitter_view_from(v.position, v.s.geometric_normal, u, e))
+            continue;
+        float cosine = dot(v.s.normal, e.direction);
+        if (cosine <= 0.0 || !voxel_sees(v.position, v.s.geometric_normal, e.position, e.normal))
+            continue;
+        float weight =
+            cosine / (emitters.y * e.density + brdf_pdf(sampler_of_v, e.direction));
+        brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
+        add_light(reflect_by(through, v, f, weight, segment), e.radiance, segment == 0);
+    }
+}
+
+/* Of what a segment finds by its direction, drawn from v with density `pdf`: a voxel that shines. */
+float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_vertex met, vec3 emission)
+{
+    if (voxel_unlit(texelFetch(voxel_point, cell, 0).r))
+        return 1.0; /* these are not drawn */
+    float drawn = emitter_density_met(v.position, direction, met.position, met.s.geometric_normal,
+                                      grid.unit.x * emission);
+    return pdf / (pdf + emitters.y * drawn);
+}
+#endif
+
 void add_path(path_vertex v, path_random_key key, uint index)
 {
     light_parts through = light_parts(vec3(1.0), vec3(1.0));
     for (int segment = 0; segment < lengths.y; segment++) {
         brdf_sampler sampler_of_v = brdf_sampler_of(v.s, v.view, segment == 0);
+#if LSF_EMITTERS
+        add_emitters(through, v, sampler_of_v, key, index, segment);
+#endif
         vec3 direction = brdf_draw(sampler_of_v, path_random(key, index, uint(segment)));
         float cosine = dot(v.s.normal, direction);
         if (cosine <= 0.0 || dot(v.s.geometric_normal, direction) <= 0.0)
             return;
         brdf_value f = brdf_evaluate(v.s, v.view, direction, 0.0);
-        float weight = cosine / brdf_pdf(sampler_of_v, direction);
-        if (segment == 0) {
-            through.irradiance = vec3(f.diffuse * weight);
-            through.specular = f.specular * weight;
-        } else {
-            vec3 reflected = brdf_sum(v.s, f) * weight;
-            through.irradiance *= reflected;
-            through.specular *= reflected;
-        }
+        float pdf = brdf_pdf(sampler_of_v, direction);
+        through = reflect_by(through, v, f, cosine / pdf, segment);
         ivec3 cell;
         if (!trace(v, direction, cell)) {
 #if LSF_ENVIRONMENT
@@ -169,7 +186,7 @@ void add_path(path_vertex v, path_random_key key, uint index)
             return;
         }
         int side;
-        v = vertex_at(cell, direction, side);
+        path_vertex met = vertex_at(cell, direction, side);
         /* What the last segment meets may shine, but has no bounce left to reflect with; and what the
          * first one meets shines as direct light. */
         vec3 radiance = vec3(0.0);
@@ -177,16 +194,14 @@ void add_path(path_vertex v, path_random_key key, uint index)
             radiance = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
 #if LSF_EMISSION
         vec3 emission = emission_of(cell, side);
-        if (segment >= lengths.x)
-            radiance = emission;
-#if LSF_SPLIT_DIRECT
-        if (segment == 0) {
-            add_light(through, grid.unit.x * emission, true);
-            radiance = max(radiance - emission, 0.0);
-        }
+        radiance = max(radiance - emission, 0.0);
+#if LSF_EMITTERS
+        emission *= met_share(v, direction, pdf, cell, met, emission);
 #endif
+        add_light(through, grid.unit.x * emission, segment == 0);
 #endif
         add_light(through, grid.unit.x * radiance, false);
+        v = met;
     }
 }
 

@@ -44,7 +44,7 @@ void write_surface(voxel_triangle t, ivec3 cell)
 #endif
     imageStore(normal_image, cell, uvec4(voxel_normal_pack(n, turn)));
     imageStore(point_image, cell,
-               uvec4(voxel_point_pack(inside, material_emits(material, false))));
+               uvec4(voxel_point_pack(inside, material_emits(material, false), s.unlit)));
 #if LSF_EMISSION
     imageStore(emission_image, cell, uvec4(voxel_emission_pack(emission * grid.unit.y)));
 #endif

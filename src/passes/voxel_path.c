@@ -16,6 +16,9 @@ const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
      NULL, "paths", "that begin at a pixel of roughness 0"},
     {"voxel_path.max_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, max_samples), 1, 64,
      NULL, "paths", "that begin at a pixel of roughness 1"},
+    {"voxel_path.emitters", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, emitters), 0, 16, NULL,
+     "points",
+     "drawn on emissive surfaces at each vertex of a path; 0: paths find these by chance"},
     {"voxel_path.sequence", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, sequence), 0, 0,
      "sobol|texture", "", "random numbers: of low discrepancy, or from a texture as in the paper"},
     {"voxel_path.scale", LSF_OPTION_FLOAT, offsetof(lsf_voxel_path_params, scale), 0.01, 1.0, NULL,
@@ -47,6 +50,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
     lsf_plan_switch_add(plan, "LSF_EMISSION", emission, "some material emits or is unlit");
+    lsf_voxel_path_emitters_plan(plan, params);
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
@@ -90,7 +94,7 @@ static bool create_random(lsf_voxel_path *pass, const lsf_plan *plan, lsf_error 
 
 bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_voxel_path_params *params, const lsf_voxel_path_use *use,
-                           lsf_error *error)
+                           const lsf_scene *scene, const lsf_state *state, lsf_error *error)
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/voxel_path.frag.glsl"};
     *pass = (lsf_voxel_path){.context = context, .params = *params, .segments = use->segments};
@@ -111,7 +115,8 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
         if (*textures[i].texture)
             desc.colors[desc.color_count++] = *textures[i].texture;
     }
-    if (!create_random(pass, plan, error))
+    if (!create_random(pass, plan, error) ||
+        !lsf_voxel_path_emitters_create(&pass->emitters, context, plan, scene, state, error))
         return false;
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "voxel_path", files, error);
@@ -154,6 +159,7 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
                 p->max_samples);
     glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_PATH));
+    lsf_voxel_path_emitters_draw(&pass->emitters, iteration, p->emitters);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }
@@ -168,6 +174,7 @@ void lsf_voxel_path_destroy(lsf_voxel_path *pass)
                           &pass->random};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);
+    lsf_voxel_path_emitters_destroy(&pass->emitters, pass->context);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

@@ -5,6 +5,8 @@
 #include "plan/coarse_grid.h"
 #include "plan/option.h"
 #include "plan/voxel_grid.h"
+#include "scene/emitters.h"
+#include "shared/emitter_data.h"
 
 typedef enum lsf_voxel_path_sequence {
     LSF_VOXEL_PATH_SOBOL,   /* low discrepancy over a pixel's samples of all iterations */
@@ -13,14 +15,16 @@ typedef enum lsf_voxel_path_sequence {
 
 typedef struct lsf_voxel_path_params {
     int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1 */
-    int32_t sequence;                 /* lsf_voxel_path_sequence */
-    float scale;                      /* of the grid on which paths begin, to the picture's sides */
+    int32_t emitters; /* points that are drawn on emissive surfaces at each vertex; 0: none */
+    int32_t sequence; /* lsf_voxel_path_sequence */
+    float scale;      /* of the grid on which paths begin, to the picture's sides */
 } lsf_voxel_path_params;
 
 #define LSF_VOXEL_PATH_PARAMS_DEFAULTS                                                             \
-    .min_samples = 1, .max_samples = 6, .sequence = LSF_VOXEL_PATH_SOBOL, .scale = 1.0f
+    .min_samples = 1, .max_samples = 6, .emitters = 1, .sequence = LSF_VOXEL_PATH_SOBOL,           \
+    .scale = 1.0f
 
-#define LSF_VOXEL_PATH_OPTION_COUNT 4
+#define LSF_VOXEL_PATH_OPTION_COUNT 5
 extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];
 
 /* Lengths of a path that the plan's bounces and light take; 0: nothing to find by paths. What
@@ -46,11 +50,20 @@ typedef struct lsf_voxel_path_outputs {
     GLuint irradiance, specular, direct_irradiance, direct_specular;
 } lsf_voxel_path_outputs;
 
+/* The points on emissive surfaces that an iteration's vertices share: one for each cell of a
+ * square, so that whoever reads it by stratified numbers takes stratified points. */
+typedef struct lsf_voxel_path_emitters {
+    lsf_emitters list;
+    struct lsf_emitter_point_data *points;
+    GLuint buffer; /* 0: none are drawn */
+} lsf_voxel_path_emitters;
+
 typedef struct lsf_voxel_path {
     lsf_context *context;
     lsf_voxel_path_params params;
     lsf_voxel_path_outputs outputs;
     uint32_t segments;
+    lsf_voxel_path_emitters emitters;
     GLuint random; /* 0 with Sobol points */
     GLuint framebuffer, program;
     lsf_timer *timer;
@@ -61,10 +74,20 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
                          const lsf_voxel_path_use *use);
 bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_voxel_path_params *params, const lsf_voxel_path_use *use,
-                           lsf_error *error);
+                           const lsf_scene *scene, const lsf_state *state, lsf_error *error);
 /* The grid of voxels must be bound. */
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs);
 void lsf_voxel_path_destroy(lsf_voxel_path *pass);
+
+/* Of voxel_path alone. Create does nothing where the plan has no such points. */
+void lsf_voxel_path_emitters_plan(lsf_plan *plan, const lsf_voxel_path_params *params);
+bool lsf_voxel_path_emitters_create(lsf_voxel_path_emitters *emitters, lsf_context *context,
+                                    const lsf_plan *plan, const lsf_scene *scene,
+                                    const lsf_state *state, lsf_error *error);
+/* Draws this iteration's points, and sets them for the program in use; `count` to a vertex. */
+void lsf_voxel_path_emitters_draw(lsf_voxel_path_emitters *emitters, const lsf_iteration *iteration,
+                                  int32_t count);
+void lsf_voxel_path_emitters_destroy(lsf_voxel_path_emitters *emitters, lsf_context *context);
 
 #endif

@@ -19,6 +19,7 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_VOXEL_PATH,
     LSF_PURPOSE_CONE_TURN,
     LSF_PURPOSE_CONE_ELEVATION,
+    LSF_PURPOSE_VOXEL_EMITTER,
 } lsf_purpose;
 
 #endif

@@ -73,11 +73,12 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
 
 static bool create_paths(voxel_path *v, lsf_context *context, const lsf_plan *plan,
                          const lsf_pass_params *params, const lsf_voxel_path_use *use,
-                         lsf_error *error)
+                         const lsf_scene *scene, const lsf_state *state, lsf_error *error)
 {
     v->width = use->width;
     v->height = use->height;
-    return lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, error) &&
+    return lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, scene, state,
+                                 error) &&
            (!lsf_blur_wanted(plan, &params->blur) ||
             lsf_blur_create(&v->blur, context, plan, &params->blur, error)) &&
            lsf_upsample_search_create(&v->upsample, context, plan, &params->upsample_search, error);
@@ -93,7 +94,8 @@ static bool create_voxel_path(void **self, lsf_context *context, const lsf_plan 
     lsf_voxel_path_use use = path_use(plan, params, state);
     return lsf_voxel_chain_create(&v->chain, context, plan, params, scene, state, &chain_use,
                                   error) &&
-           (use.segments == 0 || create_paths(v, context, plan, params, &use, error)) &&
+           (use.segments == 0 ||
+            create_paths(v, context, plan, params, &use, scene->scene, state, error)) &&
            lsf_compose_create(&v->compose, context, plan, error);
 }
 

@@ -3,6 +3,7 @@
 #include "shader_folder.h"
 
 #include "shared/bundle_data.h"
+#include "shared/emitter_data.h"
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 #include "shared/view.h"
@@ -91,6 +92,11 @@ static const shared_struct structs[] = {
      sizeof(struct lsf_voxel_brick_data),
      {MEMBER(lsf_voxel_brick_data, place), MEMBER(lsf_voxel_brick_data, low),
       MEMBER(lsf_voxel_brick_data, high), MEMBER(lsf_voxel_brick_data, sides)}},
+    {"shared/emitter_data.h",
+     "lsf_emitter_point_data",
+     sizeof(struct lsf_emitter_point_data),
+     {MEMBER(lsf_emitter_point_data, position), MEMBER(lsf_emitter_point_data, normal),
+      MEMBER(lsf_emitter_point_data, radiance)}},
     {"shared/vpl_data.h",
      "lsf_vpl_data",
      sizeof(struct lsf_vpl_data),

@@ -1,0 +1,21 @@
+/* A point on one side of an emissive triangle, storage buffer LSF_BINDING_EMITTERS: drawn by the host
+ * (scene/emitters.h). Normalised space. */
+#ifndef LSF_SHARED_EMITTER_DATA_H
+#define LSF_SHARED_EMITTER_DATA_H
+
+#include "shared/shared.h"
+
+struct lsf_emitter_point_data {
+    vec4 position; /* xyz */
+    vec4 normal;   /* xyz: unit, the way it shines; w: density by area with which it was drawn */
+    vec4 radiance; /* rgb */
+};
+
+/* The points of an iteration, one for each cell of the square of LSF_EMITTER_CELLS to a side that random
+ * numbers are drawn from. */
+#define LSF_EMITTER_CELLS 64
+
+#define LSF_BINDING_EMITTERS 1
+
+#include "shared/shared_end.h"
+#endif
