@@ -1,7 +1,6 @@
-/* Rays that start above one surface in the grid, and may end above another. Both ends are as far above
- * their own surface as a voxel reaches (voxel_lift), so that occupied voxels there belong to other surfaces,
- * which join it in a corner or pass close by. Of these a ray is let through those whose surface it moves
- * away from, seen from that end, up to the first empty cell. */
+/* Rays between surfaces in the grid. They start, and end, as far above a surface as a voxel of it reaches
+ * (voxel_lift), so that occupied voxels at the start belong to other surfaces, which join it in a corner or
+ * pass close by. */
 #ifndef LSF_LIB_VOXEL_SIGHT
 #define LSF_LIB_VOXEL_SIGHT
 
@@ -10,26 +9,32 @@
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal;
 
+/* How far a voxel's plane may be from its surface [voxels]: places are kept to 2^-11, normals to about
+ * 2^-11 in direction, over three voxels at most. */
+#define VOXEL_PLANE (1.0 / 256.0)
+
 /* A voxel that touches a plane with the unit normal n reaches |n_x| + |n_y| + |n_z| above it at most. */
 vec3 voxel_lift(vec3 n)
 {
     return (abs(n.x) + abs(n.y) + abs(n.z)) * n;
 }
 
-/* Whether the surface in the cell is ahead of a ray. */
-bool voxel_ahead(ivec3 cell, vec3 origin, vec3 direction)
+/* Height of the ray's origin above the surface in the cell, and how fast the ray rises above it. */
+vec2 voxel_height(ivec3 cell, voxel_ray ray)
 {
     vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
     vec3 q = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
-    return dot(n, q - origin) * dot(n, direction) > 0.0;
+    return vec2(dot(n, ray.origin - q), dot(n, ray.direction));
 }
 
-/* Takes the ray out of the voxels that it starts in. False: it leaves the grid. */
+/* Takes the ray out of the voxels that it starts in, but for one whose surface lies ahead. False: it leaves
+ * the grid. */
 bool voxel_leave_start(inout voxel_ray ray)
 {
     int steps = voxel_ray_steps();
     for (int i = 0; i < steps && voxel_occupied(ray.cell); i++) {
-        if (voxel_ahead(ray.cell, ray.origin, ray.direction))
+        vec2 height = voxel_height(ray.cell, ray);
+        if (height.x * height.y < 0.0)
             return true;
         voxel_ray_step(ray, ray.cell, ivec3(1));
         if (!voxel_inside(ray.cell))
@@ -38,23 +43,46 @@ bool voxel_leave_start(inout voxel_ray ray)
     return true;
 }
 
-/* Whether voxels leave the way free from one point of surface to another [voxels], with these unit normals.
- * Where the lifted ends have passed each other, the grid cannot tell what is between them. */
+bool voxel_crossed(ivec3 cell, voxel_ray ray, float first, float last)
+{
+    vec2 height = voxel_height(cell, ray);
+    float before = height.x + first * height.y, after = height.x + last * height.y;
+    return min(abs(before), abs(after)) < VOXEL_PLANE || before * after < 0.0;
+}
+
+/* Whether the ray, between two distances within a cell, crosses the plane of the surface there, or that of one
+ * in the six cells about it: where surfaces meet or bend, either has won the voxel. */
+bool voxel_blocks(ivec3 cell, voxel_ray ray, float first, float last)
+{
+    if (voxel_crossed(cell, ray, first, last))
+        return true;
+    for (int side = 0; side < 6; side++) {
+        ivec3 beside = cell;
+        beside[side >> 1] += 2 * (side & 1) - 1;
+        if (voxel_inside(beside) && voxel_occupied(beside) &&
+            voxel_crossed(beside, ray, first, last))
+            return true;
+    }
+    return false;
+}
+
+/* Whether one point of surface sees another [voxels]; with their unit normals. Where the lifted ends have
+ * passed each other, the grid cannot tell what is between. */
 bool voxel_sees(vec3 from, vec3 from_normal, vec3 to, vec3 to_normal)
 {
-    vec3 start = from + voxel_lift(from_normal), end = to + voxel_lift(to_normal);
-    vec3 span = end - start;
-    float far = length(span);
+    vec3 start = from + voxel_lift(from_normal);
+    vec3 span = to + voxel_lift(to_normal) - start;
+    float end = length(span);
     voxel_ray ray;
-    if (dot(span, to - from) <= 0.0 || !voxel_ray_begin(start, span / far, ray) ||
-        !voxel_leave_start(ray) || !voxel_ray_trace(ray, far))
+    if (dot(span, to - from) <= 0.0 || !voxel_ray_begin(start, span / end, ray))
         return true;
-    /* The way back from the end leaves all voxels that there are from here on. */
     int steps = voxel_ray_steps();
-    for (int i = 0; i < steps && ray.distance < far; i++) {
-        if (!voxel_occupied(ray.cell) || voxel_ahead(ray.cell, end, -ray.direction))
+    for (int i = 0; i < steps && voxel_ray_trace(ray, end); i++) {
+        ivec3 cell = ray.cell;
+        float entry = ray.distance;
+        voxel_ray_step(ray, cell, ivec3(1));
+        if (voxel_blocks(cell, ray, entry, min(ray.distance, end)))
             return false;
-        voxel_ray_step(ray, ray.cell, ivec3(1));
         if (!voxel_inside(ray.cell))
             return true;
     }

@@ -145,8 +145,9 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
         float cosine = dot(v.s.normal, e.direction);
         if (cosine <= 0.0 || !voxel_sees(v.position, v.s.geometric_normal, e.position, e.normal))
             continue;
-        float weight =
-            cosine / (emitters.y * e.density + brdf_pdf(sampler_of_v, e.direction));
+        float density = emitters.y * e.density;
+        float weight = cosine / density *
+                       emitter_share(density, brdf_pdf(sampler_of_v, e.direction));
         brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
         add_light(reflect_by(through, v, f, weight, segment), e.radiance, segment == 0);
     }
@@ -155,11 +156,9 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
 /* Of what a segment finds by its direction, drawn from v with density `pdf`: a voxel that shines. */
 float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_vertex met, vec3 emission)
 {
-    if (voxel_unlit(texelFetch(voxel_point, cell, 0).r))
-        return 1.0; /* these are not drawn */
     float drawn = emitter_density_met(v.position, direction, met.position, met.s.geometric_normal,
-                                      grid.unit.x * emission);
-    return pdf / (pdf + emitters.y * drawn);
+                                      texelFetch(voxel_point, cell, 0).r, grid.unit.x * emission);
+    return emitter_share(pdf, emitters.y * drawn);
 }
 #endif
 

@@ -45,7 +45,7 @@ static struct lsf_emitter_point_data point_of(const lsf_emitters *list, const ui
     return (struct lsf_emitter_point_data){
         .position = {s.position[0], s.position[1], s.position[2], 0.0f},
         .normal = {s.normal[0], s.normal[1], s.normal[2], s.density},
-        .radiance = {s.radiance[0], s.radiance[1], s.radiance[2], 0.0f}};
+        .radiance = {s.radiance[0], s.radiance[1], s.radiance[2], (float)s.sides}};
 }
 
 /* As many points of a (0,2)-sequence as there are cells, from a multiple of their number on, lie

@@ -191,7 +191,8 @@ lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *e, const double u[2])
     lsf_emitter_sample sample;
     uint64_t at = lsf_distribution_sample(&e->power, u[0], &rest);
     double side = 1.0;
-    if (material_of(e, e->instance[at])->double_sided) {
+    sample.sides = material_of(e, e->instance[at])->double_sided ? 2 : 1;
+    if (sample.sides == 2) {
         side = rest < 0.5 ? 1.0 : -1.0;
         rest = rest < 0.5 ? 2.0 * rest : 2.0 * rest - 1.0;
     }

@@ -19,7 +19,8 @@ typedef struct lsf_emitters {
 typedef struct lsf_emitter_sample {
     float position[3], normal[3]; /* unit, the way it shines */
     float radiance[3];
-    float density; /* with which it was drawn, by area of sides */
+    float density;  /* with which it was drawn, by area of sides */
+    uint32_t sides; /* that shine, 1 or 2: either alike */
     /* What `density` would be if points were drawn by their own luminance rather than their
      * triangle's mean: known to whoever sees the point. They are one unless a texture varies. */
     float weight_density;

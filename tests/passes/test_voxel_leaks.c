@@ -8,7 +8,7 @@
 
 /* Two rooms of 2 x 2 x 2 with a wall of `thickness` voxels between them, and a lamp in the left
  * one. */
-static lsf_scene *two_rooms(float thickness)
+static lsf_scene *two_rooms(float thickness, bool lamp)
 {
     /* The wall keeps its thickness in voxels: (4 + t) / (N - 2) is a voxel's side. */
     float side = 4.0f / ((float)RESOLUTION - 2.0f - thickness);
@@ -17,7 +17,16 @@ static lsf_scene *two_rooms(float thickness)
     build_material(scene, 0.7f, 0.7f, 0.7f);
     build_box(scene, lsf_f3(-2 - half, -1, -1), lsf_f3(-half, 1, 1), true);
     build_box(scene, lsf_f3(half, -1, -1), lsf_f3(2 + half, 1, 1), true);
-    build_light(scene, LSF_LIGHT_POINT, lsf_f3(-0.8f, 0.3f, 0.1f), lsf_f3(0, -1, 0), 1.0f);
+    if (lamp) {
+        lsf_material *material = build_material(scene, 0.7f, 0.7f, 0.7f);
+        for (int c = 0; c < 3; c++)
+            material->emission[c] = 4.0f;
+        material->double_sided = true;
+        build_quad(scene, lsf_f3(-1.3f, 0.5f, -0.4f), lsf_f3(-0.3f, 0.5f, -0.4f),
+                   lsf_f3(-0.3f, 0.9f, 0.4f), lsf_f3(-1.3f, 0.9f, 0.4f));
+    } else {
+        build_light(scene, LSF_LIGHT_POINT, lsf_f3(-0.8f, 0.3f, 0.1f), lsf_f3(0, -1, 0), 1.0f);
+    }
     finish_gl_scene(scene);
     return scene;
 }
@@ -45,16 +54,17 @@ static double room_light(const char *technique, const lsf_scene *scene, float ro
     return sum / (32.0 * 32.0);
 }
 
-static double leak(const char *technique, float thickness, const char *remedy)
+static double leak(const char *technique, float thickness, bool lamp, const char *remedy)
 {
     const char *options[2] = {"voxel.resolution=64", remedy};
-    lsf_scene *scene = two_rooms(thickness);
+    lsf_scene *scene = two_rooms(thickness, lamp);
     double lit = room_light(technique, scene, -1.0f, options, remedy ? 2 : 1);
     double dark = room_light(technique, scene, 1.0f, options, remedy ? 2 : 1);
     destroy_scene(scene);
     assert_true(lit > 0.01);
-    print_message("%s%s%s, wall of %g voxels: %.2e of the lit room's light\n", technique,
-                  remedy ? " -D " : "", remedy ? remedy : "", (double)thickness, dark / lit);
+    print_message("%s%s%s%s, wall of %g voxels: %.2e of the lit room's light\n", technique,
+                  lamp ? ", a lamp" : "", remedy ? " -D " : "", remedy ? remedy : "",
+                  (double)thickness, dark / lit);
     return dark / lit;
 }
 
@@ -66,9 +76,9 @@ static void cones(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < 4; i++) {
-        double isotropic = leak("cone", walls[i], "cone.sides=isotropic");
-        double anisotropic = leak("cone", walls[i], NULL);
-        double sealed = leak("cone", walls[i], "cone.sealed=on");
+        double isotropic = leak("cone", walls[i], false, "cone.sides=isotropic");
+        double anisotropic = leak("cone", walls[i], false, NULL);
+        double sealed = leak("cone", walls[i], false, "cone.sealed=on");
         assert_true(anisotropic < isotropic);
         assert_true(walls[i] < 2.0f || sealed <= 1e-4);
     }
@@ -78,11 +88,39 @@ static void paths(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < 4; i++)
-        assert_true(leak("voxel_path", walls[i], NULL) <= (walls[i] < 2.0f ? 1e-3 : 1e-4));
+        for (int lamp = 0; lamp < 2; lamp++)
+            assert_true(leak("voxel_path", walls[i], lamp, NULL) <=
+                        (walls[i] < 2.0f ? 1e-3 : 1e-4));
+}
+
+/* A lamp in a closed shell, whose facets no two voxels hold alike; what of its light is outside. */
+static void shells(void **unused)
+{
+    (void)unused;
+    double light[2];
+    for (int closed = 0; closed < 2; closed++) {
+        const char *options[1] = {"voxel.resolution=64"};
+        lsf_scene *scene = build_scene();
+        build_material(scene, 0.7f, 0.7f, 0.7f);
+        build_box(scene, lsf_f3(-2, -2, -2), lsf_f3(2, 2, 2), true);
+        if (closed)
+            build_sphere(scene, 3, true);
+        lsf_material *material = build_material(scene, 0.7f, 0.7f, 0.7f);
+        material->emission[0] = material->emission[1] = material->emission[2] = 4.0f;
+        material->double_sided = true;
+        build_quad(scene, lsf_f3(-0.3f, 0.4f, -0.4f), lsf_f3(0.3f, 0.4f, -0.4f),
+                   lsf_f3(0.3f, 0.1f, 0.4f), lsf_f3(-0.3f, 0.1f, 0.4f));
+        finish_gl_scene(scene);
+        light[closed] = room_light("voxel_path", scene, 1.0f, options, 1);
+        destroy_scene(scene);
+    }
+    print_message("a shell lets %.2e of a lamp's light through\n", light[1] / light[0]);
+    assert_true(light[1] <= 1e-3 * light[0]);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cones), cmocka_unit_test(paths)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cones), cmocka_unit_test(paths),
+                                       cmocka_unit_test(shells)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
