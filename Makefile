@@ -36,9 +36,11 @@ test: packages  ## install what is missing, build, run every test
 
 .PHONY: sanitize
 sanitize:  ## the tests once more, under AddressSanitizer and UndefinedBehaviorSanitizer
+	@mkdir -p $(BUILD)/tests # for its shader cache, which both share: to compile takes a minute
 	@$(MAKE) --no-print-directory test BUILD=$(BUILD)-sanitize TEST_OPTIONS='--timeout-multiplier 6' \
 	    MESON_OPTIONS='$(MESON_OPTIONS) -Dbuildtype=debugoptimized \
-	    -Db_sanitize=address,undefined -Db_lundef=false'
+	    -Db_sanitize=address,undefined -Db_lundef=false \
+	    -Dtest_shader_cache=$(abspath $(BUILD))/tests/shader-cache'
 
 .PHONY: install
 install: all  ## install to PREFIX (/usr/local), below DESTDIR
