@@ -13,7 +13,7 @@ layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
 /* step: of its length, in texels; offset: of the start from the surface, in voxels; the farthest it
  * goes [voxels]; opacity: what texels' opacity is multiplied with. */
 layout(location = LSF_LOCATION_CONE) uniform vec4 cone_march;
-layout(location = LSF_LOCATION_CONE_LIMITS) uniform ivec2 cone_limits; /* steps, finest level */
+layout(location = LSF_LOCATION_CONE_STEPS) uniform int cone_steps; /* at most */
 
 /* Directions about the normal (z), and the cones' diameter by length. */
 layout(location = LSF_LOCATION_CONE_SET) uniform vec4 cone_set[LSF_CONE_MAX];
@@ -43,28 +43,24 @@ vec4 cone_slice(vec2 place, float z, float slice, float level)
 #define CONE_REACH 1.5
 #define VOXEL_NOT_MET 1e9
 
-/* What one sees of the finest texel that holds a voxel. */
+/* What one sees of a voxel. */
 vec3 cone_meet(ivec3 cell, vec3 direction)
 {
-    int level = cone_limits.y;
-    ivec3 texel = cell >> level;
 #if LSF_VOXEL_SIDES == 1
-    vec4 seen = texelFetch(radiance_texture, texel, level);
+    vec4 seen = texelFetch(radiance_texture, cell, 0);
 #else
-    int slab = int(grid.size.z) >> level;
     vec4 seen = vec4(0.0);
     for (int axis = 0; axis < 3; axis++) {
         int slice = 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
         seen += abs(direction[axis]) *
-                texelFetch(radiance_texture, texel + ivec3(0, 0, slice * slab), level);
+                texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0);
     }
 #endif
     return seen.rgb / max(seen.a, 1e-6);
 }
 #endif
 
-/* From a point in voxels, which lies `height` above the plane with the unit `normal` that it
- * starts from. `spread`: diameter by length. */
+/* From a point of a surface with the unit `normal` [voxels]. `spread`: diameter by length. */
 cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 {
     float offset = cone_march.y;
@@ -82,27 +78,26 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 #if LSF_VOXEL_SIDES > 1
     vec3 slice = vec3(0.0, 2.0, 4.0) + mix(vec3(0.0), vec3(1.0), lessThan(direction, vec3(0.0)));
 #endif
-    float finest = exp2(float(cone_limits.y));
 #if LSF_SEALED
     float met = VOXEL_NOT_MET; /* where the axis enters an occupied voxel */
     voxel_ray ray;
     if (voxel_ray_begin(start, direction, ray) && voxel_ray_trace(ray))
         met = ray.distance;
-    end = min(end, met - CONE_REACH * finest);
+    end = min(end, met - CONE_REACH);
 #endif
     cone_light light;
     light.radiance = vec3(0.0);
     light.transmittance = 1.0;
     float t = 0.0;
-    for (int i = 0; i < cone_limits.x; i++) {
+    for (int i = 0; i < cone_steps; i++) {
         if (t >= end || light.transmittance < CONE_OPAQUE)
             break;
         float width = spread * (offset + t);
         float texel = max(min(width, (offset + rise * t) * flatness), 0.125 * width);
 #if LSF_SEALED
-        texel = min(texel, max((met - t) / CONE_REACH, finest));
+        texel = min(texel, max((met - t) / CONE_REACH, 1.0));
 #endif
-        float level = floor(log2(clamp(texel, finest, float(1 << (LSF_VOXEL_LEVELS - 1)))));
+        float level = floor(log2(clamp(texel, 1.0, float(1 << (LSF_VOXEL_LEVELS - 1)))));
         texel = exp2(level);
         float dt = cone_march.x * texel;
         vec3 p = start + (t + 0.5 * dt) * direction;

@@ -72,7 +72,7 @@ struct lsf_material_data {
 #define LSF_LOCATION_COARSE 17
 /* Locations of lib/voxel_cone.glsl. */
 #define LSF_LOCATION_CONE 18
-#define LSF_LOCATION_CONE_LIMITS 19
+#define LSF_LOCATION_CONE_STEPS 19
 #define LSF_LOCATION_CONE_TURN 20
 #define LSF_LOCATION_CONE_SET 21 /* LSF_CONE_MAX of them */
 #define LSF_CONE_MAX 32

@@ -127,7 +127,7 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     glBindTextureUnit(3, pass->lobe_albedo);
     for (GLuint level = 0; level < 2; level++)
         glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
-    lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, 0);
+    lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (pass->lobe_albedo)
         glUniform1f(LOCATION_LOBE, LOBE_SPREAD);

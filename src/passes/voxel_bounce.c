@@ -10,11 +10,11 @@
 #define UNIT_BASE 1
 #define LOCATION_SUM_OF 0
 
-/* Its own radiance is read and written at the same time: it is read above the finest level only. */
-#define FINEST_READ_OF_OWN 1
+static const char *const radiance_names[2] = {"voxel_bounce.radiance",
+                                              "voxel_bounce.other_radiance"};
 
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
-                           const lsf_voxel_grid *grid)
+                           const lsf_voxel_grid *grid, bool of_own)
 {
     uint32_t slices = lsf_cone_slices(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
@@ -22,8 +22,24 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
-    lsf_voxel_texture_plan(plan, grid, "voxel_bounce.radiance", GL_RGBA16F, slices,
-                           LSF_VOXEL_LEVELS, "radiance of voxels with what they reflect");
+    for (int i = 0; i < (of_own ? 2 : 1); i++)
+        lsf_voxel_texture_plan(plan, grid, radiance_names[i], GL_RGBA16F, slices, LSF_VOXEL_LEVELS,
+                               "radiance of voxels with what they reflect");
+    if (!of_own)
+        lsf_plan_omit(plan, radiance_names[1], "light goes from voxel to voxel once");
+}
+
+/* A texture that the plan does not list is left out. */
+static bool create_radiance(lsf_voxel_bounce *pass, const lsf_plan *plan, lsf_error *error)
+{
+    for (int i = 0; i < 2; i++) {
+        if (!lsf_plan_create_texture(plan, pass->context, radiance_names[i], &pass->radiance[i],
+                                     error))
+            return false;
+        for (GLint level = 0; pass->radiance[i] && level < LSF_VOXEL_LEVELS; level++)
+            glClearTexImage(pass->radiance[i], level, GL_RGBA, GL_FLOAT, NULL);
+    }
+    return true;
 }
 
 bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const lsf_plan *plan,
@@ -33,10 +49,8 @@ bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const
     static const char *const files[5] = {"passes/voxel_bounce.comp.glsl"};
     static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
     *pass = (lsf_voxel_bounce){.context = context, .params = *params, .grid = *grid};
-    if (!lsf_plan_create_texture(plan, context, "voxel_bounce.radiance", &pass->radiance, error))
+    if (!create_radiance(pass, plan, error))
         return false;
-    for (GLint level = 0; level < LSF_VOXEL_LEVELS; level++)
-        glClearTexImage(pass->radiance, level, GL_RGBA, GL_FLOAT, NULL);
     pass->program = lsf_plan_program(plan, context, "voxel_bounce", files, error);
     if (!pass->program)
         return false;
@@ -47,9 +61,9 @@ bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const
     return pass->timer != NULL;
 }
 
-static void dispatch(const lsf_voxel_bounce *pass, GLuint bricks)
+static void dispatch(GLuint radiance, GLuint bricks)
 {
-    glBindImageTexture(0, pass->radiance, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
+    glBindImageTexture(0, radiance, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, bricks);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, bricks);
     glDispatchComputeIndirect(0);
@@ -63,13 +77,17 @@ void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxel_bounce_input
         return;
     lsf_timer_begin(pass->timer);
     glUseProgram(pass->clear_program);
-    dispatch(pass, inputs->previous_bricks);
+    for (int i = 0; i < 2 && pass->radiance[i]; i++)
+        dispatch(pass->radiance[i], inputs->previous_bricks);
     lsf_timer_end(pass->timer);
 }
 
-void lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
-                          const lsf_voxel_bounce_inputs *inputs, const lsf_voxel_bounce_sum *sum)
+GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
+                            const lsf_voxel_bounce_inputs *inputs, const lsf_voxel_bounce_sum *sum)
 {
+    if (sum->source && sum->source == pass->radiance[pass->last])
+        pass->last = 1 - pass->last;
+    GLuint radiance = pass->radiance[pass->last];
     lsf_timer_begin(pass->timer);
     glUseProgram(pass->program);
     glUniform3i(LOCATION_SUM_OF, sum->keep, sum->base != 0, sum->source != 0);
@@ -80,18 +98,19 @@ void lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration
     glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
     glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->point);
     if (sum->source)
-        lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source,
-                      sum->source == pass->radiance ? FINEST_READ_OF_OWN : 0);
+        lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
     lsf_scene_gpu_bind_environment(iteration->scene);
-    dispatch(pass, inputs->bricks);
+    dispatch(radiance, inputs->bricks);
     lsf_timer_end(pass->timer);
+    return radiance;
 }
 
 void lsf_voxel_bounce_destroy(lsf_voxel_bounce *pass)
 {
     if (!pass->context)
         return;
-    lsf_texture_destroy(pass->context, &pass->radiance);
+    for (int i = 0; i < 2; i++)
+        lsf_texture_destroy(pass->context, &pass->radiance[i]);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

@@ -13,32 +13,36 @@ typedef struct lsf_voxel_bounce_inputs {
     bool changed;
 } lsf_voxel_bounce_inputs;
 
-/* What becomes of the pass's radiance; levels 0 and more of a pyramid as of voxel_light.h. */
+/* What becomes of radiance, pyramids as of voxel_light.h. */
 typedef struct lsf_voxel_bounce_sum {
-    GLuint base;   /* what is added to it, as it is; 0: nothing */
-    GLuint source; /* what is added to it once reflected; 0: nothing. May be its own. */
-    bool keep;     /* what it held is a part of the sum; not with a source */
+    GLuint base; /* what is added to it, as it is; 0: nothing */
+    GLuint
+        source; /* what is added to it once reflected; 0: nothing. May be what the last run wrote */
+    bool keep;  /* what the last run wrote is a part of the sum; not with a source */
 } lsf_voxel_bounce_sum;
 
 typedef struct lsf_voxel_bounce {
     lsf_context *context;
     lsf_cone_params params;
     lsf_voxel_grid grid;
-    GLuint radiance; /* as voxel_light's; only level 0 is written */
+    GLuint radiance[2]; /* as voxel_light's; only level 0 is written. The second is there for
+                         * sources that the pass has written itself */
+    uint32_t last;      /* that was written */
     GLuint program, clear_program;
     lsf_timer *timer;
 } lsf_voxel_bounce;
 
+/* `of_own`: some source will be what the pass has written. */
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
-                           const lsf_voxel_grid *grid);
+                           const lsf_voxel_grid *grid, bool of_own);
 bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_cone_params *params, const lsf_voxel_grid *grid,
                              lsf_error *error);
 /* Empties what the run before left. Call it once an iteration. */
 void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxel_bounce_inputs *inputs);
-/* The grid must be bound at LSF_BINDING_VOXEL. */
-void lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
-                          const lsf_voxel_bounce_inputs *inputs, const lsf_voxel_bounce_sum *sum);
+/* Returns the sum. The grid must be bound at LSF_BINDING_VOXEL. */
+GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
+                            const lsf_voxel_bounce_inputs *inputs, const lsf_voxel_bounce_sum *sum);
 void lsf_voxel_bounce_destroy(lsf_voxel_bounce *pass);
 
 #endif

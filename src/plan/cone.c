@@ -53,7 +53,7 @@ void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones)
 }
 
 /* Steps that the longest cone takes: it crosses the grid's diagonal in texels that are at least an
- * eighth of its length, or the finest. See texel sizes in lib/voxel_cone.glsl. */
+ * eighth of its length, or voxels. See texel sizes in lib/voxel_cone.glsl. */
 static int32_t most_steps(const lsf_cone_params *params, const lsf_voxel_grid *grid)
 {
     float diagonal = 0.0f;
@@ -63,7 +63,7 @@ static int32_t most_steps(const lsf_cone_params *params, const lsf_voxel_grid *g
 }
 
 void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
-                   const lsf_iteration *iteration, GLuint radiance, uint32_t finest)
+                   const lsf_iteration *iteration, GLuint radiance)
 {
     glTextureParameteri(radiance, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTextureParameteri(radiance, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -74,12 +74,11 @@ void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
     if (params->jitter)
         elevation = lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_ELEVATION));
     lsf_cone_set((uint32_t)params->count, elevation, cones);
-    float coarser = exp2f((float)finest);
     glUniform4fv(LSF_LOCATION_CONE_SET, params->count, &cones[0].x);
     glUniform3f(LSF_LOCATION_CONE_TURN,
                 lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_TURN)),
                 params->turn, (float)params->count);
-    glUniform4f(LSF_LOCATION_CONE, params->step, params->offset * coarser,
-                params->distance / grid->side, params->opacity);
-    glUniform2i(LSF_LOCATION_CONE_LIMITS, most_steps(params, grid), (GLint)finest);
+    glUniform4f(LSF_LOCATION_CONE, params->step, params->offset, params->distance / grid->side,
+                params->opacity);
+    glUniform1i(LSF_LOCATION_CONE_STEPS, most_steps(params, grid));
 }

@@ -41,9 +41,8 @@ uint32_t lsf_cone_slices(const lsf_cone_params *params);
 void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones);
 
 /* Sets the uniforms of lib/voxel_cone.glsl and of a set for the program in use, and binds the
- * pyramid. `finest`: the finest level that is read; cones start above the surface as much further
- * as its texels are larger. */
+ * pyramid. */
 void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
-                   const lsf_iteration *iteration, GLuint radiance, uint32_t finest);
+                   const lsf_iteration *iteration, GLuint radiance);
 
 #endif

@@ -52,7 +52,8 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w
     uint32_t slices = lsf_cone_slices(&params->cone);
     return (lsf_voxel_chain_use){.sides = slices,
                                  .levels = LSF_VOXEL_LEVELS,
-                                 .bytes_per_voxel = w->bounces > 0 ? 8 * slices * 8 / 7 + 1 : 0};
+                                 .bytes_per_voxel =
+                                     (8 * slices * 8 / 7 + 1) * (w->bounces < 2 ? w->bounces : 2)};
 }
 
 static void remark(lsf_plan *plan, const way *w)
@@ -76,7 +77,7 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         lsf_voxel_mip_plan(plan, use.sides);
         lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &use);
         if (w.bounces > 0)
-            lsf_voxel_bounce_plan(plan, &params->cone, &grid);
+            lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
         lsf_cone_trace_plan(plan, &params->cone, w.width, w.height);
@@ -147,7 +148,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
         .bricks = voxels->bricks,
         .previous_bricks = voxels->previous_bricks,
         .changed = voxels->changed};
-    GLuint base = c->chain.light.radiance, total = c->bounce.radiance;
+    GLuint base = c->chain.light.radiance, light = base;
     uint32_t done = 0;
     if (c->way.bounces > 0)
         lsf_voxel_bounce_begin(&c->bounce, &inputs);
@@ -158,18 +159,18 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
         build_pyramid(c, base);
         lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &reflected);
         lsf_voxel_chain_lights(&c->chain, iteration, true);
-        lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &all);
+        light = lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &all);
         done = 1;
     } else {
         lsf_voxel_chain_lights(&c->chain, iteration, iteration->plan->bounces > 0);
     }
-    build_pyramid(c, done ? total : base);
+    build_pyramid(c, light);
     for (; done < c->way.bounces; done++) {
-        const lsf_voxel_bounce_sum sum = {.base = base, .source = done ? total : base};
-        lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &sum);
-        build_pyramid(c, total);
+        const lsf_voxel_bounce_sum sum = {.base = base, .source = light};
+        light = lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &sum);
+        build_pyramid(c, light);
     }
-    return done ? total : base;
+    return light;
 }
 
 /* What voxels and the environment shed on visible points. */
