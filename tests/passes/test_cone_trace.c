@@ -220,13 +220,13 @@ static double mean_of(const lsf_image *image, uint32_t channel)
 }
 
 /* Radiance of a place on the floor, seen through a needle from the side. */
-static double floor_radiance(const lsf_scene *scene, float x, const char *const *options,
-                             uint32_t option_count)
+static double floor_radiance(const lsf_scene *scene, float x, uint32_t samples,
+                             const char *const *options, uint32_t option_count)
 {
     const float eye[3] = {x, 0.9f, 0.6f}, target[3] = {x, 0.0f, 0.0f};
     lsf_render_params params = cone_params();
     params.width = params.height = 4;
-    params.samples = 64;
+    params.samples = samples;
     params.options = options;
     params.option_count = option_count;
     params.fov_y = 0.5f;
@@ -244,9 +244,7 @@ static lsf_scene *under_white_sky(float albedo)
     build_material(scene, albedo, albedo, albedo);
     build_floor(scene, 0.0f, 1.0f);
     scene->diffuse_only = true;
-    scene->environment.present = true;
-    for (int c = 0; c < 3; c++)
-        scene->environment.radiance[c] = 1.0f;
+    build_environment(scene, 1.0f);
     return scene;
 }
 
@@ -256,7 +254,7 @@ static void constant_environment(void **state)
     (void)state;
     lsf_scene *scene = under_white_sky(0.5f);
     finish_gl_scene(scene);
-    double found = floor_radiance(scene, 0.1f, small_grid, 1);
+    double found = floor_radiance(scene, 0.1f, 64, small_grid, 1);
     print_message("constant environment: %.5f of what arrives\n", found / 0.5);
     assert_true(fabs(found / 0.5 - 1.0) < 1e-3);
     destroy_scene(scene);
@@ -280,7 +278,7 @@ static void half_space(void **state)
         double d = (double)distance;
         double a = atan2(1.0, d), b = atan2(1.0, hypot(1.0, d));
         double hidden = (a - d / hypot(1.0, d) * b) / (double)LSF_PI;
-        double found = floor_radiance(scene, -0.5f + distance, sealed, 3) / 0.5;
+        double found = floor_radiance(scene, -0.5f + distance, 16, sealed, 3) / 0.5;
         print_message("%.3f from a wall: %.4f of the sky, and %.4f in truth\n", d, found,
                       1.0 - hidden);
         assert_true(fabs(found - (1.0 - hidden)) < 0.02);
