@@ -113,13 +113,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
                         const lsf_cone_trace_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)inputs->grid->width, (GLsizei)inputs->grid->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, inputs->grid->width, inputs->grid->height,
+                         pass->program);
     lsf_coarse_grid_set(inputs->grid);
     glBindTextureUnit(0, inputs->depth);
     glBindTextureUnit(1, inputs->surface);

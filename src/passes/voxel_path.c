@@ -147,13 +147,8 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
 {
     const lsf_voxel_path_params *p = &pass->params;
     lsf_timer_begin(pass->timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)inputs->grid->width, (GLsizei)inputs->grid->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glUseProgram(pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, inputs->grid->width, inputs->grid->height,
+                         pass->program);
     lsf_coarse_grid_set(inputs->grid);
     bind_inputs(pass, iteration, inputs);
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
