@@ -20,12 +20,16 @@ def _glass(gltf):
     gltf.node("pane", mesh=gltf.mesh("pane", {"pane": pane}))
 
 
-def _box(gltf, content):
+def _box(gltf, ceiling_shines, content):
     gltf.material("white", (0.73, 0.73, 0.73))
     gltf.material("red", (0.63, 0.06, 0.05))
     gltf.material("green", (0.15, 0.48, 0.09))
+    ceiling = "white"
+    if ceiling_shines:
+        ceiling = "lamp"
+        gltf.material("lamp", (0.73, 0.73, 0.73), emission=(1.0, 0.85, 0.65))
     walls = {"floor": ("white", (-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1)),
-             "ceiling": ("white", (-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)),
+             "ceiling": (ceiling, (-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)),
              "back": ("white", (-1, 0, -1), (1, 0, -1), (1, 2, -1), (-1, 2, -1)),
              "left": ("red", (-1, 0, 1), (-1, 0, -1), (-1, 2, -1), (-1, 2, 1)),
              "right": ("green", (1, 0, -1), (1, 0, 1), (1, 2, 1), (1, 2, -1))}
@@ -50,17 +54,17 @@ def _box(gltf, content):
     gltf.camera("Camera", (0, 1, 3.9), (0, 1, 0), 39)
 
 
-def cornell(folder, name, lamp_size=None, emission=(24.0, 18.5, 11.5), content="blocks"):
-    """`lamp_size`: of a lamp below the ceiling [m]; None: a point light."""
+def cornell(folder, name, light="point", content="blocks"):
+    """`light`: point; lamp, below the ceiling; or ceiling, which shines itself."""
     gltf = Gltf()
-    _box(gltf, content)
-    if lamp_size:
-        gltf.material("lamp", (0.78, 0.78, 0.78), emission=emission)
+    _box(gltf, light == "ceiling", content)
+    if light == "lamp":
+        gltf.material("lamp", (0.78, 0.78, 0.78), emission=(24.0, 18.5, 11.5))
         lamp = Mesh()
-        x, z = lamp_size[0] / 2, lamp_size[1] / 2
-        lamp.quad((-x, 1.99, -z), (x, 1.99, -z), (x, 1.99, z), (-x, 1.99, z))
+        lamp.quad((-0.25, 1.99, -0.22), (0.25, 1.99, -0.22), (0.25, 1.99, 0.22),
+                  (-0.25, 1.99, 0.22))
         gltf.node("lamp", mesh=gltf.mesh("lamp", {"lamp": lamp}))
-    else:
+    elif light == "point":
         gltf.light("Lamp", "point", (1.0, 0.85, 0.65), 2.6, (0, 1.8, 0.1))
     gltf.save(folder, name)
     return gltf

@@ -14,9 +14,9 @@ def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     for name, gltf in (
             ("cornell_point", cornell(folder, "cornell_point")),
-            ("cornell_emissive", cornell(folder, "cornell_emissive", lamp_size=(0.5, 0.44))),
-            ("cornell_glass", cornell(folder, "cornell_glass", lamp_size=(1.2, 1.2),
-                                      emission=(4.0, 3.4, 2.6), content="glass")),
+            ("cornell_emissive", cornell(folder, "cornell_emissive", light="lamp")),
+            ("cornell_glass", cornell(folder, "cornell_glass", light="ceiling",
+                                      content="glass")),
             ("cornell_glossy", cornell(folder, "cornell_glossy", content="glossy")),
             ("interior", interior(folder))):
         print(f"{name}.gltf: {gltf.triangles()} triangles")

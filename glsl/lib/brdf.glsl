@@ -1,5 +1,5 @@
 /* The glTF BRDF of a G-buffer surface, split into its two lobes; formulas in shared/brdf.h.
- * Switches LSF_SPECULAR, LSF_ANISOTROPY; LSF_CLAMP_RADIANCE where samples are sparse. */
+ * Switches LSF_SPECULAR, LSF_ANISOTROPY, LSF_TRANSMISSION; LSF_CLAMP_RADIANCE where samples are sparse. */
 #ifndef LSF_LIB_BRDF
 #define LSF_LIB_BRDF
 
@@ -13,10 +13,22 @@ struct brdf_value {
 /* What the diffuse lobe reflects: k_d. */
 vec3 surface_diffuse(surface s)
 {
-#if LSF_SPECULAR
+#if LSF_TRANSMISSION
+    return (1.0 - s.transmission) * (1.0 - s.metallic) * s.base_color;
+#elif LSF_SPECULAR
     return (1.0 - s.metallic) * s.base_color;
 #else
     return s.base_color;
+#endif
+}
+
+/* Schlick's term of one f0, for the side that the surface is seen from. */
+float surface_fresnel(surface s, float f0, float vh)
+{
+#if LSF_TRANSMISSION
+    return lsf_fresnel_interface(f0, vh, s.eta);
+#else
+    return lsf_fresnel_schlick(f0, vh);
 #endif
 }
 
@@ -82,7 +94,7 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
     l.nv = max(dot(s.normal, l.view), LSF_COSINE_MIN);
     l.h = normalize(l.view + light);
     float vh = clamp(dot(l.view, l.h), 0.0, 1.0);
-    f.diffuse = 1.0 - lsf_fresnel_schlick(s.f0, vh);
+    f.diffuse = 1.0 - surface_fresnel(s, s.f0, vh);
     if (l.nl > 0.0) {
         float alpha = lsf_alpha_from_roughness(s.roughness);
         float alpha_t = alpha;
@@ -95,8 +107,8 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
         alpha_t = lsf_alpha_along_tangent(alpha, s.anisotropy);
 #endif
         vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
-        vec3 fresnel = vec3(lsf_fresnel_schlick(f0.r, vh), lsf_fresnel_schlick(f0.g, vh),
-                            lsf_fresnel_schlick(f0.b, vh));
+        vec3 fresnel = vec3(surface_fresnel(s, f0.r, vh), surface_fresnel(s, f0.g, vh),
+                            surface_fresnel(s, f0.b, vh));
         float v = lobe_visibility(l, alpha_t, alpha);
         float sharpest = kernel * max(fresnel.r, max(fresnel.g, fresnel.b)) * v * l.nl / LSF_PI;
 #if defined(LSF_CLAMP_RADIANCE) && LSF_CLAMP_RADIANCE

@@ -1,7 +1,8 @@
 /* Directions drawn from the BRDF of lib/brdf.glsl: its diffuse lobe by the cosine, its specular lobe by
  * the normals that are visible from the view; Schlick's Fresnel term decides which. Their density is that
- * of both together, whichever was drawn. As reference/bsdf.c and math/sampling.c do. Switches
- * LSF_SPECULAR, LSF_ANISOTROPY. */
+ * of both together, whichever was drawn. With LSF_TRANSMISSION a microfacet of the specular lobe may let
+ * light through instead of reflecting it. As reference/bsdf.c and math/sampling.c do. Switches LSF_SPECULAR,
+ * LSF_ANISOTROPY, LSF_TRANSMISSION. */
 #ifndef LSF_LIB_BRDF_SAMPLE
 #define LSF_LIB_BRDF_SAMPLE
 
@@ -17,7 +18,22 @@ struct brdf_sampler {
     float alpha_t, alpha;
     float specular; /* with which probability this lobe is drawn */
 #endif
+#if LSF_TRANSMISSION
+    float f0, reflecting, passing; /* the dielectric's f0; luminance of the lobe's, and of what passes
+                                    * where nothing is reflected */
+    float eta;
+#endif
 };
+
+#if LSF_TRANSMISSION
+/* The share of its light that a microfacet is drawn to reflect. */
+float brdf_reflected_share(brdf_sampler p, float vh)
+{
+    float passes = p.passing * (1.0 - lsf_fresnel_interface(p.f0, vh, p.eta));
+    float reflects = lsf_fresnel_interface(p.reflecting, vh, p.eta);
+    return passes > 0.0 ? reflects / (reflects + passes) : 1.0;
+}
+#endif
 
 /* `view` as for brdf_evaluate. With `both`, the two lobes are summed apart: then each counts even if the
  * surface reflects nothing by it. */
@@ -41,10 +57,18 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
     float nv = min(p.view.z, 1.0);
-    float specular = lsf_fresnel_schlick(dot(f0, luminance), nv);
-    float diffuse = dot(surface_diffuse(s), luminance) * (1.0 - lsf_fresnel_schlick(s.f0, nv));
+    float specular = surface_fresnel(s, dot(f0, luminance), nv);
+    float matte = dot(surface_diffuse(s), luminance) * (1.0 - s.f0);
+    float diffuse = matte > 0.0 ? dot(surface_diffuse(s), luminance) * (1.0 - surface_fresnel(s, s.f0, nv)) : 0.0;
+#if LSF_TRANSMISSION
+    p.f0 = s.f0;
+    p.reflecting = dot(f0, luminance);
+    p.passing = s.transmission * (1.0 - s.metallic) * dot(s.base_color, luminance);
+    p.eta = s.eta;
+    specular += p.passing * (1.0 - surface_fresnel(s, s.f0, nv));
+#endif
     p.specular = clamp(specular / max(specular + diffuse, 1e-6), LOBE_LEAST, 1.0 - LOBE_LEAST);
-    if (!both && diffuse <= 0.0)
+    if (!both && matte <= 0.0)
         p.specular = 1.0;
 #endif
     return p;
@@ -82,6 +106,42 @@ vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
 }
 #endif
 
+#if LSF_TRANSMISSION
+/* Whether the numbers that brdf_draw would take let light through the surface: then from where, and with what
+ * weight, f cos / p of all ways in which the direction may be drawn. The weight is 0 where a rough surface's
+ * microfacet sends light back to the side it comes from. */
+bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 weight)
+{
+    weight = vec3(0.0);
+    direction = -p.normal;
+    if (u.z >= p.specular)
+        return false;
+    vec3 h = brdf_visible_normal(p, brdf_disc(u.xy));
+    float vh = min(dot(p.view, h), 1.0);
+    float share = brdf_reflected_share(p, vh);
+    if (u.z < p.specular * share)
+        return false;
+    vec3 local = 2.0 * vh * h - p.view;
+    float gain; /* f cos / p without the Fresnel term: masking of the light's direction */
+    if (p.eta == 1.0) {
+        vec3 stretched = vec3(p.alpha_t, p.alpha, 1.0) * p.view;
+        gain = 2.0 * local.z * (p.view.z + length(stretched)) *
+               lsf_ggx_v_anisotropic(local.z, p.view.z, local.x, local.y, p.view.x, p.view.y, p.alpha_t,
+                                     p.alpha);
+        local.z = -local.z;
+    } else {
+        local = (vh / p.eta - lsf_refracted_cosine(vh, p.eta)) * h - p.view / p.eta;
+        gain = lsf_ggx_g1(-local.z, local.x, local.y, p.alpha_t, p.alpha);
+    }
+    if (local.z >= 0.0)
+        return true;
+    direction = normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
+    float passes = s.transmission * (1.0 - s.metallic) * (1.0 - lsf_fresnel_interface(p.f0, vh, p.eta));
+    weight = s.base_color * (passes * gain / (p.specular * (1.0 - share)));
+    return true;
+}
+#endif
+
 /* A unit vector; `u`: three numbers in [0, 1). It may lie below the horizon. */
 vec3 brdf_draw(brdf_sampler p, vec3 u)
 {
@@ -106,6 +166,9 @@ float brdf_pdf(brdf_sampler p, vec3 direction)
     float d = lsf_ggx_d_anisotropic(h.z, h.x, h.y, p.alpha_t, p.alpha);
     /* D G1 / (4 nv) */
     float specular = 0.5 * d / (p.view.z + length(stretched));
+#if LSF_TRANSMISSION
+    specular *= brdf_reflected_share(p, clamp(dot(p.view, h), 0.0, 1.0));
+#endif
     return mix(nl / LSF_PI, specular, p.specular);
 #else
     return nl / LSF_PI;

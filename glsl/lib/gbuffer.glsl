@@ -5,15 +5,21 @@
  *   y  shading normal, the same
  *   z  base colour R, G as 2 x unorm16
  *   w  base colour B unorm16 | metallic unorm15 << 16 | unlit << 31
- * gbuffer.gloss R32UI (RG32UI with anisotropy), only when the scene requires it
+ * gbuffer.gloss R32UI (RG32UI with anisotropy, RGBA32UI with transmission), only when the scene requires it
  *   x  roughness unorm16 | f0 of the dielectric unorm16 << 16
  *   y  anisotropy strength unorm16 | angle of its tangent in the shading normal's
- *      orthonormal_basis, unorm16 of a full turn << 16 */
+ *      orthonormal_basis, unorm16 of a full turn << 16
+ *   z  transmission unorm8 | seen from the front << 8 | surface of a medium << 9 | material << 10
+ * Switch LSF_TRANSMISSION. */
 #ifndef LSF_LIB_GBUFFER
 #define LSF_LIB_GBUFFER
 
 #include "lib/octahedral.glsl"
 #include "shared/brdf.h"
+
+#ifndef LSF_TRANSMISSION
+#define LSF_TRANSMISSION 0
+#endif
 
 struct surface {
     vec3 geometric_normal, normal; /* unit, towards the viewer's side */
@@ -22,7 +28,46 @@ struct surface {
     float anisotropy;      /* strength, 0..1 */
     float anisotropy_turn; /* tangent's angle in orthonormal_basis(normal), 0..1 of a turn */
     bool unlit;
+#if LSF_TRANSMISSION
+    float transmission; /* of what the dielectric does not reflect */
+    float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
+    bool front, volume; /* seen from the front; surface of a medium, which lies behind the front */
+    uint material;
+#endif
 };
+
+#if LSF_TRANSMISSION
+/* Of 2^22 materials. */
+uint transmission_pack(surface s)
+{
+    return uint(clamp(s.transmission, 0.0, 1.0) * 255.0 + 0.5) | (s.front ? 1u << 8 : 0u) |
+           (s.volume ? 1u << 9 : 0u) | (s.material << 10);
+}
+
+/* As it is seen from the front, or from the back. Needs s.f0, which holds the index of refraction n:
+ * f0 = ((n - 1) / (n + 1))^2. */
+void transmission_turn(inout surface s, bool front)
+{
+    s.front = front;
+    s.eta = 1.0;
+    if (s.volume) {
+        /* A surface that reflects all (f0 = 1) transmits nothing, by any index. */
+        float root = min(sqrt(s.f0), 0.99);
+        s.eta = lsf_relative_ior((1.0 + root) / (1.0 - root), front);
+        /* Without a change of index nothing is scattered, however rough. */
+        if (s.eta == 1.0)
+            s.roughness = s.anisotropy = 0.0;
+    }
+}
+
+void transmission_unpack(uint bits, inout surface s)
+{
+    s.transmission = float(bits & 0xffu) / 255.0;
+    s.volume = (bits & (1u << 9)) != 0u;
+    s.material = bits >> 10;
+    transmission_turn(s, (bits & (1u << 8)) != 0u);
+}
+#endif
 
 uvec4 surface_pack(surface s)
 {
@@ -33,10 +78,14 @@ uvec4 surface_pack(surface s)
                  blue | (metallic << 16) | (s.unlit ? 0x80000000u : 0u));
 }
 
-uvec2 gloss_pack(surface s)
+uvec4 gloss_pack(surface s)
 {
-    return uvec2(packUnorm2x16(vec2(s.roughness, s.f0)),
-                 packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));
+    uvec4 texel = uvec4(packUnorm2x16(vec2(s.roughness, s.f0)),
+                        packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)), 0u, 0u);
+#if LSF_TRANSMISSION
+    texel.z = transmission_pack(s);
+#endif
+    return texel;
 }
 
 bool surface_texel_unlit(uvec4 texel)
@@ -56,10 +105,13 @@ surface surface_unpack(uvec4 texel)
     s.f0 = 0.04; /* ior 1.5 */
     s.anisotropy = 0.0;
     s.anisotropy_turn = 0.0;
+#if LSF_TRANSMISSION
+    transmission_unpack(0u, s);
+#endif
     return s;
 }
 
-void gloss_unpack(uvec2 texel, inout surface s)
+void gloss_unpack(uvec4 texel, inout surface s)
 {
     vec2 gloss = unpackUnorm2x16(texel.x);
     s.roughness = gloss.x;
@@ -67,6 +119,9 @@ void gloss_unpack(uvec2 texel, inout surface s)
     vec2 anisotropy = unpackUnorm2x16(texel.y);
     s.anisotropy = anisotropy.x;
     s.anisotropy_turn = anisotropy.y;
+#if LSF_TRANSMISSION
+    transmission_unpack(texel.z, s);
+#endif
 }
 
 #endif

@@ -16,6 +16,8 @@ in vec4 vertex_tangent;
 #endif
 #if LSF_TEXTURED
 in vec2 vertex_uv0;
+#endif
+#if LSF_TEXTURED || LSF_TRANSMISSION
 flat in uint vertex_material;
 #endif
 #if LSF_SECOND_UV
@@ -57,7 +59,7 @@ vec3 unit_or_zero(vec3 v)
     return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
 }
 
-/* The material as its vertex handed it on; slots that only textures need are read here. */
+/* The material as its vertex handed it on; what few materials need is read here. */
 lsf_material_data fragment_material()
 {
     lsf_material_data material;
@@ -83,6 +85,13 @@ lsf_material_data fragment_material()
 #endif
 #if LSF_ANISOTROPY
     material.anisotropy = vertex_anisotropy;
+#endif
+#if LSF_TRANSMISSION
+    material.anisotropy.w = materials[vertex_material].anisotropy.w;
+    material.flags.zw = materials[vertex_material].flags.zw;
+#endif
+#if LSF_TRANSMISSION_TEXTURE
+    material.transmission_slot = materials[vertex_material].transmission_slot;
 #endif
     return material;
 }

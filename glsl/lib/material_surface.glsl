@@ -1,6 +1,6 @@
 /* The surface of a material at a point, for fragments (lib/material.glsl) and for compute shaders that
  * rasterise by themselves. Switches LSF_TEXTURED, LSF_SECOND_UV, LSF_VERTEX_COLOR, LSF_TANGENT,
- * LSF_MASK, LSF_GLOSS, LSF_ANISOTROPY, LSF_EMISSION and one for each kind of texture;
+ * LSF_MASK, LSF_GLOSS, LSF_ANISOTROPY, LSF_TRANSMISSION, LSF_EMISSION and one for each kind of texture;
  * lsf_scene_gpu_material_switches adds them. */
 #ifndef LSF_LIB_MATERIAL_SURFACE
 #define LSF_LIB_MATERIAL_SURFACE
@@ -13,6 +13,9 @@ layout(binding = LSF_UNIT_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughne
 layout(binding = LSF_UNIT_NORMAL) uniform sampler2D normal_texture;
 layout(binding = LSF_UNIT_EMISSIVE) uniform sampler2D emissive_texture;
 layout(binding = LSF_UNIT_ANISOTROPY) uniform sampler2D anisotropy_texture;
+#if LSF_TRANSMISSION_TEXTURE
+layout(binding = LSF_UNIT_TRANSMISSION) uniform sampler2D transmission_texture;
+#endif
 
 /* What vertices hand to a point of a triangle, interpolated. */
 struct material_point {
@@ -117,6 +120,17 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     float angle = atan(dot(along, basis_b), dot(along, basis_t));
     s.anisotropy_turn = fract(angle / (2.0 * LSF_PI));
 #endif
+#endif
+#if LSF_TRANSMISSION
+    s.transmission = material.anisotropy.w;
+#if LSF_TRANSMISSION_TEXTURE
+    if (slot_used(material.transmission_slot))
+        s.transmission *= slot_sample(transmission_texture, material.transmission_slot, point.place).r;
+#endif
+    s.front = point.front;
+    s.volume = material.flags.z != 0.0;
+    s.material = uint(material.flags.w);
+    s.eta = 1.0;
 #endif
 #if LSF_EMISSION
     emission = material.emission.rgb;

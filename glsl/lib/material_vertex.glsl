@@ -22,6 +22,8 @@ out vec4 vertex_tangent; /* w: the bitangent's sign */
 #if LSF_TEXTURED
 layout(location = LSF_ATTRIBUTE_UV0) in vec2 uv0;
 out vec2 vertex_uv0;
+#endif
+#if LSF_TEXTURED || LSF_TRANSMISSION
 flat out uint vertex_material;
 #endif
 #if LSF_SECOND_UV
@@ -56,6 +58,8 @@ void material_vertex(vec3 p)
 #endif
 #if LSF_TEXTURED
     vertex_uv0 = uv0;
+#endif
+#if LSF_TEXTURED || LSF_TRANSMISSION
     vertex_material = material;
 #endif
 #if LSF_SECOND_UV

@@ -65,7 +65,7 @@ bool vertex_load(out shading_vertex v)
 #endif
     v.s = surface_unpack(texelFetch(surface_texture, texel, 0));
 #if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, texel, 0).xy, v.s);
+    gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
 #endif
 #if LSF_DEEP
     /* The normal looks back to where the ray came from. */

@@ -8,7 +8,7 @@
 layout(location = 1) uniform uvec4 range;       /* first index, triangles, instance, mirrored */
 layout(location = 2) uniform vec4 transform[3]; /* rows */
 layout(location = 5) uniform vec4 normal_transform[3];
-layout(location = 9) uniform vec4 material_rows[15]; /* lsf_material_data */
+layout(location = 9) uniform vec4 material_rows[18]; /* lsf_material_data */
 
 layout(binding = 6) uniform usamplerBuffer index_fetch;
 layout(binding = 7) uniform samplerBuffer position_fetch;
@@ -45,11 +45,13 @@ lsf_material_data triangle_material()
     m.surface = material_rows[2];
     m.anisotropy = material_rows[3];
     m.flags = material_rows[4];
-    m.base_color_slot = lsf_texture_slot_data(material_rows[5], material_rows[6]);
-    m.metallic_roughness_slot = lsf_texture_slot_data(material_rows[7], material_rows[8]);
-    m.normal_slot = lsf_texture_slot_data(material_rows[9], material_rows[10]);
-    m.emissive_slot = lsf_texture_slot_data(material_rows[11], material_rows[12]);
-    m.anisotropy_slot = lsf_texture_slot_data(material_rows[13], material_rows[14]);
+    m.absorption = material_rows[5];
+    m.base_color_slot = lsf_texture_slot_data(material_rows[6], material_rows[7]);
+    m.metallic_roughness_slot = lsf_texture_slot_data(material_rows[8], material_rows[9]);
+    m.normal_slot = lsf_texture_slot_data(material_rows[10], material_rows[11]);
+    m.emissive_slot = lsf_texture_slot_data(material_rows[12], material_rows[13]);
+    m.anisotropy_slot = lsf_texture_slot_data(material_rows[14], material_rows[15]);
+    m.transmission_slot = lsf_texture_slot_data(material_rows[16], material_rows[17]);
     return m;
 }
 

@@ -6,7 +6,8 @@
  *                          unlit << 31
  * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
  * voxelize.gloss R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
- *                          index n, metallic; 8 bits each */
+ *                          index n, metallic; 8 bits each
+ * voxelize.transmission R32UI  as gloss.z of lib/gbuffer.glsl, seen from the front */
 #ifndef LSF_LIB_VOXEL
 #define LSF_LIB_VOXEL
 
@@ -114,6 +115,11 @@ bool voxel_emits_both(uint bits)
 bool voxel_unlit(uint bits)
 {
     return (bits & (1u << 31)) != 0u;
+}
+
+float voxel_transmission(uint bits)
+{
+    return float(bits & 255u) / 255.0;
 }
 
 /* Shared exponent as of GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), which images cannot have. */

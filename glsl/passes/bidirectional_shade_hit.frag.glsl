@@ -35,7 +35,7 @@ layout(location = VERTEX_TARGET) out vec4 position_out;
 layout(location = VERTEX_TARGET + 1) out uvec4 surface_out;
 layout(location = VERTEX_TARGET + 2) out uvec4 throughput_out;
 #if LSF_GLOSS
-layout(location = VERTEX_TARGET + 3) out uvec2 gloss_out;
+layout(location = VERTEX_TARGET + 3) out uvec4 gloss_out;
 #endif
 #endif
 
@@ -104,7 +104,7 @@ void main()
     surface_out = uvec4(0u);
     throughput_out = uvec4(0u);
 #if LSF_GLOSS
-    gloss_out = uvec2(0u);
+    gloss_out = uvec4(0u);
 #endif
 #endif
     irradiance_out = vec4(0.0);

@@ -13,6 +13,9 @@ layout(binding = 2) uniform sampler2D direct_texture;
 #if LSF_INDIRECT
 layout(binding = 3) uniform usampler2D surface_texture;
 layout(binding = 4) uniform sampler2D irradiance_texture;
+#if LSF_TRANSMISSION
+layout(binding = 9) uniform usampler2D gloss_texture;
+#endif
 #if LSF_SPECULAR
 layout(binding = 6) uniform sampler2D specular_texture;
 #endif
@@ -52,9 +55,13 @@ void main()
 #endif
 #if LSF_INDIRECT
     vec3 reflected = vec3(0.0); /* by an irradiance of 1 */
-    if (depth != 0.0)
-        reflected =
-            surface_diffuse(surface_unpack(texelFetch(surface_texture, pixel, 0))) / LSF_PI;
+    if (depth != 0.0) {
+        surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
+#if LSF_TRANSMISSION
+        gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+#endif
+        reflected = surface_diffuse(s) / LSF_PI;
+    }
     vec4 irradiance = texelFetch(irradiance_texture, pixel, 0);
     indirect += reflected * irradiance.rgb;
     lost += dot(reflected, vec3(0.2126, 0.7152, 0.0722)) * irradiance.a;

@@ -52,7 +52,7 @@ void main()
     if (s.unlit)
         return;
 #if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, pixel, 0).xy, s);
+    gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
 #endif
     vec2 ndc = coarse_ndc(pixel);
     vec3 point = voxel_from_position(position_from_depth(ndc, depth));

@@ -18,7 +18,7 @@ void main()
     if (s.unlit)
         return;
 #if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, pixel, 0).xy, s);
+    gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
 #endif
     vec2 ndc = sample_ndc(gl_FragCoord.xy);
     vec3 position = position_from_depth(ndc, depth);

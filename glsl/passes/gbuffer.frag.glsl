@@ -3,7 +3,7 @@
 
 layout(location = 0) out uvec4 surface_out;
 #if LSF_GLOSS
-layout(location = LSF_GLOSS_TARGET) out uvec2 gloss_out;
+layout(location = LSF_GLOSS_TARGET) out uvec4 gloss_out;
 #endif
 #if LSF_EMISSION
 layout(location = LSF_EMISSION_TARGET) out vec4 emission_out;

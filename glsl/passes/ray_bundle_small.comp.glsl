@@ -9,7 +9,7 @@
 layout(local_size_x = LSF_BUNDLE_SMALL_SIZE) in;
 
 layout(location = 8) uniform float subpixels; /* positions a texel, along each axis */
-layout(location = 24) uniform uint group_stride; /* coprime to the number of work groups */
+layout(location = 27) uniform uint group_stride; /* coprime to the number of work groups */
 
 layout(std430, binding = LSF_BINDING_BUNDLE_LARGE) coherent buffer lsf_large_block
 {

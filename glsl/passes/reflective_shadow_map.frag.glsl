@@ -4,7 +4,7 @@
 layout(location = 0) out vec2 gradient_out;
 layout(location = 1) out uvec4 surface_out;
 #if LSF_GLOSS
-layout(location = 2) out uvec2 gloss_out;
+layout(location = 2) out uvec4 gloss_out;
 #endif
 
 void main()

@@ -11,6 +11,9 @@
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
+#if LSF_REFLECT && LSF_TRANSMISSION
+layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_texture;
+#endif
 #if LSF_EMIT && LSF_EMISSION
 layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D emission_texture;
 #endif
@@ -32,6 +35,9 @@ vec3 reflected(ivec3 cell, vec3 n, out bool front)
     vec3 side = front ? n : -n;
     float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
     vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
+#if LSF_TRANSMISSION
+    albedo *= 1.0 - voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
+#endif
     return albedo * irradiance * (visibility * abs(cosine) / LSF_PI * grid.unit.y);
 }
 #endif

@@ -1,11 +1,15 @@
 /* Uni-directional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches
  * LSF_EMISSION (surfaces shine), LSF_EMITTERS (points on them are drawn), LSF_ENVIRONMENT,
- * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS and those of the libraries. */
+ * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS, LSF_TRANSMISSION, LSF_ABSORPTION (there
+ * are media) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/coarse.glsl"
 #include "lib/environment.glsl"
 #include "lib/path_random.glsl"
 #include "lib/voxel_sight.glsl"
+#if LSF_ABSORPTION
+#include "lib/scene.glsl"
+#endif
 #if LSF_EMITTERS
 #include "lib/voxel_emitter.glsl"
 #endif
@@ -22,6 +26,9 @@ layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance;
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
 #if LSF_VOXEL_GLOSS
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D voxel_gloss;
+#endif
+#if LSF_TRANSMISSION
+layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D voxel_transmission_bits;
 #endif
 
 layout(location = 0) uniform ivec4 lengths; /* bounces, segments, least and most samples */
@@ -67,16 +74,26 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
 /* The voxel that a path meets on its way from v. */
 bool trace(path_vertex v, vec3 direction, out ivec3 cell)
 {
+    vec3 lift = voxel_lift(v.s.geometric_normal);
+    vec3 start = v.position + lift;
+#if LSF_TRANSMISSION
+    /* Through the surface it starts on its way, where this leaves the plane's voxels soon. */
+    float sinks = -dot(v.s.geometric_normal, direction);
+    if (sinks > 0.0) {
+        float way = length(lift) * min(1.0 / sinks, 2.0);
+        start = v.position + way * direction - lift + way * sinks * v.s.geometric_normal;
+    }
+#endif
     voxel_ray ray;
-    if (!voxel_ray_begin(v.position + voxel_lift(v.s.geometric_normal), direction, ray) ||
-        !voxel_leave_start(ray) || !voxel_ray_trace(ray))
+    if (!voxel_ray_begin(start, direction, ray) || !voxel_leave_start(ray) ||
+        !voxel_ray_trace(ray))
         return false;
     cell = ray.cell;
     return true;
 }
 
-/* A voxel's surface as it is seen along `direction`; `side`: 0 from the side of its normal, else 1. */
-path_vertex vertex_at(ivec3 cell, vec3 direction, out int side)
+/* A voxel's surface as it is seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
+path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 {
     path_vertex v;
     uint normal = texelFetch(voxel_normal, cell, 0).r;
@@ -109,7 +126,36 @@ path_vertex vertex_at(ivec3 cell, vec3 direction, out int side)
     v.s.anisotropy_turn = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
 #endif
 #endif
+#if LSF_TRANSMISSION
+    transmission_unpack(texelFetch(voxel_transmission_bits, cell, 0).r, v.s);
+    transmission_turn(v.s, side == 0);
+    /* Light goes on from where it meets the surface, not from the voxel's own point. */
+    float meets = dot(n, direction);
+    if (v.s.transmission > 0.0 && meets != 0.0) {
+        vec3 there = origin + direction * (dot(n, v.position - origin) / meets);
+        v.position = clamp(there, vec3(cell), vec3(cell + 1));
+    }
+#endif
     return v;
+}
+
+/* Absorption of the medium that a ray from v goes through, which came through `before`; 0: air. Media do not
+ * nest. */
+vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)
+{
+#if LSF_ABSORPTION
+    if (v.s.volume) {
+        bool outwards = (dot(v.s.geometric_normal, direction) > 0.0) == v.s.front;
+        return outwards ? vec3(0.0) : materials[v.s.material].absorption.rgb;
+    }
+#endif
+    return before;
+}
+
+/* Beer and Lambert's law: what is left of light after a way in the grid. */
+vec3 left_after(vec3 absorption, vec3 way)
+{
+    return exp(-absorption * (length(way) * grid.origin.w));
 }
 
 /* Emission of the voxel towards one side, in the grid's unit. */
@@ -133,7 +179,7 @@ light_parts reflect_by(light_parts through, path_vertex v, brdf_value f, float w
 
 #if LSF_EMITTERS
 /* Light of points that are drawn on emitters, its share of what the segment from v finds. */
-void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
+void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v, vec3 absorption,
                   path_random_key key, uint index, int segment)
 {
     uint count = uint(emitters.y);
@@ -149,7 +195,11 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
         float weight = cosine / density *
                        emitter_share(density, brdf_pdf(sampler_of_v, e.direction));
         brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
-        add_light(reflect_by(through, v, f, weight, segment), e.radiance, segment == 0);
+        vec3 radiance = e.radiance;
+#if LSF_ABSORPTION
+        radiance *= left_after(absorption_along(v, e.direction, absorption), e.position - v.position);
+#endif
+        add_light(reflect_by(through, v, f, weight, segment), radiance, segment == 0);
     }
 }
 
@@ -162,21 +212,45 @@ float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_verte
 }
 #endif
 
+/* The way on from v: draws a direction with density `pdf` and takes what it counts for into `through`. False: no
+ * light comes from there. A direction through the surface has the density 0 here: no other way finds what
+ * it meets. */
+bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segment,
+                    inout light_parts through, out vec3 direction, out float pdf)
+{
+    pdf = 0.0;
+#if LSF_TRANSMISSION
+    vec3 weight;
+    if (brdf_pass(sampler_of_v, v.s, u, direction, weight)) {
+        through.irradiance *= segment == 0 ? vec3(0.0) : weight;
+        through.specular *= weight;
+        return weight != vec3(0.0) && dot(v.s.geometric_normal, direction) < 0.0;
+    }
+#endif
+    direction = brdf_draw(sampler_of_v, u);
+    float cosine = dot(v.s.normal, direction);
+    if (cosine <= 0.0 || dot(v.s.geometric_normal, direction) <= 0.0)
+        return false;
+    brdf_value f = brdf_evaluate(v.s, v.view, direction, 0.0);
+    pdf = brdf_pdf(sampler_of_v, direction);
+    through = reflect_by(through, v, f, cosine / pdf, segment);
+    return true;
+}
+
 void add_path(path_vertex v, path_random_key key, uint index)
 {
     light_parts through = light_parts(vec3(1.0), vec3(1.0));
+    vec3 absorption = vec3(0.0); /* the camera is in air */
     for (int segment = 0; segment < lengths.y; segment++) {
         brdf_sampler sampler_of_v = brdf_sampler_of(v.s, v.view, segment == 0);
 #if LSF_EMITTERS
-        add_emitters(through, v, sampler_of_v, key, index, segment);
+        add_emitters(through, v, sampler_of_v, absorption, key, index, segment);
 #endif
-        vec3 direction = brdf_draw(sampler_of_v, path_random(key, index, uint(segment)));
-        float cosine = dot(v.s.normal, direction);
-        if (cosine <= 0.0 || dot(v.s.geometric_normal, direction) <= 0.0)
+        vec3 direction;
+        float pdf;
+        if (!draw_direction(v, sampler_of_v, path_random(key, index, uint(segment)), segment, through,
+                            direction, pdf))
             return;
-        brdf_value f = brdf_evaluate(v.s, v.view, direction, 0.0);
-        float pdf = brdf_pdf(sampler_of_v, direction);
-        through = reflect_by(through, v, f, cosine / pdf, segment);
         ivec3 cell;
         if (!trace(v, direction, cell)) {
 #if LSF_ENVIRONMENT
@@ -185,7 +259,13 @@ void add_path(path_vertex v, path_random_key key, uint index)
             return;
         }
         int side;
-        path_vertex met = vertex_at(cell, direction, side);
+        path_vertex met = vertex_at(cell, v.position, direction, side);
+#if LSF_ABSORPTION
+        absorption = absorption_along(v, direction, absorption);
+        vec3 left = left_after(absorption, met.position - v.position);
+        through.irradiance *= left;
+        through.specular *= left;
+#endif
         /* What the last segment meets may shine, but has no bounce left to reflect with; and what the
          * first one meets shines as direct light. */
         vec3 radiance = vec3(0.0);
@@ -195,7 +275,8 @@ void add_path(path_vertex v, path_random_key key, uint index)
         vec3 emission = emission_of(cell, side);
         radiance = max(radiance - emission, 0.0);
 #if LSF_EMITTERS
-        emission *= met_share(v, direction, pdf, cell, met, emission);
+        if (pdf > 0.0)
+            emission *= met_share(v, direction, pdf, cell, met, emission);
 #endif
         add_light(through, grid.unit.x * emission, segment == 0);
 #endif
@@ -219,7 +300,7 @@ void main()
         v.view = -normalize(view_ray_direction(ndc));
         v.s = surface_unpack(surface_texel);
 #if LSF_GLOSS
-        gloss_unpack(texelFetch(gloss_texture, texel, 0).xy, v.s);
+        gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
 #endif
         /* More of them the rougher it is. */
         int count = int(mix(float(lengths.z), float(lengths.w), v.s.roughness) + 0.5);

@@ -7,7 +7,7 @@
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 9) out;
 
-layout(location = 24) uniform float side; /* of the viewport [pixels] */
+layout(location = 27) uniform float side; /* of the viewport [pixels] */
 
 in vec3 corner[3];
 out flat ivec2 triangle;

@@ -4,7 +4,7 @@
 
 layout(local_size_x = LSF_VOXELIZE_GROUP) in;
 
-layout(location = 25) uniform uint draw; /* the instance's place in the order of draws */
+layout(location = 28) uniform uint draw; /* the instance's place in the order of draws */
 
 layout(binding = 1, r32ui) writeonly uniform uimage3D albedo_image;
 layout(binding = 2, r32ui) writeonly uniform uimage3D normal_image;
@@ -14,6 +14,9 @@ layout(binding = 4, r32ui) writeonly uniform uimage3D emission_image;
 #endif
 #if LSF_GLOSS
 layout(binding = 5, r32ui) writeonly uniform uimage3D gloss_image;
+#endif
+#if LSF_TRANSMISSION
+layout(binding = 6, r32ui) writeonly uniform uimage3D transmission_image;
 #endif
 
 void write_surface(voxel_triangle t, ivec3 cell)
@@ -54,6 +57,9 @@ void write_surface(voxel_triangle t, ivec3 cell)
     imageStore(gloss_image, cell,
                uvec4(packUnorm4x8(vec4(sqrt(lsf_alpha_along_tangent(alpha, s.anisotropy)),
                                        s.roughness, root, s.metallic))));
+#endif
+#if LSF_TRANSMISSION
+    imageStore(transmission_image, cell, uvec4(transmission_pack(s)));
 #endif
 }
 

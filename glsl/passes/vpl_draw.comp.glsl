@@ -203,7 +203,7 @@ surface surface_at(int face, ivec2 at)
 {
     surface s = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0));
 #if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, ivec3(at, face), 0).xy, s);
+    gloss_unpack(texelFetch(gloss_texture, ivec3(at, face), 0), s);
 #endif
     return s;
 }

@@ -26,10 +26,11 @@ struct lsf_material_data {
     vec4 base_color;
     vec4 emission;   /* rgb: radiance factor [W/(m^2 sr)]; w: alpha cutoff, negative without mask */
     vec4 surface;    /* metallic, roughness, normal scale, f0 of the dielectric */
-    vec4 anisotropy; /* strength, cos and sin of the rotation, unused */
-    vec4 flags;      /* double-sided, unlit; 0 or 1 */
+    vec4 anisotropy; /* strength, cos and sin of the rotation; transmission */
+    vec4 flags;      /* double-sided, unlit, surface of a medium; 0 or 1; the material's number */
+    vec4 absorption; /* rgb: of the medium, per unit of normalised space */
     lsf_texture_slot_data base_color_slot, metallic_roughness_slot, normal_slot, emissive_slot,
-        anisotropy_slot;
+        anisotropy_slot, transmission_slot;
 };
 
 /* Attribute locations of the vertex streams. */
@@ -51,12 +52,13 @@ struct lsf_material_data {
 #define LSF_UNIT_EMISSIVE 3
 #define LSF_UNIT_ANISOTROPY 4
 #define LSF_UNIT_ENVIRONMENT 5
+#define LSF_UNIT_TRANSMISSION 13
 
 /* Texture units of the light in turn. */
 #define LSF_UNIT_SHADOW_DEPTH 6
 #define LSF_UNIT_SHADOW_GRADIENT 7
-#define LSF_UNIT_EMISSION 8 /* see lib/emission_pdf.glsl */
-#define LSF_UNIT_BUNDLE_PDF 9  /* density of ray-bundles by direction */
+#define LSF_UNIT_EMISSION 8   /* see lib/emission_pdf.glsl */
+#define LSF_UNIT_BUNDLE_PDF 9 /* density of ray-bundles by direction */
 
 /* Location of the radiance of an environment without a map. */
 #define LSF_LOCATION_ENVIRONMENT 10

@@ -18,10 +18,10 @@ struct lsf_voxel_grid_data {
 #define LSF_VOXEL_BRICK 4
 
 /* The sides that radiance is kept for, slices of the grid stacked along z. Of a surface's two sides
- * (its normal's, and the other); or lobes of six normals, premultiplied by how much of a surface faces that
- * way: a side with normal n adds n_a^2 (radiance, 1) for each axis a, to slice 2 a where n_a < 0, which
- * one sees that looks along +a, and to slice 2 a + 1 where n_a > 0. Either way one sees from behind a lit
- * wall its other side. */
+ * (its normal's, and the other); or lobes of six normals, premultiplied by how much of a surface
+ * faces that way: a side with normal n adds n_a^2 (radiance, 1) for each axis a, to slice 2 a where
+ * n_a < 0, which one sees that looks along +a, and to slice 2 a + 1 where n_a > 0. Either way one
+ * sees from behind a lit wall its other side. */
 #define LSF_VOXEL_SIDES_SURFACE 2
 #define LSF_VOXEL_SIDES_AXES 6
 
@@ -31,6 +31,7 @@ struct lsf_voxel_grid_data {
 /* Texture units. */
 #define LSF_UNIT_VOXEL_EMISSION 4
 #define LSF_UNIT_VOXEL_POINT 6
+#define LSF_UNIT_VOXEL_TRANSMISSION 8
 #define LSF_UNIT_VOXEL_RADIANCE 9
 #define LSF_UNIT_VOXEL_OCCUPANCY 10 /* and the next two */
 #define LSF_UNIT_VOXEL_ALBEDO 13

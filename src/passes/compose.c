@@ -26,6 +26,8 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_plan_switch_add(plan, "LSF_SPECULAR", use->indirect && r->specular,
                         "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: lobes were evaluated before");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", use->indirect && plan->transmission,
+                        "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
     lsf_scene_gpu_environment_switches(plan, "an environment is seen");
@@ -77,6 +79,7 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     glBindTextureUnit(6, inputs->specular);
     glBindTextureUnit(7, inputs->direct_irradiance);
     glBindTextureUnit(8, inputs->direct_specular);
+    glBindTextureUnit(9, inputs->gloss);
     lsf_scene_gpu_bind_environment(iteration->scene);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);

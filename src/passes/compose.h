@@ -7,7 +7,7 @@
 typedef struct lsf_compose_inputs {
     GLuint depth, emission;                    /* of the G-buffer; emission 0: none */
     GLuint direct;                             /* RGBA32F radiance; 0: none */
-    GLuint surface;                            /* of the G-buffer; where there is irradiance */
+    GLuint surface, gloss;                     /* of the G-buffer; where there is irradiance */
     GLuint irradiance, specular;               /* RGBA32F; 0: none */
     GLuint direct_irradiance, direct_specular; /* the same of direct light; 0: none */
 } lsf_compose_inputs;

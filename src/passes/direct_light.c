@@ -15,6 +15,8 @@ void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
+                        "light passes materials that transmit");
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf ? 4 : 0, "shadow.filter");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,

@@ -44,7 +44,10 @@ void lsf_gbuffer_plan(lsf_plan *plan)
                          "reverse-Z; positions are made from it");
     lsf_plan_texture_add(plan, "gbuffer.surface", GL_RGBA32UI, w, h,
                          "normals, base colour, metallic");
-    if (r->specular && r->anisotropic)
+    if (plan->transmission)
+        lsf_plan_texture_add(plan, "gbuffer.gloss", GL_RGBA32UI, w, h,
+                             "roughness, f0, anisotropy and transmission");
+    else if (r->specular && r->anisotropic)
         lsf_plan_texture_add(plan, "gbuffer.gloss", GL_RG32UI, w, h,
                              "roughness, f0 and anisotropy");
     else if (r->specular && (r->glossy || r->variable_ior))

@@ -107,7 +107,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
             triangles = triangles < MAX_TRIANGLES ? triangles : MAX_TRIANGLES;
             lsf_triangle_fetch_instance(iteration, index, first, triangles);
             uint32_t groups = (triangles + LSF_BUNDLE_SMALL_SIZE - 1) / LSF_BUNDLE_SMALL_SIZE;
-            glUniform1ui(24, stride_of(groups));
+            glUniform1ui(27, stride_of(groups));
             glDispatchCompute(groups, 1, 1);
         }
     }

@@ -39,6 +39,8 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
         lsf_plan_switch_add(plan, "LSF_REFLECT", variants[i].reflect, "the same");
         lsf_plan_switch_add(plan, "LSF_EMISSION", r->emissive || r->unlit,
                             "some material emits or is unlit");
+        lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
+                            "light passes materials that transmit");
         lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf ? 2 : 0,
                             "shadow.filter; texels are small beside voxels");
         lsf_light_switches(plan);
@@ -82,6 +84,7 @@ static void bind_voxels(const lsf_voxel_light_inputs *inputs)
     glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
     glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->point);
     glBindTextureUnit(LSF_UNIT_VOXEL_EMISSION, inputs->emission);
+    glBindTextureUnit(LSF_UNIT_VOXEL_TRANSMISSION, inputs->transmission);
 }
 
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs)

@@ -49,6 +49,10 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", voxel_gloss, "they vary between voxels");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
+                        "light passes materials that transmit");
+    lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->transmission && r->refractive,
+                        "some material is the surface of a medium");
     lsf_plan_switch_add(plan, "LSF_EMISSION", emission, "some material emits or is unlit");
     lsf_voxel_path_emitters_plan(plan, params);
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
@@ -137,6 +141,8 @@ static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iterati
     glBindTextureUnit(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
     glBindTextureUnit(LSF_UNIT_VOXEL_EMISSION, inputs->voxel_emission);
     glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->voxel_gloss);
+    glBindTextureUnit(LSF_UNIT_VOXEL_TRANSMISSION, inputs->voxel_transmission);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
     glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     glBindTextureUnit(LSF_UNIT_PATH_RANDOM, pass->random);
     lsf_scene_gpu_bind_environment(iteration->scene);

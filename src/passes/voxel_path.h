@@ -41,7 +41,7 @@ typedef struct lsf_voxel_path_inputs {
     const lsf_coarse_grid *grid;
     GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
     GLuint occupancy[2];          /* voxels and bricks */
-    GLuint voxel_albedo, voxel_normal, voxel_point, voxel_emission, voxel_gloss;
+    GLuint voxel_albedo, voxel_normal, voxel_point, voxel_emission, voxel_gloss, voxel_transmission;
     GLuint radiance; /* of voxels, two sides */
 } lsf_voxel_path_inputs;
 

@@ -32,8 +32,8 @@
 #define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
 
 /* Locations in voxelize.geom.glsl and voxelize_write. */
-#define LOCATION_SIDE 24
-#define LOCATION_DRAW 25
+#define LOCATION_SIDE 27
+#define LOCATION_DRAW 28
 
 /* Room for voxels that are won: a storage block of 128 MiB. A grid of more voxels than this of
  * which more are occupied, a quarter of all at 512^3, would leave the rest without a surface. */
@@ -53,7 +53,8 @@ const char *const lsf_voxelize_count_names[LSF_VOXELIZE_COUNTS] = {"instances", 
 
 static bool has_gloss(const lsf_plan *plan)
 {
-    return plan->requirements.glossy;
+    const lsf_requirements *r = &plan->requirements;
+    return r->glossy || (plan->transmission && r->variable_ior);
 }
 
 static bool has_emission(const lsf_plan *plan)
@@ -64,7 +65,7 @@ static bool has_emission(const lsf_plan *plan)
 /* Without lists and the coarser occupancy, which take half a byte together. */
 uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter)
 {
-    uint32_t bytes = 4 * (5 + has_emission(plan) + has_gloss(plan)) + 1;
+    uint32_t bytes = 4 * (5 + has_emission(plan) + has_gloss(plan) + plan->transmission) + 1;
     return lsf_voxelize_keeps_still(plan, jitter) ? 2 * bytes : bytes;
 }
 
@@ -157,6 +158,9 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                                "some material is glossy");
     else
         lsf_plan_omit(plan, "voxelize.gloss", "no material is glossy");
+    if (plan->transmission)
+        lsf_voxel_texture_plan(plan, grid, "voxelize.transmission", GL_R32UI, 1, 1,
+                               "light passes some material");
     lsf_plan_buffer_add(plan, "voxelize.bricks", list_bytes(grid), "occupied bricks of 4^3 voxels");
     lsf_plan_buffer_add(plan, "voxelize.previous_bricks", list_bytes(grid),
                         "those of the iteration before");
@@ -172,24 +176,26 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
     lsf_voxelize_still_plan(plan, grid);
 }
 
-void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[9])
+void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES])
 {
     lsf_voxelize_outputs *o = &pass->outputs;
-    const lsf_voxelize_texture list[9] = {{"voxelize.key", &pass->key},
-                                          {"voxelize.occupancy_0", &o->occupancy[0]},
-                                          {"voxelize.occupancy_1", &o->occupancy[1]},
-                                          {"voxelize.occupancy_2", &o->occupancy[2]},
-                                          {"voxelize.albedo", &o->albedo},
-                                          {"voxelize.normal", &o->normal},
-                                          {"voxelize.point", &o->point},
-                                          {"voxelize.emission", &o->emission},
-                                          {"voxelize.gloss", &o->gloss}};
+    const lsf_voxelize_texture list[LSF_VOXELIZE_TEXTURES] = {
+        {"voxelize.key", &pass->key},
+        {"voxelize.occupancy_0", &o->occupancy[0]},
+        {"voxelize.occupancy_1", &o->occupancy[1]},
+        {"voxelize.occupancy_2", &o->occupancy[2]},
+        {"voxelize.albedo", &o->albedo},
+        {"voxelize.normal", &o->normal},
+        {"voxelize.point", &o->point},
+        {"voxelize.emission", &o->emission},
+        {"voxelize.gloss", &o->gloss},
+        {"voxelize.transmission", &o->transmission}};
     memcpy(textures, list, sizeof list);
 }
 
 static bool create_textures(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *error)
 {
-    lsf_voxelize_texture textures[9];
+    lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES];
     lsf_voxelize_textures(pass, textures);
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         if (!lsf_plan_create_texture(plan, pass->context, textures[i].name, textures[i].texture,
@@ -302,7 +308,8 @@ static void bind_occupancy(const lsf_voxelize *pass)
 static void bind_attributes(const lsf_voxelize *pass)
 {
     const lsf_voxelize_outputs *o = &pass->outputs;
-    const GLuint images[] = {pass->key, o->albedo, o->normal, o->point, o->emission, o->gloss};
+    const GLuint images[] = {pass->key,   o->albedo, o->normal,      o->point,
+                             o->emission, o->gloss,  o->transmission};
     for (GLuint unit = 0; unit < LSF_COUNT(images); unit++)
         if (images[unit])
             bind_image(unit, images[unit]);
@@ -523,7 +530,7 @@ void lsf_voxelize_destroy(lsf_voxelize *pass)
 {
     if (!pass)
         return;
-    lsf_voxelize_texture textures[9];
+    lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES];
     lsf_voxelize_textures(pass, textures);
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i].texture);

@@ -27,6 +27,7 @@ typedef struct lsf_voxelize_outputs {
     GLuint albedo, normal, point;                 /* R32UI */
     GLuint emission;                              /* R32UI; 0 without emitting materials */
     GLuint gloss;                                 /* R32UI; 0 unless some material is glossy */
+    GLuint transmission;                          /* R32UI; 0 unless light passes some material */
     GLuint bricks;                                /* occupied bricks; voxel_data.h has the layout */
     GLuint previous_bricks; /* those of the run before, where its readers' textures want clearing */
     bool changed;           /* since the run before */

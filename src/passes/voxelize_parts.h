@@ -5,12 +5,14 @@
 #include "passes/voxelize.h"
 #include "plan/triangle_fetch.h"
 
+#define LSF_VOXELIZE_TEXTURES 10
+
 /* The grid with what stands still, where something moves: each run begins with a copy of it. */
 typedef struct lsf_voxelize_still {
     bool *moves;             /* of each instance; NULL: nothing is kept */
     float (*transforms)[12]; /* of each instance, as of the last run */
     uint32_t instance_count;
-    GLuint textures[9]; /* as lsf_voxelize_textures lists them */
+    GLuint textures[LSF_VOXELIZE_TEXTURES]; /* as lsf_voxelize_textures lists them */
     GLuint bricks;
 } lsf_voxelize_still;
 
@@ -41,7 +43,8 @@ typedef struct lsf_voxelize_texture {
     GLuint *texture;
 } lsf_voxelize_texture;
 
-void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[9]);
+void lsf_voxelize_textures(lsf_voxelize *pass,
+                           lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES]);
 
 /* --- voxelize_still.c --- */
 

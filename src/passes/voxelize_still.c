@@ -7,8 +7,6 @@
 #include "base/base.h"
 #include "passes/voxelize_parts.h"
 
-#define TEXTURES 9
-
 static const char prefix[] = "voxelize.";
 
 static void still_name(char name[64], const char *of)
@@ -24,7 +22,7 @@ bool lsf_voxelize_keeps_still(const lsf_plan *plan, bool jitter)
 void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid)
 {
     lsf_voxelize none = {0};
-    lsf_voxelize_texture textures[TEXTURES];
+    lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES];
     char name[64];
     if (!lsf_voxelize_keeps_still(plan, grid->jitter)) {
         lsf_plan_omit(plan, "voxelize.still", "%s",
@@ -32,7 +30,7 @@ void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid)
         return;
     }
     lsf_voxelize_textures(&none, textures);
-    for (int i = 0; i < TEXTURES; i++) {
+    for (int i = 0; i < LSF_VOXELIZE_TEXTURES; i++) {
         const lsf_plan_resource *resource = lsf_plan_find(plan, textures[i].name);
         if (!resource)
             continue;
@@ -66,7 +64,7 @@ static bool find_moving(lsf_voxelize_still *still, const lsf_scene *scene)
 bool lsf_voxelize_still_create(lsf_voxelize *pass, const lsf_plan *plan, const lsf_scene *scene,
                                lsf_error *error)
 {
-    lsf_voxelize_texture textures[TEXTURES];
+    lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES];
     char name[64];
     if (!lsf_plan_find(plan, "voxelize.still_bricks"))
         return true;
@@ -74,7 +72,7 @@ bool lsf_voxelize_still_create(lsf_voxelize *pass, const lsf_plan *plan, const l
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances",
                              scene->instance_count);
     lsf_voxelize_textures(pass, textures);
-    for (int i = 0; i < TEXTURES; i++) {
+    for (int i = 0; i < LSF_VOXELIZE_TEXTURES; i++) {
         still_name(name, textures[i].name);
         if (!lsf_plan_create_texture(plan, pass->context, name, &pass->still.textures[i], error))
             return false;
@@ -116,10 +114,10 @@ static void copy_bricks(GLuint from, GLuint to)
 
 void lsf_voxelize_still_keep(lsf_voxelize *pass)
 {
-    lsf_voxelize_texture textures[TEXTURES];
+    lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES];
     lsf_voxelize_textures(pass, textures);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    for (int i = 0; i < TEXTURES; i++)
+    for (int i = 0; i < LSF_VOXELIZE_TEXTURES; i++)
         if (pass->still.textures[i])
             copy_texture(*textures[i].texture, pass->still.textures[i]);
     copy_bricks(pass->outputs.bricks, pass->still.bricks);
@@ -127,10 +125,10 @@ void lsf_voxelize_still_keep(lsf_voxelize *pass)
 
 void lsf_voxelize_still_restore(lsf_voxelize *pass)
 {
-    lsf_voxelize_texture textures[TEXTURES];
+    lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES];
     lsf_voxelize_textures(pass, textures);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    for (int i = 0; i < TEXTURES; i++)
+    for (int i = 0; i < LSF_VOXELIZE_TEXTURES; i++)
         if (pass->still.textures[i])
             copy_texture(pass->still.textures[i], *textures[i].texture);
     copy_bricks(pass->still.bricks, pass->outputs.bricks);
@@ -139,7 +137,7 @@ void lsf_voxelize_still_restore(lsf_voxelize *pass)
 void lsf_voxelize_still_destroy(lsf_voxelize *pass)
 {
     lsf_voxelize_still *still = &pass->still;
-    for (int i = 0; i < TEXTURES; i++)
+    for (int i = 0; i < LSF_VOXELIZE_TEXTURES; i++)
         lsf_texture_destroy(pass->context, &still->textures[i]);
     lsf_buffer_destroy(pass->context, &still->bricks);
     free(still->moves);

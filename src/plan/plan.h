@@ -45,8 +45,10 @@ struct lsf_plan {
     lsf_requirements requirements;
     uint32_t width, height, samples, bounces, aovs;
     bool orthographic;
+    bool transmission;   /* the technique lets light through materials that transmit, and there are
+                            some */
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
-    bool failed; /* memory ran out while it was filled */
+    bool failed;         /* memory ran out while it was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;
     lsf_plan_resource *resources;

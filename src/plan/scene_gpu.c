@@ -18,11 +18,12 @@ typedef struct lsf_material_data material_data;
 const char *const lsf_draw_count_names[LSF_DRAW_COUNTS] = {"instances_drawn", "instances_culled",
                                                            "triangles"};
 
-static bool any_texture(const lsf_requirements *requirements)
+static bool any_texture(const lsf_plan *plan)
 {
-    return requirements->base_color_textured || requirements->metallic_roughness_textured ||
-           requirements->normal_mapped || requirements->emissive_textured ||
-           requirements->anisotropy_textured;
+    const lsf_requirements *r = &plan->requirements;
+    return r->base_color_textured || r->metallic_roughness_textured || r->normal_mapped ||
+           r->emissive_textured || r->anisotropy_textured ||
+           (plan->transmission && r->transmission_textured);
 }
 
 void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
@@ -44,7 +45,7 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
                                 r->normal_mapped ? "normal maps" : "anisotropy");
         else
             lsf_plan_omit(plan, "scene.tangents", "no normal map and no anisotropy");
-        if (any_texture(r))
+        if (any_texture(plan))
             lsf_plan_buffer_add(plan, "scene.uv0", vertices * 8, "textures");
         else
             lsf_plan_omit(plan, "scene.uv0", "no textures");
@@ -67,7 +68,7 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         bool on;
         const char *why;
     } switches[] = {
-        {"LSF_TEXTURED", any_texture(r), "some material has a texture"},
+        {"LSF_TEXTURED", any_texture(plan), "some material has a texture"},
         {"LSF_SECOND_UV", r->second_uv, "some texture reads TEXCOORD_1"},
         {"LSF_VERTEX_COLOR", r->vertex_colored, "some primitive has colours"},
         {"LSF_TANGENT", r->normal_mapped || r->anisotropic, "there are normal maps or anisotropy"},
@@ -79,6 +80,9 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
          "some roughness or metallic is a texture"},
         {"LSF_ANISOTROPY", gloss && r->anisotropic, "some material is anisotropic"},
         {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured, "some anisotropy is a texture"},
+        {"LSF_TRANSMISSION", plan->transmission, "light passes materials that transmit"},
+        {"LSF_TRANSMISSION_TEXTURE", plan->transmission && r->transmission_textured,
+         "some transmission is a texture"},
         {"LSF_EMISSION", emission, "some material emits or is unlit"},
         {"LSF_EMISSIVE_TEXTURE", emission && r->emissive_textured, "some emission is a texture"},
     };
@@ -130,19 +134,23 @@ static struct lsf_texture_slot_data slot_data(const lsf_texture_slot *slot)
 struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t material)
 {
     const lsf_material *m = &scene->materials[material];
+    float absorption[3];
+    lsf_scene_absorption(scene, m, absorption);
     return (material_data){
         .base_color = {m->base_color[0], m->base_color[1], m->base_color[2], m->base_color[3]},
         .emission = {m->emission[0], m->emission[1], m->emission[2],
                      m->alpha_mode == LSF_ALPHA_MASK ? m->alpha_cutoff : -1.0f},
         .surface = {m->metallic, m->roughness, m->normal_scale, lsf_f0_from_ior(m->ior)},
         .anisotropy = {m->anisotropy_strength, cosf(m->anisotropy_rotation),
-                       sinf(m->anisotropy_rotation), 0.0f},
-        .flags = {m->double_sided, m->unlit, 0.0f, 0.0f},
+                       sinf(m->anisotropy_rotation), m->transmission},
+        .flags = {m->double_sided, m->unlit, m->volume && m->transmission > 0.0f, (float)material},
+        .absorption = {absorption[0], absorption[1], absorption[2], 0.0f},
         .base_color_slot = slot_data(&m->base_color_texture),
         .metallic_roughness_slot = slot_data(&m->metallic_roughness_texture),
         .normal_slot = slot_data(&m->normal_texture),
         .emissive_slot = slot_data(&m->emissive_texture),
-        .anisotropy_slot = slot_data(&m->anisotropy_texture)};
+        .anisotropy_slot = slot_data(&m->anisotropy_texture),
+        .transmission_slot = slot_data(&m->transmission_texture)};
 }
 
 static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
@@ -305,6 +313,7 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
     memset(gpu, 0, sizeof *gpu);
     gpu->context = context;
     gpu->scene = scene;
+    gpu->transmission = plan->transmission;
     if (!lsf_texture_upload_create(gpu, plan, error))
         return false;
     if (!lsf_plan_find(plan, "scene.positions"))
@@ -389,12 +398,16 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
     bind_slot(gpu, LSF_UNIT_NORMAL, &material->normal_texture, point);
     bind_slot(gpu, LSF_UNIT_EMISSIVE, &material->emissive_texture, point);
     bind_slot(gpu, LSF_UNIT_ANISOTROPY, &material->anisotropy_texture, point);
+    if (gpu->transmission)
+        bind_slot(gpu, LSF_UNIT_TRANSMISSION, &material->transmission_texture, point);
 }
 
 static void unbind_samplers(const lsf_scene_gpu *gpu)
 {
     for (GLuint unit = 0; unit <= LSF_UNIT_ANISOTROPY && gpu->gl_texture_count; unit++)
         glBindSampler(unit, 0);
+    if (gpu->transmission)
+        glBindSampler(LSF_UNIT_TRANSMISSION, 0);
 }
 
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,

@@ -11,6 +11,7 @@
 typedef struct lsf_scene_gpu {
     lsf_context *context;
     const lsf_scene *scene;
+    bool transmission; /* as in the plan */
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
     GLuint instances, previous_transforms, materials, environment;
     GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */

@@ -44,7 +44,8 @@ static uint32_t level_count(uint32_t width, uint32_t height)
 /* Numbers the distinct pairs of image and colour space that materials in use read; returns their
  * count. `of` (per scene texture, LSF_NONE when unused) and `representative` (per pair, a scene
  * texture) may be NULL. */
-static uint32_t number_textures(const lsf_scene *scene, uint32_t *of, uint32_t *representative)
+static uint32_t number_textures(const lsf_scene *scene, const lsf_plan *plan, uint32_t *of,
+                                uint32_t *representative)
 {
     uint32_t count = 0;
     uint32_t *pair_of = lsf_alloc((uint64_t)scene->image_count * 2, sizeof *pair_of);
@@ -55,9 +56,10 @@ static uint32_t number_textures(const lsf_scene *scene, uint32_t *of, uint32_t *
         const lsf_material *m =
             &scene->materials[scene->primitives[scene->instances[i].primitive].material];
         const lsf_texture_slot *slots[] = {&m->base_color_texture, &m->metallic_roughness_texture,
-                                           &m->normal_texture, &m->emissive_texture,
-                                           &m->anisotropy_texture};
-        for (size_t s = 0; s < LSF_COUNT(slots); s++)
+                                           &m->normal_texture,     &m->emissive_texture,
+                                           &m->anisotropy_texture, &m->transmission_texture};
+        size_t count_read = LSF_COUNT(slots) - !plan->transmission;
+        for (size_t s = 0; s < count_read; s++)
             if (slots[s]->texture != LSF_NONE)
                 used[slots[s]->texture] = true;
     }
@@ -93,7 +95,7 @@ void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
         plan->failed = true;
         return;
     }
-    uint32_t count = number_textures(scene, NULL, representative);
+    uint32_t count = number_textures(scene, plan, NULL, representative);
     for (uint32_t i = 0; i < count; i++) {
         const lsf_texture *texture = &scene->textures[representative[i]];
         const lsf_texture_image *image = &scene->images[texture->image];
@@ -252,7 +254,7 @@ bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_err
     gpu->textures = lsf_alloc(scene->texture_count, sizeof *gpu->textures);
     bool ok = representative && gpu->texture_of && gpu->textures;
     if (ok)
-        gpu->gl_texture_count = number_textures(scene, gpu->texture_of, representative);
+        gpu->gl_texture_count = number_textures(scene, plan, gpu->texture_of, representative);
     else
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u textures",
                       scene->texture_count);

@@ -87,8 +87,6 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params,
                    const lsf_bidirectional_sampling *s)
 {
     const lsf_requirements *r = &plan->requirements;
-    if (r->transmissive)
-        lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
     if (s->bundle_count > (uint32_t)params->ray_bundle.count)
         lsf_plan_remark(plan,
                         "%u bundles an iteration instead of %d: paths of %u segments need as many "

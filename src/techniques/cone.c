@@ -59,8 +59,6 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w
 static void remark(lsf_plan *plan, const way *w)
 {
     const lsf_requirements *r = &plan->requirements;
-    if (r->transmissive)
-        lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
     if (w->shines)
         lsf_plan_remark(plan, "with cones, direct light of surfaces and environments is in the "
                               "indirect layers");

@@ -37,8 +37,6 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
     if (r->environment)
         lsf_plan_remark(plan, "the environment is seen, but lights surfaces only with the "
                               "bidirectional technique");
-    if (r->transmissive)
-        lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
     if (plan->bounces > 1)
         lsf_plan_remark(plan, "the direct technique has no bounces; %u asked for", plan->bounces);
     if (plan->aovs & (LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR))

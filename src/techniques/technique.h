@@ -72,6 +72,7 @@ typedef struct lsf_pass_report {
 
 typedef struct lsf_technique {
     const char *name, *help;
+    bool transmits; /* lets light through materials that transmit; else they are opaque */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
     /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets

@@ -40,8 +40,6 @@ static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *
 static void remark(lsf_plan *plan, const lsf_pass_params *params, const lsf_voxel_path_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
-    if (r->transmissive)
-        lsf_plan_remark(plan, "transmission is read, but shaded as opaque");
     if (use->segments == 0)
         return;
     lsf_blur_remark(plan, &params->blur);
@@ -122,6 +120,7 @@ static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose
                                           .voxel_point = voxels->point,
                                           .voxel_emission = voxels->emission,
                                           .voxel_gloss = voxels->gloss,
+                                          .voxel_transmission = voxels->transmission,
                                           .radiance = v->chain.light.radiance};
     lsf_voxel_path_run(&v->path, iteration, &inputs);
     lsf_upsample_search_light light = {v->path.outputs.irradiance, v->path.outputs.specular};
@@ -155,7 +154,8 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
     lsf_compose_inputs parts = {.depth = gbuffer->depth,
                                 .emission = gbuffer->emission,
                                 .direct = direct,
-                                .surface = gbuffer->surface};
+                                .surface = gbuffer->surface,
+                                .gloss = gbuffer->gloss};
     if (v->width > 0)
         run_paths(v, iteration, &parts);
     lsf_compose_run(&v->compose, iteration, &parts);
@@ -200,6 +200,7 @@ static uint32_t report_voxel_path(void *self, lsf_pass_report reports[LSF_TECHNI
 const lsf_technique lsf_technique_voxel_path = {
     .name = "voxel_path",
     .help = "global illumination by paths through the scene's voxels, blurred and upsampled",
+    .transmits = true,
     .plan = plan_voxel_path,
     .create = create_voxel_path,
     .run = run_voxel_path,

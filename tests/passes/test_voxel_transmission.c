@@ -1,0 +1,198 @@
+/* Light through surfaces, as paths through voxels have it: against closed forms, against the
+ * integrals that tests/reference/test_transmission.c has for rough surfaces, and by its rules. */
+#include <math.h>
+
+#include "base/base.h"
+#include "render_gl.h"
+
+/* Side of a picture through a needle: many paths an iteration. */
+enum { NEEDLE = 8 };
+
+static void look(const lsf_scene *scene, uint32_t samples, uint32_t bounces, uint32_t size,
+                 lsf_float3 eye, lsf_float3 target, double rgb[3])
+{
+    static const char *const options[] = {"voxel.resolution=32", "voxel_path.min_samples=64",
+                                          "voxel_path.max_samples=64"};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = "voxel_path";
+    params.samples = samples;
+    params.bounces = bounces;
+    params.options = options;
+    params.option_count = LSF_COUNT(options);
+    params.fov_y = size == NEEDLE ? 1e-3f : 0.7f;
+    lsf_image *image = render_gl_from(scene, params, size, eye, target);
+    mean_rgb(image, 0, rgb);
+    lsf_image_destroy(image);
+}
+
+static lsf_scene *white_world(void)
+{
+    lsf_scene *scene = build_scene();
+    scene->environment = (lsf_environment){.present = true, .radiance = {1, 1, 1}};
+    return scene;
+}
+
+/* `ior` 0: a thin wall. */
+static lsf_material *build_glass(lsf_scene *scene, float base, float roughness, float ior)
+{
+    lsf_material *material = build_material(scene, base, base, base);
+    material->roughness = roughness;
+    material->transmission = 1.0f;
+    material->volume = ior > 0.0f;
+    material->ior = ior > 0.0f ? ior : 1.5f;
+    return material;
+}
+
+/* One surface between two white halves of the world: what reaches the viewer is the integral of f
+ * cos over all directions. */
+static void rough_surfaces(void **unused)
+{
+    (void)unused;
+    static const struct {
+        float roughness, transmission, ior, cosine; /* cosine below 0: from behind */
+        double expected;
+    } cases[] = {
+        {0.5f, 1.0f, 0.0f, 0.8f, 0.81128},  {0.3f, 0.5f, 0.0f, -0.4f, 0.92168},
+        {0.5f, 1.0f, 1.5f, 0.9f, 0.89491},  {0.4f, 0.6f, 1.33f, 0.3f, 0.91544},
+        {0.6f, 1.0f, 1.5f, -0.9f, 0.76504}, {0.4f, 1.0f, 1.5f, -0.7f, 0.90671},
+    };
+    for (size_t k = 0; k < LSF_COUNT(cases); k++) {
+        lsf_scene *scene = white_world();
+        build_glass(scene, 0.9f, cases[k].roughness, cases[k].ior)->transmission =
+            cases[k].transmission;
+        build_floor(scene, 0.0f, 1.0f);
+        finish_gl_scene(scene);
+        float y = cases[k].cosine, x = sqrtf(1.0f - y * y);
+        double rgb[3];
+        look(scene, 8, 0, NEEDLE, lsf_f3(x, y, 0), lsf_f3(0, 0, 0), rgb);
+        print_message("case %zu: %.5f, expected %.5f\n", k, rgb[0], cases[k].expected);
+        assert_true(fabs(rgb[0] / cases[k].expected - 1.0) < 0.005);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* Smooth white glass in a white world cannot be seen, but for paths that end within it. */
+static void white_glass(void **unused)
+{
+    (void)unused;
+    static const float iors[] = {0.0f, 1.0f, 1.5f};
+    for (size_t k = 0; k < LSF_COUNT(iors); k++) {
+        lsf_scene *scene = white_world();
+        build_glass(scene, 1.0f, 0.0f, iors[k]);
+        build_sphere(scene, 4, false);
+        finish_gl_scene(scene);
+        double rgb[3];
+        look(scene, 2, 16, 12, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0), rgb);
+        print_message("ior %.1f: %.5f\n", (double)iors[k], rgb[0]);
+        assert_true(fabs(rgb[0] - 1.0) < 0.01);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* Through a slab onto a lamp of two halves: the border is seen where Snell's law says, to a voxel.
+ */
+static void slab_displaces(void **unused)
+{
+    (void)unused;
+    static const double iors[] = {1.0, 1.5};
+    const double voxel = 4.0 / 32.0;
+    for (size_t k = 0; k < LSF_COUNT(iors); k++) {
+        double thickness = 0.5, inside = asin(0.6 / iors[k]);
+        double crossing = thickness * tan(inside) + 0.5 * 0.75;
+        for (int right = 0; right < 2; right++) {
+            lsf_scene *scene = build_scene();
+            float edge = (float)(crossing + (right ? -1.0 : 1.0) * voxel);
+            for (int half = 0; half < 2; half++) {
+                lsf_material *lamp = build_material(scene, 0, 0, 0);
+                lamp->emission[half] = 1.0f;
+                float low = half ? edge : -2.0f, high = half ? 2.0f : edge;
+                build_quad(scene, lsf_f3(low, -1, 2), lsf_f3(high, -1, 2), lsf_f3(high, -1, -2),
+                           lsf_f3(low, -1, -2));
+            }
+            build_glass(scene, 1.0f, 0.0f, (float)iors[k]);
+            build_box(scene, lsf_f3(-2, (float)-thickness, -2), lsf_f3(2, 0, 2), false);
+            finish_gl_scene(scene);
+            double rgb[3], f0 = pow((iors[k] - 1.0) / (iors[k] + 1.0), 2.0);
+            double pass = pow((1.0 - f0) * (1.0 - pow(0.2, 5.0)), 2.0);
+            look(scene, 16, 2, NEEDLE, lsf_f3(-0.75f, 1, 0), lsf_f3(0, 0, 0), rgb);
+            print_message("ior %.1f: %.4f and %.4f, expected %.4f on one\n", iors[k], rgb[0],
+                          rgb[1], pass);
+            assert_true(fabs(rgb[right] - pass) < 0.05 && rgb[!right] < 0.05);
+            lsf_scene_destroy(scene);
+        }
+    }
+}
+
+/* A slab that absorbs, seen straight on in a white world. */
+static void slab_absorbs(void **unused)
+{
+    (void)unused;
+    static const float iors[] = {1.0f, 1.5f};
+    for (size_t k = 0; k < LSF_COUNT(iors); k++) {
+        lsf_scene *scene = white_world();
+        lsf_material *glass = build_glass(scene, 1.0f, 0.0f, iors[k]);
+        glass->attenuation_distance = 2.5f;
+        glass->attenuation_color[0] = 0.0f;
+        glass->attenuation_color[1] = 0.5f;
+        build_box(scene, lsf_f3(-8, -3, -8), lsf_f3(8, 0, 8), false);
+        finish_gl_scene(scene);
+        double rgb[3], f = pow(((double)iors[k] - 1.0) / ((double)iors[k] + 1.0), 2.0);
+        look(scene, 4, 8, NEEDLE, lsf_f3(0, 4, 0), lsf_f3(0.001f, 0, 0.001f), rgb);
+        const double left[3] = {0.0, pow(0.5, 3.0 / 2.5), 1.0};
+        for (int c = 0; c < 3; c++) {
+            double a = left[c], pass = (1.0 - f) * (1.0 - f);
+            double expected = f + pass * (a + f * a * a) / (1.0 - f * f * a * a);
+            print_message("ior %.1f, channel %d: %.5f, expected %.5f\n", (double)iors[k], c, rgb[c],
+                          expected);
+            assert_true(fabs(rgb[c] - expected) < 0.01);
+        }
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* What is transmitted is not diffuse: a floor under a light keeps a quarter of its diffuse share
+ * where a texture says so, and all where it says 0; seen directly, and by way of voxels from a
+ * mirror above. */
+static void diffuse_share(void **unused)
+{
+    (void)unused;
+    static const uint8_t texels[] = {191, 0};
+    double rgb[2][2][3];
+    for (int mirrored = 0; mirrored < 2; mirrored++)
+        for (int half = 0; half < 2; half++) {
+            lsf_scene *scene = build_scene();
+            lsf_material *floor = build_material(scene, 0.8f, 0.8f, 0.8f);
+            floor->transmission = 1.0f;
+            floor->transmission_texture.texture = build_texture(scene, 2, 1, 1, texels, false);
+            build_floor(scene, 0.0f, 1.0f);
+            scene->vertices.uv0 = calloc(2 * (scene->vertices.count + 6), sizeof(float));
+            for (uint64_t i = 0; i < scene->vertices.count; i++)
+                scene->vertices.uv0[2 * i] = half ? 0.75f : 0.25f;
+            lsf_material *mirror = build_material(scene, 1, 1, 1);
+            mirror->metallic = 1.0f;
+            mirror->roughness = 0.0f;
+            build_quad(scene, lsf_f3(-1, 2, -1), lsf_f3(1, 2, -1), lsf_f3(1, 2, 1),
+                       lsf_f3(-1, 2, 1));
+            build_light(scene, LSF_LIGHT_POINT, lsf_f3(-0.6f, 1.5f, -0.6f), lsf_f3(0, -1, 0), 1.0f);
+            finish_gl_scene(scene);
+            lsf_float3 target = mirrored ? lsf_f3(0.05f, 2, 0) : lsf_f3(0.05f, 0, 0);
+            look(scene, 4, mirrored, NEEDLE, lsf_f3(0.3f, 1, 0.1f), target, rgb[mirrored][half]);
+            lsf_scene_destroy(scene);
+        }
+    for (int mirrored = 0; mirrored < 2; mirrored++) {
+        double ratio = rgb[mirrored][0][0] / rgb[mirrored][1][0];
+        print_message("%s: %.4f of the opaque floor\n", mirrored ? "in the mirror" : "seen", ratio);
+        /* Of the seen floor's light a part is its reflection, which stays. */
+        assert_true(fabs(ratio - (1.0 - 191.0 / 255.0)) < (mirrored ? 0.01 : 0.06));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rough_surfaces), cmocka_unit_test(white_glass),
+        cmocka_unit_test(slab_displaces), cmocka_unit_test(slab_absorbs),
+        cmocka_unit_test(diffuse_share),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
