@@ -101,7 +101,7 @@ static void slab_displaces(void **unused)
         double crossing = thickness * tan(inside) + 0.5 * 0.75;
         for (int right = 0; right < 2; right++) {
             lsf_scene *scene = build_scene();
-            float edge = (float)(crossing + (right ? -1.0 : 1.0) * voxel);
+            float edge = (float)(crossing + (right ? -1.5 : 1.5) * voxel);
             for (int half = 0; half < 2; half++) {
                 lsf_material *lamp = build_material(scene, 0, 0, 0);
                 lamp->emission[half] = 1.0f;
