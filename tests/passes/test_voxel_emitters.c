@@ -12,19 +12,15 @@ static lsf_image *render(const lsf_scene *scene, uint32_t size, uint32_t samples
                          lsf_float3 eye, lsf_float3 target, float fov_y,
                          const char *const options[MAX_OPTIONS])
 {
-    const float position[3] = {eye.x, eye.y, eye.z}, at[3] = {target.x, target.y, target.z};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
     params.technique = "voxel_path";
     params.samples = samples;
     params.bounces = bounces;
-    params.width = params.height = size;
-    params.camera_position = position;
-    params.camera_target = at;
     params.fov_y = fov_y;
     params.options = options;
     while (params.option_count < MAX_OPTIONS && options[params.option_count])
         params.option_count++;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl_from(scene, params, size, eye, target);
 }
 
 static double mean_of(const lsf_image *image, uint32_t channel)
@@ -120,19 +116,12 @@ static void quads_over_a_plane(void **unused)
 
 enum { PLAIN = 0, BOTH_SIDES = 1, TEXTURED = 2, LARGE = 4, UNLIT = 8 };
 
-/* A corner of three walls with a glossy box in it, and a lamp: hanging, or a part of the floor. */
+/* A corner with a lamp: a small one that hangs, or a large one for a ceiling. */
 static lsf_scene *room(int kind)
 {
     static const uint8_t texels[] = {255, 255, 255, 20, 40, 90, 0, 0, 0, 200, 100, 50};
     lsf_scene *scene = build_scene();
-    build_material(scene, 0.7f, 0.6f, 0.5f);
-    build_floor(scene, 0.0f, 2.0f);
-    build_material(scene, 0.3f, 0.6f, 0.8f);
-    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
-    build_material(scene, 0.8f, 0.3f, 0.2f);
-    build_quad(scene, lsf_f3(-2, 0, 2), lsf_f3(-2, 0, -2), lsf_f3(-2, 3, -2), lsf_f3(-2, 3, 2));
-    build_material(scene, 0.6f, 0.6f, 0.6f)->roughness = 0.5f;
-    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
+    build_corner(scene);
     lsf_material *lamp = build_material(scene, 0.2f, 0.2f, 0.2f);
     lamp->double_sided = kind & BOTH_SIDES;
     lamp->unlit = kind & UNLIT;
