@@ -43,24 +43,33 @@ bool voxel_leave_start(inout voxel_ray ray)
     return true;
 }
 
-bool voxel_crossed(ivec3 cell, voxel_ray ray, float first, float last)
+/* Whether heights at two distances along a ray are on both sides of a plane, or on it. */
+bool voxel_crossed(vec2 height, float first, float last)
 {
-    vec2 height = voxel_height(cell, ray);
     float before = height.x + first * height.y, after = height.x + last * height.y;
     return min(abs(before), abs(after)) < VOXEL_PLANE || before * after < 0.0;
 }
 
-/* Whether the ray, between two distances within a cell, crosses the plane of the surface there, or that of one
- * in the six cells about it: where surfaces meet or bend, either has won the voxel. */
+/* Whether the ray, between two distances within a cell, crosses the surface there. Where surfaces meet or bend,
+ * either has won the voxel, and those of the six cells about it count, too, as far as they are known to be on the
+ * side of the cell's own plane that the ray is on: round an edge they are not. */
 bool voxel_blocks(ivec3 cell, voxel_ray ray, float first, float last)
 {
-    if (voxel_crossed(cell, ray, first, last))
+    vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
+    vec3 q = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
+    vec2 own = vec2(dot(n, ray.origin - q), dot(n, ray.direction));
+    if (voxel_crossed(own, first, last))
         return true;
+    float ray_side = own.x + first * own.y;
     for (int side = 0; side < 6; side++) {
         ivec3 beside = cell;
         beside[side >> 1] += 2 * (side & 1) - 1;
-        if (voxel_inside(beside) && voxel_occupied(beside) &&
-            voxel_crossed(beside, ray, first, last))
+        if (!voxel_inside(beside) || !voxel_occupied(beside))
+            continue;
+        vec3 beside_q = vec3(beside) + voxel_point_unpack(texelFetch(voxel_point, beside, 0).r);
+        float beside_side = dot(n, beside_q - q);
+        if ((abs(beside_side) < VOXEL_PLANE || ray_side * beside_side > 0.0) &&
+            voxel_crossed(voxel_height(beside, ray), first, last))
             return true;
     }
     return false;
