@@ -2,13 +2,8 @@
 #include "lib/brdf.glsl"
 #include "lib/coarse.glsl"
 #include "lib/environment.glsl"
+#include "lib/gbuffer_textures.glsl"
 #include "lib/voxel_cone.glsl"
-
-layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform usampler2D surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2D gloss_texture;
-#endif
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility */
 #if LSF_SPECULAR

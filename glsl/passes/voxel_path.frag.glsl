@@ -5,6 +5,7 @@
 #include "lib/brdf_sample.glsl"
 #include "lib/coarse.glsl"
 #include "lib/environment.glsl"
+#include "lib/gbuffer_textures.glsl"
 #include "lib/path_random.glsl"
 #include "lib/voxel_sight.glsl"
 #if LSF_ABSORPTION
@@ -14,11 +15,6 @@
 #include "lib/voxel_emitter.glsl"
 #endif
 
-layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform usampler2D surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2D gloss_texture;
-#endif
 #if LSF_EMISSION && !LSF_EMITTERS
 layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
 #endif
