@@ -1,5 +1,5 @@
 /* Marches a cone through the pyramid of radiance. Switches: LSF_VOXEL_SIDES as in voxel_mip; LSF_SEALED: cones
- * end where their axis meets a voxel, and look at nothing behind it. */
+ * end where their axis meets a voxel, and look at nothing behind it; of diffuse ones nothing else counts. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
 
@@ -131,6 +131,23 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
     if (light.transmittance < CONE_OPAQUE)
         light.transmittance = 0.0;
     return light;
+}
+
+/* What one of a set of cones sees that gather a hemisphere. Sealed, it is its axis: over all turns and elevations
+ * axes lie as the cosine has them, so that what they meet is right in the mean. What is beside the axis is
+ * met by others, and would be counted twice. */
+cone_light cone_diffuse(vec3 point, vec3 normal, vec3 direction, float spread)
+{
+#if LSF_SEALED
+    cone_light light = cone_light(vec3(0.0), 1.0);
+    voxel_ray ray;
+    if (voxel_ray_begin(point + cone_march.y * normal, direction, ray) &&
+        voxel_ray_trace(ray, cone_march.z))
+        light = cone_light(cone_meet(ray.cell, direction), 0.0);
+    return light;
+#else
+    return cone_trace(point, normal, direction, spread);
+#endif
 }
 
 #endif

@@ -64,7 +64,7 @@ void main()
         vec3 direction = cone.x * across + cone.y * beside + cone.z * s.normal;
         if (dot(direction, s.geometric_normal) <= 0.0)
             continue;
-        cone_light light = cone_trace(point, s.geometric_normal, direction, cone.w);
+        cone_light light = cone_diffuse(point, s.geometric_normal, direction, cone.w);
         float reflected = 1.0;
 #if LSF_SPECULAR
         vec3 h = normalize(to_viewer + direction);

@@ -30,7 +30,7 @@ vec3 gather(vec3 place, vec3 n, float turn)
     for (int i = 0; i < count; i++) {
         vec4 cone = cone_set[i];
         vec3 direction = cone.x * across + cone.y * beside + cone.z * n;
-        cone_light light = cone_trace(place, n, direction, cone.w);
+        cone_light light = cone_diffuse(place, n, direction, cone.w);
         sum += light.radiance;
 #if LSF_ENVIRONMENT
         sum += light.transmittance * grid.unit.y * environment_radiance(direction);

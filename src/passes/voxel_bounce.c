@@ -16,14 +16,15 @@ static const char *const radiance_names[2] = {"voxel_bounce.radiance",
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
                            const lsf_voxel_grid *grid, bool of_own)
 {
-    uint32_t slices = lsf_cone_slices(params);
+    uint32_t slices = lsf_cone_slices(params),
+             levels = lsf_cone_levels(params, &plan->requirements);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     for (int i = 0; i < (of_own ? 2 : 1); i++)
-        lsf_voxel_texture_plan(plan, grid, radiance_names[i], GL_RGBA16F, slices, LSF_VOXEL_LEVELS,
+        lsf_voxel_texture_plan(plan, grid, radiance_names[i], GL_RGBA16F, slices, levels,
                                "radiance of voxels with what they reflect");
     if (!of_own)
         lsf_plan_omit(plan, radiance_names[1], "light goes from voxel to voxel once");
@@ -36,8 +37,8 @@ static bool create_radiance(lsf_voxel_bounce *pass, const lsf_plan *plan, lsf_er
         if (!lsf_plan_create_texture(plan, pass->context, radiance_names[i], &pass->radiance[i],
                                      error))
             return false;
-        for (GLint level = 0; pass->radiance[i] && level < LSF_VOXEL_LEVELS; level++)
-            glClearTexImage(pass->radiance[i], level, GL_RGBA, GL_FLOAT, NULL);
+        for (uint32_t level = 0; pass->radiance[i] && level < pass->levels; level++)
+            glClearTexImage(pass->radiance[i], (GLint)level, GL_RGBA, GL_FLOAT, NULL);
     }
     return true;
 }
@@ -48,7 +49,10 @@ bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const
 {
     static const char *const files[5] = {"passes/voxel_bounce.comp.glsl"};
     static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
-    *pass = (lsf_voxel_bounce){.context = context, .params = *params, .grid = *grid};
+    *pass = (lsf_voxel_bounce){.context = context,
+                               .params = *params,
+                               .grid = *grid,
+                               .levels = lsf_cone_levels(params, &plan->requirements)};
     if (!create_radiance(pass, plan, error))
         return false;
     pass->program = lsf_plan_program(plan, context, "voxel_bounce", files, error);
@@ -73,7 +77,7 @@ static void dispatch(GLuint radiance, GLuint bricks)
 
 void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxel_bounce_inputs *inputs)
 {
-    if (!inputs->changed)
+    if (!inputs->changed || pass->levels == 1)
         return;
     lsf_timer_begin(pass->timer);
     glUseProgram(pass->clear_program);

@@ -28,6 +28,7 @@ typedef struct lsf_voxel_bounce {
     GLuint radiance[2]; /* as voxel_light's; only level 0 is written. The second is there for
                          * sources that the pass has written itself */
     uint32_t last;      /* that was written */
+    uint32_t levels;    /* with 1 texels of empty voxels mean nothing */
     GLuint program, clear_program;
     lsf_timer *timer;
 } lsf_voxel_bounce;

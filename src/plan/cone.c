@@ -25,10 +25,17 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
     {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
      "other elevations each iteration, so that no direction is left out in the mean"},
     {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
-     "cones end where their axis meets a voxel: no light comes through walls; noisier, and slower"},
+     "cones end where their axis meets a voxel: no light comes through walls; off: smooth, and "
+     "leaking"},
     {"cone.turn", LSF_OPTION_BOOL, offsetof(lsf_cone_params, turn), 0, 0, NULL, "",
      "other directions for each pixel of a 4 x 4 pattern"},
 };
+
+/* Sealed diffuse cones see voxels alone. */
+uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements)
+{
+    return params->sealed && !requirements->specular ? 1 : LSF_VOXEL_LEVELS;
+}
 
 uint32_t lsf_cone_slices(const lsf_cone_params *params)
 {

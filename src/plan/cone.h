@@ -21,16 +21,19 @@ typedef struct lsf_cone_params {
     float distance; /* that cones reach [half extents of the scene] */
     float scale;    /* of the grid that they are traced on to the picture, along each side */
     bool jitter;    /* of their elevation, each within its share, from iteration to iteration */
-    bool sealed;    /* cones end where their axis meets a voxel */
+    bool sealed;    /* cones end where their axis meets a voxel; diffuse ones are no more than it */
     bool turn;      /* the set is turned from pixel to pixel */
 } lsf_cone_params;
 
 #define LSF_CONE_PARAMS_DEFAULTS                                                                   \
     .count = 6, .sides = LSF_CONE_ANISOTROPIC, .offset = 1.5f, .step = 1.0f, .opacity = 1.0f,      \
-    .distance = 4.0f, .scale = 1.0f, .jitter = true, .sealed = false, .turn = true
+    .distance = 4.0f, .scale = 1.0f, .jitter = true, .sealed = true, .turn = true
 
 #define LSF_CONE_OPTION_COUNT 10
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
+
+/* Levels of radiance that cones of a scene with those requirements read. */
+uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements);
 
 /* Slices of radiance along z. */
 uint32_t lsf_cone_slices(const lsf_cone_params *params);

@@ -16,6 +16,7 @@
 typedef struct way {
     bool traced;            /* to visible points otherwise than straight from punctual lights */
     bool shines;            /* from surfaces or an environment */
+    uint32_t levels;        /* of radiance */
     bool coarse;            /* cones are traced on a grid of fewer texels than pixels */
     uint32_t width, height; /* of the grid */
     uint32_t bounces;       /* from voxel to voxel */
@@ -26,7 +27,8 @@ typedef struct way {
 static way choose_way(const lsf_plan *plan, const lsf_pass_params *params)
 {
     const lsf_requirements *r = &plan->requirements;
-    way w = {.shines = r->emissive || r->unlit || r->environment,
+    way w = {.levels = lsf_cone_levels(&params->cone, r),
+             .shines = r->emissive || r->unlit || r->environment,
              .width = lsf_coarse_grid_length(plan->width, params->cone.scale),
              .height = lsf_coarse_grid_length(plan->height, params->cone.scale)};
     w.coarse = lsf_coarse_grid_is_coarse(plan, w.width, w.height);
@@ -51,7 +53,7 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w
 {
     uint32_t slices = lsf_cone_slices(&params->cone);
     return (lsf_voxel_chain_use){.sides = slices,
-                                 .levels = LSF_VOXEL_LEVELS,
+                                 .levels = w->levels,
                                  .bytes_per_voxel =
                                      (8 * slices * 8 / 7 + 1) * (w->bounces < 2 ? w->bounces : 2)};
 }
@@ -72,7 +74,10 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
     if (w.traced) {
         lsf_voxel_chain_use use = chain_use(params, &w);
         lsf_voxel_chain_plan(plan, params, state, &use);
-        lsf_voxel_mip_plan(plan, use.sides);
+        if (w.levels > 1)
+            lsf_voxel_mip_plan(plan, use.sides);
+        else
+            lsf_plan_omit(plan, "voxel_mip", "cones are sealed, and none is specular");
         lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &use);
         if (w.bounces > 0)
             lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
@@ -98,7 +103,8 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
     lsf_voxel_chain_use use = chain_use(params, &c->way);
     const lsf_voxel_grid *grid = &c->chain.grid;
     return lsf_voxel_chain_create(&c->chain, context, plan, params, scene, state, &use, error) &&
-           lsf_voxel_mip_create(&c->mip, context, plan, grid, use.sides, error) &&
+           (c->way.levels == 1 ||
+            lsf_voxel_mip_create(&c->mip, context, plan, grid, use.sides, error)) &&
            (c->way.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
@@ -125,6 +131,8 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
 static void build_pyramid(cone *c, GLuint radiance)
 {
     const lsf_voxelize_outputs *voxels = c->chain.voxels;
+    if (c->way.levels == 1)
+        return;
     const lsf_voxel_mip_inputs inputs = {.radiance = radiance,
                                          .bricks = voxels->bricks,
                                          .previous_bricks = voxels->previous_bricks,
@@ -262,7 +270,8 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
     if (c->way.traced) {
         if (c->way.bounces > 0)
             reports[count++] = (lsf_pass_report){.timer = c->bounce.timer};
-        reports[count++] = (lsf_pass_report){.timer = c->mip.timer};
+        if (c->way.levels > 1)
+            reports[count++] = (lsf_pass_report){.timer = c->mip.timer};
         if (c->way.coarse)
             reports[count++] = (lsf_pass_report){.timer = c->upsample.split_timer};
         reports[count++] = (lsf_pass_report){.timer = c->trace.timer};

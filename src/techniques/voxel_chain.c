@@ -9,8 +9,8 @@ static uint32_t bytes_per_voxel(const lsf_plan *plan, const lsf_pass_params *par
                                 const lsf_voxel_chain_use *use)
 {
     uint32_t radiance = 8 * use->sides;
-    return lsf_voxelize_bytes(plan, params->voxel_grid.jitter) + radiance + (use->levels > 1 ? (radiance + 6) / 7 : 0) +
-           use->bytes_per_voxel;
+    return lsf_voxelize_bytes(plan, params->voxel_grid.jitter) + radiance +
+           (use->levels > 1 ? (radiance + 6) / 7 : 0) + use->bytes_per_voxel;
 }
 
 static lsf_voxel_light_use light_use(const lsf_pass_params *params, const lsf_voxel_chain_use *use)
@@ -28,7 +28,8 @@ bool lsf_voxel_chain_has_voxels(const lsf_plan *plan)
 lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params *params,
                                     const lsf_state *state, const lsf_voxel_chain_use *use)
 {
-    const lsf_voxel_grid_use grid = {.bytes = bytes_per_voxel(plan, params, use), .sides = use->sides};
+    const lsf_voxel_grid_use grid = {.bytes = bytes_per_voxel(plan, params, use),
+                                     .sides = use->sides};
     return lsf_voxel_grid_fit(&params->voxel_grid, state, &grid);
 }
 

@@ -33,7 +33,7 @@ static lsf_scene *two_rooms(float thickness, bool lamp)
 
 /* Where light comes from, and by how many bounces. */
 typedef struct way {
-    const char *technique, *remedy;
+    const char *technique, *option[2];
     uint32_t bounces;
     bool lamp; /* a surface instead of a point */
 } way;
@@ -43,7 +43,7 @@ static double room_light(const way *w, const lsf_scene *scene, float room)
     /* Towards the wall between the rooms, and its edges. */
     const float eye[3] = {1.9f * room, 0.4f, -0.8f}, target[3] = {0.0f, -0.4f, 0.5f};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    const char *options[2] = {"voxel.resolution=64", w->remedy};
+    const char *options[3] = {"voxel.resolution=64", w->option[0], w->option[1]};
     params.technique = w->technique;
     params.width = params.height = 32;
     params.samples = getenv("LSF_TEST_QUICK") ? 2 : 8;
@@ -52,7 +52,7 @@ static double room_light(const way *w, const lsf_scene *scene, float room)
     params.camera_target = target;
     params.fov_y = 80.0f;
     params.options = options;
-    params.option_count = w->remedy ? 2 : 1;
+    params.option_count = w->option[1] ? 3 : w->option[0] ? 2 : 1;
     lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
     double sum = 0.0;
     for (uint32_t i = 0; i < image->width * image->height; i++)
@@ -67,9 +67,9 @@ static double leak(const way *w, float thickness)
     double lit = room_light(w, scene, -1.0f), dark = room_light(w, scene, 1.0f);
     destroy_scene(scene);
     assert_true(lit > 0.01);
-    print_message("%s%s%s%s, wall of %g voxels, %u bounces: %.2e of the lit room's light\n",
-                  w->technique, w->lamp ? ", a lamp" : "", w->remedy ? " -D " : "",
-                  w->remedy ? w->remedy : "", (double)thickness, w->bounces, dark / lit);
+    print_message("%s%s %s %s, wall of %g voxels, %u bounces: %.2e of the lit room's light\n",
+                  w->technique, w->lamp ? ", a lamp" : "", w->option[0] ? w->option[0] : "",
+                  w->option[1] ? w->option[1] : "", (double)thickness, w->bounces, dark / lit);
     return dark / lit;
 }
 
@@ -81,9 +81,10 @@ static void cones(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < 4; i++) {
-        double isotropic = leak(&(way){"cone", "cone.sides=isotropic", 2, false}, walls[i]);
-        double anisotropic = leak(&(way){"cone", NULL, 2, false}, walls[i]);
-        double sealed = leak(&(way){"cone", "cone.sealed=on", 2, false}, walls[i]);
+        double isotropic =
+            leak(&(way){"cone", {"cone.sealed=off", "cone.sides=isotropic"}, 2, false}, walls[i]);
+        double anisotropic = leak(&(way){"cone", {"cone.sealed=off"}, 2, false}, walls[i]);
+        double sealed = leak(&(way){"cone", {NULL}, 2, false}, walls[i]);
         assert_true(anisotropic < isotropic);
         assert_true(walls[i] < 2.0f || sealed <= 1e-4);
     }
@@ -94,7 +95,7 @@ static void cones(void **unused)
 static void bounces_of_cones(void **unused)
 {
     (void)unused;
-    assert_true(leak(&(way){"cone", "cone.sealed=on", 4, false}, 2.0f) <= 2.19e-4);
+    assert_true(leak(&(way){"cone", {NULL}, 4, false}, 2.0f) <= 2.19e-4);
 }
 
 static void paths(void **unused)
@@ -102,7 +103,7 @@ static void paths(void **unused)
     (void)unused;
     for (size_t i = 0; i < 4; i++)
         for (int lamp = 0; lamp < 2; lamp++)
-            assert_true(leak(&(way){"voxel_path", NULL, 2, lamp}, walls[i]) <=
+            assert_true(leak(&(way){"voxel_path", {NULL}, 2, lamp}, walls[i]) <=
                         (walls[i] < 2.0f ? 1e-3 : 1e-4));
 }
 
@@ -127,7 +128,7 @@ static void shells(void **unused)
         build_quad(scene, lsf_f3(-0.3f, 0.4f, -0.4f), lsf_f3(0.3f, 0.4f, -0.4f),
                    lsf_f3(0.3f, 0.1f, 0.4f), lsf_f3(-0.3f, 0.1f, 0.4f));
         finish_gl_scene(scene);
-        light[shell] = room_light(&(way){"voxel_path", NULL, 0, true}, scene, 1.0f);
+        light[shell] = room_light(&(way){"voxel_path", {NULL}, 0, true}, scene, 1.0f);
         destroy_scene(scene);
         print_message("%s lets %.2e of a lamp's direct light through\n", names[shell],
                       light[shell] / light[0]);
