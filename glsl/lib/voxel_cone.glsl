@@ -5,7 +5,7 @@
 
 #include "lib/voxel.glsl"
 #if LSF_SEALED
-#include "lib/voxel_trace.glsl"
+#include "lib/voxel_sight.glsl"
 #endif
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
@@ -141,7 +141,7 @@ cone_light cone_diffuse(vec3 point, vec3 normal, vec3 direction, float spread)
 #if LSF_SEALED
     cone_light light = cone_light(vec3(0.0), 1.0);
     voxel_ray ray;
-    if (voxel_ray_begin(point + cone_march.y * normal, direction, ray) &&
+    if (voxel_ray_begin(point + voxel_lift(normal), direction, ray) && voxel_leave_start(ray) &&
         voxel_ray_trace(ray, cone_march.z))
         light = cone_light(cone_meet(ray.cell, direction), 0.0);
     return light;

@@ -7,7 +7,7 @@
 layout(binding = 1) uniform sampler3D base_texture;
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
-layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
+layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D point_texture;
 layout(location = 0) uniform bvec3 sum_of; /* what was there, the base, what is reflected */
 
 /* Voxels take the turns of a 4 x 4 x 4 pattern. */

@@ -122,6 +122,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     glBindTextureUnit(3, pass->lobe_albedo);
     for (GLuint level = 0; level < 2; level++)
         glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
+    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
+    glBindTextureUnit(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (pass->lobe_albedo)

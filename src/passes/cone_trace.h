@@ -9,7 +9,8 @@ typedef struct lsf_cone_trace_inputs {
     const lsf_coarse_grid *grid;
     GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
     GLuint occupancy[2];          /* of voxelize, the finest levels */
-    GLuint radiance;              /* the pyramid; voxel_light.h, voxel_mip.h */
+    GLuint voxel_normal, voxel_point;
+    GLuint radiance; /* the pyramid; voxel_light.h, voxel_mip.h */
 } lsf_cone_trace_inputs;
 
 /* RGBA32F, of the grid's size. Alpha of irradiance: ambient visibility, the share of the

@@ -100,7 +100,7 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
         glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
     glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
     glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
-    glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->point);
+    glBindTextureUnit(LSF_UNIT_VOXEL_POINT, inputs->point);
     if (sum->source)
         lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
     lsf_scene_gpu_bind_environment(iteration->scene);

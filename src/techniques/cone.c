@@ -198,6 +198,8 @@ static lsf_cone_trace_outputs trace(cone *c, const lsf_iteration *iteration)
         .surface = points.surface,
         .gloss = points.gloss,
         .occupancy = {c->chain.voxels->occupancy[0], c->chain.voxels->occupancy[1]},
+        .voxel_normal = c->chain.voxels->normal,
+        .voxel_point = c->chain.voxels->point,
         .radiance = light_voxels(c, iteration)};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
     lsf_upsample_search_light light = {c->trace.outputs.irradiance, c->trace.outputs.specular};
