@@ -9,32 +9,13 @@
 #ifndef LSF_LIB_PATH_RANDOM
 #define LSF_LIB_PATH_RANDOM
 
+#include "lib/hash.glsl"
 #include "shared/voxel_data.h"
-
-/* M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d. */
-uvec3 path_hash(uvec3 v)
-{
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v;
-}
 
 struct path_random_key {
     uint pixel, seed;
     ivec2 place; /* of the texture's texel that the pixel goes with */
 };
-
-/* The 24 high bits, 0 <= u < 1. */
-vec3 path_unit(uvec3 bits)
-{
-    return vec3(bits >> 8) * (1.0 / 16777216.0);
-}
 
 #if LSF_RANDOM_TEXTURE
 layout(binding = LSF_UNIT_PATH_RANDOM) uniform sampler2D random_texture;
@@ -42,7 +23,7 @@ layout(binding = LSF_UNIT_PATH_RANDOM) uniform sampler2D random_texture;
 /* Three numbers that decide how the path goes on from its vertex. */
 vec3 path_random(path_random_key key, uint index, uint vertex)
 {
-    uvec3 shift = path_hash(uvec3(index, vertex, key.seed));
+    uvec3 shift = hash(uvec3(index, vertex, key.seed));
     ivec2 size = textureSize(random_texture, 0); /* powers of two */
     return texelFetch(random_texture, (key.place + ivec2(shift.xy & 0xffffu)) & (size - 1), 0).rgb;
 }
@@ -71,12 +52,12 @@ uint path_sobol_second(uint index)
 
 vec3 path_random(path_random_key key, uint index, uint vertex)
 {
-    uvec3 seed = path_hash(uvec3(key.pixel, vertex, key.seed));
-    uvec3 order = path_hash(seed);
+    uvec3 seed = hash(uvec3(key.pixel, vertex, key.seed));
+    uvec3 order = hash(seed);
     /* One order for the pair, one for the number that stands alone. */
     uvec3 shuffled =
         bitfieldReverse(path_scramble(uvec3(bitfieldReverse(index)), uvec3(order.x, order.xy)));
-    return path_unit(bitfieldReverse(path_scramble(
+    return hash_unit(bitfieldReverse(path_scramble(
         uvec3(shuffled.x, path_sobol_second(shuffled.y), shuffled.z), seed)));
 }
 #endif

@@ -15,16 +15,26 @@ layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
 layout(location = LSF_LOCATION_CONE) uniform vec4 cone_march;
 layout(location = LSF_LOCATION_CONE_STEPS) uniform int cone_steps; /* at most */
 
-/* Directions about the normal (z), and the cones' diameter by length. */
+/* Directions about the normal (z) in the middle of their rings, and the cones' diameter by length. */
 layout(location = LSF_LOCATION_CONE_SET) uniform vec4 cone_set[LSF_CONE_MAX];
-/* Turn of the whole set; whether points differ in it (0 or 1); number of cones. */
-layout(location = LSF_LOCATION_CONE_TURN) uniform vec3 cone_gather;
+/* Turn of the whole set; whether points differ (0 or 1); number of cones; their place in their rings, from 0 to 1. */
+layout(location = LSF_LOCATION_CONE_TURN) uniform vec4 cone_gather;
 
 /* What is left of a cone's light counts as nothing: half a step of a picture of 8 bits. */
 #define CONE_OPAQUE 0.002
 
 /* What a closed texel lets through, so that its logarithm is a number. */
 #define CONE_CLEAR_MIN 1e-7
+
+/* The i-th direction about z. `shift`: by how much the point differs from others in turn and place. */
+vec3 cone_direction(int i, vec2 shift)
+{
+    shift = cone_gather.xw + cone_gather.y * shift;
+    float radius2 = (float(i) + fract(shift.y)) / cone_gather.z;
+    float angle = 2.0 * LSF_PI * shift.x;
+    vec2 circle = sqrt(radius2) * normalize(cone_set[i].xy);
+    return vec3(mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * circle, sqrt(1.0 - radius2));
+}
 
 struct cone_light {
     vec3 radiance;      /* in the grid's unit */

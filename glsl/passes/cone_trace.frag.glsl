@@ -2,6 +2,7 @@
 #include "lib/brdf.glsl"
 #include "lib/coarse.glsl"
 #include "lib/environment.glsl"
+#include "lib/hash.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/voxel_cone.glsl"
 
@@ -24,13 +25,14 @@ vec3 arriving(cone_light light, vec3 direction)
     return radiance;
 }
 
-/* Pixels of a 4 x 4 pattern take the turns 0 to 15 of 16, neighbours far from each other. */
-float pixel_turn()
+/* Pixels of a tile of 4 x 4 take the turns 0 to 15 of 16, neighbours far from each other; tiles differ by
+ * chance, in turn and ring: where few directions are the same, no edge shows twice. */
+vec2 pixel_shift()
 {
-    uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
+    uvec2 pixel = uvec2(gl_FragCoord.xy), p = pixel & 3u;
     uint x = p.x ^ p.y;
     uint order = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
-    return float(order) / 16.0;
+    return vec2(float(order) / 16.0, 0.0) + hash_unit(hash(uvec3(pixel >> 2, 0u))).xy;
 }
 
 void main()
@@ -54,17 +56,15 @@ void main()
     vec3 to_viewer = -normalize(view_ray_direction(ndc));
     vec3 tangent, bitangent;
     orthonormal_basis(s.normal, tangent, bitangent);
-    float angle = 2.0 * LSF_PI * (cone_gather.x + cone_gather.y * pixel_turn());
-    vec3 across = cos(angle) * tangent + sin(angle) * bitangent;
-    vec3 beside = cross(s.normal, across);
+    vec2 shift = pixel_shift();
     int count = int(cone_gather.z);
     float share = 1.0 / cone_gather.z;
     for (int i = 0; i < count; i++) {
-        vec4 cone = cone_set[i];
-        vec3 direction = cone.x * across + cone.y * beside + cone.z * s.normal;
+        vec3 local = cone_direction(i, shift);
+        vec3 direction = local.x * tangent + local.y * bitangent + local.z * s.normal;
         if (dot(direction, s.geometric_normal) <= 0.0)
             continue;
-        cone_light light = cone_diffuse(point, s.geometric_normal, direction, cone.w);
+        cone_light light = cone_diffuse(point, s.geometric_normal, direction, cone_set[i].w);
         float reflected = 1.0;
 #if LSF_SPECULAR
         vec3 h = normalize(to_viewer + direction);

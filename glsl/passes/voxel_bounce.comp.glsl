@@ -22,15 +22,12 @@ vec3 gather(vec3 place, vec3 n, float turn)
 {
     vec3 tangent, bitangent;
     orthonormal_basis(n, tangent, bitangent);
-    float angle = 2.0 * LSF_PI * (cone_gather.x + cone_gather.y * turn);
-    vec3 across = cos(angle) * tangent + sin(angle) * bitangent;
-    vec3 beside = cross(n, across);
     vec3 sum = vec3(0.0);
     int count = int(cone_gather.z);
     for (int i = 0; i < count; i++) {
-        vec4 cone = cone_set[i];
-        vec3 direction = cone.x * across + cone.y * beside + cone.z * n;
-        cone_light light = cone_diffuse(place, n, direction, cone.w);
+        vec3 local = cone_direction(i, vec2(turn, 0.0));
+        vec3 direction = local.x * tangent + local.y * bitangent + local.z * n;
+        cone_light light = cone_diffuse(place, n, direction, cone_set[i].w);
         sum += light.radiance;
 #if LSF_ENVIRONMENT
         sum += light.transmittance * grid.unit.y * environment_radiance(direction);

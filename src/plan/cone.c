@@ -28,7 +28,7 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
      "cones end where their axis meets a voxel: no light comes through walls; off: smooth, and "
      "leaking"},
     {"cone.turn", LSF_OPTION_BOOL, offsetof(lsf_cone_params, turn), 0, 0, NULL, "",
-     "other directions for each pixel of a 4 x 4 pattern"},
+     "other directions for each pixel"},
 };
 
 /* Sealed diffuse cones see voxels alone. */
@@ -80,11 +80,11 @@ void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
     float elevation = 0.5f;
     if (params->jitter)
         elevation = lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_ELEVATION));
-    lsf_cone_set((uint32_t)params->count, elevation, cones);
+    lsf_cone_set((uint32_t)params->count, 0.5f, cones);
     glUniform4fv(LSF_LOCATION_CONE_SET, params->count, &cones[0].x);
-    glUniform3f(LSF_LOCATION_CONE_TURN,
+    glUniform4f(LSF_LOCATION_CONE_TURN,
                 lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_TURN)),
-                params->turn, (float)params->count);
+                params->turn, (float)params->count, elevation);
     glUniform4f(LSF_LOCATION_CONE, params->step, params->offset, params->distance / grid->side,
                 params->opacity);
     glUniform1i(LSF_LOCATION_CONE_STEPS, most_steps(params, grid));

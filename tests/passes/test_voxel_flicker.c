@@ -90,7 +90,7 @@ static void compare(moving_part part)
     /* Voxels add little to what shadow maps do by themselves; most where few directions see one
      * appear. */
     static const drawn_by drawn[] = {{"cone", "cone.sealed=off", 5.0},
-                                     {"cone", "cone.sealed=on", 6.0},
+                                     {"cone", "cone.sealed=on", 5.0},
                                      {"voxel_path", NULL, 5.0},
                                      {"direct", NULL, 0.0},
                                      {"bidirectional", NULL, 0.0}};

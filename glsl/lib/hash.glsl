@@ -1,0 +1,25 @@
+/* Numbers that look random, of integers. */
+#ifndef LSF_LIB_HASH
+#define LSF_LIB_HASH
+
+/* M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d. */
+uvec3 hash(uvec3 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+/* The 24 high bits, 0 <= u < 1. */
+vec3 hash_unit(uvec3 bits)
+{
+    return vec3(bits >> 8) * (1.0 / 16777216.0);
+}
+
+#endif
