@@ -24,4 +24,23 @@ ivec3 child_cell(lsf_voxel_brick_data brick, int child)
     return 2 * voxel_brick_unpack(brick.place) + ivec3(child & 1, (child >> 1) & 1, child >> 2);
 }
 
+/* What the pass does to a texel of level 1. */
+void visit_child(ivec3 cell, int side);
+
+/* All of the bricks' texels that hold voxels, those of a brick shared among its lanes. */
+void visit_children()
+{
+    uint at;
+    if (!voxel_brick_listed(at))
+        return;
+    lsf_voxel_brick_data brick = bricks[at];
+    uint children = brick_children(brick);
+    int count = bitCount(children) * bitCount(brick.sides);
+    for (int n = voxel_brick_lane(); n < count; n += VOXEL_BRICK_LANES) {
+        int child, side;
+        voxel_brick_side(brick, n, child, side);
+        visit_child(child_cell(brick, nth_bit(children, child)), side);
+    }
+}
+
 #endif

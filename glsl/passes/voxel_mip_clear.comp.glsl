@@ -5,19 +5,13 @@
 layout(binding = 0, rgba16f) writeonly uniform image3D fine_image;
 layout(binding = 1, rgba16f) writeonly uniform image3D brick_image;
 
+void visit_child(ivec3 cell, int side)
+{
+    imageStore(fine_image, mip_place(cell, side, 1), vec4(0.0));
+    imageStore(brick_image, mip_place(cell >> 1, side, 2), vec4(0.0));
+}
+
 void main()
 {
-    uint at;
-    if (!voxel_brick_listed(at))
-        return;
-    lsf_voxel_brick_data brick = bricks[at];
-    uint children = brick_children(brick);
-    int count = bitCount(children) * bitCount(brick.sides);
-    for (int n = voxel_brick_lane(); n < count; n += VOXEL_BRICK_LANES) {
-        int child, side;
-        voxel_brick_side(brick, n, child, side);
-        ivec3 cell = child_cell(brick, nth_bit(children, child));
-        imageStore(fine_image, mip_place(cell, side, 1), vec4(0.0));
-        imageStore(brick_image, mip_place(cell >> 1, side, 2), vec4(0.0));
-    }
+    visit_children();
 }

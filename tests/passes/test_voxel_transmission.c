@@ -28,19 +28,8 @@ static void look(const lsf_scene *scene, uint32_t samples, uint32_t bounces, uin
 static lsf_scene *white_world(void)
 {
     lsf_scene *scene = build_scene();
-    scene->environment = (lsf_environment){.present = true, .radiance = {1, 1, 1}};
+    build_environment(scene, 1.0f);
     return scene;
-}
-
-/* `ior` 0: a thin wall. */
-static lsf_material *build_glass(lsf_scene *scene, float base, float roughness, float ior)
-{
-    lsf_material *material = build_material(scene, base, base, base);
-    material->roughness = roughness;
-    material->transmission = 1.0f;
-    material->volume = ior > 0.0f;
-    material->ior = ior > 0.0f ? ior : 1.5f;
-    return material;
 }
 
 /* One surface between two white halves of the world: what reaches the viewer is the integral of f

@@ -255,6 +255,16 @@ void build_environment(lsf_scene *scene, float radiance)
         scene->environment.radiance[c] = radiance;
 }
 
+lsf_material *build_glass(lsf_scene *scene, float base, float roughness, float ior)
+{
+    lsf_material *material = build_material(scene, base, base, base);
+    material->roughness = roughness;
+    material->transmission = 1.0f;
+    material->volume = ior > 0.0f;
+    material->ior = ior > 0.0f ? ior : 1.5f;
+    return material;
+}
+
 void build_corner(lsf_scene *scene)
 {
     build_material(scene, 0.7f, 0.6f, 0.5f);

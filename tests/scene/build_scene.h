@@ -31,6 +31,10 @@ lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 positio
 /* A uniform environment. */
 void build_environment(lsf_scene *scene, float radiance);
 
+/* A smooth or rough dielectric that lets all light through, of that base colour. `ior` 0: a thin
+ * wall. */
+lsf_material *build_glass(lsf_scene *scene, float base, float roughness, float ior);
+
 /* A corner of three walls with a glossy box in it. */
 void build_corner(lsf_scene *scene);
 
