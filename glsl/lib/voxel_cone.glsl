@@ -4,6 +4,7 @@
 #define LSF_LIB_VOXEL_CONE
 
 #include "lib/voxel.glsl"
+#include "shared/cone.h"
 #if LSF_SEALED
 #include "lib/voxel_sight.glsl"
 #endif
@@ -30,7 +31,7 @@ layout(location = LSF_LOCATION_CONE_TURN) uniform vec4 cone_gather;
 vec3 cone_direction(int i, vec2 shift)
 {
     shift = cone_gather.xw + cone_gather.y * shift;
-    float radius2 = (float(i) + fract(shift.y)) / cone_gather.z;
+    float radius2 = lsf_cone_radius2(float(i), fract(shift.y), cone_gather.z);
     float angle = 2.0 * LSF_PI * shift.x;
     vec2 circle = sqrt(radius2) * normalize(cone_set[i].xy);
     return vec3(mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * circle, sqrt(1.0 - radius2));

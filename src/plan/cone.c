@@ -5,6 +5,7 @@
 
 #include "math/sampling.h"
 #include "shared/brdf.h"
+#include "shared/cone.h"
 #include "shared/scene_data.h"
 
 const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
@@ -52,7 +53,7 @@ void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones)
     double cosine = 1.0 - 1.0 / (double)count;
     float spread = (float)(2.0 * sqrt(1.0 - cosine * cosine) / fmax(cosine, 0.5));
     for (uint32_t i = 0; i < count; i++) {
-        double radius2 = ((double)i + (double)elevation) / (double)count;
+        double radius2 = (double)lsf_cone_radius2((float)i, elevation, (float)count);
         double radius = sqrt(radius2), angle = golden_angle * (double)i;
         cones[i] = (lsf_vec4){(float)(radius * cos(angle)), (float)(radius * sin(angle)),
                               (float)sqrt(1.0 - radius2), spread};
