@@ -5,6 +5,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Decodes PNG and JPEG without their metadata. */
+static bool decode_pixels(const lsf_image_module *module, lsf_decoded_image *decoded,
+                          const lsf_image_header *header, const void *bytes, size_t length,
+                          const char *name, lsf_error *error)
+{
+    if (header->file != LSF_IMAGE_FILE_PNG && header->file != LSF_IMAGE_FILE_JPEG)
+        return module->decode(decoded, header, bytes, length, name, error);
+    uint8_t *copy = lsf_alloc(length, 1);
+    if (!copy)
+        return lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for its %zu bytes", name,
+                             length);
+    memcpy(copy, bytes, length);
+    length = header->file == LSF_IMAGE_FILE_PNG ? lsf_png_without_metadata(copy, length)
+                                                : lsf_jpeg_without_metadata(copy, length);
+    bool decoded_well = module->decode(decoded, header, copy, length, name, error);
+    free(copy);
+    return decoded_well;
+}
+
 static bool decode(lsf_decoded_image *decoded, lsf_image_header *header, const void *bytes,
                    size_t length, uint64_t byte_limit, const char *name, lsf_error *error)
 {
@@ -14,7 +33,7 @@ static bool decode(lsf_decoded_image *decoded, lsf_image_header *header, const v
     const lsf_image_module *module = lsf_image_module_get(&cause);
     if (!module)
         return lsf_error_set(error, cause.code, "%s: cannot be read: %s", name, cause.message);
-    return module->decode(decoded, header, bytes, length, name, error);
+    return decode_pixels(module, decoded, header, bytes, length, name, error);
 }
 
 static void release(lsf_decoded_image *decoded)

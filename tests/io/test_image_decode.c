@@ -1,6 +1,7 @@
 /* Every kind of image file that is read, and files that are cut, damaged or made to do harm. */
 #include "image_files.h"
 
+#include "io/image_header.h"
 #include "io/io.h"
 
 #include <math.h>
@@ -162,6 +163,86 @@ static void test_jpeg(void **state)
     refuse(changed, sizeof changed, "would take more");
     memcpy(frame + 5, "\x20\x00\x20\x00", 4);
     refuse(changed, sizeof changed, "more than its");
+}
+
+static void add_segment(bytes *out, uint8_t marker, const char *content, size_t length)
+{
+    add(out, (uint8_t[]){0xff, marker, (uint8_t)((length + 2) >> 8), (uint8_t)(length + 2)}, 4);
+    add(out, content, length);
+}
+
+/* An IPTC record that claims 65535 bytes and has 10. */
+static const char iptc[] = "Photoshop 3.0\0"
+                           "8BIM\4\4\0\0\0\0\xff\xff\x1c\2\5\xff\xff"
+                           "AAAAAAAAAA";
+
+static void test_jpeg_metadata_is_not_decoded(void **state)
+{
+    (void)state;
+    lsf_texture_image clean = decode(jpeg_file, sizeof jpeg_file);
+    uint8_t copy[sizeof jpeg_file];
+    memcpy(copy, jpeg_file, sizeof copy);
+    size_t clean_length = lsf_jpeg_without_metadata(copy, sizeof copy);
+    assert_int_equal(clean_length, sizeof jpeg_file);
+    assert_memory_equal(copy, jpeg_file, clean_length);
+
+    bytes files[4] = {0};
+    for (int i = 0; i < 4; i++)
+        add(&files[i], jpeg_file, 2);
+    /* Every kind of metadata. */
+    for (uint8_t marker = 0xe1; marker <= 0xef; marker++)
+        if (marker != 0xee)
+            add_segment(&files[0], marker, iptc, sizeof iptc - 1);
+    add_segment(&files[0], 0xfe, iptc, sizeof iptc - 1);
+    /* A marker that has no length, though one that would hide the next follows it. */
+    add(&files[1], "\xff\x01\x00\x20", 4);
+    add_segment(&files[1], 0xed, iptc, sizeof iptc - 1);
+    /* A fill byte, before what would be a marker's code once the comment between is gone. */
+    add(&files[2], "\xff", 1);
+    add_segment(&files[2], 0xfe, "", 0);
+    add(&files[2], "\xed\x00\x29", 3);
+    add(&files[2], iptc, sizeof iptc - 1);
+    for (int i = 0; i < 3; i++)
+        add(&files[i], jpeg_file + 2, sizeof jpeg_file - 2);
+    /* After the scan's data, and after the end of the image. */
+    add(&files[3], jpeg_file + 2, sizeof jpeg_file - 4);
+    add_segment(&files[3], 0xed, iptc, sizeof iptc - 1);
+    add(&files[3], "\xff\xd9", 2);
+    add_segment(&files[3], 0xed, iptc, sizeof iptc - 1);
+
+    for (int i = 0; i < 4; i++) {
+        bool stray_bytes = i == 1 || i == 2;
+        if (stray_bytes) {
+            try_decode(files[i].data, files[i].length);
+        } else {
+            lsf_texture_image image = decode(files[i].data, files[i].length);
+            assert_memory_equal(image.texels, clean.texels, 16 * 8 * 3);
+            free(image.texels);
+        }
+        size_t length = lsf_jpeg_without_metadata(files[i].data, files[i].length);
+        assert_true(length <= sizeof jpeg_file + 64);
+        assert_null(memmem(files[i].data, length, "\xff\xed", 2));
+        assert_null(memmem(files[i].data, length, "\xff\xfe", 2));
+    }
+    free(clean.texels);
+}
+
+static void test_png_metadata_is_not_decoded(void **state)
+{
+    (void)state;
+    bytes clean = make_png(&(png_description){2, 1, 8, 0, 0, 0, "\0\1", 0, 2, "\0\1\2", 3});
+    bytes file = {.length = 0};
+    add(&file, clean.data, 33);
+    add_png_chunk(&file, "iTXt", "XML:com.adobe.xmp\0\0\0\0\0<a><a><a>", 31);
+    add_png_chunk(&file, "iCCP", "profile\0\0not deflated", 21);
+    add(&file, clean.data + 33, clean.length - 33);
+    add(&file, "trailing", 8);
+    lsf_texture_image image = decode(file.data, file.length);
+    assert_int_equal(image.channels, 2);
+    assert_memory_equal(image.texels, "\1\0\2\xff", 4);
+    free(image.texels);
+    assert_int_equal(lsf_png_without_metadata(file.data, file.length), clean.length);
+    assert_memory_equal(file.data, clean.data, clean.length);
 }
 
 static void test_bombs_are_refused_before_memory_is_taken(void **state)
@@ -338,6 +419,8 @@ int main(void)
         cmocka_unit_test(test_png_kinds),
         cmocka_unit_test(test_grey_files_become_rgb_images),
         cmocka_unit_test(test_jpeg),
+        cmocka_unit_test(test_jpeg_metadata_is_not_decoded),
+        cmocka_unit_test(test_png_metadata_is_not_decoded),
         cmocka_unit_test(test_bombs_are_refused_before_memory_is_taken),
         cmocka_unit_test(test_other_kinds_are_refused),
         cmocka_unit_test(test_exr_kinds),
