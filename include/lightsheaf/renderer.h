@@ -44,12 +44,15 @@ const char *lsf_aov_name(uint32_t aovs);
 /* Called between iterations: `done` of `total` iterations. Return false to stop early. */
 typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 
+/* As many bounces as the scene's materials need: lsf_requirements.bounces. */
+#define LSF_BOUNCES_AUTO UINT32_MAX
+
 typedef struct lsf_render_params {
     const char *technique;   /* see lsf_technique_name */
     uint32_t width, height;  /* pixels */
     uint32_t samples;        /* iterations; UINT32_MAX: as many as the time limit allows */
     double time_limit;       /* seconds of rendering; infinity: none */
-    uint32_t bounces;        /* indirect bounces; 0: direct light only */
+    uint32_t bounces;        /* indirect bounces; 0: direct light only; LSF_BOUNCES_AUTO */
     uint64_t seed;
     const char *camera;      /* name or index; NULL: the first */
     const float *camera_position; /* three floats in scene units; NULL: the camera's own */
@@ -66,7 +69,7 @@ typedef struct lsf_render_params {
 
 #define LSF_RENDER_PARAMS_DEFAULTS                                                        \
     .technique = "bidirectional", .width = 1024, .height = 768, .samples = 64,            \
-    .time_limit = 1.0 / 0.0, .bounces = 1, .seed = 0, .camera = NULL,                     \
+    .time_limit = 1.0 / 0.0, .bounces = LSF_BOUNCES_AUTO, .seed = 0, .camera = NULL,      \
     .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f, .time = 0.0,    \
     .aovs = 0, .rgb8 = false, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
 

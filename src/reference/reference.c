@@ -100,6 +100,9 @@ lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params 
     if (!check_params(params, half, error))
         return NULL;
     warn_of_missing(params);
+    lsf_render_params resolved = *params;
+    if (params->bounces == LSF_BOUNCES_AUTO)
+        resolved.bounces = scene->requirements.bounces;
     void *symbol = load_symbol(LSF_REFERENCE_MODULE_ENTRY, error);
     if (symbol == NULL)
         return NULL;
@@ -107,7 +110,7 @@ lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params 
     memcpy(&render, &symbol, sizeof render); /* ISO C has no cast from object to function */
 
     lsf_state state = {0};
-    lsf_reference_job job = {.scene = scene, .state = &state, .params = params, .half = half};
+    lsf_reference_job job = {.scene = scene, .state = &state, .params = &resolved, .half = half};
     lsf_view_params view = {
         .time = params->time,
         .camera = params->camera,

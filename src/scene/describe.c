@@ -120,11 +120,11 @@ static void add_requirements_json(lsf_string *out, const lsf_requirements *r)
                    "    \"triangles\": %llu, \"unique_triangles\": %llu, "
                    "\"degenerate_triangles\": %llu, \"vertices\": %llu,\n"
                    "    \"instances\": %u, \"primitives\": %u, \"materials\": %u, "
-                   "\"textures\": %u,\n    ",
+                   "\"textures\": %u, \"bounces\": %u,\n    ",
                    (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
                    (unsigned long long)r->degenerate_triangles, (unsigned long long)r->vertices,
                    r->instances, r->primitives, r->materials,
-                   r->textures);
+                   r->textures, r->bounces);
     add_vector(out, "center", r->center);
     lsf_string_add(out, ", \"scale\": ");
     lsf_string_add_json_number(out, r->scale);
@@ -192,6 +192,7 @@ static void add_requirements_text(lsf_string *out, const lsf_requirements *r)
     for (int i = 0; i < FLAG_COUNT; i++)
         if (!flags[i].value)
             lsf_string_add(out, " %s", flags[i].name);
+    lsf_string_add(out, "\nbounces      %u", r->bounces);
     lsf_string_add(out, "\nnormalised   (position - (%.9g, %.9g, %.9g)) * %.9g\n", r->center[0],
                    r->center[1], r->center[2], r->scale);
 }

@@ -243,6 +243,9 @@ void lsf_scene_compute_requirements(lsf_scene *scene)
     add_lights(scene, r);
     add_instances(scene, r);
     find_center(r);
+    /* Every crossing of a surface is a bounce. Seen through a vase or a bottle, the world lies behind
+     * two walls of glass with two sides each; through solid bodies, behind two of them. */
+    r->bounces = r->transmissive ? 5 : 1;
 
     const lsf_environment *environment = &scene->environment;
     r->environment_map = environment->present && environment->width > 0;

@@ -37,7 +37,7 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
     if (r->environment)
         lsf_plan_remark(plan, "the environment is seen, but lights surfaces only with the "
                               "bidirectional technique");
-    if (plan->bounces > 1)
+    if (plan->bounces > plan->requirements.bounces)
         lsf_plan_remark(plan, "the direct technique has no bounces; %u asked for", plan->bounces);
     if (plan->aovs & (LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR))
         lsf_plan_remark(plan, "the direct technique has no indirect light; its layers are black");

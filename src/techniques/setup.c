@@ -94,11 +94,15 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     plan->width = params->width;
     plan->height = params->height;
     plan->samples = params->samples;
-    plan->bounces = params->bounces;
+    plan->bounces =
+        params->bounces == LSF_BOUNCES_AUTO ? plan->requirements.bounces : params->bounces;
     plan->aovs = params->aovs;
     plan->orthographic = setup->state.camera.orthographic;
     lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);
+    if (params->bounces == LSF_BOUNCES_AUTO && plan->requirements.transmissive)
+        lsf_plan_remark(plan, "%u bounces, for light takes one to cross each side of a wall of glass",
+                        plan->bounces);
     if (setup->tessellated)
         lsf_plan_remark(plan, "tessellation.factor=%d: %llu triangles became %llu",
                         setup->pass_params.tessellation.factor,

@@ -1,6 +1,7 @@
 /* A frame of cone tracing in which everything may have moved: voxels and their light are made anew,
  * one bounce of light. */
 #include "tools/bench_table.h"
+#include "tools/summary.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,6 +97,7 @@ bool lsf_bench_cone(lsf_bench *bench, lsf_error *error)
     params.width = given ? settings->resolution[0] : SIDE;
     params.height = given ? settings->resolution[1] : SIDE;
     params.samples = 1;
+    params.bounces = lsf_summary_bounces(settings, bench->scene);
     params.time_limit = INFINITY;
     params.rgb8 = true;
     bool good = measure(&table, bench, &params, frames, error) &&

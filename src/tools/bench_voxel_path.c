@@ -2,6 +2,7 @@
  * blur and upsample at 1024x768, and traced at as many places as 640x480 has pixels for 1920x1080.
  */
 #include "tools/bench_table.h"
+#include "tools/summary.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -74,6 +75,7 @@ static bool prepare(measured *m, const lsf_bench *bench, size_t frame, lsf_error
     m->params.width = given ? settings->resolution[0] : frames[frame].width;
     m->params.height = given ? settings->resolution[1] : frames[frame].height;
     m->params.samples = 1;
+    m->params.bounces = lsf_summary_bounces(settings, bench->scene);
     m->params.time_limit = INFINITY;
     m->params.rgb8 = true;
     return true;

@@ -101,8 +101,9 @@ static const lsf_command_option options[] = {
      NULL, "iterations; 64, or with --time-limit as many as fit"},
     {"time-limit", 0, "S", PLANNING, "Picture", LSF_VALUE_DOUBLE, AT(time_limit), 0.001, 1e9, NULL,
      NULL, "seconds of rendering after which no further iteration starts"},
-    {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, 1000, NULL, "1",
-     "indirect bounces of light; 0 is direct light only"},
+    {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, 1000, NULL, NULL,
+     "indirect bounces of light; 0 is direct light only; without it 1, and 5 where materials "
+     "transmit light, for each side of a wall of glass takes one"},
     {"seed", 0, "N", STAGING, "Picture", LSF_VALUE_SEED, AT(seed), 0, 0, NULL, "0",
      "start of the random numbers: the same seed gives the same bits"},
     {"define", 'D', "pass.key=value", STAGING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,

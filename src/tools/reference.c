@@ -119,9 +119,11 @@ static bool report(reference_job *job, lsf_error *error)
         {"total", total},
     };
     uint32_t samples = a->samples + b->samples;
-    lsf_report_line("%s: %ux%u, %u samples%s, traced in %.2f s of %.2f s, %.1f million rays",
+    uint32_t bounces = lsf_summary_bounces(&job->settings, job->scene);
+    lsf_report_line("%s: %ux%u, %u samples%s, %u bounce%s, traced in %.2f s of %.2f s, %.1f million rays",
                     job->destination.path, job->halves[0]->width, job->halves[0]->height, samples,
                     lsf_interrupted() ? " (interrupted)" : "",
+                    bounces, bounces == 1 ? "" : "s",
                     a->render_seconds + b->render_seconds, total,
                     1e-6 * (double)(a->rays + b->rays));
     lsf_summary summary = {

@@ -90,6 +90,7 @@ static bool report(render_job *job, lsf_error *error)
 {
     lsf_context_info device = lsf_context_get_info(job->context);
     double total = lsf_now() - job->start;
+    uint32_t bounces = lsf_summary_bounces(&job->settings, job->scene);
     const lsf_summary_seconds seconds[] = {
         {"load", job->load_seconds},
         {"context", job->context_seconds},
@@ -99,10 +100,13 @@ static bool report(render_job *job, lsf_error *error)
         {"save", job->save_seconds},
         {"total", total},
     };
-    lsf_report_line("%s: %ux%u, %u samples%s of %s, rendered in %.2f s of %.2f s on %s",
+    lsf_report_line("%s: %ux%u, %u samples%s of %s with %u bounce%s, rendered in %.2f s of %.2f s on "
+                    "%s",
                     job->destination.path, job->settings.resolution[0], job->settings.resolution[1],
                     job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
-                    job->settings.technique, job->stats.render_seconds, total, device.renderer);
+                    job->settings.technique, bounces,
+                    bounces == 1 ? "" : "s",
+                    job->stats.render_seconds, total, device.renderer);
     if (job->stats.lost_share > 0.0)
         lsf_report_line("%s: bounds took %.3g %% of the light away", job->destination.path,
                         100.0 * job->stats.lost_share);

@@ -113,6 +113,12 @@ static void add_passes(lsf_json *json, const lsf_renderer_stats *stats)
     lsf_json_end(json, ']');
 }
 
+uint32_t lsf_summary_bounces(const lsf_settings *settings, const lsf_scene *scene)
+{
+    return settings->bounces == LSF_BOUNCES_AUTO ? lsf_scene_get_requirements(scene)->bounces
+                                                 : settings->bounces;
+}
+
 static void add_summary(lsf_json *json, const lsf_summary *summary)
 {
     const lsf_settings *settings = summary->settings;
@@ -129,7 +135,7 @@ static void add_summary(lsf_json *json, const lsf_summary *summary)
     }
     lsf_json_string(json, "technique", summary->technique);
     lsf_json_integer(json, "seed", settings->seed);
-    lsf_json_integer(json, "bounces", settings->bounces);
+    lsf_json_integer(json, "bounces", lsf_summary_bounces(settings, summary->scene));
     lsf_json_vector(json, "resolution",
                     (float[]){(float)settings->resolution[0], (float)settings->resolution[1]}, 2);
     lsf_json_integer(json, "samples", summary->samples);

@@ -223,6 +223,16 @@ class WithoutGl(CommandTest):
                       self.run_without_gl(*words).stdout.decode())
         self.assertIsNone(json.loads(self.run_without_gl(*words, "--json").stdout)["samples"])
 
+    def test_bounces_that_materials_need(self):
+        def planned(name, *words):
+            scene = os.path.join(SOURCE_ROOT, "data/scenes", name)
+            return json.loads(self.run_without_gl("plan", scene, "--json", *words).stdout)["bounces"]
+
+        self.assertEqual(planned("cornell_point.gltf"), 1)
+        self.assertEqual(planned("cornell_glass.gltf"), 5)
+        self.assertEqual(planned("cornell_glass.gltf", "--bounces", "2"), 2)
+        self.assertEqual(planned("cornell_glass.gltf", "--diffuse-only"), 1)
+
     def test_plan_refuses_the_wrong(self):
         self.refuse("plan", self.scene(), "-o", "a.exr", status=USAGE, says=["-o"])
 
