@@ -80,8 +80,14 @@ typedef struct lsf_program_desc {
  * declaration. */
 GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error);
 
-/* Before lsf_draw_fullscreen: every texel of the framebuffer up to that size is replaced, without
- * depth test, culling and blending, by what the program gives. */
+/* Nothing that a draw depends on is taken over from the pass before. A pass begins its draws with
+ * one of the two that follow, which set all of that state, and then changes what it wants
+ * different; nothing is put back. It binds its textures by lsf_bind_texture, and its images and
+ * buffers. Buffers alone may stay bound from pass to pass within an iteration: the view, the grid
+ * of voxels, the light, VPL and bundle in turn. */
+
+/* Before draws of which every fragment counts, without tests, culling and blending: it replaces the
+ * framebuffer's texel, or the shader writes elsewhere. */
 void lsf_begin_fullscreen(GLuint framebuffer, uint32_t width, uint32_t height, GLuint program);
 /* Draws one triangle that covers the viewport with an empty vertex array. Pair with
  * "lib/fullscreen.vert.glsl". */
@@ -92,8 +98,15 @@ void lsf_draw_fullscreen_indirect(lsf_context *context, GLuint buffer);
 void lsf_draw_vertices(lsf_context *context, uint32_t count);
 
 /* Before surfaces are drawn: of those in a texel the nearest stays. Depth is reversed: the greater,
- * the nearer. */
+ * the nearer. The caller binds the framebuffer. */
 void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program);
+
+/* What the program gives for the first attachments is added to them. */
+void lsf_blend_add(uint32_t attachments);
+
+/* A texture that is read as itself says (lsf_texture_create), whatever sampler its unit had.
+ * Textures of materials come with samplers, and are bound by lsf_scene_gpu_bind_material alone. */
+void lsf_bind_texture(GLuint unit, GLuint texture);
 
 /* --- pass groups and time --- */
 

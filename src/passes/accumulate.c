@@ -64,18 +64,14 @@ void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
                         const GLuint *textures, GLuint depth, GLuint gate)
 {
     lsf_timer_begin(pass->timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)iteration->plan->width, (GLsizei)iteration->plan->height);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
     for (uint32_t i = 0; i < pass->layer_count; i++) {
         if (!textures[i])
             continue;
-        glUseProgram(pass->programs[pass->sources[i]]);
+        lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
+                             pass->programs[pass->sources[i]]);
         glUniform1f(0, 1.0f / ((float)iteration->index + 1.0f));
-        glBindTextureUnit(0, textures[i]);
-        glBindTextureUnit(1, depth);
+        lsf_bind_texture(0, textures[i]);
+        lsf_bind_texture(1, depth);
         glBindImageTexture(0, pass->means[i], 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
         if (gate)
             lsf_draw_fullscreen_indirect(pass->context, gate);

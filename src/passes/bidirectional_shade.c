@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/base.h"
 #include "plan/light_map.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
@@ -218,41 +219,28 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
 
 void lsf_bidirectional_shade_clear(lsf_bidirectional_shade *pass)
 {
-    static const GLfloat zero[4] = {0};
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    for (int direct = 0; direct < 2; direct++)
-        for (int i = 0; pass->vpl_framebuffers[direct] && i < (pass->outputs.specular ? 2 : 1); i++)
-            glClearNamedFramebufferfv(pass->vpl_framebuffers[direct], GL_COLOR, i, zero);
-}
-
-/* Adds to the first `blended` attachments and replaces the others. */
-static void set_state(GLuint framebuffer, uint32_t blended)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    for (uint32_t i = 0; i < blended; i++)
-        glEnablei(GL_BLEND, i);
-    glBlendEquation(GL_FUNC_ADD);
-    glBlendFunc(GL_ONE, GL_ONE);
+    const lsf_bidirectional_shade_outputs *out = &pass->outputs;
+    const GLuint sums[] = {out->irradiance, out->specular, out->direct_irradiance,
+                           out->direct_specular};
+    for (size_t i = 0; i < LSF_COUNT(sums); i++)
+        if (sums[i])
+            glClearTexImage(sums[i], 0, GL_RGBA, GL_FLOAT, NULL);
 }
 
 static void bind_vertices(const lsf_bidirectional_shade *pass,
                           const lsf_bidirectional_shade_inputs *inputs,
                           const lsf_bidirectional_sample *sample, bool deep)
 {
-    glBindTextureUnit(0, deep ? pass->outputs.position : inputs->depth);
-    glBindTextureUnit(1, deep ? pass->outputs.surface : inputs->surface);
-    glBindTextureUnit(2, deep ? pass->outputs.gloss : inputs->gloss);
+    lsf_bind_texture(0, deep ? pass->outputs.position : inputs->depth);
+    lsf_bind_texture(1, deep ? pass->outputs.surface : inputs->surface);
+    lsf_bind_texture(2, deep ? pass->outputs.gloss : inputs->gloss);
     if (deep) {
-        glBindTextureUnit(3, pass->throughput);
+        lsf_bind_texture(3, pass->throughput);
         glUniform3fv(LSF_LOCATION_ARRIVAL, 1, sample->arrival);
     }
-    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, inputs->map_depth);
-    glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, inputs->map_gradient);
-    glBindTextureUnit(LSF_UNIT_BUNDLE_PDF, inputs->bundle_pdf);
+    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->map_depth);
+    lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->map_gradient);
+    lsf_bind_texture(LSF_UNIT_BUNDLE_PDF, inputs->bundle_pdf);
 }
 
 static void set_sample(const lsf_bidirectional_shade *pass, const lsf_bidirectional_sample *sample,
@@ -274,17 +262,16 @@ void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iterat
                                  const lsf_bidirectional_sample *sample, bool deep, uint32_t vpl,
                                  const lsf_region *region)
 {
-    (void)iteration;
     bool direct = sample->emitter && !deep && pass->outputs.direct_irradiance;
     lsf_timer_begin(pass->vpl_timer);
-    set_state(pass->vpl_framebuffers[direct], pass->outputs.specular ? 2 : 1);
-    glUseProgram(pass->vpl_programs[deep]);
+    lsf_begin_fullscreen(pass->vpl_framebuffers[direct], iteration->plan->width,
+                         iteration->plan->height, pass->vpl_programs[deep]);
+    lsf_blend_add(pass->outputs.specular ? 2 : 1);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
     glUniform1ui(LSF_LOCATION_VPL, vpl);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);
-    glDisable(GL_BLEND);
     lsf_timer_end(pass->vpl_timer);
 }
 
@@ -297,17 +284,17 @@ void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iterat
     /* Each fragment reads a vertex and then replaces it: its own texel alone, so that a barrier
      * between draws is all it takes (OpenGL 4.5, section 9.3.1). */
     glTextureBarrier();
-    set_state(pass->hit_framebuffers[deep], pass->hit_floats[deep]);
-    glUseProgram(pass->hit_programs[deep]);
+    lsf_begin_fullscreen(pass->hit_framebuffers[deep], iteration->plan->width,
+                         iteration->plan->height, pass->hit_programs[deep]);
+    lsf_blend_add(pass->hit_floats[deep]);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
-    glBindTextureUnit(4, inputs->hits);
-    glBindTextureUnit(LSF_UNIT_EMISSION, inputs->importance);
+    lsf_bind_texture(4, inputs->hits);
+    lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
     lsf_scene_gpu_bind_environment(iteration->scene);
     glUniform4f(LSF_LOCATION_ADDED, emission, light, sample->path_count, sample->emitter_weight);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);
-    glDisable(GL_BLEND);
     glTextureBarrier();
     lsf_timer_end(pass->hit_timer);
 }

@@ -117,9 +117,9 @@ static void make_guide(lsf_blur *pass, const lsf_blur_inputs *inputs)
     lsf_begin_fullscreen(pass->guide_framebuffer, inputs->grid->width, inputs->grid->height,
                          pass->guide_program);
     lsf_coarse_grid_set(inputs->grid);
-    glBindTextureUnit(0, inputs->depth);
-    glBindTextureUnit(1, inputs->surface);
-    glBindTextureUnit(2, inputs->gloss);
+    lsf_bind_texture(0, inputs->depth);
+    lsf_bind_texture(1, inputs->surface);
+    lsf_bind_texture(2, inputs->gloss);
     glUniform2f(0, pass->params.min_roughness, (float)pass->params.phases);
     lsf_draw_fullscreen(pass->context);
 }
@@ -129,8 +129,8 @@ static void blur_along(lsf_blur *pass, const lsf_coarse_grid *grid, int phase, i
 {
     const lsf_blur_params *p = &pass->params;
     lsf_begin_fullscreen(framebuffer, grid->width, grid->height, pass->program);
-    glBindTextureUnit(3, irradiance);
-    glBindTextureUnit(4, specular);
+    lsf_bind_texture(3, irradiance);
+    lsf_bind_texture(4, specular);
     glUniform3i(0, x, y, phase);
     glUniform4f(1, p->step * powf(p->ratio, (float)(phase - 1)), p->growth,
                 1.0f / (float)(x ? grid->width : grid->height), p->normal_weight);
@@ -146,7 +146,7 @@ void lsf_blur_run(lsf_blur *pass, const lsf_iteration *iteration, const lsf_blur
     GLuint irradiance = inputs->irradiance, specular = inputs->specular;
     lsf_timer_begin(pass->timer);
     make_guide(pass, inputs);
-    glBindTextureUnit(0, pass->guide);
+    lsf_bind_texture(0, pass->guide);
     for (int phase = 1; phase <= pass->params.phases; phase++) {
         blur_along(pass, inputs->grid, phase, 1, 0, pass->between_framebuffer, irradiance,
                    specular);

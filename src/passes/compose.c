@@ -71,15 +71,15 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
-    glBindTextureUnit(0, inputs->depth);
-    glBindTextureUnit(1, inputs->emission);
-    glBindTextureUnit(2, inputs->direct);
-    glBindTextureUnit(3, inputs->surface);
-    glBindTextureUnit(4, inputs->irradiance);
-    glBindTextureUnit(6, inputs->specular);
-    glBindTextureUnit(7, inputs->direct_irradiance);
-    glBindTextureUnit(8, inputs->direct_specular);
-    glBindTextureUnit(9, inputs->gloss);
+    lsf_bind_texture(0, inputs->depth);
+    lsf_bind_texture(1, inputs->emission);
+    lsf_bind_texture(2, inputs->direct);
+    lsf_bind_texture(3, inputs->surface);
+    lsf_bind_texture(4, inputs->irradiance);
+    lsf_bind_texture(6, inputs->specular);
+    lsf_bind_texture(7, inputs->direct_irradiance);
+    lsf_bind_texture(8, inputs->direct_specular);
+    lsf_bind_texture(9, inputs->gloss);
     lsf_scene_gpu_bind_environment(iteration->scene);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);

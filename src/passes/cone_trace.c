@@ -116,14 +116,14 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_begin_fullscreen(pass->framebuffer, inputs->grid->width, inputs->grid->height,
                          pass->program);
     lsf_coarse_grid_set(inputs->grid);
-    glBindTextureUnit(0, inputs->depth);
-    glBindTextureUnit(1, inputs->surface);
-    glBindTextureUnit(2, inputs->gloss);
-    glBindTextureUnit(3, pass->lobe_albedo);
+    lsf_bind_texture(0, inputs->depth);
+    lsf_bind_texture(1, inputs->surface);
+    lsf_bind_texture(2, inputs->gloss);
+    lsf_bind_texture(3, pass->lobe_albedo);
     for (GLuint level = 0; level < 2; level++)
-        glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
-    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
-    glBindTextureUnit(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
+        lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (pass->lobe_albedo)

@@ -41,9 +41,7 @@ bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const
 
 void lsf_direct_light_clear(lsf_direct_light *pass)
 {
-    static const GLfloat black[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, 0, black);
+    glClearTexImage(pass->radiance, 0, GL_RGBA, GL_FLOAT, NULL);
 }
 
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
@@ -52,16 +50,13 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
-    glEnable(GL_BLEND);
-    glBlendEquation(GL_FUNC_ADD);
-    glBlendFunc(GL_ONE, GL_ONE);
-    glBindTextureUnit(0, inputs->depth);
-    glBindTextureUnit(1, inputs->surface);
-    glBindTextureUnit(2, inputs->gloss);
-    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
-    glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
+    lsf_blend_add(1);
+    lsf_bind_texture(0, inputs->depth);
+    lsf_bind_texture(1, inputs->surface);
+    lsf_bind_texture(2, inputs->gloss);
+    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
+    lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
     lsf_draw_fullscreen(pass->context);
-    glDisable(GL_BLEND);
     lsf_timer_end(pass->timer);
 }
 

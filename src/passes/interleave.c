@@ -149,9 +149,9 @@ static void begin_draw(const lsf_iteration *iteration, GLuint framebuffer, GLuin
 
 static void bind_points(const lsf_interleave_points *points)
 {
-    glBindTextureUnit(0, points->depth);
-    glBindTextureUnit(1, points->surface);
-    glBindTextureUnit(2, points->gloss);
+    lsf_bind_texture(0, points->depth);
+    lsf_bind_texture(1, points->surface);
+    lsf_bind_texture(2, points->gloss);
 }
 
 void lsf_interleave_split(lsf_interleave *pass, const lsf_iteration *iteration,
@@ -169,8 +169,8 @@ static void filter_along(lsf_interleave *pass, const lsf_iteration *iteration, G
 {
     int width = pass->params.size * pass->params.periods;
     begin_draw(iteration, framebuffer, pass->filter_program);
-    glBindTextureUnit(3, light->irradiance);
-    glBindTextureUnit(4, light->specular);
+    lsf_bind_texture(3, light->irradiance);
+    lsf_bind_texture(4, light->specular);
     glUniform2i(0, x, y);
     glUniform2i(1, width / 2, width % 2 == 0);
     glUniform2f(2, pass->params.depth_weight, pass->params.normal_weight);
@@ -183,8 +183,8 @@ void lsf_interleave_gather(lsf_interleave *pass, const lsf_iteration *iteration,
 {
     lsf_timer_begin(pass->gather_timer);
     begin_draw(iteration, pass->light_framebuffer, pass->gather_program);
-    glBindTextureUnit(0, split_light->irradiance);
-    glBindTextureUnit(1, split_light->specular);
+    lsf_bind_texture(0, split_light->irradiance);
+    lsf_bind_texture(1, split_light->specular);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->gather_timer);
     if (!pass->filter_program)

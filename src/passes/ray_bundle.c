@@ -160,13 +160,9 @@ static void clear_lists(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *s
 
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
 {
-    GLsizei side = pass->params.resolution;
+    uint32_t side = (uint32_t)pass->params.resolution;
     lsf_timer_begin(pass->build_timer);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->build_framebuffer);
-    glViewport(0, 0, side, side);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
+    lsf_begin_fullscreen(pass->build_framebuffer, side, side, pass->build_program);
     glEnable(GL_DEPTH_CLAMP); /* rounding must not clip what lies on the range's ends */
     clear_lists(pass, &pass->slots[bundle % pass->use.slots]);
     lsf_ray_bundle_bind(pass, bundle);
@@ -174,13 +170,11 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     if (pass->small_program) {
         lsf_ray_bundle_raster_run(pass, iteration);
     } else {
-        glUseProgram(pass->build_program);
         glUniform1ui(0, pass->room);
         lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
                            pass->draw_counts);
     }
     glEndQuery(GL_SAMPLES_PASSED);
-    glDisable(GL_DEPTH_CLAMP);
     lsf_ray_bundle_tally_build(pass);
     lsf_timer_end(pass->build_timer);
 }
@@ -212,16 +206,14 @@ GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteratio
                              const lsf_ray_bundle_origins *origins, const lsf_region *region)
 {
     static const GLuint zero = 0;
-    (void)iteration;
     lsf_timer_begin(pass->search_timer);
     lsf_ray_bundle_bind(pass, bundle);
     lsf_ray_bundle_nodes_bind_textures(&pass->slots[bundle % pass->use.slots]);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->hits_framebuffer);
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
-    glBindTextureUnit(0, origins->depth);
-    glBindTextureUnit(1, origins->surface);
-    glBindTextureUnit(2, origins->position);
+    lsf_begin_fullscreen(pass->hits_framebuffer, iteration->plan->width, iteration->plan->height,
+                         pass->search_program);
+    lsf_bind_texture(0, origins->depth);
+    lsf_bind_texture(1, origins->surface);
+    lsf_bind_texture(2, origins->position);
     glClearNamedBufferSubData(pass->rest, GL_R32UI, 0, 4, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_REST, pass->rest);
     set_ray(pass, pass->search_program, origins, region);

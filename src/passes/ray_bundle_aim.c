@@ -95,10 +95,10 @@ static void fit(lsf_ray_bundle *pass, const lsf_iteration *iteration, GLuint dep
     lsf_begin_fullscreen(
         pass->tiles_framebuffer, (plan->width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
         (plan->height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE, pass->tiles_program);
-    glBindTextureUnit(0, depth);
+    lsf_bind_texture(0, depth);
     glUniform1i(0, LSF_BUNDLE_TILE * LSF_BUNDLE_TILE);
     lsf_draw_fullscreen(pass->context);
-    glBindTextureUnit(0, pass->tiles);
+    lsf_bind_texture(0, pass->tiles);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_NODES, pass->projection_buffer);
     glUseProgram(pass->fit_program);
     glDispatchCompute(pass->use.count, 1, 1);

@@ -224,9 +224,9 @@ void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot)
 
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot)
 {
-    glBindTextureUnit(3, slot->head_fetch);
-    glBindTextureUnit(4, slot->key_fetch);
-    glBindTextureUnit(5, slot->chain_fetch);
+    lsf_bind_texture(3, slot->head_fetch);
+    lsf_bind_texture(4, slot->key_fetch);
+    lsf_bind_texture(5, slot->chain_fetch);
 }
 
 void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass)

@@ -197,8 +197,8 @@ static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_reflective_shadow
 {
     const lsf_reflective_shadow_map_outputs *out = &pass->outputs;
     lsf_timer_begin(pass->pdf_timer);
-    glBindTextureUnit(0, target->depth);
-    glBindTextureUnit(1, target->surface);
+    lsf_bind_texture(0, target->depth);
+    lsf_bind_texture(1, target->surface);
     glBindImageTexture(0, target->importance, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, out->sums);
     glUseProgram(pass->rows_program);
@@ -208,7 +208,6 @@ static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_reflective_shadow
     glUseProgram(pass->scan_program);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
-    glBindTextureUnit(LSF_UNIT_EMISSION, target->importance);
     lsf_timer_end(pass->pdf_timer);
 }
 
@@ -237,7 +236,6 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
         lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region,
                            pass->counts);
     }
-    glFrontFace(GL_CCW);
     out->depth = target->depth;
     out->gradient = target->gradient;
     out->surface = target->surface;

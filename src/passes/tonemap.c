@@ -30,7 +30,7 @@ void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure)
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, pass->width, pass->height, pass->program);
     glUniform1f(0, exp2f(exposure));
-    glBindTextureUnit(0, radiance);
+    lsf_bind_texture(0, radiance);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

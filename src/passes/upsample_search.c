@@ -112,9 +112,9 @@ void lsf_upsample_search_split(lsf_upsample_search *pass, const lsf_iteration *i
     lsf_begin_fullscreen(pass->split_framebuffer, pass->grid.width, pass->grid.height,
                          pass->split_program);
     lsf_coarse_grid_set(&pass->grid);
-    glBindTextureUnit(0, gbuffer->depth);
-    glBindTextureUnit(1, gbuffer->surface);
-    glBindTextureUnit(2, gbuffer->gloss);
+    lsf_bind_texture(0, gbuffer->depth);
+    lsf_bind_texture(1, gbuffer->surface);
+    lsf_bind_texture(2, gbuffer->gloss);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->split_timer);
 }
@@ -130,7 +130,8 @@ void lsf_upsample_search_run(lsf_upsample_search *pass, const lsf_iteration *ite
     const GLuint textures[6] = {gbuffer->depth,           gbuffer->surface,
                                 pass->coarse.depth,       pass->coarse.surface,
                                 coarse_light->irradiance, coarse_light->specular};
-    glBindTextures(0, 6, textures);
+    for (GLuint unit = 0; unit < LSF_COUNT(textures); unit++)
+        lsf_bind_texture(unit, textures[unit]);
     glUniform3f(0, (float)pass->params.radius, pass->params.min_cosine,
                 pass->params.slope * pass->params.slope);
     lsf_draw_fullscreen(pass->context);

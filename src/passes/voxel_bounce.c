@@ -95,12 +95,12 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     lsf_timer_begin(pass->timer);
     glUseProgram(pass->program);
     glUniform3i(LOCATION_SUM_OF, sum->keep, sum->base != 0, sum->source != 0);
-    glBindTextureUnit(UNIT_BASE, sum->base);
+    lsf_bind_texture(UNIT_BASE, sum->base);
     for (GLuint level = 0; level < 2; level++)
-        glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
-    glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
-    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
-    glBindTextureUnit(LSF_UNIT_VOXEL_POINT, inputs->point);
+        lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->point);
     if (sum->source)
         lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
     lsf_scene_gpu_bind_environment(iteration->scene);

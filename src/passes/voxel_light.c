@@ -80,11 +80,11 @@ static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list)
 
 static void bind_voxels(const lsf_voxel_light_inputs *inputs)
 {
-    glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
-    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
-    glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->point);
-    glBindTextureUnit(LSF_UNIT_VOXEL_EMISSION, inputs->emission);
-    glBindTextureUnit(LSF_UNIT_VOXEL_TRANSMISSION, inputs->transmission);
+    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, inputs->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, inputs->emission);
+    lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, inputs->transmission);
 }
 
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs)
@@ -113,8 +113,8 @@ void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *in
 {
     lsf_timer_begin(pass->timer);
     bind_voxels(inputs);
-    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, map->depth);
-    glBindTextureUnit(LSF_UNIT_SHADOW_GRADIENT, map->gradient);
+    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, map->depth);
+    lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, map->gradient);
     dispatch(pass, pass->written ? pass->add_program : pass->first_program, inputs->bricks);
     lsf_timer_end(pass->timer);
     pass->written = true;

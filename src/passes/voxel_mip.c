@@ -89,7 +89,7 @@ static void write_whole(const lsf_voxel_mip *pass, GLuint radiance, int level)
 void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxel_mip_inputs *inputs)
 {
     lsf_timer_begin(pass->timer);
-    glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     write_bricks(pass, inputs);
     glUseProgram(pass->whole_program);
     for (int level = BRICK_LEVEL + 1; level < LSF_VOXEL_LEVELS; level++)

@@ -131,20 +131,20 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
 static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs)
 {
-    glBindTextureUnit(0, inputs->depth);
-    glBindTextureUnit(1, inputs->surface);
-    glBindTextureUnit(2, inputs->gloss);
-    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
-    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
-    glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->voxel_albedo);
-    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
-    glBindTextureUnit(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
-    glBindTextureUnit(LSF_UNIT_VOXEL_EMISSION, inputs->voxel_emission);
-    glBindTextureUnit(LSF_UNIT_VOXEL_GLOSS, inputs->voxel_gloss);
-    glBindTextureUnit(LSF_UNIT_VOXEL_TRANSMISSION, inputs->voxel_transmission);
+    lsf_bind_texture(0, inputs->depth);
+    lsf_bind_texture(1, inputs->surface);
+    lsf_bind_texture(2, inputs->gloss);
+    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->voxel_albedo);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, inputs->voxel_emission);
+    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, inputs->voxel_gloss);
+    lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, inputs->voxel_transmission);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
-    glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
-    glBindTextureUnit(LSF_UNIT_PATH_RANDOM, pass->random);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
+    lsf_bind_texture(LSF_UNIT_PATH_RANDOM, pass->random);
     lsf_scene_gpu_bind_environment(iteration->scene);
 }
 

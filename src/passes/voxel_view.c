@@ -61,11 +61,11 @@ void lsf_voxel_view_run(lsf_voxel_view *pass, const lsf_iteration *iteration,
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
-    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
-    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
-    glBindTextureUnit(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
-    glBindTextureUnit(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
-    glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
+    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

@@ -402,20 +402,11 @@ static void count_turn(lsf_voxelize *pass, const instance_turn *turn)
     pass->counts[LSF_VOXELIZE_TRIANGLES] += turn->triangles;
 }
 
-static void set_raster_state(const lsf_voxelize *pass)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)pass->side, (GLsizei)pass->side);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-}
-
 static void mark_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group)
 {
     bind_occupancy(pass);
     if (pass->raster_program)
-        set_raster_state(pass);
+        lsf_begin_fullscreen(pass->framebuffer, pass->side, pass->side, pass->raster_program);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, pass->outputs.bricks);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TILES, pass->tiles);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->tiles);
@@ -433,7 +424,7 @@ static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_DRAWS, pass->draws);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_WON, pass->won);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->outputs.bricks);
-    glBindTextureUnit(LSF_UNIT_VOXEL_OCCUPANCY, pass->outputs.occupancy[0]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, pass->outputs.occupancy[0]);
     glUseProgram(pass->count_program);
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

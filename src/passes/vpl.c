@@ -176,10 +176,10 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_RANDOM, pass->random);
-    glBindTextureUnit(0, inputs->depth);
-    glBindTextureUnit(1, inputs->surface);
-    glBindTextureUnit(2, inputs->gloss);
-    glBindTextureUnit(LSF_UNIT_EMISSION, inputs->importance);
+    lsf_bind_texture(0, inputs->depth);
+    lsf_bind_texture(1, inputs->surface);
+    lsf_bind_texture(2, inputs->gloss);
+    lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
     if (inputs->sums)
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
     glUseProgram(pass->draw_program);
@@ -252,10 +252,8 @@ void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t 
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glClearTexImage(map, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
     glBindImageTexture(0, map, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glViewport(0, 0, (GLsizei)pass->shadow_resolution, (GLsizei)pass->shadow_resolution);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
+    lsf_begin_fullscreen(pass->framebuffer, pass->shadow_resolution, pass->shadow_resolution,
+                         pass->map_program);
     for (GLenum plane = 0; plane < 2; plane++)
         glEnable(GL_CLIP_DISTANCE0 + plane);
     bool listed = iteration->scene->triangle_count != 0;
@@ -267,8 +265,6 @@ void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t 
         lsf_scene_gpu_draw(iteration->scene, iteration->state,
                            listed ? LSF_DRAW_MASKED : LSF_DRAW_POSITIONS, NULL, pass->counts);
     }
-    for (GLenum plane = 0; plane < 2; plane++)
-        glDisable(GL_CLIP_DISTANCE0 + plane);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(pass->map_timer);
 }
@@ -277,7 +273,7 @@ void lsf_vpl_bind(const lsf_vpl *pass, uint32_t index)
 {
     bind_map(pass, index);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
-    glBindTextureUnit(LSF_UNIT_SHADOW_DEPTH, map_of(pass, index));
+    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, map_of(pass, index));
 }
 
 void lsf_vpl_destroy(lsf_vpl *pass)

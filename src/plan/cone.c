@@ -75,7 +75,7 @@ void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
 {
     glTextureParameteri(radiance, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTextureParameteri(radiance, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glBindTextureUnit(LSF_UNIT_VOXEL_RADIANCE, radiance);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, radiance);
     lsf_vec4 cones[LSF_CONE_MAX];
     uint32_t index = iteration->index;
     float elevation = 0.5f;

@@ -402,14 +402,6 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
         bind_slot(gpu, LSF_UNIT_TRANSMISSION, &material->transmission_texture, point);
 }
 
-static void unbind_samplers(const lsf_scene_gpu *gpu)
-{
-    for (GLuint unit = 0; unit <= LSF_UNIT_ANISOTROPY && gpu->gl_texture_count; unit++)
-        glBindSampler(unit, 0);
-    if (gpu->transmission)
-        glBindSampler(LSF_UNIT_TRANSMISSION, 0);
-}
-
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
                         const lsf_draw_region *region, uint64_t *counts)
 {
@@ -438,13 +430,12 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
                 gpu->draw_order[i]);
         }
     }
-    unbind_samplers(gpu);
 }
 
 void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu)
 {
     const lsf_environment *environment = &gpu->scene->environment;
-    glBindTextureUnit(LSF_UNIT_ENVIRONMENT, gpu->environment);
+    lsf_bind_texture(LSF_UNIT_ENVIRONMENT, gpu->environment);
     if (environment->present && !environment->width)
         glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
 }
@@ -473,5 +464,4 @@ void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state,
     }
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     glVertexArrayElementBuffer(gpu->shading_array, gpu->indices);
-    unbind_samplers(gpu);
 }

@@ -26,9 +26,10 @@ void lsf_triangle_fetch_bind(const lsf_triangle_fetch *fetch, const lsf_scene_gp
         {GL_R32UI, scene->indices},    {GL_RGB32F, scene->positions}, {GL_RGB32F, scene->normals},
         {GL_RGBA32F, scene->tangents}, {GL_RG32F, scene->uv0},        {GL_RG32F, scene->uv1},
         {GL_RGBA32F, scene->colors}};
-    for (size_t i = 0; i < LSF_COUNT(streams); i++)
+    for (GLuint i = 0; i < LSF_COUNT(streams); i++) {
         glTextureBuffer(fetch->streams[i], streams[i].format, streams[i].buffer);
-    glBindTextures(FIRST_UNIT, LSF_COUNT(fetch->streams), fetch->streams);
+        lsf_bind_texture(FIRST_UNIT + i, fetch->streams[i]);
+    }
 }
 
 void lsf_triangle_fetch_instance(const lsf_iteration *iteration, uint32_t instance, uint32_t first,

@@ -92,6 +92,15 @@ class Layers(unittest.TestCase):
                           if name.split("/")[0] not in allowed]
         self.assertEqual(wrong, [])
 
+    def test_textures_are_bound_with_their_samplers(self):
+        """A unit keeps its sampler, whatever texture is bound next."""
+        allowed = {"src/gl/draw.c", "src/plan/scene_gpu.c"}
+        calls = re.compile(r"\bglBind(TextureUnit|Textures?|Samplers?)\(")
+        for path in files("src", endings=(".c",)):
+            name = str(path.relative_to(ROOT))
+            if name not in allowed and "/glad/" not in name:
+                self.assertIsNone(calls.search(path.read_text()), f"{name}: use lsf_bind_texture")
+
     def test_public_headers_include_public_headers_only(self):
         wrong = []
         for path in files("include"):
