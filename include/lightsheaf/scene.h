@@ -21,16 +21,23 @@ typedef struct lsf_scene_params {
     const float *environment_radiance; /* three floats, uniform radiance [W/(m^2 sr)]; NULL: none */
     bool diffuse_only; /* read every material as Lambert of its base colour, without normal maps */
     uint64_t memory_limit; /* bytes that geometry and decoded images may take together */
+    /* A name, or an index from 0, of what the file offers; a name goes first. */
+    const char *scene;             /* NULL: the file's own, else the first */
+    const char *variant;           /* KHR_materials_variants; NULL: the file's own materials */
+    const char *const *animations; /* those that play; NULL: all */
+    uint32_t animation_count;
 } lsf_scene_params;
 
-#define LSF_SCENE_PARAMS_DEFAULTS                                                         \
-    .environment_path = NULL, .environment_radiance = NULL, .diffuse_only = false,        \
-    .memory_limit = (uint64_t)8 << 30
+#define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
+    .environment_path = NULL, .environment_radiance = NULL, .diffuse_only = false,                 \
+    .memory_limit = (uint64_t)8 << 30, .scene = NULL, .variant = NULL, .animations = NULL,         \
+    .animation_count = 0
 
 /* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
  * the environment. Whatever is ignored is logged as one warning each and kept for
  * lsf_scene_note. A scene without any light, emitter or environment gets a neutral one, with a
- * warning. The caller destroys it. LSF_ERROR_FILE names file, JSON location and cause. */
+ * warning. The caller destroys it. LSF_ERROR_FILE names file, JSON location and cause;
+ * LSF_ERROR_USAGE what was chosen, and what there is to choose from. */
 lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error);
 void lsf_scene_destroy(lsf_scene *scene); /* NULL allowed */
 

@@ -84,6 +84,8 @@ static std::vector<channel_source> find_channels(gltf_import &import)
     std::set<std::pair<uint32_t, int>> taken;
     bool weights = false, other = false, overlapping = false;
     for (size_t a = 0; a < import.model.animations.size(); a++) {
+        if (!import.scene->animations.items[a].chosen)
+            continue;
         const tinygltf::Animation &animation = import.model.animations[a];
         std::set<std::pair<uint32_t, int>> own;
         for (size_t c = 0; c < animation.channels.size(); c++) {
@@ -128,7 +130,8 @@ static std::vector<channel_source> find_channels(gltf_import &import)
                                          "rotation and scale are ignored");
     if (overlapping)
         lsf_scene_add_note(import.scene, "several animations move the same node: the first one is "
-                                         "used, the others where they move other nodes");
+                                         "used, the others where they move other nodes; "
+                                         "--animation chooses among them");
     return channels;
 }
 

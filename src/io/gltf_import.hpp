@@ -38,6 +38,13 @@ class failure : public std::exception
     std::string text_;
 };
 
+/* What the caller chose is not in the file: LSF_ERROR_USAGE. */
+class no_such_choice : public failure
+{
+  public:
+    using failure::failure;
+};
+
 /* Throws "FINDING at LOCATION: cause and remedy". The location is a JSON pointer. */
 [[noreturn]] void fail(const char *finding, const std::string &location, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -121,18 +128,25 @@ struct gltf_import {
     tinygltf::Model model;
     gltf_repairs repairs;
 
+    size_t chosen_scene = 0;           /* by file's index; no meaning without scenes */
     std::vector<uint32_t> node_of;     /* file's node -> scene's node, LSF_NONE outside the scene */
     std::vector<bool> mesh_used;       /* by file's index */
     std::vector<uint32_t> material_of; /* file's material -> scene's; LSF_NONE: not used */
 };
 
 void gltf_document_read(gltf_import &import);     /* gltf_document.cpp */
+void gltf_choices_make(gltf_import &import);      /* gltf_choices.cpp */
 void gltf_nodes_import(gltf_import &import);      /* gltf_nodes.cpp */
+void gltf_instancing_import(gltf_import &import); /* gltf_instancing.cpp */
 void gltf_placed_import(gltf_import &import);     /* gltf_placed.cpp: cameras and lights */
 void gltf_materials_import(gltf_import &import);  /* gltf_materials.cpp */
 void gltf_geometry_import(gltf_import &import);   /* gltf_geometry.cpp */
 void gltf_animations_import(gltf_import &import); /* gltf_animations.cpp */
 void gltf_notes_add(gltf_import &import);         /* gltf_notes.cpp */
+
+/* Sets the transform of a node without a matrix; the rotation (x, y, z, w) is made unit. */
+void set_trs(gltf_import &import, const double translation[3], const double rotation[4],
+             const double scale[3], lsf_node &node);
 
 /* --- accessors, gltf_accessor.cpp --- */
 

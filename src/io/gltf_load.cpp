@@ -69,7 +69,9 @@ static void import_file(lsf_scene *scene, const char *path, const lsf_scene_para
     scene->diffuse_only = params->diffuse_only;
     gltf_document_read(import);
     accessors_check(import);
+    gltf_choices_make(import);
     gltf_nodes_import(import);
+    gltf_instancing_import(import);
     gltf_placed_import(import);
     gltf_materials_import(import);
     gltf_geometry_import(import);
@@ -90,6 +92,8 @@ bool lsf_gltf_load(lsf_scene *scene, const char *path, const lsf_scene_params *p
                              "%s: not enough memory to read it; close other programs or simplify "
                              "the scene",
                              path);
+    } catch (const lsf::no_such_choice &choice) {
+        return lsf_error_set(error, LSF_ERROR_USAGE, "%s: %s", path, choice.what());
     } catch (const std::exception &exception) {
         /* Failures of the file itself begin with its path. */
         const char *text = exception.what();

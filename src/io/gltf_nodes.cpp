@@ -55,8 +55,8 @@ static void check_loops(const tinygltf::Model &model, const std::vector<uint32_t
                  "the node is its own ancestor, or below one that is");
 }
 
-/* The file's scene, else scene 0, else all roots. */
-static std::vector<uint32_t> scene_roots(const tinygltf::Model &model,
+/* Those of the chosen scene; all of them in a file without scenes. */
+static std::vector<uint32_t> scene_roots(const tinygltf::Model &model, size_t scene,
                                          const std::vector<uint32_t> &parents)
 {
     std::vector<uint32_t> roots;
@@ -66,7 +66,6 @@ static std::vector<uint32_t> scene_roots(const tinygltf::Model &model,
                 roots.push_back((uint32_t)i);
         return roots;
     }
-    size_t scene = model.defaultScene >= 0 ? (size_t)model.defaultScene : 0;
     std::vector<bool> listed(parents.size());
     for (int node : model.scenes[scene].nodes) {
         if (parents[(size_t)node] != LSF_NONE)
@@ -81,26 +80,30 @@ static std::vector<uint32_t> scene_roots(const tinygltf::Model &model,
     return roots;
 }
 
-static void set_transform(gltf_import &import, const tinygltf::Node &source,
-                          const std::string &location, lsf_node &node)
+void set_trs(gltf_import &import, const double translation[3], const double rotation_xyzw[4],
+             const double scale[3], lsf_node &node)
 {
     for (int i = 0; i < 16; i++)
         node.matrix[i] = i % 5 == 0 ? 1.0 : 0.0;
-    for (int i = 0; i < 3; i++) {
-        node.translation[i] = source.translation.empty() ? 0.0 : source.translation[(size_t)i];
-        node.scale[i] = source.scale.empty() ? 1.0 : source.scale[(size_t)i];
-    }
-    glm::dquat rotation = glm::identity<glm::dquat>();
-    if (!source.rotation.empty())
-        rotation = glm::dquat(source.rotation[3], source.rotation[0], source.rotation[1],
-                              source.rotation[2]); /* w first */
+    std::copy_n(translation, 3, node.translation);
+    std::copy_n(scale, 3, node.scale);
+    glm::dquat rotation(rotation_xyzw[3], rotation_xyzw[0], rotation_xyzw[1],
+                        rotation_xyzw[2]); /* w first */
     /* Files hold rotations as floats: up to 1e-6 is rounding. */
     if (std::fabs(glm::length(rotation) - 1.0) > 1e-4)
         import.repairs.rotations_scaled++;
     rotation = glm::normalize(rotation); /* of no length: the identity */
     const double components[4] = {rotation.x, rotation.y, rotation.z, rotation.w};
     std::copy(components, components + 4, node.rotation);
+}
 
+static void set_transform(gltf_import &import, const tinygltf::Node &source,
+                          const std::string &location, lsf_node &node)
+{
+    const double origin[3] = {0, 0, 0}, upright[4] = {0, 0, 0, 1}, unscaled[3] = {1, 1, 1};
+    set_trs(import, source.translation.empty() ? origin : source.translation.data(),
+            source.rotation.empty() ? upright : source.rotation.data(),
+            source.scale.empty() ? unscaled : source.scale.data(), node);
     node.has_matrix = !source.matrix.empty();
     if (!node.has_matrix)
         return;
@@ -117,7 +120,7 @@ void gltf_nodes_import(gltf_import &import)
     lsf_scene *scene = import.scene;
     std::vector<uint32_t> parents = find_parents(model);
     check_loops(model, parents);
-    std::vector<uint32_t> order = walk(model, scene_roots(model, parents));
+    std::vector<uint32_t> order = walk(model, scene_roots(model, import.chosen_scene, parents));
 
     import.node_of.assign(model.nodes.size(), LSF_NONE);
     import.mesh_used.assign(model.meshes.size(), false);

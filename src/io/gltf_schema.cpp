@@ -23,9 +23,12 @@ static const uint64_t DEPTH_MAX = 64;
 static const uint64_t BYTES_PER_TEXT_BYTE = 32, BYTES_PER_ENTRY = 1024;
 
 static const char *const supported_extensions[] = {
-    "KHR_lights_punctual",   "KHR_materials_anisotropy",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",     "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",  "KHR_mesh_quantization",      "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",  "KHR_lights_punctual",
+    "KHR_materials_anisotropy", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",        "KHR_materials_transmission",
+    "KHR_materials_unlit",      "KHR_materials_variants",
+    "KHR_materials_volume",     "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 bool extension_is_supported(const std::string &name)
@@ -98,9 +101,8 @@ class checker
         for (auto &member : root.items())
             if (member.value().is_array())
                 counts_[member.key()] = member.value().size();
-        json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-        if (root.contains(lights) && root[lights].is_array())
-            counts_["lights"] = root[lights].size();
+        count_in_extension("lights", "/extensions/KHR_lights_punctual/lights");
+        count_in_extension("variants", "/extensions/KHR_materials_variants/variants");
     }
 
     void check_object(const json &value, const schema &rules, bool extension = false);
@@ -112,6 +114,12 @@ class checker
     }
 
   private:
+    void count_in_extension(const char *array, const char *path)
+    {
+        json::json_pointer pointer(path);
+        if (root_.contains(pointer) && root_[pointer].is_array())
+            counts_[array] = root_[pointer].size();
+    }
     void check(const json &value, const rule &rule, bool extension);
     void check_integer(const json &value, double low, double high);
     void check_number(const json &value, double low, double high, bool extension);

@@ -112,11 +112,21 @@ static const schema accessor = of(accessor_rules);
 
 /* --- geometry --- */
 
+static const rule mapping_rules[] = {{"variants", shape::references, REQUIRED, 0, 0, "variants"},
+                                     reference("material", REQUIRED, "materials")};
+static const schema mapping = of(mapping_rules);
+static const rule mappings_rules[] = {objects("mappings", REQUIRED, &mapping)};
+static const schema mappings = of(mappings_rules);
+static const rule primitive_extension_rules[] = {
+    object("KHR_materials_variants", OPTIONAL, &mappings)};
+static const schema primitive_extensions = of(primitive_extension_rules);
+
 static const rule primitive_rules[] = {{"attributes", shape::attributes, REQUIRED},
                                        reference("indices", OPTIONAL, "accessors"),
                                        reference("material", OPTIONAL, "materials"),
                                        integer("mode", OPTIONAL, 0, 6),
-                                       {"targets", shape::targets}};
+                                       {"targets", shape::targets},
+                                       extensions(&primitive_extensions)};
 static const schema primitive = of(primitive_rules);
 
 static const rule mesh_rules[] = {objects("primitives", REQUIRED, &primitive),
@@ -225,7 +235,11 @@ static const schema light = of(light_rules);
 
 static const rule node_light_rules[] = {reference("light", REQUIRED, "lights")};
 static const schema node_light = of(node_light_rules);
-static const rule node_extension_rules[] = {object("KHR_lights_punctual", OPTIONAL, &node_light)};
+static const rule instancing_rules[] = {{"attributes", shape::attributes, REQUIRED}};
+static const schema instancing = of(instancing_rules);
+static const rule node_extension_rules[] = {
+    object("EXT_mesh_gpu_instancing", OPTIONAL, &instancing),
+    object("KHR_lights_punctual", OPTIONAL, &node_light)};
 static const schema node_extensions = of(node_extension_rules);
 
 static const rule node_rules[] = {reference("camera", OPTIONAL, "cameras"),
@@ -269,7 +283,12 @@ static const schema skin = of(skin_rules);
 
 static const rule lights_rules[] = {objects("lights", REQUIRED, &light)};
 static const schema lights = of(lights_rules);
-static const rule root_extension_rules[] = {object("KHR_lights_punctual", OPTIONAL, &lights)};
+static const rule variant_rules[] = {text("name", REQUIRED)};
+static const schema variant = of(variant_rules);
+static const rule variants_rules[] = {objects("variants", REQUIRED, &variant)};
+static const schema variants = of(variants_rules);
+static const rule root_extension_rules[] = {object("KHR_lights_punctual", OPTIONAL, &lights),
+                                            object("KHR_materials_variants", OPTIONAL, &variants)};
 static const schema root_extensions = of(root_extension_rules);
 
 static const rule root_rules[] = {

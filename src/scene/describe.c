@@ -28,6 +28,11 @@ static double animation_duration(const lsf_scene *scene)
     return duration;
 }
 
+static const char *kind_of(const lsf_extension *extension)
+{
+    return extension->honoured ? extension->required ? "required" : "used" : "ignored";
+}
+
 /* --- the requirements, once for both forms --- */
 
 typedef struct flag {
@@ -106,6 +111,31 @@ static void add_cameras_json(lsf_string *out, const lsf_scene *scene)
     lsf_string_add(out, "\n  ],\n");
 }
 
+static void add_choices_json(lsf_string *out, const char *key, const lsf_choices *choices)
+{
+    lsf_string_add(out, "  \"%s\": [", key);
+    for (uint32_t i = 0; i < choices->count; i++) {
+        lsf_string_add(out, "%s\n    {\"name\": ", i ? "," : "");
+        lsf_string_add_json(out, choices->items[i].name);
+        lsf_string_add(out, ", \"chosen\": %s}", choices->items[i].chosen ? "true" : "false");
+    }
+    lsf_string_add(out, "%s],\n", choices->count ? "\n  " : "");
+}
+
+static void add_extensions_json(lsf_string *out, const lsf_scene *scene)
+{
+    lsf_string_add(out, "  \"extensions\": [");
+    for (uint32_t i = 0; i < scene->extension_count; i++) {
+        const lsf_extension *extension = &scene->extensions[i];
+        lsf_string_add(out, "%s\n    {\"name\": ", i ? "," : "");
+        lsf_string_add_json(out, extension->name);
+        lsf_string_add(out, ", \"required\": %s, \"honoured\": %s}",
+                       extension->required ? "true" : "false",
+                       extension->honoured ? "true" : "false");
+    }
+    lsf_string_add(out, "%s],\n", scene->extension_count ? "\n  " : "");
+}
+
 static void add_requirements_json(lsf_string *out, const lsf_requirements *r)
 {
     flag flags[FLAG_COUNT];
@@ -149,6 +179,10 @@ static void describe_json(lsf_string *out, const lsf_scene *scene)
                    count_placed(scene, LSF_LIGHT_POINT), count_placed(scene, LSF_LIGHT_SPOT),
                    count_placed(scene, LSF_LIGHT_DIRECTIONAL));
     add_cameras_json(out, scene);
+    add_choices_json(out, "scenes", &scene->scenes);
+    add_choices_json(out, "animations", &scene->animations);
+    add_choices_json(out, "variants", &scene->variants);
+    add_extensions_json(out, scene);
     lsf_string_add(out, "  \"animation\": {\"channels\": %u, \"seconds\": ", scene->channel_count);
     lsf_string_add_json_number(out, animation_duration(scene));
     lsf_string_add(out, "},\n  \"bounds\": {");
@@ -178,6 +212,14 @@ static void add_images_text(lsf_string *out, const lsf_scene *scene)
         lsf_string_add(out, "             %u x %u, %u x %d bit  %s\n", image->width, image->height,
                        image->channels, bits[image->type], image->name);
     }
+}
+
+static void add_choices_text(lsf_string *out, const char *kind, const lsf_choices *choices,
+                             const char *chosen)
+{
+    for (uint32_t i = 0; i < choices->count; i++)
+        lsf_string_add(out, "%-9s %-2u \"%s\"%s\n", kind, i, choices->items[i].name,
+                       choices->items[i].chosen ? chosen : "");
 }
 
 static void add_requirements_text(lsf_string *out, const lsf_requirements *r)
@@ -226,8 +268,14 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
         lsf_string_add(out, "camera %-4u  \"%s\", %s%s\n", i, scene->cameras[i].name,
                        scene->cameras[i].orthographic ? "orthographic" : "perspective",
                        scene->cameras[i].node == LSF_NONE ? ", made to frame the scene" : "");
+    add_choices_text(out, "scene", &scene->scenes, ", shown");
+    add_choices_text(out, "variant", &scene->variants, ", shown");
+    add_choices_text(out, "animation", &scene->animations, ", plays");
+    for (uint32_t i = 0; i < scene->extension_count; i++)
+        lsf_string_add(out, "extension    %s, %s\n", scene->extensions[i].name,
+                       kind_of(&scene->extensions[i]));
     if (scene->channel_count > 0)
-        lsf_string_add(out, "animation    %u channels, %.9g s\n", scene->channel_count,
+        lsf_string_add(out, "animated     %u channels, %.9g s\n", scene->channel_count,
                        animation_duration(scene));
     if (r->bounds_min[0] <= r->bounds_max[0])
         lsf_string_add(out, "bounds       %.9g %.9g %.9g to %.9g %.9g %.9g\n", r->bounds_min[0],

@@ -72,6 +72,13 @@ static void free_vertices(lsf_vertices *vertices)
     free(vertices->color);
 }
 
+static void free_choices(lsf_choices *choices)
+{
+    for (uint32_t i = 0; i < choices->count; i++)
+        free(choices->items[i].name);
+    free(choices->items);
+}
+
 void lsf_scene_destroy(lsf_scene *scene)
 {
     if (!scene)
@@ -94,8 +101,14 @@ void lsf_scene_destroy(lsf_scene *scene)
         free(scene->channels[i].times);
         free(scene->channels[i].values);
     }
+    for (uint32_t i = 0; i < scene->extension_count; i++)
+        free(scene->extensions[i].name);
     for (uint32_t i = 0; i < scene->note_count; i++)
         free(scene->notes[i]);
+    free_choices(&scene->scenes);
+    free_choices(&scene->animations);
+    free_choices(&scene->variants);
+    free(scene->extensions);
     free_vertices(&scene->vertices);
     free(scene->indices);
     free(scene->primitives);

@@ -152,10 +152,28 @@ typedef struct lsf_environment {
     float *texels; /* 3 each, linear radiance */
 } lsf_environment;
 
-/* Only what the file's scene uses: its nodes, the lights and cameras they carry, the primitives of
- * the meshes they place (other meshes are listed without any), the materials of those, and the
- * textures and images that those read. Primitives that share accessors share vertices and
- * indices. */
+/* What a file offers to choose from, in its order. */
+typedef struct lsf_choice {
+    char *name; /* "" when the file gives none */
+    bool chosen;
+} lsf_choice;
+
+typedef struct lsf_choices {
+    uint32_t count;
+    lsf_choice *items;
+} lsf_choices;
+
+/* An extension that the file says it uses. */
+typedef struct lsf_extension {
+    char *name;
+    bool required; /* by the file, of whoever reads it */
+    bool honoured; /* read as far as it has an effect on the picture */
+} lsf_extension;
+
+/* Only what the chosen scene of the file uses: its nodes, the lights and cameras they carry, the
+ * primitives of the meshes they place (other meshes are listed without any), the materials of
+ * those, and the textures and images that those read. Primitives that share accessors share
+ * vertices and indices. */
 struct lsf_scene {
     char *path;
     lsf_vertices vertices;
@@ -175,6 +193,9 @@ struct lsf_scene {
     lsf_camera *cameras;      /* at least 1 */
     lsf_animation_channel *channels;
     lsf_environment environment;
+    lsf_choices scenes, animations, variants;
+    uint32_t extension_count;
+    lsf_extension *extensions;
     uint32_t note_count;
     char **notes;
     bool diffuse_only;

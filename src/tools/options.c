@@ -91,7 +91,8 @@ static const lsf_command_option options[] = {
     {"resolution", 'r', "W,H", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_RESOLUTION,
      AT(resolution), 1, 16384, NULL, NULL,
      "the screen in pixels; without it, rays takes 512x512, 1024x1024 and 1920x1080, "
-     "bidirectional 1920x1088, or 480x270 where OpenGL is software, cone 512x512, and voxel_path 1024x768 and "
+     "bidirectional 1920x1088, or 480x270 where OpenGL is software, cone 512x512, and voxel_path "
+     "1024x768 and "
      "1920x1080"},
     {"samples", 's', "N", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_COUNT, AT(samples), 1, 64,
      NULL, NULL,
@@ -126,6 +127,18 @@ static const lsf_command_option options[] = {
     {"diffuse-only", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG,
      AT(diffuse_only), 0, 0, NULL, NULL,
      "read every material as a diffuse one of its base colour, without normal maps"},
+    {"scene", 0, "NAME|INDEX", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXT, AT(scene), 0,
+     0, NULL, NULL,
+     "which of the file's scenes, by name or by index from 0; without it, the one that the file "
+     "names, else the first"},
+    {"animation", 0, "NAME|INDEX|none", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXTS,
+     AT(animations), 0, 0, NULL, NULL,
+     "play this animation of the file alone, or none; repeatable; without it all play, and of "
+     "those that move the same node the first"},
+    {"variant", 0, "NAME|INDEX", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXT, AT(variant),
+     0, 0, NULL, NULL,
+     "dress the scene in one of the file's variants of materials (KHR_materials_variants); "
+     "without it, in the file's own materials"},
 
     {"mask", 0, "FILE", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(mask), 0, 0, NULL,
      NULL, "leave out the pixels whose first channel is above 0.5"},
@@ -189,6 +202,7 @@ char *lsf_command_option_range(const lsf_command_option *option)
                           "1024,768",
                           low, high);
     case LSF_VALUE_TEXT:
+    case LSF_VALUE_TEXTS:
         return lsf_format("a text that is not empty");
     case LSF_VALUE_CHOICE:
         return lsf_format("one of %s", option->choices);

@@ -41,6 +41,7 @@ typedef enum lsf_value_type {
     LSF_VALUE_VECTOR,      /* lsf_vector_setting, each in minimum..maximum */
     LSF_VALUE_RESOLUTION,  /* uint32_t[2], each in minimum..maximum */
     LSF_VALUE_TEXT,        /* const char *, not empty */
+    LSF_VALUE_TEXTS,       /* lsf_list_setting of texts, not empty */
     LSF_VALUE_CHOICE,      /* int: minimum + index in `choices` */
     LSF_VALUE_TECHNIQUE,   /* const char *, registered */
     LSF_VALUE_AOVS,        /* uint32_t, lsf_aov bits */
@@ -116,6 +117,8 @@ typedef struct lsf_settings {
 
     lsf_environment_setting environment;
     bool diffuse_only;
+    const char *scene, *variant; /* NULL: not given */
+    lsf_list_setting animations;
 
     int backend; /* lsf_backend */
     const char *shader_dir;

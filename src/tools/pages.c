@@ -105,7 +105,7 @@ static void add_words(lsf_string *page, const char *choices)
 static bool takes_file(const lsf_command_option *option)
 {
     return option->type == LSF_VALUE_ENVIRONMENT ||
-           (option->type == LSF_VALUE_TEXT && strcmp(option->name, "camera") != 0);
+           (option->type == LSF_VALUE_TEXT && strncmp(option->argument, "NAME", 4) != 0);
 }
 
 static void add_bash_values(lsf_string *page)

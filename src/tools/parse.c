@@ -38,6 +38,13 @@ static bool bad_value(const lsf_command_option *option, const char *text, const 
     return false;
 }
 
+static bool append_value(lsf_list_setting *place, const lsf_command_option *option,
+                         const char *text, lsf_error *error)
+{
+    return append(place, text) ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "--%s %s: no memory left", option->name, text);
+}
+
 static const char *next_technique(size_t index, void *user)
 {
     (void)user;
@@ -131,8 +138,7 @@ static bool set_define(lsf_list_setting *place, const lsf_command_option *option
         found = strcmp(known.key, key) == 0;
     if (!found)
         return bad_value(option, text, lsf_nearest(key, next_key, &known), error);
-    return append(place, text) ||
-           lsf_error_set(error, LSF_ERROR_RENDER, "--%s %s: no memory left", option->name, text);
+    return append_value(place, option, text, error);
 }
 
 /* A list of numbers is a uniform radiance; whatever else is a file. What can only have been meant
@@ -158,8 +164,7 @@ static bool set_threshold(lsf_list_setting *place, const lsf_command_option *opt
     double value;
     if (!equals || equals == text || !lsf_parse_number(equals + 1, -1e30, 1e30, &value))
         return bad_value(option, text, NULL, error);
-    return append(place, text) ||
-           lsf_error_set(error, LSF_ERROR_RENDER, "--%s %s: no memory left", option->name, text);
+    return append_value(place, option, text, error);
 }
 
 static bool set_value(lsf_settings *settings, const lsf_command_option *option, const char *text,
@@ -209,6 +214,9 @@ static bool set_value(lsf_settings *settings, const lsf_command_option *option, 
         if (good)
             *(const char **)place = text;
         break;
+    case LSF_VALUE_TEXTS:
+        return *text ? append_value(place, option, text, error)
+                     : bad_value(option, text, NULL, error);
     case LSF_VALUE_CHOICE:
         good = set_choice(place, option, text);
         break;
@@ -419,6 +427,7 @@ bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, c
 void lsf_settings_finish(lsf_settings *settings)
 {
     free((void *)settings->operands.items);
+    free((void *)settings->animations.items);
     free((void *)settings->defines.items);
     free((void *)settings->thresholds.items);
     *settings = (lsf_settings){0};
@@ -468,6 +477,12 @@ lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings)
     if (settings->environment.uniform.given)
         params.environment_radiance = settings->environment.uniform.value;
     params.diffuse_only = settings->diffuse_only;
+    params.scene = settings->scene;
+    params.variant = settings->variant;
+    params.animations = settings->animations.items; /* NULL: not given */
+    params.animation_count = settings->animations.count;
+    if (params.animation_count == 1 && strcmp(params.animations[0], "none") == 0)
+        params.animation_count = 0;
     return params;
 }
 

@@ -72,6 +72,12 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
     else
         lsf_json_string(json, "environment", settings->environment.path);
     lsf_json_bool(json, "diffuse_only", settings->diffuse_only);
+    lsf_json_string(json, "scene", settings->scene);
+    lsf_json_begin(json, "animations", '[');
+    for (uint32_t i = 0; i < settings->animations.count; i++)
+        lsf_json_string(json, NULL, settings->animations.items[i]);
+    lsf_json_end(json, ']');
+    lsf_json_string(json, "variant", settings->variant);
     lsf_json_bool(json, "keep_partial", settings->keep_partial);
     lsf_json_bool(json, "halves", settings->halves);
     lsf_json_string(json, "backend", backends[settings->backend]);

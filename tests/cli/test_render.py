@@ -169,7 +169,8 @@ class Json(CommandTest):
         options = report["options"]
         self.assertEqual(set(options), {
             "samples", "time_limit", "camera", "camera_position", "camera_target", "fov_y", "time",
-            "exposure", "aovs", "environment", "diffuse_only", "keep_partial", "halves", "backend",
+            "exposure", "aovs", "environment", "diffuse_only", "scene", "animations", "variant",
+            "keep_partial", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])
         self.assertEqual(options["environment"], [1, 0.5, 0])

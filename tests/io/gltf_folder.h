@@ -1,4 +1,4 @@
-/* A temporary folder with the files that gltf_files.py writes. */
+/* A temporary folder with the files that a script writes. */
 #ifndef LSF_TESTS_GLTF_FOLDER_H
 #define LSF_TESTS_GLTF_FOLDER_H
 
@@ -9,6 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* Which script: gltf_files.py unless the includer names another one. */
+#ifndef GLTF_SCRIPT
+#define GLTF_SCRIPT "gltf_files.py"
+#endif
 
 static char gltf_folder[] = "/tmp/lightsheaf-gltf-XXXXXX";
 
@@ -27,7 +32,7 @@ static int make_gltf_folder(void **state)
     if (!mkdtemp(gltf_folder))
         return -1;
     char *command =
-        lsf_format("python3 '%s/tests/io/gltf_files.py' '%s'", root ? root : ".", gltf_folder);
+        lsf_format("python3 -B '%s/tests/io/%s' '%s'", root ? root : ".", GLTF_SCRIPT, gltf_folder);
     int status = command ? system(command) : -1;
     free(command);
     return status;

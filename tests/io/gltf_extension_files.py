@@ -1,0 +1,94 @@
+"""Writes small glTF files that use extensions, or offer something to choose from.
+
+usage: gltf_extension_files.py FOLDER
+
+FOLDER/cases.tsv is as gltf_files.py writes it.
+"""
+import math
+
+from gltf_writer import *
+
+HALF = math.sqrt(0.5)
+
+# --- scenes, animations, variants ---------------------------------------------------------------
+
+
+def choices():
+    """Two scenes, the second one the file's own, of a quad at x = 0 and at x = 10; animations that
+    move the latter along y, z and y; a material and two variants of it."""
+    file = quad(material=0)
+    file.json.update(
+        scene=1, scenes=[{'nodes': [0], 'name': 'left'}, {'nodes': [1], 'name': '0'}],
+        nodes=[{'mesh': 0}, {'mesh': 0, 'translation': [10, 0, 0]}],
+        extensionsUsed=['KHR_materials_variants', 'EXT_nothing'],
+        extensions={'KHR_materials_variants': {'variants': [{'name': 'red'}, {'name': 'blue'}]}},
+        materials=[{'name': name} for name in ('plain', 'rouge', 'bleu')])
+    file.json['meshes'][0]['primitives'][0]['extensions'] = {'KHR_materials_variants': {
+        'mappings': [{'variants': [0], 'material': 1}, {'variants': [0, 1], 'material': 2}]}}
+    times = file.accessor([0, 1], FLOAT, 'SCALAR')
+    file.json['animations'] = []
+    for name, end in ('up', (10, 4, 0)), ('near', (10, 0, 8)), ('far', (10, -2, 0)):
+        values = file.accessor([(10, 0, 0), end], FLOAT, 'VEC3')
+        file.json['animations'].append({
+            'name': name, 'samplers': [{'input': times, 'output': values}],
+            'channels': [{'sampler': 0, 'target': {'node': 1, 'path': 'translation'}}]})
+    return file
+
+
+choices().gltf('choices.gltf')
+case('choices.gltf', 'ok', 2, '--animation chooses')
+file = choices()
+file.json['meshes'][0]['primitives'][0]['extensions']['KHR_materials_variants']['mappings'][1][
+    'variants'] = [2]
+file.gltf('variant_mapping.gltf')
+case('variant_mapping.gltf', 'UNRESOLVED_REFERENCE')
+file = choices()
+file.json['extensions'] = {'KHR_materials_variants': {'variants': [{}]}}
+file.gltf('variant_name.gltf')
+case('variant_name.gltf', 'UNDEFINED_PROPERTY')
+
+# --- EXT_mesh_gpu_instancing --------------------------------------------------------------------
+
+
+def instanced(name, expected, triangles='', node=None, **attributes):
+    """`attributes`: values, component type and shape of each."""
+    file = quad()
+    accessors = {key: file.accessor(*value[:3], **dict(value[3:])) for key, value in attributes.items()}
+    file.json['nodes'][0].update(node or {})
+    file.json['nodes'][0]['extensions'] = {'EXT_mesh_gpu_instancing': {'attributes': accessors}}
+    file.json.update(extensionsUsed=['EXT_mesh_gpu_instancing'],
+                     extensionsRequired=['EXT_mesh_gpu_instancing'])
+    file.gltf(name)
+    case(name, expected, triangles)
+    return file
+
+
+instanced('instanced.gltf', 'ok', 6, node={'translation': [0, 0, 5]},
+          TRANSLATION=([(0, 0, 0), (10, 0, 0), (0, 20, 0)], FLOAT, 'VEC3'),
+          ROTATION=([(0, 0, 0, 127), (0, 0, 127, 0), (0, 0, 90, 90)], BYTE, 'VEC4',
+                    ('normalized', True)),
+          SCALE=([(1, 1, 1), (2, 2, 2), (1, 3, 1)], FLOAT, 'VEC3'), _ID=([1, 2, 3], FLOAT, 'SCALAR'))
+instanced('instanced_scale.gltf', 'ok', 4, SCALE=([(1, 1, 1), (2, 2, 2)], FLOAT, 'VEC3'))
+instanced('instanced_nothing.gltf', 'ok', 2)
+instanced('instanced_unequal.gltf', 'MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT',
+          TRANSLATION=([(0, 0, 0)] * 3, FLOAT, 'VEC3'), SCALE=([(1, 1, 1)] * 2, FLOAT, 'VEC3'))
+instanced('instanced_format.gltf', 'MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT',
+          TRANSLATION=([(0, 0, 0, 0)], FLOAT, 'VEC4'))
+instanced('instanced_integer.gltf', 'MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT',
+          ROTATION=([(0, 0, 0, 127)], BYTE, 'VEC4'))
+instanced('instanced_nan.gltf', 'ACCESSOR_INVALID_FLOAT',
+          TRANSLATION=([(0, math.nan, 0)], FLOAT, 'VEC3'))
+for name, expected, change in [('reference', 'UNRESOLVED_REFERENCE', {'attributes': {'SCALE': 99}}),
+                               ('missing', 'UNDEFINED_PROPERTY', {}),
+                               ('type', 'TYPE_MISMATCH', {'attributes': {'SCALE': 'big'}})]:
+    changed('instanced_%s.gltf' % name, expected,
+            lambda f: f.json['nodes'][0].update(extensions={'EXT_mesh_gpu_instancing': change}))
+# Legal, and of three hundred million instances without a byte behind them.
+file = quad()
+file.json['accessors'].append({'componentType': FLOAT, 'type': 'VEC3', 'count': 300000000})
+file.json['nodes'][0]['extensions'] = {'EXT_mesh_gpu_instancing': {'attributes': {
+    'TRANSLATION': len(file.json['accessors']) - 1}}}
+file.gltf('instanced_many.gltf')
+case('instanced_many.gltf', 'MEMORY_LIMIT')
+
+write_table()
