@@ -144,6 +144,18 @@ static lsf_reference_reflection refract(const lsf_reference_bsdf *bsdf, lsf_floa
                                       .pdf = bsdf->specular_probability * drawn * share};
 }
 
+bool lsf_reference_is_clear(const lsf_reference_surface *s)
+{
+    return s->transmission > 0.0f && !s->volume && fmaxf(s->alpha_t, s->alpha_b) <= LSF_ALPHA_MIN;
+}
+
+lsf_float3 lsf_reference_straight(const lsf_reference_surface *s)
+{
+    if (!lsf_reference_is_clear(s))
+        return lsf_f3(0.0f, 0.0f, 0.0f);
+    return transmittance(s, fminf(fmaxf(lsf_f3_dot(s->frame.n, s->view), LSF_COSINE_MIN), 1.0f));
+}
+
 lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *bsdf,
                                                      lsf_float3 light)
 {

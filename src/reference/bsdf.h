@@ -25,6 +25,11 @@ typedef struct lsf_reference_reflection {
 lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *bsdf,
                                                      lsf_float3 light);
 
+/* A smooth thin wall: light that goes through keeps its direction. */
+bool lsf_reference_is_clear(const lsf_reference_surface *surface);
+/* The share of the light that goes straight through it, on the way of the view; 0 where it is not clear. */
+lsf_float3 lsf_reference_straight(const lsf_reference_surface *surface);
+
 /* Draws a direction from (1 - p) cos / pi + p D_v(h) (r(h) / (4 v.h) + (1 - r(h)) J), with J the
  * Jacobian of refraction at h, or of mirroring, and r the share of the two that is reflected;
  * numbers uniform in [0, 1). A zero vector where the microfacet drawn sends light to the wrong

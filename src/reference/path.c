@@ -51,6 +51,8 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
 {
     memset(world, 0, sizeof *world);
     world->bounces = bounces;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        world->thin_walls |= scene->materials[i].transmission > 0.0f && !scene->materials[i].volume;
     if (!lsf_reference_geometry_init(&world->geometry, scene, state, LSF_REFERENCE_USE_PICTURE,
                                      error))
         return false;
@@ -85,11 +87,19 @@ typedef struct walk {
     const lsf_reference_sampler *sampler;
     lsf_reference_path *path;
     uint32_t vertex; /* 0: the first hit */
+    uint32_t walls;  /* clear ones among the vertices before, which are no bounces */
     lsf_float3 diffuse, specular;
     lsf_float3 absorption; /* of the medium that the path last came through; 0: air */
     lsf_reference_surface surface;
     lsf_reference_bsdf bsdf;
 } walk;
+
+/* What clear walls leave on the way from the camera to the first vertex behind them, or to the last of
+ * them. */
+static lsf_float3 seen_through(const walk *w)
+{
+    return w->vertex == 0 ? lsf_f3(1.0f, 1.0f, 1.0f) : w->specular;
+}
 
 /* Adds light that reaches the current vertex and is reflected along the path; `reflection` is
  * weighed by `radiance`, which includes one over the density. */
@@ -97,12 +107,25 @@ static void add_reflected(walk *w, const lsf_reference_reflection *reflection, l
 {
     lsf_float3 f = lsf_f3_mul(lsf_f3_add(reflection->diffuse, reflection->specular), radiance);
     lsf_reference_path *path = w->path;
-    if (w->vertex == 0) {
-        path->direct = lsf_f3_add(path->direct, f);
+    if (w->vertex == w->walls) {
+        path->direct = lsf_f3_add(path->direct, lsf_f3_mul(seen_through(w), f));
         return;
     }
     path->indirect_diffuse = lsf_f3_add(path->indirect_diffuse, lsf_f3_mul(w->diffuse, f));
     path->indirect_specular = lsf_f3_add(path->indirect_specular, lsf_f3_mul(w->specular, f));
+}
+
+/* Adds light that a direction drawn at the current vertex met. What shines behind clear walls is seen. */
+static void add_met(walk *w, const lsf_reference_reflection *reflection, bool crosses,
+                    lsf_float3 radiance)
+{
+    lsf_reference_path *path = w->path;
+    if (!crosses || w->vertex != w->walls) {
+        add_reflected(w, reflection, radiance);
+        return;
+    }
+    lsf_float3 left = lsf_f3_mul(seen_through(w), reflection->specular);
+    path->emission = lsf_f3_add(path->emission, lsf_f3_mul(left, radiance));
 }
 
 /* On the side that the ray leaves to. */
@@ -130,15 +153,17 @@ static lsf_float3 left_after(lsf_float3 absorption, float distance)
                   expf(-absorption.z * distance));
 }
 
+/* A ray that asks for visibility ends so far before its target, of its length: the target is known to no
+ * more bits than that. */
+#define REACH (1.0f - 0x1p-22f)
+
 /* Nothing between the current vertex and `target`. */
 static bool reaches(walk *w, lsf_float3 target)
 {
     lsf_float3 to = lsf_f3_sub(target, w->surface.position);
     lsf_float3 origin = ray_origin(&w->surface, to);
     w->path->rays++;
-    /* The last few bits stay out, for the target is known to no more than that. */
-    return !lsf_reference_occluded(&w->world->geometry, origin, lsf_f3_sub(target, origin),
-                                   1.0f - 0x1p-22f);
+    return !lsf_reference_occluded(&w->world->geometry, origin, lsf_f3_sub(target, origin), REACH);
 }
 
 static bool reaches_sky(walk *w, lsf_float3 direction)
@@ -146,6 +171,29 @@ static bool reaches_sky(walk *w, lsf_float3 direction)
     w->path->rays++;
     return !lsf_reference_occluded(&w->world->geometry, ray_origin(&w->surface, direction),
                                    direction, INFINITY);
+}
+
+/* What clear walls of glass leave of a punctual light's way to the current vertex, which is free of all
+ * else; 0 where it is not. `target` NULL: the light comes from far away along `direction`. */
+static lsf_float3 passes(walk *w, lsf_float3 direction, const lsf_float3 *target)
+{
+    const lsf_float3 dark = {0.0f, 0.0f, 0.0f};
+    lsf_float3 left = {1.0f, 1.0f, 1.0f}, origin = ray_origin(&w->surface, direction);
+    for (int walls = 0; walls < LSF_REFERENCE_WALLS; walls++) {
+        lsf_float3 way = target ? lsf_f3_sub(*target, origin) : direction;
+        lsf_reference_hit hit;
+        w->path->rays++;
+        if (!lsf_reference_trace(&w->world->geometry, origin, way, 0.0f, target ? REACH : INFINITY,
+                                 &hit))
+            return left;
+        lsf_reference_surface wall;
+        lsf_reference_surface_init(&wall, &w->world->geometry, &hit, direction);
+        left = lsf_f3_mul(left, lsf_reference_straight(&wall));
+        if (!(lsf_f3_max(left) > 0.0f))
+            return dark;
+        origin = ray_origin(&wall, direction);
+    }
+    return dark;
 }
 
 static float spot_factor(const lsf_light_state *light, lsf_float3 to_light)
@@ -157,9 +205,9 @@ static float spot_factor(const lsf_light_state *light, lsf_float3 to_light)
     return lsf_spot_attenuation(cosine, scale, -light->cos_outer * scale);
 }
 
-/* Light of punctual lights is reflected but never transmitted, and ends at every surface, as in
- * shadow maps: what comes through a surface comes from emitters, the environment, and surfaces lit
- * by any light.
+/* Light of punctual lights passes clear walls straight on, and ends at every other surface, as in shadow
+ * maps. Rough walls transmit it to the side that they are seen from; media do not, for no ray that is
+ * drawn there finds a point.
  */
 static void add_light(walk *w, const lsf_light_state *light, float weight)
 {
@@ -177,7 +225,10 @@ static void add_light(walk *w, const lsf_light_state *light, float weight)
         attenuation = lsf_distance_attenuation(lsf_f3_dot(to, to), inverse_range2) *
                       spot_factor(light, direction);
     }
-    if (!(attenuation > 0.0f) || lsf_f3_dot(w->surface.geometric_normal, direction) <= 0.0f)
+    bool behind = lsf_f3_dot(w->surface.geometric_normal, direction) <= 0.0f;
+    bool rough_wall = w->surface.transmission > 0.0f && !w->surface.volume &&
+                      !lsf_reference_is_clear(&w->surface);
+    if (!(attenuation > 0.0f) || (behind && !rough_wall))
         return;
     intensity = lsf_f3_mul(intensity, left_after(absorption_along(w, direction), distance));
     lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
@@ -185,10 +236,11 @@ static void add_light(walk *w, const lsf_light_state *light, float weight)
         return;
     /* A light may lie in a surface, which must not hide it: the ray ends short of it. */
     float short_of = 0x1p-20f * lsf_f3_max_abs(position);
-    bool visible = light->type == LSF_LIGHT_DIRECTIONAL
-                       ? reaches_sky(w, direction)
-                       : reaches(w, lsf_f3_mad(position, direction, -short_of));
-    if (visible)
+    bool far = light->type == LSF_LIGHT_DIRECTIONAL;
+    lsf_float3 target = lsf_f3_mad(position, direction, -short_of);
+    if (w->world->thin_walls)
+        intensity = lsf_f3_mul(intensity, passes(w, direction, far ? NULL : &target));
+    if (w->world->thin_walls || (far ? reaches_sky(w, direction) : reaches(w, target)))
         add_reflected(w, &reflection, lsf_f3_scale(intensity, attenuation));
 }
 
@@ -277,8 +329,8 @@ static bool survives(walk *w)
 static bool step(walk *w)
 {
     const lsf_reference_world *world = w->world;
-    bool last = w->vertex >= world->bounces;
-    if (last && !rays_find_light(world))
+    bool last = w->vertex - w->walls >= world->bounces, clear = lsf_reference_is_clear(&w->surface);
+    if (last && !clear && !rays_find_light(world))
         return false;
     uint32_t index = w->sampler->index;
     float lobe = lsf_sobol_1d(index, dimension_seed(w->sampler, w->vertex, DIMENSION_LOBE));
@@ -288,6 +340,8 @@ static bool step(walk *w)
     lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
     if (!(reflection.pdf > 0.0f))
         return false;
+    bool crosses = clear && lsf_f3_dot(w->surface.geometric_normal, direction) < 0.0f;
+    last = last && !crosses;
     lsf_float3 from = w->surface.position;
     lsf_reference_hit hit;
     w->path->rays++;
@@ -297,7 +351,7 @@ static bool step(walk *w)
             float other = world->sky.sampled ? lsf_reference_sky_pdf(&world->sky, direction) : 0.0f;
             float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
             lsf_float3 radiance = lsf_reference_sky_radiance(&world->sky, direction);
-            add_reflected(w, &reflection, lsf_f3_scale(radiance, weight));
+            add_met(w, &reflection, crosses, lsf_f3_scale(radiance, weight));
         }
         return false;
     }
@@ -311,13 +365,16 @@ static bool step(walk *w)
         float other =
             lsf_reference_emitters_pdf(&world->emitters, &world->geometry, &hit, from, direction);
         float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
-        add_reflected(w, &reflection, lsf_f3_scale(next.emission, weight));
+        add_met(w, &reflection, crosses, lsf_f3_scale(next.emission, weight));
     }
     if (last)
         return false;
     lsf_float3 diffuse = lsf_f3_scale(reflection.diffuse, 1.0f / reflection.pdf);
     lsf_float3 specular = lsf_f3_scale(reflection.specular, 1.0f / reflection.pdf);
-    if (w->vertex > 0) {
+    if (w->vertex == w->walls) {
+        diffuse = lsf_f3_mul(seen_through(w), diffuse);
+        specular = lsf_f3_mul(seen_through(w), specular);
+    } else {
         lsf_float3 both = lsf_f3_add(diffuse, specular);
         diffuse = lsf_f3_mul(w->diffuse, both);
         specular = lsf_f3_mul(w->specular, both);
@@ -327,6 +384,7 @@ static bool step(walk *w)
     w->diffuse = diffuse;
     w->specular = specular;
     w->vertex++;
+    w->walls += crosses;
     return survives(w);
 }
 

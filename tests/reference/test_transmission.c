@@ -271,6 +271,43 @@ static void slab_absorbs(void **unused)
     }
 }
 
+/* A lamp over a floor under two panes, seen from between them and through one of them: straight on, and no
+ * bounce. */
+static void lamp_shines_through_panes(void **unused)
+{
+    (void)unused;
+    const double tints[2][3] = {{0.9, 0.5, 0.2}, {0.3, 0.8, 1.0}};
+    const lsf_float3 target = {0.4f, 0, 0}, eyes[2] = {{0.0f, 0.9f, 0.0f}, {-0.4f, 1.7f, 0.0f}};
+    for (int through = 0; through < 2; through++) {
+        lsf_scene *scene = build_scene();
+        build_material(scene, 0.5f, 0.5f, 0.5f);
+        scene->materials[scene->material_count - 1].ior = 1.0f;
+        build_floor(scene, 0.0f, 2.0f);
+        for (int pane = 0; pane < 2; pane++) {
+            lsf_material *glass = build_glass(scene, 1.0f, 0.0f, 0.0f);
+            for (int c = 0; c < 3; c++)
+                glass->base_color[c] = (float)tints[pane][c];
+            build_floor(scene, 1.0f + (float)pane, 2.0f);
+        }
+        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 3, 0), lsf_f3(0, -1, 0), 10.0f);
+        finish_scene(scene);
+        float rgb[3];
+        render_point(scene, eyes[through], target, 4096, 0, rgb);
+        lsf_float3 view = lsf_f3_normalize(lsf_f3_sub(eyes[through], target));
+        double d2 = 0.4 * 0.4 + 9.0, cosine = 3.0 / sqrt(d2), floor = 0.5 / M_PI * 10.0 / d2 * cosine;
+        for (int c = 0; c < 3; c++) {
+            double pass = 1.0 - schlick(0.04, cosine);
+            double expected = floor * tints[0][c] * tints[1][c] * pass * pass;
+            if (through)
+                expected *= tints[0][c] * (1.0 - schlick(0.04, (double)view.y));
+            print_message("%d, channel %d: %.5f, expected %.5f\n", through, c, (double)rgb[c],
+                          expected);
+            assert_true(fabs((double)rgb[c] / expected - 1.0) < (through ? 0.02 : 1e-3));
+        }
+        destroy_scene(scene);
+    }
+}
+
 /* Walls of any kind, light and view at the horizon, indices of 0 and of nearly 1 stay finite. */
 static void extremes_are_finite(void **unused)
 {
@@ -308,6 +345,7 @@ int main(void)
         cmocka_unit_test(white_glass_is_invisible),
         cmocka_unit_test(slab_displaces),
         cmocka_unit_test(slab_absorbs),
+        cmocka_unit_test(lamp_shines_through_panes),
         cmocka_unit_test(extremes_are_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
