@@ -78,14 +78,32 @@ bool triangle_load(uint triangle, int axis, out voxel_triangle t)
     return true;
 }
 
-/* Barycentric coordinates of the triangle's point that is closest to p's projection on it. */
+/* The point of an edge, from `corner` along e, that is closest to p: how far along, 0..1, and its distance's
+ * square. */
+vec2 closest_on_edge(vec3 p, vec3 corner, vec3 e)
+{
+    vec3 way = p - corner;
+    float at = clamp(dot(way, e) / max(dot(e, e), 1e-30), 0.0, 1.0);
+    way -= at * e;
+    return vec2(at, dot(way, way));
+}
+
+/* Barycentric coordinates of the triangle's point that is closest to p: p's projection where that lies
+ * inside, else the closest point of the nearest edge. */
 vec3 closest_weights(voxel_triangle t, vec3 p)
 {
     vec3 ac = -t.ca, ap = p - t.a;
     float scale = 1.0 / dot(t.normal, t.normal);
     float b = dot(cross(ap, ac), t.normal) * scale, c = dot(cross(t.ab, ap), t.normal) * scale;
-    vec3 weights = max(vec3(1.0 - b - c, b, c), 0.0);
-    return weights / (weights.x + weights.y + weights.z);
+    vec3 weights = vec3(1.0 - b - c, b, c);
+    if (all(greaterThanEqual(weights, vec3(0.0))))
+        return weights;
+    vec2 on_ab = closest_on_edge(p, t.a, t.ab), on_bc = closest_on_edge(p, t.b, t.bc),
+         on_ca = closest_on_edge(p, t.c, t.ca);
+    if (on_ab.y <= min(on_bc.y, on_ca.y))
+        return vec3(1.0 - on_ab.x, on_ab.x, 0.0);
+    return on_bc.y <= on_ca.y ? vec3(0.0, 1.0 - on_bc.x, on_bc.x)
+                              : vec3(on_ca.x, 0.0, 1.0 - on_ca.x);
 }
 
 /* The surface about the voxel's centre; false where an alpha mask cuts it out. */

@@ -45,13 +45,13 @@ bool edges_reach_zx(voxel_triangle t, vec2 low)
  * not of its plane: of two in one plane each gets the voxels whose centres lie over it. */
 void bid(voxel_triangle t, ivec3 cell, vec3 low)
 {
+    vec3 weights = closest_weights(t, low + 0.5);
 #if LSF_MASK
     surface s;
     vec3 emission;
-    if (!surface_in(t, closest_weights(t, low + 0.5), s, emission))
+    if (!surface_in(t, weights, s, emission))
         return;
 #endif
-    vec3 weights = closest_weights(t, low + 0.5);
     vec3 nearest_point = t.a * weights.x + t.b * weights.y + t.c * weights.z;
     float distance = length(nearest_point - (low + 0.5));
     const uint nearest = 0xffffffffu >> LSF_VOXELIZE_ID_BITS;
