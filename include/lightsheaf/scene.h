@@ -20,6 +20,7 @@ typedef struct lsf_scene_params {
     const char *environment_path; /* lat-long .hdr or .exr; NULL: none */
     const float *environment_radiance; /* three floats, uniform radiance [W/(m^2 sr)]; NULL: none */
     bool diffuse_only; /* read every material as Lambert of its base colour, without normal maps */
+    bool lenient; /* ignore extensions that the file requires when they change the look alone */
     uint64_t memory_limit; /* bytes that geometry and decoded images may take together */
     /* A name, or an index from 0, of what the file offers; a name goes first. */
     const char *scene;             /* NULL: the file's own, else the first */
@@ -30,8 +31,8 @@ typedef struct lsf_scene_params {
 
 #define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
     .environment_path = NULL, .environment_radiance = NULL, .diffuse_only = false,                 \
-    .memory_limit = (uint64_t)8 << 30, .scene = NULL, .variant = NULL, .animations = NULL,         \
-    .animation_count = 0
+    .lenient = false, .memory_limit = (uint64_t)8 << 30, .scene = NULL, .variant = NULL,           \
+    .animations = NULL, .animation_count = 0
 
 /* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
  * the environment. Whatever is ignored is logged as one warning each and kept for

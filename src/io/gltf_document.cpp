@@ -1,5 +1,7 @@
 #include "io/gltf_import.hpp"
 
+#include "io/foreign_file.h"
+
 #include <cinttypes>
 
 /* From the file's bytes to a tinygltf model. tinygltf gets to see only what has been checked, and
@@ -84,12 +86,22 @@ static void read_buffers(gltf_import &import, const gltf_container &container,
     }
 }
 
+static void refuse_other_formats(const std::string &path, const std::vector<unsigned char> &bytes)
+{
+    const lsf_foreign_file *foreign =
+        lsf_foreign_file_find(path.c_str(), bytes.data(), bytes.size());
+    if (foreign)
+        throw failure(path + ": only .gltf and .glb are read, and this is " + foreign->what + "; " +
+                      foreign->remedy);
+}
+
 void gltf_document_read(gltf_import &import)
 {
     std::vector<unsigned char> bytes = file_bytes(import.path, import.params->memory_limit);
+    refuse_other_formats(import.path, bytes);
     gltf_container container =
         gltf_container_split({reinterpret_cast<const char *>(bytes.data()), bytes.size()});
-    gltf_checked checked = gltf_schema_check(container.json, import.params->memory_limit);
+    gltf_checked checked = gltf_schema_check(container.json, *import.params);
     buffer_queue queue;
     read_buffers(import, container, checked, queue);
 

@@ -76,6 +76,7 @@ class geometry_importer
     void append_vertices(const vertex_arrays &arrays, lsf_primitive &primitive);
     void append_indices(const std::vector<uint32_t> &triangles, lsf_primitive &primitive);
     void find_bounds(lsf_primitive &primitive) const;
+    void count_left_out(const tinygltf::Primitive &source);
     void count_ignored(const tinygltf::Primitive &source, const lsf_material &material);
 
     gltf_import &import_;
@@ -155,6 +156,24 @@ static stream_choice choose_streams(const gltf_import &import)
         }
     }
     return streams;
+}
+
+/* Points and lines; a loop has as many lines as vertices. */
+void geometry_importer::count_left_out(const tinygltf::Primitive &source)
+{
+    int accessor = source.indices >= 0 ? source.indices : find_attribute(source, "POSITION");
+    uint64_t vertices = accessor < 0 ? 0 : import_.model.accessors[(size_t)accessor].count;
+    gltf_repairs &repairs = import_.repairs;
+    if (source.mode == TINYGLTF_MODE_POINTS) {
+        repairs.point_primitives++;
+        repairs.points += vertices;
+        return;
+    }
+    repairs.line_primitives++;
+    repairs.lines += source.mode == TINYGLTF_MODE_LINE        ? vertices / 2
+                     : source.mode == TINYGLTF_MODE_LINE_LOOP ? vertices
+                     : vertices > 0                           ? vertices - 1
+                                                              : 0;
 }
 
 void geometry_importer::count_ignored(const tinygltf::Primitive &source,
@@ -336,7 +355,7 @@ void geometry_importer::add_primitive(const tinygltf::Primitive &source,
                                       const std::string &location)
 {
     if (!mode_is_triangles(source.mode)) {
-        import_.repairs.lines_and_points++;
+        count_left_out(source);
         return;
     }
     if (find_attribute(source, "POSITION") < 0) {

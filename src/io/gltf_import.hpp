@@ -93,7 +93,7 @@ struct gltf_checked {
     std::vector<gltf_buffer_source> buffers;
 };
 bool extension_is_supported(const std::string &name);
-gltf_checked gltf_schema_check(std::string_view json, uint64_t memory_limit);
+gltf_checked gltf_schema_check(std::string_view json, const lsf_scene_params &params);
 
 /* gltf_uri.cpp */
 bool uri_is_data(const std::string &uri);
@@ -111,7 +111,8 @@ std::vector<unsigned char> file_bytes(const std::string &path, uint64_t limit);
 struct gltf_repairs {
     uint64_t normals_missing_primitives = 0, normals_scaled = 0, normals_zero = 0;
     uint64_t tangents_scaled = 0, tangents_without_uv = 0, rotations_scaled = 0;
-    uint64_t trailing_indices = 0, lines_and_points = 0, no_position = 0, morph_targets = 0;
+    uint64_t trailing_indices = 0, no_position = 0, morph_targets = 0;
+    uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
 };
 

@@ -12,14 +12,16 @@ static const size_t EXTENSIONS_NAMED_MAX = 32;
 static void note_extensions(gltf_import &import)
 {
     size_t named = 0;
-    for (const std::string &name : import.model.extensionsUsed) {
-        if (extension_is_supported(name))
+    for (uint32_t i = 0; i < import.scene->extension_count; i++) {
+        const lsf_extension &extension = import.scene->extensions[i];
+        if (extension.honoured)
             continue;
         if (named++ == EXTENSIONS_NAMED_MAX) {
             lsf_scene_add_note(import.scene, "further extensions are ignored");
             return;
         }
-        lsf_scene_add_note(import.scene, "extension %s is ignored", name.c_str());
+        lsf_scene_add_note(import.scene, "extension %s is ignored%s", extension.name,
+                           extension.required ? ", though the file requires it" : "");
     }
 }
 
@@ -27,6 +29,16 @@ static void note_count(gltf_import &import, uint64_t count, const char *what)
 {
     if (count > 0)
         lsf_scene_add_note(import.scene, "%" PRIu64 " %s", count, what);
+}
+
+static void note_left_out(gltf_import &import, uint64_t primitives, uint64_t elements,
+                          const char *kind)
+{
+    if (primitives > 0)
+        lsf_scene_add_note(import.scene,
+                           "%" PRIu64 " primitive%s of %s, %" PRIu64
+                           " in all, left out: only triangles are rendered",
+                           primitives, primitives == 1 ? "" : "s", kind, elements);
 }
 
 void gltf_notes_add(gltf_import &import)
@@ -41,8 +53,8 @@ void gltf_notes_add(gltf_import &import)
                "skinned nodes: skins are ignored, the meshes are shown undeformed");
     note_count(import, repairs.morph_targets,
                "primitives with morph targets: the targets are ignored");
-    note_count(import, repairs.lines_and_points,
-               "primitives of points or lines are ignored: only triangles are rendered");
+    note_left_out(import, repairs.point_primitives, repairs.points, "points");
+    note_left_out(import, repairs.line_primitives, repairs.lines, "lines");
     note_count(import, repairs.no_position, "primitives without POSITION are ignored");
     note_count(import, repairs.further_vertex_colors,
                "primitives with more than one set of vertex colours: only COLOR_0 is used");

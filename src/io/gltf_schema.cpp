@@ -318,7 +318,17 @@ static const char *remedy_for(const std::string &extension)
     return "export the file without it";
 }
 
-static void check_required_extensions(const json &root)
+/* Extensions of materials, textures and lights, and what only describes: without them the scene has
+ * the same shapes in the same places. */
+static bool changes_look_alone(const std::string &extension)
+{
+    for (const char *part : {"_materials_", "_texture_", "_lights_", "_xmp"})
+        if (extension.find(part) != std::string::npos)
+            return true;
+    return false;
+}
+
+static void check_required_extensions(const json &root, bool lenient)
 {
     auto required = root.find("extensionsRequired");
     if (required == root.end() || !required->is_array())
@@ -327,10 +337,11 @@ static void check_required_extensions(const json &root)
         if (!(*required)[i].is_string())
             continue;
         std::string name = (*required)[i].get<std::string>();
-        if (!extension_is_supported(name))
+        bool optional = changes_look_alone(name);
+        if (!extension_is_supported(name) && !(optional && lenient))
             fail("UNSUPPORTED_EXTENSION", "/extensionsRequired/" + std::to_string(i),
-                 "the file requires %s, which is not supported; %s", name.c_str(),
-                 remedy_for(name));
+                 "the file requires %s, which is not supported; %s%s", name.c_str(),
+                 remedy_for(name), optional ? ", or see with --lenient how it looks without" : "");
     }
 }
 
@@ -400,12 +411,13 @@ static void check_choices(const json &root)
         }
 }
 
-gltf_checked gltf_schema_check(std::string_view text, uint64_t memory_limit)
+gltf_checked gltf_schema_check(std::string_view text, const lsf_scene_params &params)
 {
+    uint64_t memory_limit = params.memory_limit;
     json root = parse(text, memory_limit);
     checker checker(root);
     /* First: what such a file leaves out may be just what the extension would bring. */
-    check_required_extensions(root);
+    check_required_extensions(root, params.lenient);
 
     uint64_t entries = 0;
     for (const json &member : root)

@@ -127,6 +127,10 @@ static const lsf_command_option options[] = {
     {"diffuse-only", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG,
      AT(diffuse_only), 0, 0, NULL, NULL,
      "read every material as a diffuse one of its base colour, without normal maps"},
+    {"lenient", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG, AT(lenient), 0, 0,
+     NULL, NULL,
+     "ignore, with a warning each, extensions that the file requires and that change the look "
+     "alone"},
     {"scene", 0, "NAME|INDEX", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXT, AT(scene), 0,
      0, NULL, NULL,
      "which of the file's scenes, by name or by index from 0; without it, the one that the file "

@@ -116,7 +116,7 @@ typedef struct lsf_settings {
     double time;                                       /* seconds */
 
     lsf_environment_setting environment;
-    bool diffuse_only;
+    bool diffuse_only, lenient;
     const char *scene, *variant; /* NULL: not given */
     lsf_list_setting animations;
 

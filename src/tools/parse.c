@@ -477,6 +477,7 @@ lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings)
     if (settings->environment.uniform.given)
         params.environment_radiance = settings->environment.uniform.value;
     params.diffuse_only = settings->diffuse_only;
+    params.lenient = settings->lenient;
     params.scene = settings->scene;
     params.variant = settings->variant;
     params.animations = settings->animations.items; /* NULL: not given */

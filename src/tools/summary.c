@@ -72,6 +72,7 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
     else
         lsf_json_string(json, "environment", settings->environment.path);
     lsf_json_bool(json, "diffuse_only", settings->diffuse_only);
+    lsf_json_bool(json, "lenient", settings->lenient);
     lsf_json_string(json, "scene", settings->scene);
     lsf_json_begin(json, "animations", '[');
     for (uint32_t i = 0; i < settings->animations.count; i++)

@@ -169,7 +169,7 @@ class Json(CommandTest):
         options = report["options"]
         self.assertEqual(set(options), {
             "samples", "time_limit", "camera", "camera_position", "camera_target", "fov_y", "time",
-            "exposure", "aovs", "environment", "diffuse_only", "scene", "animations", "variant",
+            "exposure", "aovs", "environment", "diffuse_only", "lenient", "scene", "animations", "variant",
             "keep_partial", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])

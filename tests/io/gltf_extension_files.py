@@ -91,4 +91,32 @@ file.json['nodes'][0]['extensions'] = {'EXT_mesh_gpu_instancing': {'attributes':
 file.gltf('instanced_many.gltf')
 case('instanced_many.gltf', 'MEMORY_LIMIT')
 
+# --- required extensions, ignored by --lenient --------------------------------------------------
+
+for name in ('KHR_materials_nothing', 'EXT_nothing'):
+    changed('require_%s.gltf' % name, name, lambda f: f.json.update(
+        extensionsUsed=[name], extensionsRequired=[name]))
+
+# --- files of other formats ---------------------------------------------------------------------
+
+for name, content, what in [
+        ('model.obj', b'# vertices\nv 0 0 0\n', 'a Wavefront OBJ file'),
+        ('ascii.fbx', b'; FBX 7.3.0 project file\n', 'an Autodesk FBX file'),
+        ('renamed.gltf', b'Kaydara FBX Binary  \0\x1a\0', 'an Autodesk FBX file'),
+        ('scene.usdz', b'PK\3\4', 'a USD file'), ('layer.usd', b'PXR-USDC', 'a USD file'),
+        ('mesh.PLY', b'ply\nformat ascii 1.0\n', 'a PLY file'),
+        ('solid.stl', b'solid\n', 'an STL file'), ('part.blend', b'BLENDER-v293', 'a Blender file'),
+        ('collada.dae', b'\xef\xbb\xbf<?xml version="1.0"?>', 'a COLLADA file'),
+        ('picture.glb', b'\x89PNG\r\n\x1a\n', 'a PNG picture'),
+        ('page.glb', b'\n\n<!doctype HTML>', 'a web page'),
+        ('pointer.glb', b'version https://git-lfs.github.com/spec/v1\n', 'git lfs pull')]:
+    write('foreign/' + name, content)
+    case('foreign/' + name, what)
+quad().gltf('foreign/in_spite_of_its_name.obj')
+case('foreign/in_spite_of_its_name.obj', 'ok', 2)
+write('foreign/neither.txt', b'hello')
+case('foreign/neither.txt', 'INVALID_JSON')
+write('foreign/nothing.obj', b'')
+case('foreign/nothing.obj', 'INVALID_JSON')
+
 write_table()

@@ -30,11 +30,13 @@ quad(indices=(0, 1, 3, 2), mode=5).gltf('strip_indexed.gltf')
 case('strip_indexed.gltf', 'ok', 2)
 quad(indices=None).gltf('trailing.gltf')
 case('trailing.gltf', 'ok', 1, 'whole triangle')
-for mode, name in enumerate(('points', 'lines', 'line_loop', 'line_strip')):
+for mode, (name, left_out) in enumerate((('points', 'of points, 6 in'), ('lines', 'of lines, 3 in'),
+                                         ('line_loop', 'of lines, 6 in'),
+                                         ('line_strip', 'of lines, 5 in'))):
     file = quad(mode=mode)
     file.primitive(normals=UP)
     file.gltf(name + '.gltf')
-    case(name + '.gltf', 'ok', 2, 'points or lines')
+    case(name + '.gltf', 'ok', 2, '1 primitive ' + left_out)
 changed('no_scenes.gltf', 'ok', lambda f: (f.json.pop('scenes'), f.json.pop('scene')), 2)
 changed('other_scene.gltf', 'ok',
         lambda f: f.json.update(scenes=[{'nodes': [0]}, {'nodes': []}], scene=1), 0)

@@ -171,9 +171,31 @@ static void test_instancing(void **state)
     lsf_scene_destroy(scene);
 }
 
+static void test_lenient(void **state)
+{
+    (void)state;
+    lsf_scene_params params = {LSF_SCENE_PARAMS_DEFAULTS};
+    params.lenient = true;
+    lsf_scene *scene = load("require_KHR_materials_nothing.gltf", &params);
+    assert_true(has_note(scene, "KHR_materials_nothing is ignored, though the file requires it"));
+    lsf_scene_destroy(scene);
+
+    lsf_error error = {0};
+    char *path = lsf_format("%s/require_KHR_materials_nothing.gltf", gltf_folder);
+    assert_null(lsf_scene_load(path, NULL, &error));
+    assert_non_null(strstr(error.message, "--lenient"));
+    free(path);
+    /* What nobody knows may place things. */
+    path = lsf_format("%s/require_EXT_nothing.gltf", gltf_folder);
+    assert_null(lsf_scene_load(path, &params, &error));
+    assert_int_equal(error.code, LSF_ERROR_FILE);
+    assert_null(strstr(error.message, "--lenient"));
+    free(path);
+}
+
 int main(void)
 {
-    static size_t cases_min = 14;
+    static size_t cases_min = 30;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_prestate(test_cases, &cases_min),
         cmocka_unit_test(test_scenes),
@@ -182,6 +204,7 @@ int main(void)
         cmocka_unit_test(test_choices_that_are_not_there),
         cmocka_unit_test(test_description_names_what_there_is),
         cmocka_unit_test(test_instancing),
+        cmocka_unit_test(test_lenient),
     };
     return cmocka_run_group_tests_name("gltf extensions", tests, make_gltf_folder,
                                        remove_gltf_folder);

@@ -1,0 +1,22 @@
+/* Files that are not glTF, told by what they begin with and by the ending of their name. */
+#ifndef LSF_IO_FOREIGN_FILE_H
+#define LSF_IO_FOREIGN_FILE_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lsf_foreign_file {
+    const char *what;   /* "a Wavefront OBJ file" */
+    const char *remedy; /* what to do about it */
+} lsf_foreign_file;
+
+/* NULL when the file may be glTF, or is nothing that is known. */
+const lsf_foreign_file *lsf_foreign_file_find(const char *path, const void *bytes, size_t length);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
