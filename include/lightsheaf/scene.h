@@ -16,9 +16,19 @@ extern "C" {
 
 typedef struct lsf_scene lsf_scene;
 
+/* When a soft sky and a key light are added. */
+typedef enum lsf_default_light {
+    LSF_DEFAULT_LIGHT_AUTO,   /* when the file has no light, its emissive materials do not light it,
+                               * and no environment is given; with a note */
+    LSF_DEFAULT_LIGHT_ALWAYS, /* also beside the file's lights; an environment that is given
+                               * replaces the sky */
+    LSF_DEFAULT_LIGHT_NEVER,
+} lsf_default_light;
+
 typedef struct lsf_scene_params {
     const char *environment_path; /* lat-long .hdr or .exr; NULL: none */
     const float *environment_radiance; /* three floats, uniform radiance [W/(m^2 sr)]; NULL: none */
+    lsf_default_light default_light;
     bool diffuse_only; /* read every material as Lambert of its base colour, without normal maps */
     bool lenient; /* ignore extensions that the file requires when they change the look alone */
     uint64_t memory_limit; /* bytes that geometry and decoded images may take together */
@@ -30,14 +40,14 @@ typedef struct lsf_scene_params {
 } lsf_scene_params;
 
 #define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
-    .environment_path = NULL, .environment_radiance = NULL, .diffuse_only = false,                 \
-    .lenient = false, .memory_limit = (uint64_t)8 << 30, .scene = NULL, .variant = NULL,           \
-    .animations = NULL, .animation_count = 0
+    .environment_path = NULL, .environment_radiance = NULL,                                        \
+    .default_light = LSF_DEFAULT_LIGHT_AUTO, .diffuse_only = false, .lenient = false,              \
+    .memory_limit = (uint64_t)8 << 30, .scene = NULL, .variant = NULL, .animations = NULL,         \
+    .animation_count = 0
 
 /* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
  * the environment. Whatever is ignored is logged as one warning each and kept for
- * lsf_scene_note. A scene without any light, emitter or environment gets a neutral one, with a
- * warning. The caller destroys it. LSF_ERROR_FILE names file, JSON location and cause;
+ * lsf_scene_note. The caller destroys it. LSF_ERROR_FILE names file, JSON location and cause;
  * LSF_ERROR_USAGE what was chosen, and what there is to choose from. */
 lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error);
 void lsf_scene_destroy(lsf_scene *scene); /* NULL allowed */

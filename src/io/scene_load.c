@@ -1,6 +1,7 @@
 /* lsf_scene_load: a glTF file and an environment become a scene that can be rendered. */
 #include "base/base.h"
 #include "io/io.h"
+#include "scene/default_light.h"
 #include "scene/hierarchy.h"
 #include "scene/scene.h"
 
@@ -121,23 +122,6 @@ static bool check_transforms(const lsf_scene *scene, lsf_error *error)
     return good;
 }
 
-static bool has_light(const lsf_scene *scene)
-{
-    const lsf_requirements *requirements = &scene->requirements;
-    return requirements->point_lights || requirements->spot_lights ||
-           requirements->directional_lights || requirements->emissive || scene->environment.present;
-}
-
-static void add_neutral_environment(lsf_scene *scene)
-{
-    lsf_scene_add_note(scene, "the scene has no light, no emissive material and no environment: a "
-                              "uniform environment of radiance 1 lights it");
-    scene->environment.present = true;
-    for (int c = 0; c < 3; c++)
-        scene->environment.radiance[c] = 1.0f;
-    lsf_scene_compute_requirements(scene);
-}
-
 lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error)
 {
     static const lsf_scene_params defaults = {LSF_SCENE_PARAMS_DEFAULTS};
@@ -154,10 +138,12 @@ lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_
         return NULL;
     }
     lsf_scene_compute_requirements(scene);
-    if (!has_light(scene))
-        add_neutral_environment(scene);
     if (scene->camera_count == 0 && !add_default_camera(scene)) {
         lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
+        lsf_scene_destroy(scene);
+        return NULL;
+    }
+    if (!lsf_default_light_add(scene, params->default_light, error)) {
         lsf_scene_destroy(scene);
         return NULL;
     }

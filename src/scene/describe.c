@@ -178,6 +178,9 @@ static void describe_json(lsf_string *out, const lsf_scene *scene)
     lsf_string_add(out, "  \"lights\": {\"point\": %u, \"spot\": %u, \"directional\": %u},\n",
                    count_placed(scene, LSF_LIGHT_POINT), count_placed(scene, LSF_LIGHT_SPOT),
                    count_placed(scene, LSF_LIGHT_DIRECTIONAL));
+    lsf_string_add(out, "  \"default_light\": {\"sky\": %s, \"key\": %s},\n",
+                   scene->environment.by_default ? "true" : "false",
+                   scene->key_light.present ? "true" : "false");
     add_cameras_json(out, scene);
     add_choices_json(out, "scenes", &scene->scenes);
     add_choices_json(out, "animations", &scene->animations);
@@ -255,8 +258,12 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
     lsf_string_add(out, "lights       %u point, %u spot, %u directional\n",
                    count_placed(scene, LSF_LIGHT_POINT), count_placed(scene, LSF_LIGHT_SPOT),
                    count_placed(scene, LSF_LIGHT_DIRECTIONAL));
+    if (scene->key_light.present)
+        lsf_string_add(out, "key light    directional, added by default\n");
     const lsf_environment *environment = &scene->environment;
-    if (environment->width > 0)
+    if (environment->by_default)
+        lsf_string_add(out, "environment  a soft sky, added by default\n");
+    else if (environment->width > 0)
         lsf_string_add(out, "environment  map of %u x %u\n", environment->width,
                        environment->height);
     else if (environment->present)

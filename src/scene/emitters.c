@@ -6,6 +6,7 @@
 
 #include "base/base.h"
 #include "math/sampling.h"
+#include "scene/placed_triangle.h"
 #include "scene/texture_sample.h"
 #include "shared/brdf.h"
 
@@ -97,39 +98,6 @@ static float mean_luminance(const lsf_emitters *e, uint64_t at)
     return fmaxf(sum / MEAN_POINTS, MEAN_FLOOR * factor);
 }
 
-static void corners_of(const lsf_emitters *e, uint64_t at, const uint64_t vertices[3],
-                       double corners[3][3])
-{
-    const float *m = e->state->instances[e->instance[at]].transform;
-    for (int i = 0; i < 3; i++) {
-        const float *v = e->scene->vertices.position + 3 * vertices[i];
-        for (int row = 0; row < 3; row++)
-            corners[i][row] = (double)m[4 * row] * v[0] + (double)m[4 * row + 1] * v[1] +
-                              (double)m[4 * row + 2] * v[2] + m[4 * row + 3];
-    }
-}
-
-/* In double precision, in which the product of even the smallest edges has a direction; returns the
- * triangle's area, and its front's unit normal unless that is 0. */
-static double front_normal(const lsf_emitters *e, uint64_t at, double corners[3][3],
-                           double normal[3])
-{
-    double a[3], b[3];
-    for (int axis = 0; axis < 3; axis++) {
-        a[axis] = corners[1][axis] - corners[0][axis];
-        b[axis] = corners[2][axis] - corners[0][axis];
-    }
-    for (int axis = 0; axis < 3; axis++) {
-        int next = (axis + 1) % 3, last = (axis + 2) % 3;
-        normal[axis] = a[next] * b[last] - a[last] * b[next];
-    }
-    double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    double sign = e->state->instances[e->instance[at]].mirrored ? -1.0 : 1.0;
-    for (int axis = 0; axis < 3 && length > 0.0; axis++)
-        normal[axis] *= sign / length;
-    return 0.5 * length;
-}
-
 static void list_triangles(lsf_emitters *e, float *power)
 {
     uint64_t at = 0;
@@ -137,13 +105,11 @@ static void list_triangles(lsf_emitters *e, float *power)
         uint32_t count = triangle_count(e, i);
         float sides = count && material_of(e, i)->double_sided ? 2.0f : 1.0f;
         for (uint32_t t = 0; t < count; t++, at++) {
-            double corners[3][3], normal[3];
             e->instance[at] = i;
             e->triangle[at] = t;
-            triangle_point p = point_on(e, at, 0.0f, 0.0f);
-            corners_of(e, at, p.vertices, corners);
             e->mean[at] = mean_luminance(e, at);
-            power[at] = sides * (float)front_normal(e, at, corners, normal) * e->mean[at];
+            double area = lsf_place_triangle(e->scene, e->state, i, t).area;
+            power[at] = sides * (float)area * e->mean[at];
         }
     }
 }
@@ -187,7 +153,7 @@ float lsf_emitters_weight(const lsf_emitters *e)
 
 lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *e, const double u[2])
 {
-    double rest, corners[3][3], normal[3];
+    double rest;
     lsf_emitter_sample sample;
     uint64_t at = lsf_distribution_sample(&e->power, u[0], &rest);
     double side = 1.0;
@@ -198,15 +164,11 @@ lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *e, const double u[2])
     }
     triangle_point p = point_on(e, at, (float)rest, (float)u[1]);
     lsf_float3 radiance = emission_at(e, at, &p);
-    corners_of(e, at, p.vertices, corners);
-    front_normal(e, at, corners, normal);
-    for (int axis = 0; axis < 3; axis++) {
-        double position = 0.0;
-        for (int i = 0; i < 3; i++)
-            position += (double)p.weights[i] * corners[i][axis];
-        sample.position[axis] = (float)position;
-        sample.normal[axis] = (float)(side * normal[axis]);
-    }
+    lsf_placed_triangle placed =
+        lsf_place_triangle(e->scene, e->state, e->instance[at], e->triangle[at]);
+    lsf_placed_triangle_point(&placed, p.weights, sample.position);
+    for (int axis = 0; axis < 3; axis++)
+        sample.normal[axis] = (float)(side * placed.normal[axis]);
     lsf_f3_store(sample.radiance, radiance);
     sample.density = (float)(e->mean[at] / e->power.sum);
     sample.weight_density = lsf_f3_luminance(radiance) * lsf_emitters_weight(e);

@@ -69,6 +69,7 @@ static void add_lights(const lsf_scene *scene, lsf_requirements *r)
         r->spot_lights += type == LSF_LIGHT_SPOT;
         r->directional_lights += type == LSF_LIGHT_DIRECTIONAL;
     }
+    r->directional_lights += scene->key_light.present;
 }
 
 void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves)

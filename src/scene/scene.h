@@ -147,10 +147,18 @@ typedef struct lsf_animation_channel {
  * the top row. width == 0: uniform `radiance`. */
 typedef struct lsf_environment {
     bool present;
+    bool by_default; /* nobody gave it: the sky of default_light.c */
     float radiance[3];
     uint32_t width, height;
     float *texels; /* 3 each, linear radiance */
 } lsf_environment;
+
+/* A directional light that no node carries (default_light.c). */
+typedef struct lsf_key_light {
+    bool present;
+    float irradiance;    /* of what faces it, grey [W/m^2] */
+    double direction[3]; /* unit, the way it shines */
+} lsf_key_light;
 
 /* What a file offers to choose from, in its order. */
 typedef struct lsf_choice {
@@ -193,6 +201,7 @@ struct lsf_scene {
     lsf_camera *cameras;      /* at least 1 */
     lsf_animation_channel *channels;
     lsf_environment environment;
+    lsf_key_light key_light;
     lsf_choices scenes, animations, variants;
     uint32_t extension_count;
     lsf_extension *extensions;

@@ -155,9 +155,21 @@ static void update_light(lsf_light_state *out, const lsf_state *state, const lsf
     out->cos_outer = (float)cos(light->outer_cone);
 }
 
+/* Brought into the form of a file's light that a node carries. */
+static void update_key_light(lsf_light_state *out, const lsf_state *state, const lsf_key_light *key)
+{
+    float e = key->irradiance;
+    lsf_light light = {.type = LSF_LIGHT_DIRECTIONAL, .intensity = {e, e, e}, .range = INFINITY};
+    vec3d back = scaled((vec3d){key->direction[0], key->direction[1], key->direction[2]}, -1.0);
+    vec3d right = perpendicular(back), up = cross(back, right);
+    const double world[16] = {right.x, right.y, right.z, 0, up.x, up.y, up.z, 0,
+                              back.x,  back.y,  back.z,  0, 0,    0,    0,    1};
+    update_light(out, state, &light, world);
+}
+
 static bool update_lights(lsf_state *state, const lsf_scene *scene, const double *worlds)
 {
-    uint32_t count = 0;
+    uint32_t count = scene->key_light.present;
     for (uint32_t i = 0; i < scene->node_count; i++)
         count += scene->nodes[i].light != LSF_NONE;
     if (count != state->light_count || (count && !state->lights)) {
@@ -171,9 +183,10 @@ static bool update_lights(lsf_state *state, const lsf_scene *scene, const double
         uint32_t light = scene->nodes[i].light;
         if (light == LSF_NONE)
             continue;
-        state->lights[at].light = light;
         update_light(&state->lights[at++], state, &scene->lights[light], worlds + 16 * (size_t)i);
     }
+    if (scene->key_light.present)
+        update_key_light(&state->lights[count - 1], state, &scene->key_light);
     return true;
 }
 

@@ -27,7 +27,6 @@ typedef struct lsf_instance_state {
 
 typedef struct lsf_light_state {
     lsf_light_type type;
-    uint32_t light;             /* index into scene->lights */
     float position[3];          /* normalised space */
     float direction[3];         /* unit, the way the light shines */
     float tangent[3];           /* unit, perpendicular to direction */
@@ -49,7 +48,7 @@ typedef struct lsf_camera_state {
 typedef struct lsf_state {
     uint32_t instance_count, light_count;
     lsf_instance_state *instances; /* index as in scene->instances */
-    lsf_light_state *lights;       /* one for each node that carries a light */
+    lsf_light_state *lights;       /* one for each node that carries a light, then the key light */
     lsf_camera_state camera;
     float bounds_min[3], bounds_max[3]; /* normalised space; min > max when empty */
     double center[3], scale;

@@ -124,6 +124,10 @@ static const lsf_command_option options[] = {
     {"environment", 'e', "FILE|R,G,B", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_ENVIRONMENT,
      AT(environment), 0, 1e30, NULL, NULL,
      "light from outside: a latitude-longitude .hdr or .exr, or a uniform radiance in W/(m^2 sr)"},
+    {"default-light", 0, "WHEN", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_CHOICE,
+     AT(default_light), LSF_DEFAULT_LIGHT_AUTO, 0, "auto|always|never", "auto",
+     "when a soft sky and a key light are added: auto is where the file has no light, its emissive "
+     "materials do not light it, and there is no --environment"},
     {"diffuse-only", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG,
      AT(diffuse_only), 0, 0, NULL, NULL,
      "read every material as a diffuse one of its base colour, without normal maps"},

@@ -116,6 +116,7 @@ typedef struct lsf_settings {
     double time;                                       /* seconds */
 
     lsf_environment_setting environment;
+    int default_light; /* lsf_default_light */
     bool diffuse_only, lenient;
     const char *scene, *variant; /* NULL: not given */
     lsf_list_setting animations;

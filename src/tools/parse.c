@@ -476,6 +476,7 @@ lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings)
     params.environment_path = settings->environment.path;
     if (settings->environment.uniform.given)
         params.environment_radiance = settings->environment.uniform.value;
+    params.default_light = (lsf_default_light)settings->default_light;
     params.diffuse_only = settings->diffuse_only;
     params.lenient = settings->lenient;
     params.scene = settings->scene;

@@ -50,6 +50,7 @@ static void add_pass_options(lsf_json *json, const lsf_list_setting *defines)
 static void add_options(lsf_json *json, const lsf_settings *settings)
 {
     static const char *const backends[] = {"auto", "egl", "osmesa", "glfw"};
+    static const char *const default_lights[] = {"auto", "always", "never"};
     const lsf_vector_setting *position = &settings->camera_position;
     const lsf_vector_setting *target = &settings->camera_target;
     lsf_render_params params = lsf_settings_render_params(settings);
@@ -71,6 +72,7 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
         lsf_json_vector(json, "environment", settings->environment.uniform.value, 3);
     else
         lsf_json_string(json, "environment", settings->environment.path);
+    lsf_json_string(json, "default_light", default_lights[settings->default_light]);
     lsf_json_bool(json, "diffuse_only", settings->diffuse_only);
     lsf_json_bool(json, "lenient", settings->lenient);
     lsf_json_string(json, "scene", settings->scene);

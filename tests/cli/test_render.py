@@ -78,6 +78,23 @@ class Pictures(CommandTest):
         self.run_command("render", scene, "-o", "b.exr", "--camera", "Front", *SMALL)
         self.assertEqual(self.read("b.exr"), pictures[0])
 
+    def test_default_light(self):
+        """A dial that glows does not keep the rest of the picture dark."""
+        scene = self.scene(emissive=True, light=False)
+        done = self.run_command("render", scene, "-o", "a.exr", *SMALL[:4])
+        self.assertIn("a default sky and key light show it", done.text)
+        self.run_command("render", scene, "-o", "b.exr", "--default-light", "never", *SMALL)
+        done = self.run_command("compare", "a.exr", "b.exr", "--json")
+        measured = json.loads(done.stdout)
+        self.assertGreater(min(a - b for a, b in zip(measured["mean_test"],
+                                                     measured["mean_reference"])), 0.05)
+        lit = self.scene("lit.gltf")
+        self.run_command("render", lit, "-o", "c.exr", *SMALL)
+        self.run_command("render", lit, "-o", "d.exr", "--default-light", "never", *SMALL)
+        self.run_command("render", lit, "-o", "e.exr", "--default-light", "always", *SMALL)
+        self.assertEqual(self.read("c.exr"), self.read("d.exr"))
+        self.assertNotEqual(self.read("c.exr"), self.read("e.exr"))
+
     def test_default_scene(self):
         self.run_command("render", "-o", "a.png", *SMALL)
         self.run_command("render", os.path.join(SOURCE_ROOT, "data/scenes/interior.gltf"), "-o",
@@ -169,8 +186,8 @@ class Json(CommandTest):
         options = report["options"]
         self.assertEqual(set(options), {
             "samples", "time_limit", "camera", "camera_position", "camera_target", "fov_y", "time",
-            "exposure", "aovs", "environment", "diffuse_only", "lenient", "scene", "animations", "variant",
-            "keep_partial", "halves", "backend",
+            "exposure", "aovs", "environment", "default_light", "diffuse_only", "lenient", "scene",
+            "animations", "variant", "keep_partial", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])
         self.assertEqual(options["environment"], [1, 0.5, 0])

@@ -237,7 +237,8 @@ static void test_materials(void **state)
     assert_true(scene->requirements.emissive && scene->requirements.variable_ior &&
                 scene->requirements.transmissive && scene->requirements.refractive &&
                 scene->requirements.anisotropic);
-    assert_false(scene->environment.present); /* it emits: no neutral light is added */
+    /* It glows, but lights nothing. */
+    assert_true(scene->environment.by_default && scene->key_light.present);
     lsf_scene_destroy(scene);
 
     char *path = lsf_format("%s/material_ok.gltf", gltf_folder);
@@ -259,7 +260,8 @@ static void test_defaults(void **state)
 {
     (void)state;
     lsf_scene *scene = load("quad.glb");
-    assert_true(scene->environment.present && scene->requirements.environment);
+    assert_true(scene->environment.by_default && scene->requirements.environment);
+    assert_true(scene->key_light.present && scene->requirements.directional_lights == 1);
     assert_int_equal(scene->camera_count, 1);
     const lsf_camera *camera = &scene->cameras[0];
     assert_int_equal(camera->node, LSF_NONE);
