@@ -5,7 +5,6 @@
 #include "scene/hierarchy.h"
 #include "scene/scene.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,48 +12,14 @@
 /* Coordinates beyond this, in scene units, could overflow a double on their way to the picture. */
 #define COORDINATE_MAX 1e100
 
-/* How far back from the centre a camera that looks along -back must stand for the corner, given
- * relative to the centre, to lie inside its square field of view. */
-static double distance_for(const double corner[3], const double right[3], const double up[3],
-                           const double back[3], double tangent)
-{
-    double x = 0.0, y = 0.0, z = 0.0;
-    for (int c = 0; c < 3; c++) {
-        x += corner[c] * right[c];
-        y += corner[c] * up[c];
-        z += corner[c] * back[c];
-    }
-    return fmax(fabs(x), fabs(y)) / tangent + z;
-}
-
-/* A three-quarter view from the front (glTF assets face +z), a little from above, of the whole
- * scene in a square picture or a wider one. */
+/* A three-quarter view from the front (glTF assets face +z), a little from above, through a lens
+ * that does not exaggerate: 45 mm for a picture 24 mm high. */
 static bool add_default_camera(lsf_scene *scene)
 {
-    static const double margin = 1.05;
-    const lsf_requirements *requirements = &scene->requirements;
-    double half[3], largest = 0.0;
-    for (int c = 0; c < 3; c++) {
-        half[c] = 0.5 * (requirements->bounds_max[c] - requirements->bounds_min[c]);
-        largest = fmax(largest, half[c]);
-    }
-    if (!(largest > 0.0)) /* empty, or a point */
-        half[0] = half[1] = half[2] = 1.0;
-
-    double back[3] = {0.48, 0.36, 0.8}; /* unit */
+    static const double back[3] = {0.48, 0.36, 0.8}; /* unit */
     double right[3] = {back[2] / hypot(back[0], back[2]), 0.0, -back[0] / hypot(back[0], back[2])};
     double up[3] = {back[1] * right[2], back[2] * right[0] - back[0] * right[2],
                     -back[1] * right[0]};
-    double fov_y = 45.0 * acos(-1.0) / 180.0;
-    double distance = 0.0;
-    for (int corner = 0; corner < 8; corner++) {
-        double point[3];
-        for (int c = 0; c < 3; c++)
-            point[c] = corner & (1 << c) ? half[c] : -half[c];
-        distance = fmax(distance, distance_for(point, right, up, back, tan(0.5 * fov_y)));
-    }
-    distance *= margin;
-
     lsf_camera *camera = lsf_alloc(1, sizeof(*camera));
     if (!camera)
         return false;
@@ -63,14 +28,13 @@ static bool add_default_camera(lsf_scene *scene)
     scene->camera_count = 1;
     camera->name = strdup("default");
     camera->node = LSF_NONE;
-    camera->fov_y = (float)fov_y;
+    camera->frames_scene = true;
+    camera->fov_y = (float)(2.0 * atan(12.0 / 45.0));
     camera->x_magnification = camera->y_magnification = 1.0f;
-    camera->near_plane = fmaxf((float)(distance * 1e-3), FLT_MIN);
     for (int c = 0; c < 3; c++) {
         camera->matrix[c] = right[c];
         camera->matrix[4 + c] = up[c];
         camera->matrix[8 + c] = back[c];
-        camera->matrix[12 + c] = requirements->center[c] + distance * back[c];
     }
     camera->matrix[15] = 1.0;
     return camera->name != NULL;

@@ -125,6 +125,8 @@ typedef struct lsf_camera {
     char *name;
     uint32_t node;     /* LSF_NONE: `matrix` places it */
     double matrix[16]; /* column-major camera-to-scene, only when node is LSF_NONE */
+    bool frames_scene; /* `matrix` only turns it: it stands, and its near plane lies, where the
+                        * picture's aspect asks for (framing.h) */
     bool orthographic;
     float fov_y;       /* radians */
     float x_magnification, y_magnification; /* half width and height, scene units */

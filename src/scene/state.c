@@ -1,11 +1,13 @@
 #include "scene/state.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/base.h"
 #include "math/vector.h"
+#include "scene/framing.h"
 #include "scene/hierarchy.h"
 #include "shared/brdf.h"
 
@@ -218,6 +220,18 @@ static float farthest_depth(const lsf_state *state, vec3d origin, vec3d forward)
     return (float)far;
 }
 
+/* The camera as placed for a picture of that aspect. A field of view that is given zooms from
+ * there. */
+static bool frame_scene(const lsf_scene *scene, lsf_camera *camera, float aspect)
+{
+    /* Of the picture's width and height, what the scene may fill. */
+    static const double filled = 0.95;
+    double tangent = filled * tan(0.5 * (double)camera->fov_y);
+    double distance = lsf_frame_scene(scene, tangent * (double)aspect, tangent, camera->matrix);
+    camera->near_plane = fmaxf((float)(1e-3 * distance), FLT_MIN);
+    return distance >= 0.0;
+}
+
 static void update_camera(lsf_state *state, const lsf_camera *camera, const double *world,
                           const lsf_view_params *params)
 {
@@ -285,9 +299,11 @@ bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_p
     update_bounds(state);
     if (!update_lights(state, scene, worlds))
         goto no_memory;
-    const lsf_camera *camera = &scene->cameras[camera_index];
-    update_camera(state, camera,
-                  camera->node == LSF_NONE ? camera->matrix : worlds + 16 * (size_t)camera->node,
+    lsf_camera camera = scene->cameras[camera_index];
+    if (camera.frames_scene && !frame_scene(scene, &camera, params->aspect))
+        goto no_memory;
+    update_camera(state, &camera,
+                  camera.node == LSF_NONE ? camera.matrix : worlds + 16 * (size_t)camera.node,
                   params);
     free(worlds);
     return true;
