@@ -10,7 +10,10 @@
  *   y  anisotropy strength unorm16 | angle of its tangent in the shading normal's
  *      orthonormal_basis, unorm16 of a full turn << 16
  *   z  transmission unorm8 | seen from the front << 8 | surface of a medium << 9 | material << 10
- * Switch LSF_TRANSMISSION. */
+ * gbuffer.tint RGBA16F, only where light goes straight through surfaces: what is left of the light on its way to
+ *   the eye, over the probability of seeing this surface (lib/straight.glsl)
+ * gbuffer.absorption RGBA32F, only with media: optical depth on that way
+ * Switches LSF_TRANSMISSION, LSF_STRAIGHT. */
 #ifndef LSF_LIB_GBUFFER
 #define LSF_LIB_GBUFFER
 
@@ -19,6 +22,9 @@
 
 #ifndef LSF_TRANSMISSION
 #define LSF_TRANSMISSION 0
+#endif
+#ifndef LSF_STRAIGHT
+#define LSF_STRAIGHT 0
 #endif
 
 struct surface {
@@ -50,7 +56,7 @@ void transmission_turn(inout surface s, bool front)
 {
     s.front = front;
     s.eta = 1.0;
-    if (s.volume) {
+    if (s.volume && LSF_STRAIGHT == 0) {
         /* A surface that reflects all (f0 = 1) transmits nothing, by any index. */
         float root = min(sqrt(s.f0), 0.99);
         s.eta = lsf_relative_ior((1.0 + root) / (1.0 - root), front);
@@ -58,6 +64,15 @@ void transmission_turn(inout surface s, bool front)
         if (s.eta == 1.0)
             s.roughness = s.anisotropy = 0.0;
     }
+}
+
+void transmission_none(inout surface s)
+{
+    s.transmission = 0.0;
+    s.eta = 1.0;
+    s.front = true;
+    s.volume = false;
+    s.material = 0u;
 }
 
 void transmission_unpack(uint bits, inout surface s)

@@ -253,6 +253,9 @@ surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
     s.anisotropy_turn = 0.0;
     s.unlit = false;
     emission = vec3(0.0);
+#if LSF_TRANSMISSION
+    transmission_none(s);
+#endif
 #if LSF_BUNDLE_ANISOTROPY
     uvec2 gloss = bundle_gloss[node];
     bundle_gloss_unpack(gloss.x, s);

@@ -1,5 +1,6 @@
-/* Visibility from the light's map. Switches LSF_SHADOW_PCF, the side of a filter or 0, and
- * LSF_SHADOW_HEMISPHERE for the map of a VPL (see lib/hemisphere.glsl).
+/* Visibility from the light's map. Switches LSF_SHADOW_PCF, the side of a filter or 0,
+ * LSF_SHADOW_HEMISPHERE for the map of a VPL (see lib/hemisphere.glsl), and LSF_SHADOW_TINT where light may come
+ * through thin walls.
  *
  * A texel knows the depth of the surface at its centre; the receiver lies elsewhere in the texel.
  * Depth is affine over a plane, so either surface can be continued to the other's place:
@@ -22,6 +23,13 @@ layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform sampler2DArray shadow_depth;
 #endif
 #if !LSF_SHADOW_PCF && !LSF_SHADOW_HEMISPHERE
 layout(binding = LSF_UNIT_SHADOW_GRADIENT) uniform sampler2DArray shadow_gradient;
+#endif
+
+#ifndef LSF_SHADOW_TINT
+#define LSF_SHADOW_TINT 0
+#endif
+#if LSF_SHADOW_TINT
+layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2DArray shadow_tint_texture;
 #endif
 
 /* Rounding of positions (2^-24 of the scene) and of interpolated depth, relative to the depth of
@@ -172,4 +180,22 @@ float shadow_visibility(vec3 position, vec3 normal)
 }
 
 #endif
+
+/* What thin walls leave of the light that comes to the receiver, where it is seen. `transmits`: the receiver lets
+ * light through itself. Where its map does not show it, it has let light pass there, which has not passed it
+ * on the way to it. */
+vec3 shadow_tint(vec3 position, vec3 normal, bool transmits)
+{
+#if LSF_SHADOW_TINT
+    shadow_receiver r = shadow_project(position, normal);
+    float shown = texelFetch(shadow_depth, ivec3(r.at, r.face), 0).r;
+    float here = r.depth + dot(r.gradient, vec2(r.at) + 0.5 - r.texel);
+    if (transmits && shown < here - shadow_tolerance(r))
+        return vec3(1.0);
+    return texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;
+#else
+    return vec3(1.0);
+#endif
+}
+
 #endif

@@ -39,6 +39,9 @@ surface vpl_surface(lsf_vpl_data vpl)
     s.anisotropy = vpl.gloss.z;
     s.anisotropy_turn = vpl.gloss.w;
     s.unlit = false;
+#if LSF_TRANSMISSION
+    transmission_none(s);
+#endif
     return s;
 }
 

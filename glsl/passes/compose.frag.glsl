@@ -26,6 +26,12 @@ layout(binding = 7) uniform sampler2D direct_irradiance_texture;
 layout(binding = 8) uniform sampler2D direct_specular_texture;
 #endif
 #endif
+#if LSF_STRAIGHT
+layout(binding = 10) uniform sampler2D tint_texture;
+#if LSF_ABSORPTION
+layout(binding = 11) uniform sampler2D absorption_texture;
+#endif
+#endif
 layout(location = 0) out vec4 radiance_out;
 #if LSF_SEEN
 layout(location = LSF_SEEN) out vec4 seen_out; /* emission and environment alone */
@@ -37,12 +43,30 @@ layout(location = LSF_INDIRECT_DIFFUSE) out vec4 indirect_diffuse_out;
 layout(location = LSF_ALL_DIRECT) out vec4 direct_out; /* of every kind of light */
 #endif
 
+#if LSF_INDIRECT_SPECULAR
+layout(location = LSF_INDIRECT_SPECULAR) out vec4 indirect_specular_out;
+#endif
+
+/* What is left of light on its way from the surface in the pixel. */
+vec3 left_on_the_way(ivec2 pixel)
+{
+    vec3 tint = vec3(1.0);
+#if LSF_STRAIGHT
+    tint = texelFetch(tint_texture, pixel, 0).rgb;
+#if LSF_ABSORPTION
+    tint *= exp(-max(texelFetch(absorption_texture, pixel, 0).rgb, 0.0));
+#endif
+#endif
+    return tint;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(depth_texture, pixel, 0).r;
     vec3 seen = vec3(0.0), direct = vec3(0.0), indirect = vec3(0.0);
     float lost = 0.0; /* luminance that a bound took away */
+    vec3 left = left_on_the_way(pixel);
 #if LSF_EMISSION
     seen += texelFetch(emission_texture, pixel, 0).rgb;
 #endif
@@ -66,10 +90,13 @@ void main()
     indirect += reflected * irradiance.rgb;
     lost += dot(reflected, vec3(0.2126, 0.7152, 0.0722)) * irradiance.a;
 #if LSF_INDIRECT_DIFFUSE
-    indirect_diffuse_out = vec4(indirect, 1.0);
+    indirect_diffuse_out = vec4(indirect * left, 1.0);
 #endif
 #if LSF_SPECULAR
     vec4 specular = texelFetch(specular_texture, pixel, 0);
+#if LSF_INDIRECT_SPECULAR
+    indirect_specular_out = vec4(specular.rgb * left, 1.0);
+#endif
     indirect += specular.rgb;
     lost += specular.a;
 #endif
@@ -81,10 +108,13 @@ void main()
 #endif
 #endif
 #if LSF_SEEN
-    seen_out = vec4(seen, 1.0);
+    seen_out = vec4(seen * left, 1.0);
 #endif
 #if LSF_ALL_DIRECT
-    direct_out = vec4(direct, 1.0);
+    direct_out = vec4(direct * left, 1.0);
 #endif
-    radiance_out = vec4(seen + direct + indirect, lost);
+#if LSF_STRAIGHT
+    lost *= dot(left, vec3(0.2126, 0.7152, 0.0722));
+#endif
+    radiance_out = vec4((seen + direct + indirect) * left, lost);
 }

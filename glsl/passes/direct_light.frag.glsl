@@ -33,6 +33,9 @@ void main()
     float visibility = shadow_visibility(position, s.geometric_normal);
     if (visibility == 0.0)
         return;
+#if LSF_SHADOW_TINT
+    irradiance *= shadow_tint(position, s.geometric_normal, s.transmission > 0.0);
+#endif
     brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
     radiance_out.rgb = brdf_sum(s, f) * irradiance * (cosine * visibility);
 }

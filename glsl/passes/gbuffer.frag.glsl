@@ -1,4 +1,6 @@
+#include "lib/chance.glsl"
 #include "lib/material.glsl"
+#include "lib/straight.glsl"
 #include "lib/view.glsl"
 
 layout(location = 0) out uvec4 surface_out;
@@ -11,6 +13,9 @@ layout(location = LSF_EMISSION_TARGET) out vec4 emission_out;
 #if LSF_MOTION
 in vec4 vertex_clip, vertex_previous_clip;
 layout(location = LSF_MOTION_TARGET) out vec2 motion_out;
+#endif
+#if LSF_STRAIGHT
+layout(location = LSF_TINT_TARGET) out vec4 tint_out;
 #endif
 
 void main()
@@ -25,6 +30,12 @@ void main()
     bool front;
     if (!material_evaluate(to_viewer, s, emission, front))
         discard;
+#if LSF_STRAIGHT
+    float passes = straight_chance(straight_transmittance(s, to_viewer));
+    if (chance_number(uvec3(floatBitsToUint(gl_FragCoord.z), uvec2(gl_FragCoord.xy))) < passes)
+        discard;
+    tint_out = vec4(vec3(1.0 / (1.0 - passes)), 1.0);
+#endif
 #if LSF_GLOSS
     gloss_out = gloss_pack(s);
 #endif

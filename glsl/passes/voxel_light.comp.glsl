@@ -35,6 +35,9 @@ vec3 reflected(ivec3 cell, vec3 n, out bool front)
     vec3 side = front ? n : -n;
     float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
     vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
+#if LSF_SHADOW_TINT
+    irradiance *= shadow_tint(position + LIFT * grid.origin.w * side, side, false);
+#endif
 #if LSF_TRANSMISSION
     albedo *= 1.0 - voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
 #endif

@@ -53,10 +53,12 @@ struct lsf_material_data {
 #define LSF_UNIT_ANISOTROPY 4
 #define LSF_UNIT_ENVIRONMENT 5
 #define LSF_UNIT_TRANSMISSION 13
+#define LSF_UNIT_SEEN_DEPTH 14 /* depth of what is seen, for surfaces before it */
 
 /* Texture units of the light in turn. */
 #define LSF_UNIT_SHADOW_DEPTH 6
 #define LSF_UNIT_SHADOW_GRADIENT 7
+#define LSF_UNIT_SHADOW_TINT 12 /* see lib/shadow.glsl */
 #define LSF_UNIT_EMISSION 8   /* see lib/emission_pdf.glsl */
 #define LSF_UNIT_BUNDLE_PDF 9 /* density of ray-bundles by direction */
 
@@ -78,6 +80,8 @@ struct lsf_material_data {
 #define LSF_LOCATION_CONE_TURN 20
 #define LSF_LOCATION_CONE_SET 21 /* LSF_CONE_MAX of them */
 #define LSF_CONE_MAX 32
+/* Location of what decides by chance; see lib/chance.glsl. */
+#define LSF_LOCATION_CHANCE 60
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

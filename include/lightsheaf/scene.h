@@ -64,6 +64,7 @@ typedef struct lsf_requirements {
     bool anisotropic;            /* KHR_materials_anisotropy with strength > 0 */
     bool transmissive;           /* KHR_materials_transmission with factor > 0 */
     bool refractive;             /* ... on the surface of a medium: KHR_materials_volume */
+    bool thin_walls;             /* ... on one that does not bound a medium */
     uint32_t bounces;            /* of light that show what its materials do: 1, and 4 more where they
                                   * transmit, for a hollow vessel's walls: two walls, two sides each */
     bool variable_ior;           /* some index of refraction other than 1.5 */

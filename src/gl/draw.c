@@ -54,6 +54,13 @@ void lsf_blend_add(uint32_t attachments)
     glBlendFunc(GL_ONE, GL_ONE);
 }
 
+void lsf_blend_multiply(uint32_t attachment)
+{
+    glEnablei(GL_BLEND, attachment);
+    glBlendEquationi(attachment, GL_FUNC_ADD);
+    glBlendFunci(attachment, GL_ZERO, GL_SRC_COLOR);
+}
+
 void lsf_draw_fullscreen(lsf_context *context)
 {
     lsf_draw_vertices(context, 3);

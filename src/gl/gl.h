@@ -103,6 +103,8 @@ void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program);
 
 /* What the program gives for the first attachments is added to them. */
 void lsf_blend_add(uint32_t attachments);
+/* One attachment is multiplied by it. */
+void lsf_blend_multiply(uint32_t attachment);
 
 /* A texture that is read as itself says (lsf_texture_create), whatever sampler its unit had.
  * Textures of materials come with samplers, and are bound by lsf_scene_gpu_bind_material alone. */

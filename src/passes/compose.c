@@ -30,6 +30,9 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
+    lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight,
+                        "light comes through materials that transmit");
+    lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
     lsf_scene_gpu_environment_switches(plan, "an environment is seen");
     lsf_plan_texture_add(plan, "compose.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the iteration's picture");
@@ -39,8 +42,13 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     plan_layer(plan, use->indirect && (plan->aovs & LSF_AOV_INDIRECT_DIFFUSE),
                "LSF_INDIRECT_DIFFUSE", "compose.indirect_diffuse",
                "the indirect_diffuse layer is asked for", &target);
-    plan_layer(plan, use->split_direct && (plan->aovs & LSF_AOV_DIRECT), "LSF_ALL_DIRECT",
-               "compose.direct", "the direct layer is asked for", &target);
+    plan_layer(plan, (use->split_direct || plan->straight) && (plan->aovs & LSF_AOV_DIRECT),
+               "LSF_ALL_DIRECT", "compose.direct", "the direct layer is asked for", &target);
+    plan_layer(plan,
+               plan->straight && use->indirect && r->specular &&
+                   (plan->aovs & LSF_AOV_INDIRECT_SPECULAR),
+               "LSF_INDIRECT_SPECULAR", "compose.indirect_specular",
+               "the indirect_specular layer is asked for, behind what transmits", &target);
 }
 
 bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan *plan,
@@ -52,13 +60,15 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
         !lsf_plan_create_texture(plan, context, "compose.seen", &pass->seen, error) ||
         !lsf_plan_create_texture(plan, context, "compose.indirect_diffuse", &pass->indirect_diffuse,
                                  error) ||
-        !lsf_plan_create_texture(plan, context, "compose.direct", &pass->direct, error))
+        !lsf_plan_create_texture(plan, context, "compose.direct", &pass->direct, error) ||
+        !lsf_plan_create_texture(plan, context, "compose.indirect_specular",
+                                 &pass->indirect_specular, error))
         return false;
-    lsf_framebuffer_desc desc = {
-        .label = "compose",
-        .color_count = 4,
-        .colors = {pass->radiance, pass->seen, pass->indirect_diffuse, pass->direct},
-        .layer = -1};
+    lsf_framebuffer_desc desc = {.label = "compose",
+                                 .color_count = 5,
+                                 .colors = {pass->radiance, pass->seen, pass->indirect_diffuse,
+                                            pass->direct, pass->indirect_specular},
+                                 .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "compose", files, error);
     pass->timer = lsf_timer_create(context, "compose", error);
@@ -80,6 +90,8 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     lsf_bind_texture(7, inputs->direct_irradiance);
     lsf_bind_texture(8, inputs->direct_specular);
     lsf_bind_texture(9, inputs->gloss);
+    lsf_bind_texture(10, inputs->tint);
+    lsf_bind_texture(11, inputs->absorption);
     lsf_scene_gpu_bind_environment(iteration->scene);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
@@ -94,6 +106,7 @@ void lsf_compose_destroy(lsf_compose *pass)
     lsf_texture_destroy(pass->context, &pass->seen);
     lsf_texture_destroy(pass->context, &pass->indirect_diffuse);
     lsf_texture_destroy(pass->context, &pass->direct);
+    lsf_texture_destroy(pass->context, &pass->indirect_specular);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

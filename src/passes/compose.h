@@ -10,6 +10,7 @@ typedef struct lsf_compose_inputs {
     GLuint surface, gloss;                     /* of the G-buffer; where there is irradiance */
     GLuint irradiance, specular;               /* RGBA32F; 0: none */
     GLuint direct_irradiance, direct_specular; /* the same of direct light; 0: none */
+    GLuint tint, absorption;                   /* of the G-buffer; 0: light loses nothing */
 } lsf_compose_inputs;
 
 /* What there is to add up. */
@@ -26,6 +27,7 @@ typedef struct lsf_compose {
     GLuint seen;             /* emission and environment alone */
     GLuint indirect_diffuse; /* irradiance reflected */
     GLuint direct;           /* all kinds of direct light */
+    GLuint indirect_specular; /* tinted */
     GLuint framebuffer, program;
     lsf_timer *timer;
 } lsf_compose;

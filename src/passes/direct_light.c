@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "plan/light_map.h"
+#include "plan/light_walls.h"
 #include "shared/scene_data.h"
 
 void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
@@ -17,7 +18,10 @@ void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
                         "some material is anisotropic");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
+    lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_light_switches(plan);
+    lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
+                        "light passes thin walls");
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf ? 4 : 0, "shadow.filter");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the sum over lights");
@@ -56,6 +60,7 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_bind_texture(2, inputs->gloss);
     lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
     lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
+    lsf_bind_texture(LSF_UNIT_SHADOW_TINT, inputs->shadow_tint);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

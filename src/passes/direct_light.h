@@ -6,7 +6,8 @@
 
 typedef struct lsf_direct_light_inputs {
     GLuint depth, surface, gloss;         /* of the G-buffer */
-    GLuint shadow_depth, shadow_gradient; /* of the light in turn, whose buffer is bound */
+    GLuint shadow_depth, shadow_gradient,
+        shadow_tint; /* of the light in turn, whose buffer is bound */
 } lsf_direct_light_inputs;
 
 typedef struct lsf_direct_light {

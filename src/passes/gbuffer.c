@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "plan/purpose.h"
 #include "plan/texture_upload.h"
+#include "shared/scene_data.h"
 
 const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
     {"gbuffer.texture_lod_bias", LSF_OPTION_FLOAT, offsetof(lsf_gbuffer_params, texture_lod_bias),
@@ -33,6 +35,24 @@ static void plan_switches(lsf_plan *plan)
     if (motion)
         lsf_plan_switch_add(plan, "LSF_MOTION_TARGET", target++,
                             "its colour attachment is numbered");
+    if (plan->straight) {
+        lsf_plan_switch_add(plan, "LSF_TINT_TARGET", target++, "its colour attachment is numbered");
+        lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->requirements.refractive,
+                            "there are media");
+    }
+}
+
+/* What light loses and takes on between the surface that is seen and the eye. */
+static void plan_way(lsf_plan *plan)
+{
+    uint32_t w = plan->width, h = plan->height;
+    if (!plan->straight)
+        return;
+    lsf_plan_texture_add(plan, "gbuffer.tint", GL_RGBA16F, w, h,
+                         "light comes through materials that transmit");
+    if (plan->requirements.refractive)
+        lsf_plan_texture_add(plan, "gbuffer.absorption", GL_RGBA32F, w, h,
+                             "optical depth of media");
 }
 
 void lsf_gbuffer_plan(lsf_plan *plan)
@@ -65,7 +85,28 @@ void lsf_gbuffer_plan(lsf_plan *plan)
         lsf_plan_texture_add(plan, "gbuffer.motion", GL_RG32F, w, h, "motion is asked for");
     else
         lsf_plan_omit(plan, "gbuffer.motion", "nothing reads it");
+    plan_way(plan);
     plan_switches(plan);
+}
+
+static bool create_way(lsf_gbuffer *pass, const lsf_plan *plan, lsf_error *error)
+{
+    static const char *const files[5] = {"passes/gbuffer.vert.glsl",
+                                         "passes/gbuffer_tint.frag.glsl"};
+    lsf_gbuffer_outputs *out = &pass->outputs;
+    if (!lsf_plan_create_texture(plan, pass->context, "gbuffer.tint", &out->tint, error) ||
+        !lsf_plan_create_texture(plan, pass->context, "gbuffer.absorption", &out->absorption,
+                                 error))
+        return false;
+    if (!out->tint)
+        return true;
+    lsf_framebuffer_desc desc = {.label = "gbuffer.tint",
+                                 .color_count = 2,
+                                 .colors = {out->tint, out->absorption},
+                                 .layer = -1};
+    pass->tint_framebuffer = lsf_framebuffer_create(pass->context, &desc, error);
+    pass->tint_program = lsf_plan_program(plan, pass->context, "gbuffer", files, error);
+    return pass->tint_framebuffer && pass->tint_program;
 }
 
 bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan *plan,
@@ -79,13 +120,15 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
         !lsf_plan_create_texture(plan, context, "gbuffer.surface", &out->surface, error) ||
         !lsf_plan_create_texture(plan, context, "gbuffer.gloss", &out->gloss, error) ||
         !lsf_plan_create_texture(plan, context, "gbuffer.emission", &out->emission, error) ||
-        !lsf_plan_create_texture(plan, context, "gbuffer.motion", &out->motion, error))
+        !lsf_plan_create_texture(plan, context, "gbuffer.motion", &out->motion, error) ||
+        !create_way(pass, plan, error))
         return false;
-    lsf_framebuffer_desc desc = {.label = "gbuffer",
-                                 .color_count = 4,
-                                 .colors = {out->surface, out->gloss, out->emission, out->motion},
-                                 .depth = out->depth,
-                                 .layer = -1};
+    lsf_framebuffer_desc desc = {
+        .label = "gbuffer",
+        .color_count = 5,
+        .colors = {out->surface, out->gloss, out->emission, out->motion, out->tint},
+        .depth = out->depth,
+        .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "gbuffer", files, error);
     pass->timer = lsf_timer_create(context, "gbuffer", error);
@@ -97,10 +140,26 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
     return pass->framebuffer && pass->program && pass->timer;
 }
 
+/* Draws once more what transmits: all that lies before the seen surface has let light pass. */
+static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_draw_region *region)
+{
+    static const GLfloat zero[4] = {0};
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->tint_framebuffer);
+    lsf_begin_surfaces(iteration->plan->width, iteration->plan->height, pass->tint_program);
+    glDisable(GL_DEPTH_TEST);
+    if (pass->outputs.absorption)
+        glClearNamedFramebufferfv(pass->tint_framebuffer, GL_COLOR, 1, zero);
+    lsf_blend_add(pass->outputs.absorption ? 2 : 1);
+    glBlendFunci(0, GL_ZERO, GL_SRC_COLOR);
+    lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, pass->outputs.depth);
+    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_TRANSMISSIVE, region,
+                       pass->counts);
+}
+
 void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
 {
     static const GLuint zero_uint[4] = {0};
-    static const GLfloat zero[4] = {0};
+    static const GLfloat zero[4] = {0}, one[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     lsf_timer_begin(pass->timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
     lsf_begin_surfaces(iteration->plan->width, iteration->plan->height, pass->program);
@@ -113,9 +172,15 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
     if (pass->outputs.motion)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
+    if (pass->outputs.tint) {
+        glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, one);
+        lsf_iteration_set_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
+    }
     lsf_draw_region region;
     lsf_iteration_region(iteration, &region);
     lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region, pass->counts);
+    if (pass->outputs.tint)
+        tint(pass, iteration, &region);
     lsf_timer_end(pass->timer);
 }
 
@@ -124,8 +189,10 @@ void lsf_gbuffer_destroy(lsf_gbuffer *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    GLuint *textures[] = {&pass->outputs.depth, &pass->outputs.surface, &pass->outputs.gloss,
-                          &pass->outputs.emission, &pass->outputs.motion};
+    lsf_framebuffer_destroy(pass->context, &pass->tint_framebuffer);
+    GLuint *textures[] = {&pass->outputs.depth,     &pass->outputs.surface, &pass->outputs.gloss,
+                          &pass->outputs.emission,  &pass->outputs.motion,  &pass->outputs.tint,
+                          &pass->outputs.absorption};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);
     lsf_timer_destroy(pass->timer);

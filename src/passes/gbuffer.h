@@ -23,12 +23,14 @@ typedef struct lsf_gbuffer_outputs {
     GLuint gloss;    /* R32UI or RG32UI */
     GLuint emission; /* RGBA32F, radiance */
     GLuint motion;   /* RG32F, pixels */
+    GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye */
 } lsf_gbuffer_outputs;
 
 typedef struct lsf_gbuffer {
     lsf_context *context;
     lsf_gbuffer_outputs outputs;
     GLuint framebuffer, program;
+    GLuint tint_framebuffer, tint_program; /* 0: nothing transmits */
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;
 } lsf_gbuffer;

@@ -52,6 +52,11 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
         lsf_plan_texture_desc_add(plan, full_name, &desc, "the plane of each texel's surface");
     else
         lsf_plan_omit(plan, full_name, "shadow.filter is pcf");
+    if (!lsf_light_walls_needed(plan))
+        return;
+    snprintf(full_name, sizeof full_name, "shadow_map.%s_tint", name);
+    desc.internal_format = LSF_LIGHT_TINT_FORMAT;
+    lsf_plan_texture_desc_add(plan, full_name, &desc, "light passes thin walls");
 }
 
 void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
@@ -78,6 +83,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     }
     lsf_plan_buffer_add(plan, "shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
+    lsf_light_walls_plan(plan, "shadow_map_walls", params->filter == LSF_SHADOW_FILTER_NONE);
 }
 
 void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *params,
@@ -94,16 +100,18 @@ void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *para
 static bool create_target(lsf_shadow_map_target *target, lsf_context *context, const lsf_plan *plan,
                           const char *name, lsf_error *error)
 {
-    char depth_name[64], gradient_name[64];
+    char depth_name[64], gradient_name[64], tint_name[64];
     snprintf(depth_name, sizeof depth_name, "shadow_map.%s_depth", name);
     snprintf(gradient_name, sizeof gradient_name, "shadow_map.%s_gradient", name);
+    snprintf(tint_name, sizeof tint_name, "shadow_map.%s_tint", name);
     const lsf_plan_resource *resource = lsf_plan_find(plan, depth_name);
     if (!resource)
         return true;
     target->faces = resource->texture.depth;
     target->resolution = resource->texture.width;
     if (!lsf_plan_create_texture(plan, context, depth_name, &target->depth, error) ||
-        !lsf_plan_create_texture(plan, context, gradient_name, &target->gradient, error))
+        !lsf_plan_create_texture(plan, context, gradient_name, &target->gradient, error) ||
+        !lsf_plan_create_texture(plan, context, tint_name, &target->tint, error))
         return false;
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_framebuffer_desc desc = {.label = depth_name,
@@ -113,6 +121,11 @@ static bool create_target(lsf_shadow_map_target *target, lsf_context *context, c
                                      .layer = (int32_t)face};
         target->framebuffers[face] = lsf_framebuffer_create(context, &desc, error);
         if (!target->framebuffers[face])
+            return false;
+        desc = (lsf_framebuffer_desc){
+            .label = tint_name, .color_count = 1, .colors = {target->tint}, .layer = (int32_t)face};
+        if (target->tint &&
+            !(target->tint_framebuffers[face] = lsf_framebuffer_create(context, &desc, error)))
             return false;
     }
     return true;
@@ -134,7 +147,8 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
         return false;
     pass->program = lsf_plan_program(plan, context, "shadow_map", files, error);
     pass->timer = lsf_timer_create(context, "shadow_map", error);
-    return pass->program && pass->timer;
+    return pass->program && pass->timer &&
+           lsf_light_walls_create(&pass->walls, context, plan, "shadow_map_walls", true, error);
 }
 
 static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
@@ -147,18 +161,26 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
     lsf_light_map_project(data, iteration, light_index, &layout);
     glNamedBufferSubData(pass->outputs.light_buffer, 0, sizeof *data, data);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, pass->outputs.light_buffer);
-    lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
         lsf_light_map_region(data, face, &region);
+        lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
         glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[face]);
         glClearNamedFramebufferfv(target->framebuffers[face], GL_DEPTH, 0, zero);
         glUniform1i(0, (GLint)face);
-        lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POSITIONS, &region,
-                           pass->counts);
+        lsf_scene_gpu_draw(iteration->scene, iteration->state,
+                           target->tint ? LSF_DRAW_POSITIONS_BUT_WALLS : LSF_DRAW_POSITIONS,
+                           &region, pass->counts);
+        if (!target->tint)
+            continue;
+        lsf_light_walls_draw(&pass->walls, iteration, (GLint)face, LSF_PURPOSE_STRAIGHT_SHADOW_MAP,
+                             light_index, &region, pass->counts);
+        lsf_light_walls_tint(&pass->walls, iteration, target->tint_framebuffers[face],
+                             target->resolution, (GLint)face, target->depth, &region, pass->counts);
     }
     pass->outputs.depth = target->depth;
     pass->outputs.gradient = target->gradient;
+    pass->outputs.tint = target->tint;
     lsf_timer_end(pass->timer);
 }
 
@@ -183,8 +205,11 @@ void lsf_shadow_map_run_scene(lsf_shadow_map *pass, const lsf_iteration *iterati
 
 static void destroy_target(lsf_context *context, lsf_shadow_map_target *target)
 {
-    for (uint32_t face = 0; face < target->faces; face++)
+    for (uint32_t face = 0; face < target->faces; face++) {
         lsf_framebuffer_destroy(context, &target->framebuffers[face]);
+        lsf_framebuffer_destroy(context, &target->tint_framebuffers[face]);
+    }
+    lsf_texture_destroy(context, &target->tint);
     lsf_texture_destroy(context, &target->depth);
     lsf_texture_destroy(context, &target->gradient);
 }

@@ -3,6 +3,7 @@
 #define LSF_PASSES_SHADOW_MAP_H
 
 #include "plan/light_map.h"
+#include "plan/light_walls.h"
 #include "plan/option.h"
 
 typedef enum lsf_shadow_filter {
@@ -29,14 +30,15 @@ typedef struct lsf_shadow_map_outputs {
     GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
     GLuint gradient;     /* RG16F: depth's change per texel along x and y, relative to the
                           * depth in perspective maps; 0 (the name) with pcf */
+    GLuint tint;         /* RGB10_A2: of light that passes thin walls; 0: there are none */
     GLuint light_buffer; /* struct lsf_light_data */
     struct lsf_light_data light;
 } lsf_shadow_map_outputs;
 
 /* One set of textures for maps of the same shape; lights take turns. */
 typedef struct lsf_shadow_map_target {
-    GLuint depth, gradient;
-    GLuint framebuffers[6];
+    GLuint depth, gradient, tint;
+    GLuint framebuffers[6], tint_framebuffers[6];
     uint32_t faces, resolution;
 } lsf_shadow_map_target;
 
@@ -47,6 +49,7 @@ typedef struct lsf_shadow_map {
     lsf_shadow_map_target
         scene; /* of directional lights, for points that the camera does not see */
     GLuint program;
+    lsf_light_walls walls;
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;
 } lsf_shadow_map;

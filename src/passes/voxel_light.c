@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "plan/light_map.h"
+#include "plan/light_walls.h"
 #include "shared/scene_data.h"
 
 /* Storage buffer beside LSF_BINDING_MATERIALS. */
@@ -41,6 +42,8 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
                             "some material emits or is unlit");
         lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                             "light passes materials that transmit");
+        lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
+                            "light passes thin walls");
         lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf ? 2 : 0,
                             "shadow.filter; texels are small beside voxels");
         lsf_light_switches(plan);
@@ -115,6 +118,7 @@ void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *in
     bind_voxels(inputs);
     lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, map->depth);
     lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, map->gradient);
+    lsf_bind_texture(LSF_UNIT_SHADOW_TINT, map->tint);
     dispatch(pass, pass->written ? pass->add_program : pass->first_program, inputs->bricks);
     lsf_timer_end(pass->timer);
     pass->written = true;

@@ -14,7 +14,7 @@ typedef struct lsf_voxel_light_inputs {
 
 /* A light's map as of shadow_map; the light must be bound as the light in turn. */
 typedef struct lsf_voxel_light_map {
-    GLuint depth, gradient;
+    GLuint depth, gradient, tint;
 } lsf_voxel_light_map;
 
 typedef struct lsf_voxel_light_use {

@@ -110,6 +110,12 @@ void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32
     bits[1] = lsf_hash(seed, 2 * (uint64_t)index + 1);
 }
 
+void lsf_iteration_set_chance(const lsf_iteration *iteration, uint32_t purpose, uint32_t map)
+{
+    glUniform2ui(LSF_LOCATION_CHANCE, lsf_hash(lsf_iteration_seed(iteration, purpose), map),
+                 iteration->index);
+}
+
 uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose)
 {
     return lsf_hash(iteration->seed, purpose);

@@ -46,6 +46,10 @@ void lsf_iteration_region(const lsf_iteration *iteration, lsf_draw_region *regio
 void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32_t purpose,
                           uint32_t bits[2]);
 
+/* For lib/chance.glsl in the program in use: numbers of `purpose`'s own, which `map` tells apart
+ * among those of one purpose. */
+void lsf_iteration_set_chance(const lsf_iteration *iteration, uint32_t purpose, uint32_t map);
+
 /* A seed of its own for each use of random numbers, named by `purpose`. */
 uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose);
 

@@ -45,8 +45,8 @@ struct lsf_plan {
     lsf_requirements requirements;
     uint32_t width, height, samples, bounces, aovs;
     bool orthographic;
-    bool transmission;   /* the technique lets light through materials that transmit, and there are
-                            some */
+    bool transmission; /* there are materials that transmit light */
+    bool straight;     /* ... and it goes straight through them, for the technique cannot refract */
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
     bool failed;         /* memory ran out while it was filled */
     lsf_plan_pass *passes;

@@ -20,6 +20,10 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_CONE_TURN,
     LSF_PURPOSE_CONE_ELEVATION,
     LSF_PURPOSE_VOXEL_EMITTER,
+    /* Whether surfaces that transmit are there; see lib/straight.glsl. */
+    LSF_PURPOSE_STRAIGHT_PIXEL,
+    LSF_PURPOSE_STRAIGHT_SHADOW_MAP,            /* one for each light */
+    LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP, /* the same */
 } lsf_purpose;
 
 #endif

@@ -81,6 +81,7 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         {"LSF_ANISOTROPY", gloss && r->anisotropic, "some material is anisotropic"},
         {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured, "some anisotropy is a texture"},
         {"LSF_TRANSMISSION", plan->transmission, "light passes materials that transmit"},
+        {"LSF_STRAIGHT", plan->straight, "it goes straight on"},
         {"LSF_TRANSMISSION_TEXTURE", plan->transmission && r->transmission_textured,
          "some transmission is a texture"},
         {"LSF_EMISSION", emission, "some material emits or is unlit"},
@@ -383,7 +384,8 @@ static void bind_slot(const lsf_scene_gpu *gpu, GLuint unit, const lsf_texture_s
 
 static bool shades(lsf_draw_mode mode)
 {
-    return mode == LSF_DRAW_SHADING || mode == LSF_DRAW_POINTWISE;
+    return mode == LSF_DRAW_SHADING || mode == LSF_DRAW_POINTWISE ||
+           mode == LSF_DRAW_TRANSMISSIVE || mode == LSF_DRAW_WALLS;
 }
 
 static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material,
@@ -402,6 +404,22 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
         bind_slot(gpu, LSF_UNIT_TRANSMISSION, &material->transmission_texture, point);
 }
 
+static bool takes_part(const lsf_material *material, lsf_draw_mode mode)
+{
+    switch (mode) {
+    case LSF_DRAW_MASKED:
+        return material->alpha_mode == LSF_ALPHA_MASK;
+    case LSF_DRAW_TRANSMISSIVE:
+        return material->transmission > 0.0f;
+    case LSF_DRAW_WALLS:
+        return lsf_material_is_thin_wall(material);
+    case LSF_DRAW_POSITIONS_BUT_WALLS:
+        return !lsf_material_is_thin_wall(material);
+    default:
+        return true;
+    }
+}
+
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
                         const lsf_draw_region *region, uint64_t *counts)
 {
@@ -410,8 +428,7 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
     for (uint32_t i = 0; i < gpu->draw_count; i++) {
         const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
-        if (mode == LSF_DRAW_MASKED &&
-            gpu->scene->materials[instance->material].alpha_mode != LSF_ALPHA_MASK)
+        if (!takes_part(&gpu->scene->materials[instance->material], mode))
             continue;
         if (instance->skipped || (region && !lsf_clusters_inside(region, instance))) {
             counts[LSF_DRAW_CULLED]++;

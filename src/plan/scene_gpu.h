@@ -54,8 +54,11 @@ typedef enum lsf_draw_mode {
     LSF_DRAW_SHADING,   /* all streams; material textures are bound for each draw */
     LSF_DRAW_POINTWISE, /* the same, but textures give the nearest texel of the nearest level, for
                          * passes whose samples are spread at random */
-    LSF_DRAW_POSITIONS, /* positions; base colour textures of masked materials are bound */
-    LSF_DRAW_MASKED,    /* the same of masked materials only */
+    LSF_DRAW_TRANSMISSIVE, /* as for shading, of materials that transmit only */
+    LSF_DRAW_WALLS,        /* the same of thin walls only */
+    LSF_DRAW_POSITIONS,    /* positions; base colour textures of masked materials are bound */
+    LSF_DRAW_POSITIONS_BUT_WALLS, /* the same, but of thin walls that transmit */
+    LSF_DRAW_MASKED,              /* the same of masked materials only */
 } lsf_draw_mode;
 
 /* What a pass drew since it was made. */

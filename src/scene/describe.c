@@ -40,7 +40,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 22 };
+enum { FLAG_COUNT = 23 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -54,6 +54,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"anisotropic", r->anisotropic},
         {"transmissive", r->transmissive},
         {"refractive", r->refractive},
+        {"thin_walls", r->thin_walls},
         {"variable_ior", r->variable_ior},
         {"masked", r->masked},
         {"normal_mapped", r->normal_mapped},

@@ -3,6 +3,11 @@
 
 #include "scene/scene.h"
 
+bool lsf_material_is_thin_wall(const lsf_material *material)
+{
+    return material->transmission > 0.0f && !material->volume;
+}
+
 void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material, float absorption[3])
 {
     double distance = (double)material->attenuation_distance * scene->requirements.scale;

@@ -221,6 +221,9 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
  * all false. */
 void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves);
 
+/* Whether light passes it and no medium lies behind it. */
+bool lsf_material_is_thin_wall(const lsf_material *material);
+
 /* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a d) of
  * the light is left after the distance d (KHR_materials_volume, "Attenuation"). */
 void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,

@@ -391,7 +391,10 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
                                 .irradiance = irradiance,
                                 .specular = specular,
                                 .direct_irradiance = b->shade.outputs.direct_irradiance,
-                                .direct_specular = b->shade.outputs.direct_specular};
+                                .direct_specular = b->shade.outputs.direct_specular,
+                                .gloss = gbuffer->gloss,
+                                .tint = gbuffer->tint,
+                                .absorption = gbuffer->absorption};
     lsf_compose_run(&b->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
         .picture = b->compose.radiance,
@@ -401,7 +404,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
         .emission = b->compose.seen,
         .direct = b->compose.direct ? b->compose.direct : b->chain.direct_light.radiance,
         .indirect_diffuse = b->compose.indirect_diffuse,
-        .indirect_specular = specular,
+        .indirect_specular = b->compose.indirect_specular ? b->compose.indirect_specular : specular,
         .motion = gbuffer->motion,
         .gate = b->bundle ? lsf_ray_bundle_gate(b->bundle) : 0,
     };

@@ -234,16 +234,20 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
                                 .direct = direct->direct_light.radiance,
                                 .surface = gbuffer->surface,
                                 .irradiance = light.irradiance,
-                                .specular = light.specular};
+                                .specular = light.specular,
+                                .gloss = gbuffer->gloss,
+                                .tint = gbuffer->tint,
+                                .absorption = gbuffer->absorption};
     lsf_compose_run(&c->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
         .picture = c->compose.radiance,
         .depth = gbuffer->depth,
         .surface = gbuffer->surface,
         .emission = c->compose.seen,
-        .direct = direct->direct_light.radiance,
+        .direct = c->compose.direct ? c->compose.direct : direct->direct_light.radiance,
         .indirect_diffuse = c->compose.indirect_diffuse,
-        .indirect_specular = light.specular,
+        .indirect_specular =
+            c->compose.indirect_specular ? c->compose.indirect_specular : light.specular,
         .motion = gbuffer->motion,
     };
     if (c->way.traced)

@@ -16,7 +16,8 @@ typedef struct direct {
 static bool needs_compose(const lsf_plan *plan, bool lit)
 {
     const lsf_requirements *r = &plan->requirements;
-    return r->emissive || r->unlit || r->environment || !lit || (plan->aovs & LSF_AOV_EMISSION);
+    return r->emissive || r->unlit || r->environment || !lit || plan->straight ||
+           (plan->aovs & LSF_AOV_EMISSION);
 }
 
 static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
@@ -64,7 +65,9 @@ static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique
     if (d->composed) {
         lsf_compose_inputs inputs = {.depth = gbuffer->depth,
                                      .emission = gbuffer->emission,
-                                     .direct = d->chain.direct_light.radiance};
+                                     .direct = d->chain.direct_light.radiance,
+                                     .tint = gbuffer->tint,
+                                     .absorption = gbuffer->absorption};
         lsf_compose_run(&d->compose, iteration, &inputs);
     }
     *outputs = (lsf_technique_outputs){
@@ -72,7 +75,7 @@ static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique
         .depth = gbuffer->depth,
         .surface = gbuffer->surface,
         .emission = d->compose.seen,
-        .direct = d->chain.direct_light.radiance,
+        .direct = d->compose.direct ? d->compose.direct : d->chain.direct_light.radiance,
         .motion = gbuffer->motion,
     };
 }

@@ -39,6 +39,7 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
         .gloss = gbuffer->gloss,
         .shadow_depth = chain->shadow_map.outputs.depth,
         .shadow_gradient = chain->shadow_map.outputs.gradient,
+        .shadow_tint = chain->shadow_map.outputs.tint,
     };
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
 }

@@ -76,11 +76,6 @@ lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
         return NULL;
     }
     const lsf_plan *plan = renderer->setup.plan;
-    if (plan->requirements.transmissive && !plan->transmission)
-        lsf_log(LSF_LOG_WARNING,
-                "%s: materials that transmit light are shaded as opaque; voxel_path and the "
-                "reference let it through",
-                plan->technique);
     for (uint64_t i = 0; i < plan->remark_count; i++)
         lsf_log(LSF_LOG_INFO, "%s", plan->remarks[i]);
     return renderer;

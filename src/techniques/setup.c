@@ -90,7 +90,8 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     const lsf_technique *technique = lsf_technique_find(params->technique);
     lsf_plan *plan = setup->plan;
     plan->requirements = setup->scene->requirements;
-    plan->transmission = plan->requirements.transmissive && technique && technique->transmits;
+    plan->transmission = plan->requirements.transmissive;
+    plan->straight = plan->transmission && technique && !technique->refracts;
     plan->width = params->width;
     plan->height = params->height;
     plan->samples = params->samples;
@@ -147,9 +148,9 @@ static void plan_technique(lsf_setup *setup, const lsf_render_params *params)
     plan->technique = setup->technique->name;
     set_layers(setup, params->aovs);
     setup->technique->plan(plan, &setup->pass_params, &setup->state);
-    if (plan->requirements.transmissive && !plan->transmission)
-        lsf_plan_remark(plan, "materials that transmit light are shaded as opaque; voxel_path and "
-                              "the reference let it through");
+    if (plan->straight)
+        lsf_plan_remark(plan, "light goes straight through materials that transmit, neither "
+                              "scattered nor refracted; voxel_path and the reference do that");
     lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
     if (params->rgb8)
         lsf_tonemap_plan(plan);

@@ -72,7 +72,8 @@ typedef struct lsf_pass_report {
 
 typedef struct lsf_technique {
     const char *name, *help;
-    bool transmits; /* lets light through materials that transmit; else they are opaque */
+    bool
+        refracts; /* scatters and refracts light that surfaces transmit; else it goes straight on */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
     /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets

@@ -79,8 +79,8 @@ static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
     lsf_shadow_map *map = &chain->direct.shadow_map;
     if (iteration->state->lights[light].type == LSF_LIGHT_DIRECTIONAL)
         lsf_shadow_map_run_scene(map, iteration, light);
-    const lsf_voxel_light_map seen = {.depth = map->outputs.depth,
-                                      .gradient = map->outputs.gradient};
+    const lsf_voxel_light_map seen = {
+        .depth = map->outputs.depth, .gradient = map->outputs.gradient, .tint = map->outputs.tint};
     lsf_voxel_light_add(&chain->light, inputs, &seen);
 }
 

@@ -72,7 +72,8 @@ static void run_light(voxel_rig *rig)
     for (uint32_t i = 0; i < rig->setup.state.light_count; i++) {
         lsf_shadow_map_run_scene(&rig->shadow_map, &rig->iteration, i);
         const lsf_voxel_light_map map = {rig->shadow_map.outputs.depth,
-                                         rig->shadow_map.outputs.gradient};
+                                         rig->shadow_map.outputs.gradient,
+                                         rig->shadow_map.outputs.tint};
         lsf_voxel_light_add(&rig->light, &inputs, &map);
     }
     lsf_voxel_light_emit(&rig->light, &inputs);

@@ -1,0 +1,23 @@
+/* Tint of light that has passed the thin walls before what its map shows: of all of them the product, in any
+ * order. Switches of lib/material.glsl. */
+#include "lib/light_map.glsl"
+#include "lib/material.glsl"
+#include "lib/straight.glsl"
+
+layout(location = 0) uniform int face;
+layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2DArray depth_texture;
+
+layout(location = 0) out vec4 tint_out; /* multiplied */
+
+void main()
+{
+    vec3 to_light = light_map_perspective() ? -vertex_position : -light.direction.xyz;
+    surface s;
+    vec3 emission;
+    bool front;
+    bool present = material_evaluate(to_light, s, emission, front);
+    if (!present ||
+        gl_FragCoord.z <= texelFetch(depth_texture, ivec3(gl_FragCoord.xy, face), 0).r)
+        discard;
+    tint_out = vec4(straight_tint(s, to_light), 1.0);
+}

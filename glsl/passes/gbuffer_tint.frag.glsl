@@ -1,0 +1,38 @@
+/* Tints what is seen through the surfaces that chance has left out before it: of all of them the products, in
+ * any order. Switch LSF_ABSORPTION: there are media. */
+#include "lib/material.glsl"
+#include "lib/straight.glsl"
+#include "lib/view.glsl"
+
+layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2D depth_texture;
+
+layout(location = 0) out vec4 tint_out; /* multiplied */
+#if LSF_ABSORPTION
+layout(location = 1) out vec4 absorption_out; /* added */
+#endif
+
+void main()
+{
+#if LSF_ORTHOGRAPHIC
+    vec3 to_viewer = -view.forward.xyz;
+#else
+    vec3 to_viewer = -vertex_position;
+#endif
+    surface s;
+    vec3 emission;
+    bool front;
+    bool present = material_evaluate(to_viewer, s, emission, front);
+    float seen = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
+    if (!present || gl_FragCoord.z <= seen)
+        discard;
+    tint_out = vec4(straight_tint(s, to_viewer), 1.0);
+#if LSF_ABSORPTION
+    /* From the front on the way is in the medium, from the back on out of it again. Behind all surfaces, no
+     * matter where: media are closed. */
+    vec3 ray = view_ray_direction(sample_ndc(gl_FragCoord.xy));
+    float way = ((seen > 0.0 ? view_depth(seen) : 0.0) - view_depth(gl_FragCoord.z)) * length(ray);
+    absorption_out = vec4(0.0);
+    if (s.volume)
+        absorption_out.rgb = materials[s.material].absorption.rgb * (front ? way : -way);
+#endif
+}
