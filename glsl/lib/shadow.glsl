@@ -9,7 +9,8 @@
  *  - the receiver's plane, by its normal, to the texel's centre: at an outer edge the
  *    neighbouring face then lies behind it.
  * A surface must be in front by both to cast a shadow. Neither test needs a bias that grows with
- * slope; what is left is rounding. */
+ * slope; what is left is rounding: of depths, of planes, and of the receiver's position, which may lie off
+ * its surface by light.map_offset.z. */
 #ifndef LSF_LIB_SHADOW
 #define LSF_LIB_SHADOW
 
@@ -32,14 +33,21 @@ layout(binding = LSF_UNIT_SHADOW_GRADIENT) uniform sampler2DArray shadow_gradien
 layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2DArray shadow_tint_texture;
 #endif
 
-/* Rounding of positions (2^-24 of the scene) and of interpolated depth, relative to the depth of
- * a perspective map and to the depth range of an orthographic one. */
+/* Of a perspective map: rounding of interpolated depth, relative to it. */
 #define LSF_SHADOW_EPSILON 2e-5
+
+/* Of an orthographic map. Eight roundings (2^-24) of depths, which are 0..1; and in widths of a texel what
+ * planes are off by half a texel from where they are known: slopes s are kept in half floats, within
+ * 2^-12 s, normals within 6.5e-5 rad, which is 6.5e-5 (1 + s^2) of a slope. It covers s <= 25, 2.3 degrees
+ * from grazing light. */
+#define LSF_SHADOW_DEPTH_ERROR 4.8e-7
+#define LSF_SHADOW_SLOPE_ERROR 0.02
 
 /* A place on the map and the receiver's plane there. */
 struct shadow_receiver {
     vec2 texel;    /* continuous texel coordinates */
     float depth;
+    float error;   /* of the depth, by rounding */
     vec2 gradient; /* change of depth per texel over the receiver's plane */
     ivec2 at;      /* the texel that holds it */
     int face;
@@ -47,15 +55,12 @@ struct shadow_receiver {
 
 #if LSF_SHADOW_HEMISPHERE
 
-/* A VPL may be close to what it lights, and rounding of positions (1e-6 of the scene's half extent)
- * large beside their distance: the receiver is lifted off its surface by as much. */
-#define LSF_SHADOW_LIFT 1e-6
-
-/* In the octant of the texel's centre: the texel's plane is known there. */
+/* In the octant of the texel's centre: the texel's plane is known there. A VPL may be close to what it
+ * lights, and light beside its map's origin as bright as any: the receiver is lifted off its surface. */
 shadow_receiver shadow_project(vec3 position, vec3 normal)
 {
     shadow_receiver r;
-    vec3 local = hemisphere_local(position + LSF_SHADOW_LIFT * normal - light.map_origin.xyz);
+    vec3 local = hemisphere_local(position + light.map_offset.z * normal - light.map_origin.xyz);
     float texels = light.map_shape.z;
     vec3 q = hemisphere_project(hemisphere_octant(local), local);
     r.at = clamp(ivec2((q.xy / q.z * 0.5 + 0.5) * texels), ivec2(0), ivec2(int(texels) - 1));
@@ -67,6 +72,7 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     r.texel = (q.xy / q.z * 0.5 + 0.5) * texels;
     r.depth = light.map_shape.x / q.z;
     r.gradient = light.map_shape.x * 2.0 / (texels * dot(local_normal, local)) * n.xy;
+    r.error = (LSF_SHADOW_EPSILON + HEMISPHERE_DEPTH_ERROR) * r.depth;
     return r;
 }
 
@@ -82,13 +88,18 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     vec2 extent = light.map_window[r.face].zw;
     if (light_map_perspective()) {
         /* On the plane n.q = c, near / q.z = near / c (n.z + n.xy extent (x, y)). */
+        float c = dot(n, q);
         r.depth = light.map_shape.x / q.z;
-        r.gradient = light.map_shape.x / dot(n, q) * extent * n.xy;
+        r.gradient = light.map_shape.x / c * extent * n.xy;
+        r.error = r.depth * (LSF_SHADOW_EPSILON + light.map_offset.z / abs(c));
     } else {
         /* q.z = (c - n.xy extent (x, y)) / n.z */
         float range = light.map_shape.y - light.map_shape.x;
         r.depth = (light.map_shape.y - q.z) / range;
         r.gradient = extent * n.xy / (n.z * range);
+        r.error = LSF_SHADOW_DEPTH_ERROR +
+                  (LSF_SHADOW_SLOPE_ERROR * 2.0 * light.map_shape.w * max(extent.x, extent.y) +
+                   light.map_offset.z / abs(n.z)) / range;
     }
     float texels = light.map_shape.z;
     r.texel = (light_map_place(r.face, q) * 0.5 + 0.5) * texels;
@@ -99,15 +110,6 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
 
 #endif
 
-float shadow_tolerance(shadow_receiver r)
-{
-#if LSF_SHADOW_HEMISPHERE
-    return (LSF_SHADOW_EPSILON + HEMISPHERE_DEPTH_ERROR) * r.depth;
-#else
-    return LSF_SHADOW_EPSILON * light_map_depth_unit(r.depth);
-#endif
-}
-
 #if LSF_SHADOW_PCF
 
 /* Percentage-closer filter over as many texels' squares about the receiver along each axis as
@@ -117,7 +119,6 @@ float shadow_visibility(vec3 position, vec3 normal)
     const int squares = LSF_SHADOW_PCF / 2; /* of 2 x 2 texels, which are read at once */
     shadow_receiver r = shadow_project(position, normal);
     vec2 corner = floor(r.texel - 0.5) - float(squares - 1);
-    float tolerance = shadow_tolerance(r);
     vec4 lit = vec4(0.0);
     for (int i = 0; i < squares * squares; i++) {
         vec2 at = corner + 2.0 * vec2(i % squares, i / squares); /* the least of the four */
@@ -125,7 +126,7 @@ float shadow_visibility(vec3 position, vec3 normal)
         vec4 depth = textureGather(shadow_depth, vec3((at + 1.0) / light.map_shape.z, r.face));
         vec4 receiver = r.depth + r.gradient.x * (vec4(at.x) + vec4(0.5, 1.5, 1.5, 0.5) - r.texel.x) +
                         r.gradient.y * (vec4(at.y) + vec4(1.5, 1.5, 0.5, 0.5) - r.texel.y);
-        lit += vec4(lessThanEqual(depth, receiver + tolerance));
+        lit += vec4(lessThanEqual(depth, receiver + r.error));
     }
     return dot(lit, vec4(1.0)) / float(LSF_SHADOW_PCF * LSF_SHADOW_PCF);
 }
@@ -148,10 +149,9 @@ int shadow_order(shadow_receiver r, ivec2 at)
     vec2 to_center = vec2(at) + 0.5 - r.texel;
     float at_receiver = depth - dot(gradient, to_center) - r.depth;
     float at_center = depth - r.depth - dot(r.gradient, to_center);
-    float tolerance = shadow_tolerance(r);
-    if (min(at_receiver, at_center) > tolerance)
+    if (min(at_receiver, at_center) > r.error)
         return 1;
-    return max(at_receiver, at_center) < -tolerance ? -1 : 0;
+    return max(at_receiver, at_center) < -r.error ? -1 : 0;
 }
 
 /* A texel that shows something behind the receiver knows nothing about it: its centre is past an edge,
@@ -190,7 +190,7 @@ vec3 shadow_tint(vec3 position, vec3 normal, bool transmits)
     shadow_receiver r = shadow_project(position, normal);
     float shown = texelFetch(shadow_depth, ivec3(r.at, r.face), 0).r;
     float here = r.depth + dot(r.gradient, vec2(r.at) + 0.5 - r.texel);
-    if (transmits && shown < here - shadow_tolerance(r))
+    if (transmits && shown < here - r.error)
         return vec3(1.0);
     return texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;
 #else

@@ -16,9 +16,9 @@ vec2 sample_ndc(vec2 fragment)
     return fragment * (2.0 * view.size.zw) - 1.0 + view.jitter.xy;
 }
 
-vec3 view_ray_origin(vec2 ndc)
+vec3 view_ray_start(vec2 ndc)
 {
-    return view.origin.xyz + ndc.x * view.origin_dx.xyz + ndc.y * view.origin_dy.xyz;
+    return view.start.xyz + ndc.x * view.start_dx.xyz + ndc.y * view.start_dy.xyz;
 }
 
 /* View depth along it grows by 1; not normalised. */
@@ -27,19 +27,25 @@ vec3 view_ray_direction(vec2 ndc)
     return view.forward.xyz + ndc.x * view.forward_dx.xyz + ndc.y * view.forward_dy.xyz;
 }
 
-/* View depth [normalised units] of a reverse-Z depth; 0 is the background. */
-float view_depth(float depth)
+/* View depth from the start on [normalised units] of a reverse-Z depth; 0 is the background. */
+float view_depth_from_start(float depth)
 {
 #if LSF_ORTHOGRAPHIC
-    return view.depth.y - depth * (view.depth.y - view.depth.x);
+    return (depth - view.depth.y) / view.depth.x;
 #else
-    return view.depth.x / depth;
+    return (view.depth.y - depth * view.depth.w) / (depth - view.depth.x);
 #endif
+}
+
+/* From the camera on. */
+float view_depth(float depth)
+{
+    return view.depth.w + view_depth_from_start(depth);
 }
 
 vec3 position_from_depth(vec2 ndc, float depth)
 {
-    return view_ray_origin(ndc) + view_depth(depth) * view_ray_direction(ndc);
+    return view_ray_start(ndc) + view_depth_from_start(depth) * view_ray_direction(ndc);
 }
 
 #endif

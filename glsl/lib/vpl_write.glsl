@@ -24,23 +24,22 @@ layout(std430, binding = 2) writeonly buffer lsf_vpl_map_block
 /* Nearest occluder of a VPL's map. */
 #define VPL_NEAR_PLANE 1e-5
 
-/* Rounding of positions, of the scene's half extent. A map starts that far above its VPL's surface, and
- * what else the VPL may be off it, or the surface would shade its own light. */
-#define VPL_POSITION_ERROR 1e-6
-
-/* The map over a VPL that lies within `error` of its surface besides; `turn`: about the normal, 0..1. */
-void vpl_map_write(uint index, vec3 position, vec3 normal, float error, float turn, float texels)
+/* The map over a VPL. `shape`: texels of a side; how far positions may be off by rounding. The map starts
+ * that far above the VPL's surface, and `error`, what else the VPL may be off it, or the surface would
+ * shade its own light. `turn`: about the normal, 0..1. */
+void vpl_map_write(uint index, vec3 position, vec3 normal, float error, float turn, vec2 shape)
 {
     lsf_light_data map;
     vec3 t, b;
     orthonormal_basis(normal, t, b);
     float angle = 2.0 * LSF_PI * turn;
-    vec3 origin = position + (VPL_POSITION_ERROR + error) * normal;
+    vec3 origin = position + (shape.y + error) * normal;
     map.position = vec4(origin, 0.0);
     map.direction = vec4(normal, 0.0);
-    map.intensity = map.attenuation = map.map_offset = vec4(0.0);
+    map.intensity = map.attenuation = vec4(0.0);
+    map.map_offset = vec4(0.0, 0.0, shape.y, 0.0);
     map.map_origin = vec4(origin, 1.0);
-    map.map_shape = vec4(VPL_NEAR_PLANE, 0.0, texels, 1.0 / texels);
+    map.map_shape = vec4(VPL_NEAR_PLANE, 0.0, shape.x, 1.0 / shape.x);
     map.map_window[0] = vec4(0.0, 0.0, 1.0, 1.0);
     map.map_right[0] = vec4(cos(angle) * t + sin(angle) * b, 0.0);
     map.map_up[0] = vec4(cos(angle) * b - sin(angle) * t, 0.0);

@@ -20,7 +20,7 @@ layout(location = 2) uniform vec3 limits; /* cutoff, slope; squared; the phase's
 float texel_size(float z)
 {
 #if LSF_ORTHOGRAPHIC
-    return 2.0 * law.z * length(along.x != 0 ? view.origin_dx.xyz : view.origin_dy.xyz);
+    return 2.0 * law.z * length(along.x != 0 ? view.start_dx.xyz : view.start_dy.xyz);
 #else
     return 2.0 * law.z * z * length(along.x != 0 ? view.forward_dx.xyz : view.forward_dy.xyz);
 #endif
@@ -64,7 +64,7 @@ void main()
     e.position = guide_position(guide);
     e.normal = guide_shading_normal(guide);
     e.plane = guide_geometric_normal(guide);
-    float z = dot(e.position - view.origin.xyz, view.forward.xyz);
+    float z = view.depth.w + dot(e.position - view.start.xyz, view.forward.xyz);
     int steps = int(floor(law.x * pow(1.0 + law.y * z, limits.z) + 0.5));
     float reach = float(steps) * texel_size(z);
     e.farthest = limits.x * reach * reach;

@@ -11,14 +11,14 @@ invariant gl_Position;
 
 void main()
 {
-    vec3 p = instance_position(position);
-    gl_Position = view.clip_from_position * vec4(p, 1.0);
-    material_vertex(p - view.origin.xyz);
+    vec3 p = instance_position(position) - view.start.xyz;
+    gl_Position = view.clip * vec4(p, 1.0);
+    material_vertex(p);
 #if LSF_MOTION
     vec4 object = vec4(position, 1.0);
     vec3 previous = vec3(dot(previous_rows[0], object), dot(previous_rows[1], object),
                          dot(previous_rows[2], object));
     vertex_clip = gl_Position;
-    vertex_previous_clip = view.previous_clip_from_position * vec4(previous, 1.0);
+    vertex_previous_clip = view.previous_clip * vec4(previous - view.previous_start.xyz, 1.0);
 #endif
 }

@@ -27,7 +27,7 @@ vec3 position_at(ivec2 pixel, float depth)
 float pixel_size(float depth)
 {
 #if LSF_ORTHOGRAPHIC
-    return 2.0 * length(view.origin_dx.xyz) * view.size.z;
+    return 2.0 * length(view.start_dx.xyz) * view.size.z;
 #else
     return 2.0 * length(view.forward_dx.xyz) * view.size.z * view_depth(depth);
 #endif

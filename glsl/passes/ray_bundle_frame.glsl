@@ -1,5 +1,5 @@
 /* The view's rays in a bundle's coordinates. They are affine over the picture: what is seen lies at
- * start + view depth * along. */
+ * start + view depth from the view's start on * along. */
 #ifndef LSF_PASSES_RAY_BUNDLE_FRAME
 #define LSF_PASSES_RAY_BUNDLE_FRAME
 
@@ -29,7 +29,7 @@ bundle_frame frame_at(vec2 fragment)
     float steps = LSF_BUNDLE_DEPTH_STEPS / bundle.range.y;
     float self = LSF_BUNDLE_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5;
     bundle_frame frame;
-    frame.start = to_map(view_ray_origin(ndc)) -
+    frame.start = to_map(view_ray_start(ndc)) -
                   vec3(bundle.window.xy - bundle.window.zw, bundle.range.x) *
                       vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw, steps);
     frame.along = to_map(view_ray_direction(ndc));

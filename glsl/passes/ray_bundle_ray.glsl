@@ -45,7 +45,7 @@ bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
     }
 #endif
     float depth = texelFetch(origin_depth, pixel, 0).r;
-    place = frame.start + view_depth(depth) * frame.along;
+    place = frame.start + view_depth_from_start(depth) * frame.along;
     return depth != 0.0;
 }
 

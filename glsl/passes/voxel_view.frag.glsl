@@ -36,7 +36,7 @@ void main()
     vec2 ndc = sample_ndc(gl_FragCoord.xy);
     vec3 direction = normalize(view_ray_direction(ndc));
     voxel_ray ray;
-    if (!voxel_ray_begin(voxel_from_position(view_ray_origin(ndc)), direction, ray) ||
+    if (!voxel_ray_begin(voxel_from_position(position_from_depth(ndc, 1.0)), direction, ray) ||
         !voxel_ray_trace(ray))
         return;
     vec3 n = voxel_normal_unpack(texelFetch(normal_texture, ray.cell, 0).r);

@@ -20,7 +20,7 @@ layout(std430, binding = 4) readonly buffer sum_block
 #endif
 
 layout(location = 0) uniform uvec2 range; /* the first VPL, and how many */
-layout(location = 1) uniform float shadow_texels;
+layout(location = 1) uniform vec2 map_shape; /* as in vpl_map_write */
 
 layout(std430, binding = 3) readonly buffer random_block
 {
@@ -28,9 +28,11 @@ layout(std430, binding = 3) readonly buffer random_block
                     * having picked the light */
 };
 
-/* How far a VPL may be off its surface beside the rounding of positions: the error of an octahedral
- * normal (see lib/octahedral.glsl) on the way from the texel's centre. */
+/* How far a VPL may be off its surface beside the rounding of its position: the error of an octahedral
+ * normal (see lib/octahedral.glsl) on the way from the texel's centre, and four roundings (2^-24) of the
+ * distance from the light, by the texel's depth and centre, the ray's direction and its length. */
 #define NORMAL_ERROR 1e-4
+#define DISTANCE_ERROR 2.4e-7
 
 struct ray {
     vec3 origin, direction; /* unit */
@@ -250,6 +252,6 @@ void main()
         vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
         vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_turn), vec4(-r.direction, distance2),
         vec4(intensity, 0.0));
-    vpl_map_write(index, position, s.geometric_normal, NORMAL_ERROR * length(position - met.point),
-                  drawn.z, shadow_texels);
+    float error = NORMAL_ERROR * length(position - met.point) + DISTANCE_ERROR * distance;
+    vpl_map_write(index, position, s.geometric_normal, error, drawn.z, map_shape);
 }

@@ -7,7 +7,7 @@ layout(location = 0) uniform uint index;
 layout(location = 1) uniform vec4 position; /* w: the map's turn */
 layout(location = 2) uniform vec4 normal;   /* w: density by area */
 layout(location = 3) uniform vec4 radiance; /* w: the density that weights are made of */
-layout(location = 4) uniform float shadow_texels;
+layout(location = 4) uniform vec2 map_shape; /* as in vpl_map_write */
 
 void main()
 {
@@ -17,5 +17,5 @@ void main()
     vpl.normal = vpl.base_color = vpl.gloss = vpl.to_light = vec4(0.0);
     vpl.intensity = radiance;
     vpls[index] = vpl;
-    vpl_map_write(index, position.xyz, normal.xyz, 0.0, position.w, shadow_texels);
+    vpl_map_write(index, position.xyz, normal.xyz, 0.0, position.w, map_shape);
 }

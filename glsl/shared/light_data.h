@@ -24,7 +24,8 @@ struct lsf_light_data {
     vec4 attenuation; /* 1/range^2, spot scale, spot offset (light.h), type */
     vec4 map_origin;  /* xyz; w: number of faces */
     vec4 map_shape;   /* near, far (0: perspective), texels along a side, 1 / texels */
-    vec4 map_offset;  /* xy: offset, within a texel */
+    vec4 map_offset; /* xy: offset, within a texel; z: how far what is lit may be off its surface by
+                      * rounding */
     vec4 map_window[6]; /* xy: center, zw: extent (perspective: tangent of the half angle) */
     vec4 map_right[6], map_up[6], map_forward[6]; /* unit axes */
 };

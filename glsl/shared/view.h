@@ -4,16 +4,20 @@
 
 #include "shared/shared.h"
 
-/* A view ray through ndc (x, y), x right, y up, -1..1, starts at origin + x origin_dx +
- * y origin_dy and runs along forward + x forward_dx + y forward_dy, where view depth grows by 1. */
+/* A view ray through ndc (x, y), x right, y up, -1..1, passes start + x start_dx + y start_dy and
+ * runs along forward + x forward_dx + y forward_dy, where view depth grows by 1. The start is the
+ * camera's position, or, of a camera far off, on the far plane (lsf_camera_state). At a view depth
+ * of s more than the start's, with (a, b) = depth.xy, the depth buffer holds (reverse-Z)
+ *   perspective  (a s + b) / (s + start's view depth),   orthographic  a s + b. */
 struct lsf_view_data {
-    mat4 clip_from_position; /* with the iteration's jitter; reverse-Z */
-    mat4 previous_clip_from_position; /* the same jitter, at the previous frame's time */
-    vec4 origin, origin_dx, origin_dy;
+    mat4 clip;                      /* of a position less the start; with the iteration's jitter */
+    mat4 previous_clip;             /* the same jitter, at the previous frame's time */
+    vec4 previous_start;            /* xyz */
+    vec4 start, start_dx, start_dy; /* start.w: how far positions found from depths may be off */
     vec4 forward, forward_dx, forward_dy;
     vec4 size;   /* width, height, 1 / width, 1 / height [pixels] */
     vec4 jitter; /* xy: ndc of the sample minus ndc of the pixel's centre */
-    vec4 depth;  /* near, far (orthographic), scene units per normalised unit, 0 */
+    vec4 depth;  /* a, b, scene units per normalised unit, view depth of the start */
 };
 
 #include "shared/shared_end.h"

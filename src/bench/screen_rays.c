@@ -34,9 +34,10 @@ static lsf_float3 position_at(const struct lsf_view_data *view, bool orthographi
 {
     float u = ((float)x + 0.5f) * (2.0f * view->size.z) - 1.0f + view->jitter.x;
     float v = ((float)y + 0.5f) * (2.0f * view->size.w) - 1.0f + view->jitter.y;
-    float distance = orthographic ? view->depth.y - depth * (view->depth.y - view->depth.x)
-                                  : view->depth.x / depth;
-    return lsf_f3_mad(affine(view->origin, view->origin_dx, view->origin_dy, u, v),
+    float distance = orthographic
+                         ? (depth - view->depth.y) / view->depth.x
+                         : (view->depth.y - depth * view->depth.w) / (depth - view->depth.x);
+    return lsf_f3_mad(affine(view->start, view->start_dx, view->start_dy, u, v),
                       affine(view->forward, view->forward_dx, view->forward_dy, u, v), distance);
 }
 

@@ -184,7 +184,7 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
     glUseProgram(pass->draw_program);
     glUniform2ui(0, first, count);
-    glUniform1f(1, (float)pass->shadow_resolution);
+    glUniform2f(1, (float)pass->shadow_resolution, iteration->view.start.w);
     glDispatchCompute((count + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
     lsf_timer_end(pass->draw_timer);
@@ -203,7 +203,7 @@ void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
                 turn_of(iteration, iteration->index * pass->count + index - pass->first_emitter));
     glUniform4f(2, n[0], n[1], n[2], sample->density);
     glUniform4f(3, l[0], l[1], l[2], sample->weight_density);
-    glUniform1f(4, (float)pass->shadow_resolution);
+    glUniform2f(4, (float)pass->shadow_resolution, iteration->view.start.w);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
     lsf_timer_end(pass->emitter_timer);

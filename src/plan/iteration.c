@@ -29,31 +29,34 @@ static float dot3(const float a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The clip-space matrix whose inverse is lsf_camera_state: reverse-Z with depth near / z for
- * perspective (infinite far plane), (far - z) / (far - near) for orthographic cameras. The jitter
- * moves the picture so that a pixel's centre shows its sample point. */
+/* What a depth is made of, see view.h: 1 on the near plane, 0 on the far one. */
+static void depth_law(const lsf_camera_state *camera, float *slope, float *offset)
+{
+    float near_depth = camera->orthographic ? 1.0f : camera->start_depth + camera->near_plane;
+    *slope = 0.0f;
+    *offset = near_depth;
+    if (isfinite(camera->far_plane)) {
+        *slope = -near_depth / (camera->far_plane - camera->near_plane);
+        *offset = -*slope * camera->far_plane;
+    }
+}
+
+/* The clip-space matrix, of positions less the camera's start, whose inverse is lsf_camera_state.
+ * The jitter moves the picture so that a pixel's centre shows its sample point. */
 static lsf_mat4 clip_matrix(const lsf_camera_state *camera, float jitter_x, float jitter_y)
 {
-    const float *dx = camera->orthographic ? camera->origin_dx : camera->forward_dx;
-    const float *dy = camera->orthographic ? camera->origin_dy : camera->forward_dy;
-    float rows[4][4] = {{0}};
+    const float *dx = camera->orthographic ? camera->start_dx : camera->forward_dx;
+    const float *dy = camera->orthographic ? camera->start_dy : camera->forward_dy;
+    float rows[4][4] = {{0}}, slope;
+    depth_law(camera, &slope, &rows[2][3]);
     for (int axis = 0; axis < 3; axis++) {
         /* dx and dy are perpendicular to each other and to forward. */
         rows[0][axis] = dx[axis] / dot3(dx, dx);
         rows[1][axis] = dy[axis] / dot3(dy, dy);
-        if (camera->orthographic)
-            rows[2][axis] = -camera->forward[axis] / (camera->far_plane - camera->near_plane);
-        else
-            rows[3][axis] = camera->forward[axis];
+        rows[2][axis] = slope * camera->forward[axis];
+        rows[3][axis] = camera->orthographic ? 0.0f : camera->forward[axis];
     }
-    for (int row = 0; row < 4; row++)
-        rows[row][3] = -dot3(rows[row], camera->origin);
-    if (camera->orthographic) {
-        rows[2][3] += camera->far_plane / (camera->far_plane - camera->near_plane);
-        rows[3][3] = 1.0f;
-    } else {
-        rows[2][3] = camera->near_plane;
-    }
+    rows[3][3] = camera->orthographic ? 1.0f : camera->start_depth;
     lsf_mat4 matrix;
     for (int column = 0; column < 4; column++) {
         matrix.m[4 * column + 0] = rows[0][column] - jitter_x * rows[3][column];
@@ -64,20 +67,37 @@ static lsf_mat4 clip_matrix(const lsf_camera_state *camera, float jitter_x, floa
     return matrix;
 }
 
+/* How far a position that is found from a depth may be off: half a unit in the last place of each
+ * of its coordinates, and some more of its distance from the start, by the vertex (twice), the
+ * division, the depth and the way back. */
+static float position_error(const lsf_state *state)
+{
+    const float *low = state->bounds_min, *high = state->bounds_max;
+    float reach2 = 0.0f;
+    for (int axis = 0; axis < 3 && low[0] <= high[0]; axis++) {
+        float apart = fmaxf(fabsf(low[axis] - state->camera.start[axis]),
+                            fabsf(high[axis] - state->camera.start[axis]));
+        reach2 += apart * apart;
+    }
+    return 0x1p-24f * (1.0f + 6.0f * sqrtf(reach2));
+}
+
 static void set_view(struct lsf_view_data *view, const lsf_plan *plan, const lsf_state *state)
 {
     const lsf_camera_state *camera = &state->camera;
     float width = (float)plan->width, height = (float)plan->height;
     memset(view, 0, sizeof *view);
-    view->origin = vec4_from(camera->origin);
-    view->origin_dx = vec4_from(camera->origin_dx);
-    view->origin_dy = vec4_from(camera->origin_dy);
+    view->start = vec4_from(camera->start);
+    view->start_dx = vec4_from(camera->start_dx);
+    view->start_dy = vec4_from(camera->start_dy);
+    view->start.w = position_error(state);
     view->forward = vec4_from(camera->forward);
     view->forward_dx = vec4_from(camera->forward_dx);
     view->forward_dy = vec4_from(camera->forward_dy);
     view->size = (lsf_vec4){width, height, 1.0f / width, 1.0f / height};
-    view->depth = (lsf_vec4){camera->near_plane, camera->orthographic ? camera->far_plane : 0.0f,
-                             (float)(1.0 / state->scale), 0.0f};
+    view->depth.z = (float)(1.0 / state->scale);
+    view->depth.w = camera->start_depth;
+    depth_law(camera, &view->depth.x, &view->depth.y);
 }
 
 bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_plan *plan,
@@ -129,21 +149,24 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index)
     float x = (2.0f * point[0] - 1.0f) * iteration->view.size.z;
     float y = (2.0f * point[1] - 1.0f) * iteration->view.size.w;
     iteration->view.jitter = (lsf_vec4){x, y, 0.0f, 0.0f};
-    iteration->view.clip_from_position = clip_matrix(&iteration->state->camera, x, y);
-    iteration->view.previous_clip_from_position = clip_matrix(&iteration->previous_camera, x, y);
+    iteration->view.clip = clip_matrix(&iteration->state->camera, x, y);
+    iteration->view.previous_clip = clip_matrix(&iteration->previous_camera, x, y);
+    iteration->view.previous_start = vec4_from(iteration->previous_camera.start);
     glNamedBufferSubData(iteration->view_buffer, 0, sizeof iteration->view, &iteration->view);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VIEW, iteration->view_buffer);
 }
 
 void lsf_iteration_region(const lsf_iteration *iteration, lsf_draw_region *region)
 {
-    const float *m = iteration->view.clip_from_position.m;
+    const float *m = iteration->view.clip.m;
     region->plane_count = 5;
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 5; i++) {
         for (int column = 0; column < 4; column++) {
             float w = m[4 * column + 3];
             /* -w <= x <= w, -w <= y <= w, z <= w: the near plane of reverse-Z */
             float value = m[4 * column + (i < 4 ? i / 2 : 2)];
             region->planes[i][column] = i % 2 == 0 ? w - value : w + value;
         }
+        region->planes[i][3] -= dot3(region->planes[i], iteration->state->camera.start);
+    }
 }

@@ -93,16 +93,16 @@ static box scene_box(const lsf_state *state, const lsf_float3 axes[3])
     return lsf_state_bounds_along(state, axes, b.low, b.high) ? b : (box){{-1, -1, -1}, {1, 1, 1}};
 }
 
-/* Bounds, along the axes, of what the camera sees up to `depth`. */
+/* Bounds, along the axes, of what the camera sees up to `depth` from its start on. */
 static box view_box(const lsf_camera_state *camera, const lsf_float3 axes[3], float depth)
 {
     box b = empty_box;
     for (int corner = 0; corner < 8; corner++) {
         float x = corner & 1 ? 1.0f : -1.0f, y = corner & 2 ? 1.0f : -1.0f;
-        float z = corner & 4 ? depth : 0.0f;
-        lsf_float3 p = lsf_f3_load(camera->origin);
-        p = lsf_f3_mad(p, lsf_f3_load(camera->origin_dx), x);
-        p = lsf_f3_mad(p, lsf_f3_load(camera->origin_dy), y);
+        float z = corner & 4 ? depth : fminf(camera->near_plane, 0.0f);
+        lsf_float3 p = lsf_f3_load(camera->start);
+        p = lsf_f3_mad(p, lsf_f3_load(camera->start_dx), x);
+        p = lsf_f3_mad(p, lsf_f3_load(camera->start_dy), y);
         p = lsf_f3_mad(p, lsf_f3_load(camera->forward), z);
         p = lsf_f3_mad(p, lsf_f3_load(camera->forward_dx), z * x);
         p = lsf_f3_mad(p, lsf_f3_load(camera->forward_dy), z * y);
@@ -111,22 +111,34 @@ static box view_box(const lsf_camera_state *camera, const lsf_float3 axes[3], fl
     return b;
 }
 
-/* View depths between which the scene lies, from the viewer on. */
-static void scene_depths(const lsf_state *state, float *nearest, float *farthest)
+/* View depths, from the camera's start on, between which that part of the scene lies which the
+ * picture may show. */
+static void seen_depths(const lsf_iteration *iteration, float *nearest, float *farthest)
 {
+    const lsf_state *state = iteration->state;
     const lsf_camera_state *camera = &state->camera;
+    lsf_draw_region picture;
+    lsf_iteration_region(iteration, &picture);
     *nearest = INFINITY;
-    *farthest = 0.0f;
-    for (int corner = 0; corner < 8; corner++) {
-        lsf_float3 p = lsf_f3((corner & 1 ? state->bounds_max : state->bounds_min)[0],
-                              (corner & 2 ? state->bounds_max : state->bounds_min)[1],
-                              (corner & 4 ? state->bounds_max : state->bounds_min)[2]);
-        float depth =
-            lsf_f3_dot(lsf_f3_sub(p, lsf_f3_load(camera->origin)), lsf_f3_load(camera->forward));
-        *nearest = fminf(*nearest, depth);
-        *farthest = fmaxf(*farthest, depth);
+    *farthest = -INFINITY;
+    for (uint32_t i = 0; i < state->instance_count; i++) {
+        const lsf_instance_state *instance = &state->instances[i];
+        if (instance->skipped || !lsf_clusters_inside(&picture, instance))
+            continue;
+        for (int corner = 0; corner < 8; corner++) {
+            lsf_float3 p = lsf_f3((corner & 1 ? instance->bounds_max : instance->bounds_min)[0],
+                                  (corner & 2 ? instance->bounds_max : instance->bounds_min)[1],
+                                  (corner & 4 ? instance->bounds_max : instance->bounds_min)[2]);
+            float depth =
+                lsf_f3_dot(lsf_f3_sub(p, lsf_f3_load(camera->start)), lsf_f3_load(camera->forward));
+            *nearest = fminf(*nearest, depth);
+            *farthest = fmaxf(*farthest, depth);
+        }
     }
-    *nearest = fminf(fmaxf(*nearest, 0.0f), *farthest); /* an empty scene: nothing to see */
+    float camera_depth = fminf(camera->near_plane, 0.0f);
+    *nearest = fmaxf(*nearest, camera_depth);
+    if (!(*nearest <= *farthest)) /* nothing to see */
+        *nearest = *farthest = camera_depth;
 }
 
 static void set_window(struct lsf_light_data *data, uint32_t face, const lsf_float3 axes[3],
@@ -139,16 +151,16 @@ static void set_window(struct lsf_light_data *data, uint32_t face, const lsf_flo
                                         fmaxf(extent[1], 1e-4f) * room};
 }
 
-/* Nested windows: each reaches a third as deep into the scene as the next one, so that a texel is
- * everywhere about as wide as a pixel is there; the last holds all that is seen. */
-static void set_nested_windows(struct lsf_light_data *data, const lsf_state *state, uint32_t faces,
-                               const lsf_float3 axes[3], const box *scene)
+/* Nested windows: each reaches a third as deep into what is seen as the next one, so that a texel
+ * is everywhere about as wide as a pixel is there; the last holds all that is seen. */
+static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
+                               uint32_t faces, const lsf_float3 axes[3], const box *scene)
 {
     float nearest, farthest;
-    scene_depths(state, &nearest, &farthest);
+    seen_depths(iteration, &nearest, &farthest);
     float reach = farthest - nearest;
     for (uint32_t i = 0; i < faces; i++, reach /= CASCADE_RATIO) {
-        box view = view_box(&state->camera, axes, nearest + reach);
+        box view = view_box(&iteration->state->camera, axes, nearest + reach);
         float center[2], extent[2];
         for (int axis = 0; axis < 2; axis++) {
             float low = fmaxf(view.low[axis], scene->low[axis]);
@@ -163,17 +175,17 @@ static void set_nested_windows(struct lsf_light_data *data, const lsf_state *sta
 
 /* Along the light, each window holds the whole scene, which may cast its shadow from outside the
  * view. */
-static void project_windows(struct lsf_light_data *data, const lsf_state *state, uint32_t faces,
-                            const lsf_float3 axes[3])
+static void project_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
+                            uint32_t faces, const lsf_float3 axes[3])
 {
-    box scene = scene_box(state, axes);
+    box scene = scene_box(iteration->state, axes);
     float half_range = fmaxf(0.5f * (scene.high[2] - scene.low[2]), 1e-3f);
     float start = 0.5f * (scene.high[2] + scene.low[2]) - 1.01f * half_range;
     data->map_origin = vec4_from(lsf_f3_scale(axes[2], start), (float)faces);
     data->map_shape.x = 0.0f;
     data->map_shape.y = 2.02f * half_range;
     if (faces > 1) {
-        set_nested_windows(data, state, faces, axes, &scene);
+        set_nested_windows(data, iteration, faces, axes, &scene);
         return;
     }
     float center[2], extent[2];
@@ -211,6 +223,7 @@ void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *ite
     lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, purpose + 1), shift);
     data->map_shape = (lsf_vec4){NEAR_PLANE, 0.0f, texels, 1.0f / texels};
     data->map_origin = vec4_from(lsf_f3_load(light->position), (float)layout->faces);
+    data->map_offset.z = iteration->view.start.w;
     if (lsf_light_map_kind_of(light) == LSF_LIGHT_MAP_CUBE) {
         lsf_sample_rotation(turn[0], turn[1], shift[0], rotation);
         project_cube(data, rotation);
@@ -221,7 +234,7 @@ void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *ite
     data->map_offset.x = (2.0f * shift[0] - 1.0f) / texels;
     data->map_offset.y = (2.0f * shift[1] - 1.0f) / texels;
     if (light->type == LSF_LIGHT_DIRECTIONAL) {
-        project_windows(data, iteration->state, layout->faces, axes);
+        project_windows(data, iteration, layout->faces, axes);
     } else {
         float tangent = sqrtf(1.0f - light->cos_outer * light->cos_outer) / light->cos_outer;
         float extent = fmaxf(tangent, 1e-4f) * (1.0f + 2.0f / texels);

@@ -176,9 +176,18 @@ static struct RTCRay make_ray(lsf_float3 origin, lsf_float3 direction, float nea
     };
 }
 
+/* Embree's manual bounds what a ray is made of by 1.844e18; all of a scene lies about 0, so that
+ * from farther off nothing is met. */
+static bool within_range(lsf_float3 v)
+{
+    return lsf_f3_max_abs(v) < 1e18f;
+}
+
 bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 origin,
                          lsf_float3 direction, float near, float far, lsf_reference_hit *hit)
 {
+    if (!within_range(origin) || !within_range(direction))
+        return false;
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     struct RTCRayHit query = {.ray = make_ray(origin, direction, near, far)};
@@ -195,6 +204,10 @@ bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 orig
 bool lsf_reference_occluded(const lsf_reference_geometry *geometry, lsf_float3 origin,
                             lsf_float3 direction, float far)
 {
+    if (!within_range(direction)) {
+        direction = lsf_f3_scale(direction, 1.0f / lsf_f3_max_abs(direction));
+        far = INFINITY;
+    }
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     struct RTCRay ray = make_ray(origin, direction, 0.0f, far);

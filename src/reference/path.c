@@ -401,18 +401,22 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     *path = (lsf_reference_path){.depth = INFINITY, .rays = 1};
     walk w = {.world = world, .sampler = sampler, .path = path};
     const lsf_camera_state *camera = &world->geometry.state->camera;
-    lsf_float3 origin = camera_vector(camera->origin, camera->origin_dx, camera->origin_dy, ndc);
+    lsf_float3 origin = camera_vector(camera->start, camera->start_dx, camera->start_dy, ndc);
     /* Its length makes the distance along the ray the depth along the view axis. */
     lsf_float3 along = camera_vector(camera->forward, camera->forward_dx, camera->forward_dy, ndc);
+    /* A start that is not the camera's position lies behind the scene. */
+    float before = fminf(camera->near_plane, 0.0f);
+    origin = lsf_f3_mad(origin, along, before);
     lsf_float3 direction = lsf_f3_normalize(along);
     lsf_reference_hit hit;
-    if (!lsf_reference_trace(&world->geometry, origin, along, camera->near_plane, INFINITY, &hit)) {
+    if (!lsf_reference_trace(&world->geometry, origin, along, camera->near_plane - before, INFINITY,
+                             &hit)) {
         path->emission = lsf_reference_sky_radiance(&world->sky, direction);
         return;
     }
     lsf_reference_surface_init(&w.surface, &world->geometry, &hit, direction);
     lsf_reference_bsdf_init(&w.bsdf, &w.surface);
-    path->depth = hit.distance;
+    path->depth = camera->start_depth + before + hit.distance;
     path->emission = w.surface.emission;
     path->albedo = w.surface.base_color;
     path->normal = w.surface.frame.n;

@@ -207,17 +207,34 @@ static int find_camera(const lsf_scene *scene, const char *which)
     return -1;
 }
 
-/* Depth range for an orthographic camera: up to the farthest corner of the scene's bounds. */
-static float farthest_depth(const lsf_state *state, vec3d origin, vec3d forward)
+/* How far the camera may be from the nearest of the scene, in depths of the scene, before depths
+ * are counted from the far plane. Positions are rounded by what they are counted from. */
+#define FAR_AWAY 4.0
+
+/* What the near and the far plane leave to the scene on each side, in half extents of it. */
+#define PLANE_ROOM 1e-3
+
+/* Farthest camera, in half extents: doubles round its distance (2^-53) by as much as floats round
+ * positions (2^-24). */
+#define FARTHEST_CAMERA 0x1p29
+
+/* The lowest picture, in half extents: 16 roundings of a position, which is noise. */
+#define LOWEST_PICTURE 0x1p-20
+
+/* Depths between which the scene lies, seen from its centre; of an empty scene, that of the centre.
+ */
+static void scene_depths(const lsf_state *state, vec3d forward, double *nearest, double *farthest)
 {
-    double far = 0.0;
-    for (int corner = 0; corner < 8 && state->bounds_min[0] <= state->bounds_max[0]; corner++) {
-        vec3d p = {(corner & 1 ? state->bounds_max : state->bounds_min)[0] - origin.x,
-                   (corner & 2 ? state->bounds_max : state->bounds_min)[1] - origin.y,
-                   (corner & 4 ? state->bounds_max : state->bounds_min)[2] - origin.z};
-        far = fmax(far, dot(p, forward));
+    bool empty = state->bounds_min[0] > state->bounds_max[0];
+    *nearest = empty ? 0.0 : INFINITY;
+    *farthest = empty ? 0.0 : -INFINITY;
+    for (int corner = 0; corner < 8 && !empty; corner++) {
+        vec3d p = {(corner & 1 ? state->bounds_max : state->bounds_min)[0],
+                   (corner & 2 ? state->bounds_max : state->bounds_min)[1],
+                   (corner & 4 ? state->bounds_max : state->bounds_min)[2]};
+        *nearest = fmin(*nearest, dot(p, forward));
+        *farthest = fmax(*farthest, dot(p, forward));
     }
-    return (float)far;
 }
 
 /* The camera as placed for a picture of that aspect. A field of view that is given zooms from
@@ -232,8 +249,33 @@ static bool frame_scene(const lsf_scene *scene, lsf_camera *camera, float aspect
     return distance >= 0.0;
 }
 
-static void update_camera(lsf_state *state, const lsf_camera *camera, const double *world,
-                          const lsf_view_params *params)
+/* Where the depths of a camera are counted from, and its planes. */
+static void place_planes(lsf_camera_state *out, const lsf_state *state, double near_plane,
+                         vec3d origin, vec3d forward)
+{
+    double nearest, farthest, center = -dot(origin, forward);
+    scene_depths(state, forward, &nearest, &farthest);
+    double depth = farthest - nearest + 2.0 * PLANE_ROOM;
+    double start = center + farthest + PLANE_ROOM;
+    if (center + nearest > FAR_AWAY * depth && near_plane < start) {
+        vec3d axis = scaled(forward, start);
+        store(out->start, (vec3d){origin.x + axis.x, origin.y + axis.y, origin.z + axis.z});
+        out->start_depth = (float)start;
+        out->near_plane = (float)fmax(near_plane - start, -depth);
+        out->far_plane = 0.0f;
+        return;
+    }
+    store(out->start, origin);
+    /* An orthographic camera may start at 0; a perspective one made of it may not. */
+    out->near_plane = fmaxf((float)near_plane, 1e-12f);
+    /* A tenth more than the farthest corner, so that nothing lies on the far plane. */
+    out->far_plane = out->orthographic ? fmaxf(1.1f * (float)(center + farthest),
+                                               fmaxf(2.0f * out->near_plane, 1e-3f))
+                                       : INFINITY;
+}
+
+static bool update_camera(lsf_state *state, const lsf_camera *camera, const double *world,
+                          const lsf_view_params *params, lsf_error *error)
 {
     lsf_camera_state *out = &state->camera;
     vec3d position = column(world, 3);
@@ -251,28 +293,37 @@ static void update_camera(lsf_state *state, const lsf_camera *camera, const doub
     vec3d right = unit(cross(forward, up), perpendicular(forward));
     up = cross(right, forward);
     vec3d origin = normalised_position(state, position);
+    double distance = sqrt(dot(origin, origin));
+    if (!(distance <= FARTHEST_CAMERA))
+        return lsf_error_set(
+            error, LSF_ERROR_USAGE,
+            "the camera is %.3g half extents of the scene from its centre, farther "
+            "than %.3g: move it closer",
+            distance, FARTHEST_CAMERA);
 
     bool fov_given = !isnan(params->fov_y);
     memset(out, 0, sizeof *out);
     out->orthographic = camera->orthographic && !fov_given;
-    store(out->origin, origin);
     store(out->forward, forward);
-    /* An orthographic camera may start at 0; a perspective one made of it may not. */
-    out->near_plane = fmaxf((float)(camera->near_plane * state->scale), 1e-12f);
-    if (out->orthographic) {
-        double half_height = camera->y_magnification * state->scale;
-        store(out->origin_dx, scaled(right, half_height * params->aspect));
-        store(out->origin_dy, scaled(up, half_height));
-        /* A tenth more than the farthest corner, so that nothing lies on the far plane. */
-        out->far_plane = fmaxf(1.1f * farthest_depth(state, origin, forward),
-                               fmaxf(2.0f * out->near_plane, 1e-3f));
-    } else {
+    place_planes(out, state, camera->near_plane * state->scale, origin, forward);
+    double half_height = camera->y_magnification * state->scale, farthest_shown = 1.0;
+    if (!out->orthographic) {
         double fov_y = fov_given ? params->fov_y * (M_PI / 180.0) : camera->fov_y;
-        double half_height = tan(0.5 * fov_y);
+        half_height = tan(0.5 * fov_y);
         store(out->forward_dx, scaled(right, half_height * params->aspect));
         store(out->forward_dy, scaled(up, half_height));
-        out->far_plane = INFINITY;
+        farthest_shown = distance + 1.0;
     }
+    if (half_height * farthest_shown < LOWEST_PICTURE)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "the camera shows %.3g of the scene's half extent from the picture's "
+                             "centre to its top, and positions are rounded to %.0e of it: %s",
+                             half_height * farthest_shown, 0x1p-24,
+                             out->orthographic ? "enlarge ymag" : "widen the field of view");
+    double at_start = out->orthographic ? half_height : half_height * out->start_depth;
+    store(out->start_dx, scaled(right, at_start * params->aspect));
+    store(out->start_dy, scaled(up, at_start));
+    return true;
 }
 
 bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_params *params,
@@ -302,11 +353,11 @@ bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_p
     lsf_camera camera = scene->cameras[camera_index];
     if (camera.frames_scene && !frame_scene(scene, &camera, params->aspect))
         goto no_memory;
-    update_camera(state, &camera,
-                  camera.node == LSF_NONE ? camera.matrix : worlds + 16 * (size_t)camera.node,
-                  params);
+    bool drawable = update_camera(
+        state, &camera,
+        camera.node == LSF_NONE ? camera.matrix : worlds + 16 * (size_t)camera.node, params, error);
     free(worlds);
-    return true;
+    return drawable;
 
 no_memory:
     free(worlds);

@@ -35,14 +35,16 @@ typedef struct lsf_light_state {
     float cos_inner, cos_outer; /* spot only */
 } lsf_light_state;
 
-/* Position on the image plane at ndc (x right, y up, -1..1):
- * a view ray starts at origin + x * origin_dx + y * origin_dy and runs along
- * forward + x * forward_dx + y * forward_dy (not normalised: its view depth is 1). */
+/* At ndc (x right, y up, -1..1) a view ray runs along forward + x * forward_dx + y * forward_dy
+ * (not normalised: its view depth is 1) and passes start + x * start_dx + y * start_dy at view
+ * depth start_depth. That is where the camera is, at depth 0, unless it is so far off that its
+ * position could not be told from its neighbours' in floats: then it is the far plane, right behind
+ * the scene. */
 typedef struct lsf_camera_state {
     bool orthographic;
-    float origin[3], origin_dx[3], origin_dy[3];
+    float start[3], start_dx[3], start_dy[3], start_depth;
     float forward[3], forward_dx[3], forward_dy[3];
-    float near_plane, far_plane; /* normalised units; far is used by orthographic depth only */
+    float near_plane, far_plane; /* view depths less start_depth; far INFINITY: none */
 } lsf_camera_state;
 
 typedef struct lsf_state {

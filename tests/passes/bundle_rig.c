@@ -94,7 +94,7 @@ bool bundle_rig_origin(const bundle_rig *rig, uint32_t x, uint32_t y, lsf_float3
     lsf_float3 forward = lsf_f3_load(&view->forward.x);
     forward = lsf_f3_mad(forward, lsf_f3_load(&view->forward_dx.x), ndc_x);
     forward = lsf_f3_mad(forward, lsf_f3_load(&view->forward_dy.x), ndc_y);
-    *position = lsf_f3_mad(lsf_f3_load(&view->origin.x), forward, view->depth.x / depth);
+    *position = lsf_f3_mad(lsf_f3_load(&view->start.x), forward, view->depth.y / depth);
     *normal = octahedral_decode(rig->surface[4 * pixel]);
     return depth != 0.0f;
 }

@@ -114,12 +114,12 @@ lsf_float3 surface_rig_ray(const surface_rig *r, uint32_t x, uint32_t y)
 static float depth_of(const surface_rig *r, uint32_t x, uint32_t y, const seen *s)
 {
     const struct lsf_view_data *view = &r->iteration.view;
-    const lsf_vec4 origins[3] = {view->origin, view->origin_dx, view->origin_dy};
+    const lsf_vec4 origins[3] = {view->start, view->start_dx, view->start_dy};
     float above = s->offset - lsf_f3_dot(s->plane, at_sample(r, x, y, origins));
     float z = above / lsf_f3_dot(s->plane, surface_rig_ray(r, x, y));
-    float near = view->depth.x, far = view->depth.y;
-    assert_true(z > near);
-    return r->setup.plan->orthographic ? (far - z) / (far - near) : near / z;
+    float a = view->depth.x, b = view->depth.y;
+    assert_true(z > r->setup.state.camera.near_plane);
+    return r->setup.plan->orthographic ? a * z + b : (a * z + b) / (z + view->depth.w);
 }
 
 float surface_rig_pixel(const surface_rig *r)
@@ -150,7 +150,7 @@ void surface_rig_upload(surface_rig *r)
 seen surface_rig_wall(const surface_rig *r, float distance)
 {
     lsf_float3 n = lsf_f3_scale(lsf_f3_load(&r->iteration.view.forward.x), -1.0f);
-    float at_eye = lsf_f3_dot(n, lsf_f3_load(&r->iteration.view.origin.x));
+    float at_eye = lsf_f3_dot(n, lsf_f3_load(&r->iteration.view.start.x));
     return (seen){.plane = n, .normal = n, .offset = at_eye - distance, .roughness = 1.0f};
 }
 

@@ -234,7 +234,7 @@ static void cutoff_is_a_step(void **unused)
             if (slanted) { /* through the same point of the view's axis */
                 const struct lsf_view_data *view = &r.s.iteration.view;
                 point.plane = point.normal = (lsf_float3){0, 1, 0};
-                point.offset = view->origin.y + 2.0f * view->forward.y;
+                point.offset = view->start.y + 2.0f * view->forward.y;
             }
             for (uint32_t y = 0; y < 41; y++)
                 for (uint32_t x = 0; x < 9; x++)
@@ -320,7 +320,7 @@ static void nothing_crosses_a_corner(void **unused)
     for (int i = 0; i < 2; i++) {
         lsf_float3 n = lsf_f3_normalize(
             lsf_f3_mad(surface_rig_wall(&r.s, 1.0f).plane, basis.t, i == 0 ? 1.0f : -1.0f));
-        lsf_float3 centre = lsf_f3_mad(lsf_f3_load(&r.s.iteration.view.origin.x),
+        lsf_float3 centre = lsf_f3_mad(lsf_f3_load(&r.s.iteration.view.start.x),
                                        lsf_f3_load(&r.s.iteration.view.forward.x), 1.0f);
         sides[i] =
             (seen){.plane = n, .normal = n, .offset = lsf_f3_dot(n, centre), .roughness = 1.0f};

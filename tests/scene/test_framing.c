@@ -47,7 +47,7 @@ static void extent(const lsf_scene *scene, float aspect, double time, double low
             lsf_float3 at = lsf_f3(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3],
                                    m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7],
                                    m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11]);
-            lsf_float3 to = lsf_f3_sub(at, lsf_f3_load(camera->origin));
+            lsf_float3 to = lsf_f3_sub(at, lsf_f3_load(camera->start));
             float depth = lsf_f3_dot(to, lsf_f3_load(camera->forward));
             assert_true(depth > camera->near_plane);
             for (int axis = 0; axis < 2; axis++) {
@@ -154,8 +154,8 @@ static void test_nothing_to_frame(void **state)
     lsf_view_params view = {.fov_y = NAN, .aspect = 1};
     assert_true(lsf_state_update(&now, scene, &view, NULL));
     for (int c = 0; c < 3; c++)
-        assert_true(isfinite(now.camera.origin[c]));
-    assert_true(lsf_f3_length(lsf_f3_load(now.camera.origin)) > 1);
+        assert_true(isfinite(now.camera.start[c]));
+    assert_true(lsf_f3_length(lsf_f3_load(now.camera.start)) > 1);
     lsf_state_finish(&now);
     destroy_scene(scene);
 }
