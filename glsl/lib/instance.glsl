@@ -30,6 +30,11 @@ uint instance_material()
     return uint(normal_rows[0].w);
 }
 
+uint instance_number()
+{
+    return uint(normal_rows[2].w);
+}
+
 bool instance_mirrored()
 {
     return normal_rows[1].w != 0.0;

@@ -1,8 +1,9 @@
-/* Alpha masks for passes that draw the scene's depth only. Switches LSF_MASK, LSF_TEXTURED,
- * LSF_SECOND_UV, LSF_VERTEX_COLOR; lsf_scene_gpu_mask_switches adds them. */
+/* Alpha masks and blended surfaces for passes that draw the scene's depth only. Switches LSF_MASK, LSF_BLEND,
+ * LSF_TEXTURED, LSF_SECOND_UV, LSF_VERTEX_COLOR; lsf_scene_gpu_mask_switches adds them. */
 #ifndef LSF_LIB_MASK
 #define LSF_LIB_MASK
 
+#include "lib/alpha.glsl"
 #include "lib/scene.glsl"
 
 #if LSF_MASK
@@ -17,9 +18,12 @@ in vec2 vertex_uv1;
 #if LSF_VERTEX_COLOR
 in float vertex_alpha;
 #endif
+#if LSF_BLEND
+flat in uvec2 vertex_layer;
+#endif
 #endif
 
-/* Whether an alpha mask cuts the fragment out. */
+/* Whether an alpha mask cuts the fragment out, or chance has it that a blended surface is not there. */
 bool masked_out()
 {
 #if LSF_MASK
@@ -39,7 +43,11 @@ bool masked_out()
 #if LSF_VERTEX_COLOR
     alpha *= vertex_alpha;
 #endif
-    return alpha < material.emission.w;
+    uvec3 key = uvec3(0u);
+#if LSF_BLEND
+    key = uvec3(layer_key(vertex_layer.x, vertex_layer.y, gl_FrontFacing), uvec2(gl_FragCoord.xy));
+#endif
+    return alpha_cuts_out(material.emission.w, alpha, key);
 #else
     return false;
 #endif

@@ -18,6 +18,9 @@ out vec2 vertex_uv1;
 layout(location = LSF_ATTRIBUTE_COLOR) in vec4 color;
 out float vertex_alpha;
 #endif
+#if LSF_BLEND
+flat out uvec2 vertex_layer; /* instance, vertex */
+#endif
 #endif
 
 void mask_vertex()
@@ -32,6 +35,9 @@ void mask_vertex()
 #endif
 #if LSF_VERTEX_COLOR
     vertex_alpha = color.a;
+#endif
+#if LSF_BLEND
+    vertex_layer = uvec2(instance_number(), gl_VertexID);
 #endif
 #endif
 }

@@ -32,6 +32,9 @@ flat in vec4 vertex_base_color_row_0, vertex_base_color_row_1;
 #if LSF_ANISOTROPY
 flat in vec4 vertex_anisotropy;
 #endif
+#if LSF_BLEND
+flat in uvec2 vertex_layer;
+#endif
 
 texture_place place_on_textures()
 {
@@ -102,9 +105,9 @@ bool material_emits(bool front)
     return material_emits(fragment_material(), front);
 }
 
-/* False where an alpha mask cuts the fragment out. Normals are turned to the side that `to_viewer`
- * points to (any length); `front` says whether that is the front. Emission as in material_surface. Call
- * it first, while the whole quad is alive. */
+/* False where an alpha mask cuts the fragment out, or a blended surface is not there. Normals are turned to
+ * the side that `to_viewer` points to (any length); `front` says whether that is the front. Emission as in
+ * material_surface. Call it first, while the whole quad is alive. */
 bool material_evaluate(vec3 to_viewer, out surface s, out vec3 emission, out bool front)
 {
     front = gl_FrontFacing != (vertex_flags.x != 0.0);
@@ -117,6 +120,9 @@ bool material_evaluate(vec3 to_viewer, out surface s, out vec3 emission, out boo
 #endif
 #if LSF_VERTEX_COLOR
     point.color = vertex_color;
+#endif
+#if LSF_BLEND
+    point.key = uvec3(layer_key(vertex_layer.x, vertex_layer.y, front), uvec2(gl_FragCoord.xy));
 #endif
     vec3 position_dx = dFdx(vertex_position), position_dy = dFdy(vertex_position);
     if (!material_surface(fragment_material(), point, s, emission))

@@ -1,10 +1,11 @@
 /* The surface of a material at a point, for fragments (lib/material.glsl) and for compute shaders that
  * rasterise by themselves. Switches LSF_TEXTURED, LSF_SECOND_UV, LSF_VERTEX_COLOR, LSF_TANGENT,
- * LSF_MASK, LSF_GLOSS, LSF_ANISOTROPY, LSF_TRANSMISSION, LSF_EMISSION and one for each kind of texture;
+ * LSF_MASK, LSF_BLEND, LSF_GLOSS, LSF_ANISOTROPY, LSF_TRANSMISSION, LSF_EMISSION and one for each kind of texture;
  * lsf_scene_gpu_material_switches adds them. */
 #ifndef LSF_LIB_MATERIAL_SURFACE
 #define LSF_LIB_MATERIAL_SURFACE
 
+#include "lib/alpha.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/scene.glsl"
 
@@ -24,6 +25,7 @@ struct material_point {
     vec4 color;
     texture_place place;
     bool front;
+    uvec3 key; /* for alpha_cuts_out; only with LSF_BLEND */
 };
 
 vec4 base_color(lsf_material_data material, material_point point)
@@ -58,7 +60,7 @@ bool material_emits(lsf_material_data material, bool front)
 }
 
 /* Everything but the geometric normal, which is set to the vertices'. False where an alpha mask cuts
- * the point out. The shading normal is turned to the front or to the back, as seen. Emission is that of
+ * the point out, or a blended surface is not there. The shading normal is turned to the front or to the back, as seen. Emission is that of
  * the sides that material_emits names; of an unlit surface it is the base colour. */
 bool material_surface(lsf_material_data material, material_point point, out surface s,
                       out vec3 emission)
@@ -66,7 +68,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     emission = vec3(0.0);
     vec4 color = base_color(material, point);
 #if LSF_MASK
-    if (color.a < material.emission.w)
+    if (alpha_cuts_out(material.emission.w, color.a, point.key))
         return false;
 #endif
     vec3 vertex_n = normalize(point.normal);

@@ -40,6 +40,9 @@ flat out vec4 vertex_base_color_row_0, vertex_base_color_row_1;
 #if LSF_ANISOTROPY
 flat out vec4 vertex_anisotropy;
 #endif
+#if LSF_BLEND
+flat out uvec2 vertex_layer; /* instance, vertex */
+#endif
 
 /* `p`: the vertex relative to the origin. */
 void material_vertex(vec3 p)
@@ -74,6 +77,9 @@ void material_vertex(vec3 p)
 #endif
 #if LSF_ANISOTROPY
     vertex_anisotropy = materials[material].anisotropy;
+#endif
+#if LSF_BLEND
+    vertex_layer = uvec2(instance_number(), gl_VertexID);
 #endif
 }
 

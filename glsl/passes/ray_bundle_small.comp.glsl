@@ -119,6 +119,9 @@ void main()
     point.place.uv1_dx = second_1 * b1_change.x + second_2 * b2_change.x;
     point.place.uv1_dy = second_1 * b1_change.y + second_2 * b2_change.y;
 #endif
+#if LSF_BLEND
+    uint layer = layer_key(range.z, corners.z, point.front);
+#endif
     uint sides = (material_emits(material, point.front) ? LSF_BUNDLE_EMITS_BACK : 0u) |
                  (material_emits(material, !point.front) ? LSF_BUNDLE_EMITS_AHEAD : 0u);
 
@@ -169,6 +172,9 @@ void main()
         point.color = (1.0 - b1 - b2) * texelFetch(color_fetch, int(corners.x)) +
                       b1 * texelFetch(color_fetch, int(corners.y)) +
                       b2 * texelFetch(color_fetch, int(corners.z));
+#endif
+#if LSF_BLEND
+        point.key = uvec3(layer, uvec2(texel));
 #endif
         surface s;
         vec3 emission;

@@ -106,11 +106,31 @@ vec3 closest_weights(voxel_triangle t, vec3 p)
                               : vec3(on_ca.x, 0.0, 1.0 - on_ca.x);
 }
 
-/* The surface about the voxel's centre; false where an alpha mask cuts it out. */
-bool surface_in(voxel_triangle t, vec3 weights, out surface s, out vec3 emission)
+/* Voxels to a cube's side in which a layer decides as one whether it is there; the fewer of its cubes meet, the
+ * fewer rays meet two of them on their way through one sheet of voxels. */
+#define BLEND_CUBE 32u
+
+/* Of an instance, what faces to one side of a plane is a layer, what faces to the other another: its front and its
+ * back. Plane and cubes lie elsewhere in each iteration. */
+uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
+{
+#if LSF_BLEND
+    uvec3 bits = hash(uvec3(chance, 0u));
+    uvec3 cube = (uvec3(cell) + bits % BLEND_CUBE) / BLEND_CUBE;
+    vec3 n = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;
+    bool front = dot(n, hash_unit(bits) - 0.5) > 0.0;
+    return uvec3(layer_key(range.z, 0u, front), cube.x | cube.y << 16, cube.z);
+#else
+    return uvec3(0u);
+#endif
+}
+
+/* The surface about the voxel's centre; false where an alpha mask cuts it out, or a blended one is not there. */
+bool surface_in(voxel_triangle t, ivec3 cell, vec3 weights, out surface s, out vec3 emission)
 {
     /* A voxel's face has the area 1, the triangle half of its normal's length. */
     material_point point = triangle_point(t.corners, weights, 2.0 / length(t.normal));
+    point.key = voxel_layer_key(t, cell);
     return material_surface(triangle_material(), point, s, emission);
 }
 

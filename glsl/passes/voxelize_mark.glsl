@@ -49,7 +49,7 @@ void bid(voxel_triangle t, ivec3 cell, vec3 low)
 #if LSF_MASK
     surface s;
     vec3 emission;
-    if (!surface_in(t, weights, s, emission))
+    if (!surface_in(t, cell, weights, s, emission))
         return;
 #endif
     vec3 nearest_point = t.a * weights.x + t.b * weights.y + t.c * weights.z;

@@ -1,4 +1,9 @@
 /* The surface of the winning triangle of each voxel that the instance in turn has won. */
+/* What has won was there. */
+#undef LSF_MASK
+#undef LSF_BLEND
+#define LSF_MASK 0
+#define LSF_BLEND 0
 #include "passes/voxelize.glsl"
 #include "passes/voxelize_list.glsl"
 
@@ -25,7 +30,7 @@ void write_surface(voxel_triangle t, ivec3 cell)
     vec3 weights = closest_weights(t, low + 0.5);
     surface s;
     vec3 emission;
-    if (!surface_in(t, weights, s, emission))
+    if (!surface_in(t, cell, weights, s, emission))
         return;
     lsf_material_data material = triangle_material();
     vec3 face = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;

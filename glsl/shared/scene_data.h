@@ -10,7 +10,8 @@
 struct lsf_instance_data {
     vec4 transform_0, transform_1, transform_2; /* rows of the 3x4 matrix */
     vec4 normal_0, normal_1, normal_2;          /* rows of the normals' 3x3 matrix in x y z;
-                                                 * w: material index, mirrored (0 or 1), unused */
+                                                 * w: material index, mirrored (0 or 1), the
+                                                 * instance's number */
 };
 
 /* A texture slot: u' = row_0.x u + row_0.y v + row_0.z, v' likewise with row_1.
@@ -24,7 +25,8 @@ typedef struct lsf_texture_slot_data lsf_texture_slot_data;
 
 struct lsf_material_data {
     vec4 base_color;
-    vec4 emission;   /* rgb: radiance factor [W/(m^2 sr)]; w: alpha cutoff, negative without mask */
+    vec4 emission;   /* rgb: radiance factor [W/(m^2 sr)]; w: alpha cutoff, LSF_ALPHA_ALL or
+                      * LSF_ALPHA_BLENDED */
     vec4 surface;    /* metallic, roughness, normal scale, f0 of the dielectric */
     vec4 anisotropy; /* strength, cos and sin of the rotation; transmission */
     vec4 flags;      /* double-sided, unlit, surface of a medium; 0 or 1; the material's number */
@@ -32,6 +34,10 @@ struct lsf_material_data {
     lsf_texture_slot_data base_color_slot, metallic_roughness_slot, normal_slot, emissive_slot,
         anisotropy_slot, transmission_slot;
 };
+
+/* In place of an alpha cutoff. */
+#define LSF_ALPHA_ALL -1.0f     /* nothing is cut out */
+#define LSF_ALPHA_BLENDED -2.0f /* alphaMode BLEND; see lib/alpha.glsl */
 
 /* Attribute locations of the vertex streams. */
 #define LSF_ATTRIBUTE_POSITION 0

@@ -69,6 +69,7 @@ typedef struct lsf_requirements {
                                   * transmit, for a hollow vessel's walls: two walls, two sides each */
     bool variable_ior;           /* some index of refraction other than 1.5 */
     bool masked;                 /* alphaMode MASK */
+    bool blended;                /* alphaMode BLEND, where some alpha is below 1 */
     bool normal_mapped;
     bool base_color_textured, metallic_roughness_textured, emissive_textured;
     bool anisotropy_textured, transmission_textured;

@@ -317,7 +317,6 @@ void gltf_materials_import(gltf_import &import)
     std::vector<bool> used = find_used(import);
     std::vector<lsf_material> materials;
     std::vector<std::string> names;
-    bool blended = false;
     import.material_of.assign(import.model.materials.size(), LSF_NONE);
     for (size_t i = 0; i < used.size(); i++) {
         if (!used[i])
@@ -330,7 +329,6 @@ void gltf_materials_import(gltf_import &import)
             make_lambert(material);
         else
             read_surface(textures, source, location, material);
-        blended = blended || material.alpha_mode == LSF_ALPHA_BLEND;
         import.material_of[i] = (uint32_t)materials.size();
         materials.push_back(material);
         names.push_back(source.name);
@@ -344,9 +342,6 @@ void gltf_materials_import(gltf_import &import)
     for (const std::string &name : names)
         import.scene->materials[import.scene->material_count++].name = copy_text(name);
     textures.finish();
-    if (blended)
-        lsf_scene_add_note(import.scene, "alphaMode BLEND is not supported: such materials are "
-                                         "treated as opaque");
 }
 
 } // namespace lsf

@@ -101,6 +101,7 @@ lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_
         lsf_scene_destroy(scene);
         return NULL;
     }
+    lsf_scene_settle_alpha(scene);
     lsf_scene_compute_requirements(scene);
     if (scene->camera_count == 0 && !add_default_camera(scene)) {
         lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);

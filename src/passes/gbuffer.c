@@ -140,12 +140,20 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
     return pass->framebuffer && pass->program && pass->timer;
 }
 
+/* What transmits and what is blended is there by chance: for both programs alike. */
+static void set_chance(const lsf_gbuffer *pass, const lsf_iteration *iteration)
+{
+    if (pass->outputs.tint || iteration->plan->requirements.blended)
+        lsf_iteration_set_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
+}
+
 /* Draws once more what transmits: all that lies before the seen surface has let light pass. */
 static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_draw_region *region)
 {
     static const GLfloat zero[4] = {0};
     glBindFramebuffer(GL_FRAMEBUFFER, pass->tint_framebuffer);
     lsf_begin_surfaces(iteration->plan->width, iteration->plan->height, pass->tint_program);
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
     glDisable(GL_DEPTH_TEST);
     if (pass->outputs.absorption)
         glClearNamedFramebufferfv(pass->tint_framebuffer, GL_COLOR, 1, zero);
@@ -172,10 +180,9 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
     if (pass->outputs.motion)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
-    if (pass->outputs.tint) {
+    if (pass->outputs.tint)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, one);
-        lsf_iteration_set_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
-    }
+    set_chance(pass, iteration);
     lsf_draw_region region;
     lsf_iteration_region(iteration, &region);
     lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region, pass->counts);

@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "passes/ray_bundle_parts.h"
+#include "plan/purpose.h"
 #include "shared/scene_data.h"
 
 /* The search walks slices in one loop of this many steps; see LSF_STEPS there. */
@@ -168,9 +169,10 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     lsf_ray_bundle_bind(pass, bundle);
     glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
     if (pass->small_program) {
-        lsf_ray_bundle_raster_run(pass, iteration);
+        lsf_ray_bundle_raster_run(pass, iteration, bundle);
     } else {
         glUniform1ui(0, pass->room);
+        lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_BUNDLE, bundle);
         lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
                            pass->draw_counts);
     }

@@ -81,7 +81,8 @@ void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
 void lsf_ray_bundle_raster_plan(lsf_plan *plan, const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
 /* Appends all of the scene to the bundle that is bound. */
-void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration);
+void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration,
+                               uint32_t bundle);
 void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass);
 
 /* --- ray_bundle_tally.c; lsf_ray_bundle_end, _gate and _settle are there, too */

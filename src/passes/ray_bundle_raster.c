@@ -5,6 +5,7 @@
 
 #include "base/base.h"
 #include "passes/ray_bundle_parts.h"
+#include "plan/purpose.h"
 #include "shared/scene_data.h"
 
 #define DRAW_WORDS 5 /* DrawElementsIndirectCommand */
@@ -82,7 +83,8 @@ static uint32_t stride_of(uint32_t groups)
     return stride > 0 ? stride : 1;
 }
 
-void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration)
+void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration,
+                               uint32_t bundle)
 {
     const lsf_scene_gpu *scene = iteration->scene;
     GLint bits = 0;
@@ -93,6 +95,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     glUseProgram(pass->small_program);
     glUniform1ui(0, pass->room);
     glUniform1f(8, ldexpf(1.0f, bits));
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_BUNDLE, bundle);
     uint32_t bound = LSF_NONE;
     for (uint32_t i = 0; i < scene->draw_count; i++) {
         uint32_t index = scene->draw_order[i];
@@ -115,6 +118,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
                     GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(pass->build_program);
     glUniform1ui(0, pass->room);
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_BUNDLE, bundle);
     lsf_scene_gpu_draw_listed(scene, iteration->state, pass->large);
 }
 

@@ -52,13 +52,20 @@ static void name_layer(char name[64], int kind, int layer)
     snprintf(name, 64, "reflective_shadow_map.%s_%s", kinds[kind].name, layers[layer].name);
 }
 
+/* Densities that follow what a texel shows would, with blended surfaces, go along with which of
+ * them is there: the shares of both ways to find a path would no longer add up to one. */
+static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_params *params)
+{
+    return params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE && !plan->requirements.blended;
+}
+
 static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_params *params,
                      bool gloss)
 {
     uint32_t side = (uint32_t)params->resolution;
     const bool present[LAYERS] = {
         [GRADIENT] = true, [SURFACE] = true,
-        [GLOSS] = gloss,   [IMPORTANCE] = params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE,
+        [GLOSS] = gloss,   [IMPORTANCE] = is_adaptive(plan, params),
         [DEPTH] = true,
     };
     for (int layer = 0; layer < LAYERS; layer++) {
@@ -110,10 +117,13 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     }
     lsf_plan_buffer_add(plan, "reflective_shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
-    if (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE)
+    if (is_adaptive(plan, params))
         plan_pdf(plan, most_faces, (uint32_t)params->resolution);
     else
-        lsf_plan_omit(plan, "reflective_shadow_map_pdf", "rsm.pdf is uniform");
+        lsf_plan_omit(plan, "reflective_shadow_map_pdf",
+                      params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE
+                          ? "some material is blended: VPLs are drawn uniformly"
+                          : "rsm.pdf is uniform");
 }
 
 static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context *context,
@@ -225,6 +235,8 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     glNamedBufferSubData(out->light_buffer, 0, sizeof out->light, &out->light);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->light_buffer);
     lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP,
+                                   light_index);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
         lsf_light_map_region(&out->light, face, &region);

@@ -165,6 +165,7 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
         lsf_draw_region region;
         lsf_light_map_region(data, face, &region);
         lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
+        lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_SHADOW_MAP, light_index);
         glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[face]);
         glClearNamedFramebufferfv(target->framebuffers[face], GL_DEPTH, 0, zero);
         glUniform1i(0, (GLint)face);
@@ -176,7 +177,8 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
         lsf_light_walls_draw(&pass->walls, iteration, (GLint)face, LSF_PURPOSE_STRAIGHT_SHADOW_MAP,
                              light_index, &region, pass->counts);
         lsf_light_walls_tint(&pass->walls, iteration, target->tint_framebuffers[face],
-                             target->resolution, (GLint)face, target->depth, &region, pass->counts);
+                             target->resolution, (GLint)face, LSF_PURPOSE_STRAIGHT_SHADOW_MAP,
+                             light_index, target->depth, &region, pass->counts);
     }
     pass->outputs.depth = target->depth;
     pass->outputs.gradient = target->gradient;

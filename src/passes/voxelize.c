@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "plan/purpose.h"
 #include "shared/scene_data.h"
 
 /* Storage buffers beside LSF_BINDING_MATERIALS. */
@@ -339,23 +340,29 @@ static void use_program(GLuint program, const instance_turn *turn)
     lsf_triangle_fetch_instance(turn->iteration, turn->instance, 0, turn->triangles);
 }
 
+static void use_mark_program(GLuint program, const instance_turn *turn)
+{
+    use_program(program, turn);
+    lsf_iteration_set_blend_chance(turn->iteration, LSF_PURPOSE_BLEND_VOXEL, 0);
+}
+
 static void mark_by_compute(lsf_voxelize *pass, const instance_turn *turn)
 {
     uint32_t groups = (turn->triangles + GROUP - 1) / GROUP;
     empty_list(pass->tiles, LSF_VOXEL_LIST_ROW / GROUP_TILES);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    use_program(pass->small_program, turn);
+    use_mark_program(pass->small_program, turn);
     glDispatchCompute(groups < ROW_GROUPS ? groups : ROW_GROUPS,
                       (groups + ROW_GROUPS - 1) / ROW_GROUPS, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
-    use_program(pass->large_program, turn);
+    use_mark_program(pass->large_program, turn);
     glDispatchComputeIndirect(0);
 }
 
 static void mark_by_raster(lsf_voxelize *pass, const instance_turn *turn)
 {
-    use_program(pass->raster_program, turn);
+    use_mark_program(pass->raster_program, turn);
     glUniform1f(LOCATION_SIDE, (float)pass->side);
     lsf_draw_vertices(pass->context, 3 * turn->triangles);
 }
@@ -480,7 +487,7 @@ const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_itera
     struct lsf_voxel_grid_data data = lsf_voxel_grid_data(&pass->grid, iteration);
     lsf_voxelize_outputs *o = &pass->outputs;
     bool moved = lsf_voxelize_still_moved(pass, iteration->state);
-    bool anew = pass->runs == 0 || pass->grid.jitter;
+    bool anew = pass->runs == 0 || lsf_voxelize_always_anew(iteration->plan, pass->grid.jitter);
     o->changed = anew || moved;
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, o->grid_buffer);
     if (!o->changed)

@@ -48,6 +48,9 @@ void lsf_voxelize_textures(lsf_voxelize *pass,
 
 /* --- voxelize_still.c --- */
 
+/* Whether no iteration's voxels are those of another: the grid moves, or blended surfaces come and
+ * go. */
+bool lsf_voxelize_always_anew(const lsf_plan *plan, bool jitter);
 /* Whether the grid is copied: something moves in it, and it does not itself. */
 bool lsf_voxelize_keeps_still(const lsf_plan *plan, bool jitter);
 /* Lists the copies of everything that the pass has planned; nothing where nothing moves or the grid

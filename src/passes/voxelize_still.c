@@ -14,9 +14,14 @@ static void still_name(char name[64], const char *of)
     snprintf(name, 64, "voxelize.still_%s", of + sizeof prefix - 1);
 }
 
+bool lsf_voxelize_always_anew(const lsf_plan *plan, bool jitter)
+{
+    return jitter || plan->requirements.blended;
+}
+
 bool lsf_voxelize_keeps_still(const lsf_plan *plan, bool jitter)
 {
-    return plan->requirements.moving && !jitter;
+    return plan->requirements.moving && !lsf_voxelize_always_anew(plan, jitter);
 }
 
 void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid)
@@ -26,7 +31,9 @@ void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid)
     char name[64];
     if (!lsf_voxelize_keeps_still(plan, grid->jitter)) {
         lsf_plan_omit(plan, "voxelize.still", "%s",
-                      grid->jitter ? "the grid moves every iteration" : "nothing moves");
+                      grid->jitter                 ? "the grid moves every iteration"
+                      : plan->requirements.blended ? "blended surfaces change every iteration"
+                                                   : "nothing moves");
         return;
     }
     lsf_voxelize_textures(&none, textures);

@@ -119,7 +119,7 @@ bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
     static const char *const map_files[5] = {"passes/vpl_shadow_map.vert.glsl",
                                              "passes/vpl_shadow_map.frag.glsl"};
     *pass = (lsf_vpl){.context = context,
-                      .masked = plan->requirements.masked,
+                      .masked = plan->requirements.masked || plan->requirements.blended,
                       .count = (uint32_t)params->count,
                       .first_emitter =
                           lsf_plan_find_pass(plan, "vpl_draw") ? (uint32_t)params->count : 0,
@@ -260,6 +260,7 @@ void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t 
     if (listed)
         draw_triangles(pass, iteration);
     glUseProgram(pass->map_program);
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_VPL, index);
     for (GLuint octant = 0; octant < 4 && (pass->masked || !listed); octant++) {
         glUniform1ui(0, octant);
         lsf_scene_gpu_draw(iteration->scene, iteration->state,

@@ -136,6 +136,12 @@ void lsf_iteration_set_chance(const lsf_iteration *iteration, uint32_t purpose, 
                  iteration->index);
 }
 
+void lsf_iteration_set_blend_chance(const lsf_iteration *iteration, uint32_t purpose, uint32_t map)
+{
+    if (iteration->plan->requirements.blended)
+        lsf_iteration_set_chance(iteration, purpose, map);
+}
+
 uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose)
 {
     return lsf_hash(iteration->seed, purpose);

@@ -49,6 +49,8 @@ void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32
 /* For lib/chance.glsl in the program in use: numbers of `purpose`'s own, which `map` tells apart
  * among those of one purpose. */
 void lsf_iteration_set_chance(const lsf_iteration *iteration, uint32_t purpose, uint32_t map);
+/* The same for programs that draw blended surfaces, where there are any. */
+void lsf_iteration_set_blend_chance(const lsf_iteration *iteration, uint32_t purpose, uint32_t map);
 
 /* A seed of its own for each use of random numbers, named by `purpose`. */
 uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose);

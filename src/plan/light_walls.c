@@ -45,14 +45,16 @@ void lsf_light_walls_draw(const lsf_light_walls *walls, const lsf_iteration *ite
 }
 
 void lsf_light_walls_tint(const lsf_light_walls *walls, const lsf_iteration *iteration,
-                          GLuint framebuffer, uint32_t resolution, GLint face, GLuint depth,
-                          const lsf_draw_region *region, uint64_t *counts)
+                          GLuint framebuffer, uint32_t resolution, GLint face, uint32_t purpose,
+                          uint32_t map, GLuint depth, const lsf_draw_region *region,
+                          uint64_t *counts)
 {
     static const GLfloat white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     lsf_begin_fullscreen(framebuffer, resolution, resolution, walls->tint_program);
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, white);
     lsf_blend_multiply(0);
     glUniform1i(0, face);
+    lsf_iteration_set_blend_chance(iteration, purpose, map);
     lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, depth);
     lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_WALLS, region, counts);
 }

@@ -31,9 +31,10 @@ void lsf_light_walls_draw(const lsf_light_walls *walls, const lsf_iteration *ite
                           uint32_t purpose, uint32_t map, const lsf_draw_region *region,
                           uint64_t *counts);
 /* Multiplies the others into `framebuffer`, a face of `resolution` texels of the map's tint, after
- * white; `depth` is the map's. The light's buffer is bound. */
+ * white; `depth` is the map's; `purpose` and `map` as above. The light's buffer is bound. */
 void lsf_light_walls_tint(const lsf_light_walls *walls, const lsf_iteration *iteration,
-                          GLuint framebuffer, uint32_t resolution, GLint face, GLuint depth,
-                          const lsf_draw_region *region, uint64_t *counts);
+                          GLuint framebuffer, uint32_t resolution, GLint face, uint32_t purpose,
+                          uint32_t map, GLuint depth, const lsf_draw_region *region,
+                          uint64_t *counts);
 
 #endif

@@ -20,10 +20,15 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_CONE_TURN,
     LSF_PURPOSE_CONE_ELEVATION,
     LSF_PURPOSE_VOXEL_EMITTER,
-    /* Whether surfaces that transmit are there; see lib/straight.glsl. */
+    /* Whether surfaces that transmit, and blended ones, are there; see lib/straight.glsl and
+     * lib/alpha.glsl. */
     LSF_PURPOSE_STRAIGHT_PIXEL,
     LSF_PURPOSE_STRAIGHT_SHADOW_MAP,            /* one for each light */
     LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP, /* the same */
+    LSF_PURPOSE_BLEND_VPL, /* whether blended surfaces are there; one for each VPL of an iteration
+                            */
+    LSF_PURPOSE_BLEND_BUNDLE, /* the same for each bundle */
+    LSF_PURPOSE_BLEND_VOXEL,
 } lsf_purpose;
 
 #endif

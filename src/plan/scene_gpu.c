@@ -26,6 +26,12 @@ static bool any_texture(const lsf_plan *plan)
            (plan->transmission && r->transmission_textured);
 }
 
+/* Whether fragments may be missing by their alpha. */
+static bool cuts_out(const lsf_requirements *r)
+{
+    return r->masked || r->blended;
+}
+
 void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -74,7 +80,8 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         {"LSF_TANGENT", r->normal_mapped || r->anisotropic, "there are normal maps or anisotropy"},
         {"LSF_BASE_COLOR_TEXTURE", r->base_color_textured, "some base colour is a texture"},
         {"LSF_NORMAL_TEXTURE", r->normal_mapped, "some material has a normal map"},
-        {"LSF_MASK", r->masked, "some material is alpha-masked"},
+        {"LSF_MASK", cuts_out(r), "some material is alpha-masked or blended"},
+        {"LSF_BLEND", r->blended, "some material is blended"},
         {"LSF_GLOSS", gloss, "roughness or metallic vary"},
         {"LSF_METALLIC_ROUGHNESS_TEXTURE", gloss && r->metallic_roughness_textured,
          "some roughness or metallic is a texture"},
@@ -94,12 +101,13 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
 void lsf_scene_gpu_mask_switches(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
-    lsf_plan_switch_add(plan, "LSF_MASK", r->masked, "some material is alpha-masked");
-    lsf_plan_switch_add(plan, "LSF_TEXTURED", r->masked && r->base_color_textured,
+    lsf_plan_switch_add(plan, "LSF_MASK", cuts_out(r), "some material is alpha-masked or blended");
+    lsf_plan_switch_add(plan, "LSF_BLEND", r->blended, "some material is blended");
+    lsf_plan_switch_add(plan, "LSF_TEXTURED", cuts_out(r) && r->base_color_textured,
                         "masks are textures");
-    lsf_plan_switch_add(plan, "LSF_SECOND_UV", r->masked && r->second_uv,
+    lsf_plan_switch_add(plan, "LSF_SECOND_UV", cuts_out(r) && r->second_uv,
                         "some texture reads TEXCOORD_1");
-    lsf_plan_switch_add(plan, "LSF_VERTEX_COLOR", r->masked && r->vertex_colored,
+    lsf_plan_switch_add(plan, "LSF_VERTEX_COLOR", cuts_out(r) && r->vertex_colored,
                         "masked primitives have vertex colours");
 }
 
@@ -140,7 +148,9 @@ struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t
     return (material_data){
         .base_color = {m->base_color[0], m->base_color[1], m->base_color[2], m->base_color[3]},
         .emission = {m->emission[0], m->emission[1], m->emission[2],
-                     m->alpha_mode == LSF_ALPHA_MASK ? m->alpha_cutoff : -1.0f},
+                     m->alpha_mode == LSF_ALPHA_MASK    ? m->alpha_cutoff
+                     : m->alpha_mode == LSF_ALPHA_BLEND ? LSF_ALPHA_BLENDED
+                                                        : LSF_ALPHA_ALL},
         .surface = {m->metallic, m->roughness, m->normal_scale, lsf_f0_from_ior(m->ior)},
         .anisotropy = {m->anisotropy_strength, cosf(m->anisotropy_rotation),
                        sinf(m->anisotropy_rotation), m->transmission},
@@ -187,7 +197,7 @@ static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
                                   {t[8], t[9], t[10], t[11]},
                                   {n[0], n[1], n[2], (float)instance->material},
                                   {n[3], n[4], n[5], instance->mirrored},
-                                  {n[6], n[7], n[8], 0.0f}};
+                                  {n[6], n[7], n[8], (float)i}};
         if (previous)
             memcpy(transforms + 12 * (size_t)i, previous->instances[i].transform, 48);
     }
@@ -215,7 +225,8 @@ static bool upload_triangles(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
     for (uint32_t i = 0; i < state->instance_count; i++) {
         const lsf_instance_state *instance = &state->instances[i];
         const lsf_primitive *primitive = &scene->primitives[instance->primitive];
-        if (instance->skipped || scene->materials[instance->material].alpha_mode == LSF_ALPHA_MASK)
+        if (instance->skipped ||
+            scene->materials[instance->material].alpha_mode != LSF_ALPHA_OPAQUE)
             continue;
         const float *m = instance->transform;
         const uint32_t *indices = scene->indices + primitive->first_index;
@@ -344,7 +355,7 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the bounds of triangles");
     gpu->shading_array = create_array(gpu, "scene.shading_array", true, false);
     gpu->position_array =
-        create_array(gpu, "scene.position_array", false, plan->requirements.masked);
+        create_array(gpu, "scene.position_array", false, cuts_out(&plan->requirements));
     return true;
 }
 
@@ -392,7 +403,7 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
                           lsf_draw_mode mode)
 {
     bool point = mode == LSF_DRAW_POINTWISE;
-    if (shades(mode) || material->alpha_mode == LSF_ALPHA_MASK)
+    if (shades(mode) || material->alpha_mode != LSF_ALPHA_OPAQUE)
         bind_slot(gpu, LSF_UNIT_BASE_COLOR, &material->base_color_texture, point);
     if (!shades(mode))
         return;
@@ -408,7 +419,7 @@ static bool takes_part(const lsf_material *material, lsf_draw_mode mode)
 {
     switch (mode) {
     case LSF_DRAW_MASKED:
-        return material->alpha_mode == LSF_ALPHA_MASK;
+        return material->alpha_mode != LSF_ALPHA_OPAQUE;
     case LSF_DRAW_TRANSMISSIVE:
         return material->transmission > 0.0f;
     case LSF_DRAW_WALLS:

@@ -15,7 +15,7 @@ typedef struct lsf_scene_gpu {
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
     GLuint instances, previous_transforms, materials, environment;
     GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */
-    uint32_t triangle_count; /* in it: those of materials without a mask */
+    uint32_t triangle_count; /* in it: those of opaque materials */
     GLuint *textures;        /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* scene texture to an entry of `textures` */
@@ -56,9 +56,9 @@ typedef enum lsf_draw_mode {
                          * passes whose samples are spread at random */
     LSF_DRAW_TRANSMISSIVE, /* as for shading, of materials that transmit only */
     LSF_DRAW_WALLS,        /* the same of thin walls only */
-    LSF_DRAW_POSITIONS,    /* positions; base colour textures of masked materials are bound */
+    LSF_DRAW_POSITIONS,    /* positions; base colour textures of what is not opaque are bound */
     LSF_DRAW_POSITIONS_BUT_WALLS, /* the same, but of thin walls that transmit */
-    LSF_DRAW_MASKED,              /* the same of masked materials only */
+    LSF_DRAW_MASKED,              /* the same of what is not opaque only */
 } lsf_draw_mode;
 
 /* What a pass drew since it was made. */

@@ -19,9 +19,11 @@ static const lsf_material *material_of(const lsf_reference_geometry *geometry, u
 
 static bool emission_varies(const lsf_scene *scene, const lsf_material *material)
 {
+    if (material->alpha_mode != LSF_ALPHA_OPAQUE)
+        return true;
     if (material->unlit)
         return material->base_color_texture.texture != LSF_NONE || scene->vertices.color != NULL;
-    return material->emissive_texture.texture != LSF_NONE || material->alpha_mode == LSF_ALPHA_MASK;
+    return material->emissive_texture.texture != LSF_NONE;
 }
 
 /* Texels that a triangle covers, in the texture that its emission comes from. */
@@ -58,7 +60,8 @@ static float mean_emission(const lsf_reference_geometry *geometry, const lsf_mat
         float u[2];
         lsf_sobol_2d(i, triangle, u);
         lsf_sample_triangle(u[0], u[1], &hit.b1, &hit.b2);
-        sum += lsf_f3_luminance(lsf_reference_emission(geometry, &hit, true));
+        sum += lsf_f3_luminance(lsf_reference_emission(geometry, &hit, true)) *
+               lsf_reference_coverage(geometry, &hit);
     }
     return sum / (float)samples;
 }
@@ -181,7 +184,8 @@ lsf_reference_emitter_sample lsf_reference_emitters_sample(const lsf_reference_e
     float cosine = -lsf_f3_dot(normal, sample.direction);
     if (cosine == 0.0f)
         return sample;
-    sample.radiance = lsf_reference_emission(geometry, &hit, cosine > 0.0f);
+    sample.radiance = lsf_f3_scale(lsf_reference_emission(geometry, &hit, cosine > 0.0f),
+                                   lsf_reference_coverage(geometry, &hit));
     sample.pdf = emitters->area_pdf[i] * distance2 / fabsf(cosine);
     float offset = copysignf(lsf_reference_ray_offset(corners), cosine);
     sample.target = lsf_f3_mad(point, normal, offset);

@@ -6,11 +6,34 @@
 #include <unistd.h>
 
 #include "base/base.h"
+#include "math/sampling.h"
 #include "reference/surface.h"
 
 /* Embree needs about this much for its tree at good quality, in bytes for each triangle, with
  * what it uses while building. */
 #define TREE_BYTES_PER_TRIANGLE 220u
+
+/* Handed through Embree to the filters. */
+typedef struct ray_context {
+    struct RTCIntersectContext embree;
+    lsf_reference_chance chance;
+} ray_context;
+
+/* Below 1, so that what has alpha 1 is always there; the same however often Embree asks. */
+static float number_of(const struct RTCIntersectContext *context, const lsf_reference_hit *hit)
+{
+    lsf_reference_chance chance = ((const ray_context *)context)->chance;
+    uint32_t seed = lsf_hash(lsf_hash(chance.seed, hit->instance), hit->triangle);
+    return lsf_sobol_1d(chance.sample, seed);
+}
+
+/* Masks need no number, and rays that ask for speed alone bring none. */
+static bool is_there(const lsf_reference_mesh *mesh, const lsf_reference_hit *hit,
+                     const struct RTCIntersectContext *context)
+{
+    float coverage = lsf_reference_coverage(mesh->geometry, hit);
+    return coverage > 0.0f && (coverage >= 1.0f || number_of(context, hit) < coverage);
+}
 
 /* struct RTCHitN is arrays of N values: the normal's x, y and z, u, v, the triangle's number, ...;
  * Embree offers its names for them to C++ only. */
@@ -23,7 +46,7 @@ static void reject_cut_out(const struct RTCFilterFunctionNArguments *arguments)
     for (size_t i = 0; i < count; i++) {
         lsf_reference_hit hit = {mesh->instance, numbers[5 * count + i], values[3 * count + i],
                                  values[4 * count + i], 0.0f};
-        if (arguments->valid[i] != 0 && lsf_reference_cut_out(mesh->geometry, &hit))
+        if (arguments->valid[i] != 0 && !is_there(mesh, &hit, arguments->context))
             arguments->valid[i] = 0;
     }
 }
@@ -61,7 +84,7 @@ static bool local_indices(lsf_reference_geometry *geometry, uint32_t primitive_i
     return true;
 }
 
-static bool add_instance(lsf_reference_geometry *geometry, uint32_t index)
+static bool add_instance(lsf_reference_geometry *geometry, uint32_t index, lsf_reference_use use)
 {
     const lsf_scene *scene = geometry->scene;
     const lsf_instance_state *instance = &geometry->state->instances[index];
@@ -82,7 +105,8 @@ static bool add_instance(lsf_reference_geometry *geometry, uint32_t index)
                                0, 3 * sizeof(float), primitive->vertex_count);
     rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->indices, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
-    if (scene->materials[instance->material].alpha_mode == LSF_ALPHA_MASK) {
+    lsf_alpha_mode mode = scene->materials[instance->material].alpha_mode;
+    if (mode == LSF_ALPHA_MASK || (mode == LSF_ALPHA_BLEND && use == LSF_REFERENCE_USE_PICTURE)) {
         rtcSetGeometryUserData(shape, mesh);
         rtcSetGeometryIntersectFilterFunction(shape, reject_cut_out);
         rtcSetGeometryOccludedFilterFunction(shape, reject_cut_out);
@@ -133,7 +157,7 @@ bool lsf_reference_geometry_init(lsf_reference_geometry *geometry, const lsf_sce
                                 fast ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
     }
     for (uint32_t i = 0; ok && i < state->instance_count; i++)
-        ok = add_instance(geometry, i);
+        ok = add_instance(geometry, i, use);
     if (ok) {
         rtcCommitScene(geometry->tree);
         ok = rtcGetDeviceError(geometry->device) == RTC_ERROR_NONE;
@@ -184,16 +208,17 @@ static bool within_range(lsf_float3 v)
 }
 
 bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 origin,
-                         lsf_float3 direction, float near, float far, lsf_reference_hit *hit)
+                         lsf_float3 direction, float near, float far, lsf_reference_chance chance,
+                         lsf_reference_hit *hit)
 {
     if (!within_range(origin) || !within_range(direction))
         return false;
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    ray_context context = {.chance = chance};
+    rtcInitIntersectContext(&context.embree);
     struct RTCRayHit query = {.ray = make_ray(origin, direction, near, far)};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(geometry->tree, &context, &query);
+    rtcIntersect1(geometry->tree, &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
     *hit = (lsf_reference_hit){query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
@@ -202,16 +227,16 @@ bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 orig
 }
 
 bool lsf_reference_occluded(const lsf_reference_geometry *geometry, lsf_float3 origin,
-                            lsf_float3 direction, float far)
+                            lsf_float3 direction, float far, lsf_reference_chance chance)
 {
     if (!within_range(direction)) {
         direction = lsf_f3_scale(direction, 1.0f / lsf_f3_max_abs(direction));
         far = INFINITY;
     }
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    ray_context context = {.chance = chance};
+    rtcInitIntersectContext(&context.embree);
     struct RTCRay ray = make_ray(origin, direction, 0.0f, far);
-    rtcOccluded1(geometry->tree, &context, &ray);
+    rtcOccluded1(geometry->tree, &context.embree, &ray);
     return ray.tfar < 0.0f;
 }
 

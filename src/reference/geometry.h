@@ -29,7 +29,8 @@ typedef struct lsf_reference_geometry {
 
 typedef enum lsf_reference_use {
     LSF_REFERENCE_USE_PICTURE, /* watertight */
-    LSF_REFERENCE_USE_SPEED,   /* the tree that rays go through fastest */
+    LSF_REFERENCE_USE_SPEED,   /* the tree that rays go through fastest; blended surfaces are opaque
+                                */
 } lsf_reference_use;
 
 /* Borrows scene and state. False leaves nothing to finish. */
@@ -43,12 +44,20 @@ typedef struct lsf_reference_hit {
     float distance; /* in units of the direction's length */
 } lsf_reference_hit;
 
-/* Nearest hit with near < t < far. Triangles that an alpha mask cuts out are not hit. */
+/* What decides whether a ray meets blended surfaces: each triangle that it comes by by a number of
+ * its own, which is uniform over the samples, and spread evenly over the samples of a seed. */
+typedef struct lsf_reference_chance {
+    uint32_t seed, sample;
+} lsf_reference_chance;
+
+/* Nearest hit with near < t < far. Triangles that an alpha mask cuts out are not hit, blended ones
+ * as often as their alpha says. */
 bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 origin,
-                         lsf_float3 direction, float near, float far, lsf_reference_hit *hit);
+                         lsf_float3 direction, float near, float far, lsf_reference_chance chance,
+                         lsf_reference_hit *hit);
 /* Whether anything is hit with 0 < t < far. */
 bool lsf_reference_occluded(const lsf_reference_geometry *geometry, lsf_float3 origin,
-                            lsf_float3 direction, float far);
+                            lsf_float3 direction, float far, lsf_reference_chance chance);
 
 /* Corners in normalised space. */
 void lsf_reference_corners(const lsf_reference_geometry *geometry, uint32_t instance,

@@ -21,6 +21,9 @@ enum {
     DIMENSIONS_PER_VERTEX,
 };
 
+/* Of what decides whether rays meet blended surfaces; no dimension's number. */
+#define CHANCE UINT64_MAX
+
 static uint32_t dimension_seed(const lsf_reference_sampler *sampler, uint32_t vertex,
                                uint32_t dimension)
 {
@@ -153,6 +156,13 @@ static lsf_float3 left_after(lsf_float3 absorption, float distance)
                   expf(-absorption.z * distance));
 }
 
+/* Of the ray that is to be traced next. */
+static lsf_reference_chance next_chance(walk *w)
+{
+    uint32_t seed = lsf_hash(w->sampler->pixel_seed, CHANCE);
+    return (lsf_reference_chance){lsf_hash(seed, w->path->rays++), w->sampler->index};
+}
+
 /* A ray that asks for visibility ends so far before its target, of its length: the target is known to no
  * more bits than that. */
 #define REACH (1.0f - 0x1p-22f)
@@ -162,15 +172,14 @@ static bool reaches(walk *w, lsf_float3 target)
 {
     lsf_float3 to = lsf_f3_sub(target, w->surface.position);
     lsf_float3 origin = ray_origin(&w->surface, to);
-    w->path->rays++;
-    return !lsf_reference_occluded(&w->world->geometry, origin, lsf_f3_sub(target, origin), REACH);
+    return !lsf_reference_occluded(&w->world->geometry, origin, lsf_f3_sub(target, origin), REACH,
+                                   next_chance(w));
 }
 
 static bool reaches_sky(walk *w, lsf_float3 direction)
 {
-    w->path->rays++;
     return !lsf_reference_occluded(&w->world->geometry, ray_origin(&w->surface, direction),
-                                   direction, INFINITY);
+                                   direction, INFINITY, next_chance(w));
 }
 
 /* What clear walls of glass leave of a punctual light's way to the current vertex, which is free of all
@@ -182,9 +191,8 @@ static lsf_float3 passes(walk *w, lsf_float3 direction, const lsf_float3 *target
     for (int walls = 0; walls < LSF_REFERENCE_WALLS; walls++) {
         lsf_float3 way = target ? lsf_f3_sub(*target, origin) : direction;
         lsf_reference_hit hit;
-        w->path->rays++;
         if (!lsf_reference_trace(&w->world->geometry, origin, way, 0.0f, target ? REACH : INFINITY,
-                                 &hit))
+                                 next_chance(w), &hit))
             return left;
         lsf_reference_surface wall;
         lsf_reference_surface_init(&wall, &w->world->geometry, &hit, direction);
@@ -344,9 +352,8 @@ static bool step(walk *w)
     last = last && !crosses;
     lsf_float3 from = w->surface.position;
     lsf_reference_hit hit;
-    w->path->rays++;
     if (!lsf_reference_trace(&world->geometry, ray_origin(&w->surface, direction), direction, 0.0f,
-                             INFINITY, &hit)) {
+                             INFINITY, next_chance(w), &hit)) {
         if (world->sky.environment->present) {
             float other = world->sky.sampled ? lsf_reference_sky_pdf(&world->sky, direction) : 0.0f;
             float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
@@ -398,7 +405,7 @@ static lsf_float3 camera_vector(const float base[3], const float dx[3], const fl
 void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[2],
                               const lsf_reference_sampler *sampler, lsf_reference_path *path)
 {
-    *path = (lsf_reference_path){.depth = INFINITY, .rays = 1};
+    *path = (lsf_reference_path){.depth = INFINITY};
     walk w = {.world = world, .sampler = sampler, .path = path};
     const lsf_camera_state *camera = &world->geometry.state->camera;
     lsf_float3 origin = camera_vector(camera->start, camera->start_dx, camera->start_dy, ndc);
@@ -410,7 +417,7 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     lsf_float3 direction = lsf_f3_normalize(along);
     lsf_reference_hit hit;
     if (!lsf_reference_trace(&world->geometry, origin, along, camera->near_plane - before, INFINITY,
-                             &hit)) {
+                             next_chance(&w), &hit)) {
         path->emission = lsf_reference_sky_radiance(&world->sky, direction);
         return;
     }

@@ -36,6 +36,11 @@ static lsf_texel sample_slot(const lsf_scene *scene, const lsf_texture_slot *slo
     return lsf_texture_sample(scene, slot, uv);
 }
 
+static float saturate(float x)
+{
+    return fminf(fmaxf(x, 0.0f), 1.0f);
+}
+
 /* Base colour and alpha: factor, texture and vertex colour. */
 static lsf_texel base_color(const lsf_scene *scene, const lsf_material *material,
                             const corner_weights *at)
@@ -60,13 +65,16 @@ static const lsf_material *material_of(const lsf_reference_geometry *geometry,
     return &geometry->scene->materials[geometry->state->instances[hit->instance].material];
 }
 
-bool lsf_reference_cut_out(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit)
+float lsf_reference_coverage(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit)
 {
     const lsf_material *material = material_of(geometry, hit);
-    if (material->alpha_mode != LSF_ALPHA_MASK)
-        return false;
+    if (material->alpha_mode == LSF_ALPHA_OPAQUE)
+        return 1.0f;
     corner_weights at = find_weights(geometry, hit);
-    return base_color(geometry->scene, material, &at).a < material->alpha_cutoff;
+    float alpha = base_color(geometry->scene, material, &at).a;
+    if (material->alpha_mode == LSF_ALPHA_BLEND)
+        return saturate(alpha);
+    return alpha < material->alpha_cutoff ? 0.0f : 1.0f;
 }
 
 bool lsf_reference_material_emits(const lsf_material *material)
@@ -80,7 +88,7 @@ lsf_float3 lsf_reference_emission(const lsf_reference_geometry *geometry,
 {
     const lsf_material *material = material_of(geometry, hit);
     bool emits = material->unlit || front || material->double_sided;
-    if (!emits || !lsf_reference_material_emits(material) || lsf_reference_cut_out(geometry, hit))
+    if (!emits || !lsf_reference_material_emits(material))
         return lsf_f3(0.0f, 0.0f, 0.0f);
     corner_weights at = find_weights(geometry, hit);
     if (material->unlit) {
@@ -182,11 +190,6 @@ static float orient_anisotropy(const lsf_scene *scene, const lsf_material *mater
     frame->t = lsf_f3_normalize_or(along, frame->t);
     frame->b = lsf_f3_cross(frame->n, frame->t);
     return strength;
-}
-
-static float saturate(float x)
-{
-    return fminf(fmaxf(x, 0.0f), 1.0f);
 }
 
 static void read_transmission(lsf_reference_surface *surface, const lsf_scene *scene,

@@ -31,10 +31,11 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
                                 const lsf_reference_geometry *geometry,
                                 const lsf_reference_hit *hit, lsf_float3 direction);
 
-/* Whether an alpha mask cuts the hit point out. */
-bool lsf_reference_cut_out(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit);
+/* With which probability a ray is to meet the hit point: its alpha where it is blended; 0 where a
+ * mask cuts it out, else 1. */
+float lsf_reference_coverage(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit);
 
-/* Radiance that leaves the hit point on the front side, or on the back; 0 where it is cut out.
+/* Radiance that leaves the hit point on the front side, or on the back, if it is there.
  * An unlit material emits its base colour on both. */
 lsf_float3 lsf_reference_emission(const lsf_reference_geometry *geometry,
                                   const lsf_reference_hit *hit, bool front);

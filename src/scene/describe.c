@@ -40,7 +40,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 23 };
+enum { FLAG_COUNT = 24 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -57,6 +57,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"thin_walls", r->thin_walls},
         {"variable_ior", r->variable_ior},
         {"masked", r->masked},
+        {"blended", r->blended},
         {"normal_mapped", r->normal_mapped},
         {"base_color_textured", r->base_color_textured},
         {"metallic_roughness_textured", r->metallic_roughness_textured},

@@ -57,10 +57,11 @@ static lsf_texel sample_slot(const lsf_emitters *e, const lsf_texture_slot *slot
     return lsf_texture_sample(e->scene, slot, uv);
 }
 
-static bool masked_out(const lsf_emitters *e, const lsf_material *material, const triangle_point *p)
+/* With which probability the surface is there: 0 or 1 unless it is blended. */
+static float coverage(const lsf_emitters *e, const lsf_material *material, const triangle_point *p)
 {
-    if (material->alpha_mode != LSF_ALPHA_MASK)
-        return false;
+    if (material->alpha_mode == LSF_ALPHA_OPAQUE)
+        return 1.0f;
     float alpha = material->base_color[3], of_vertices = 0.0f;
     if (material->base_color_texture.texture != LSF_NONE)
         alpha *= sample_slot(e, &material->base_color_texture, p).a;
@@ -68,15 +69,16 @@ static bool masked_out(const lsf_emitters *e, const lsf_material *material, cons
         of_vertices += p->weights[i] * e->scene->vertices.color[4 * p->vertices[i] + 3];
     if (e->scene->vertices.color)
         alpha *= of_vertices;
-    return alpha < material->alpha_cutoff;
+    if (material->alpha_mode == LSF_ALPHA_BLEND)
+        return fminf(fmaxf(alpha, 0.0f), 1.0f);
+    return alpha < material->alpha_cutoff ? 0.0f : 1.0f;
 }
 
+/* Where the surface is there. */
 static lsf_float3 emission_at(const lsf_emitters *e, uint64_t at, const triangle_point *p)
 {
     const lsf_material *material = material_of(e, e->instance[at]);
     lsf_float3 emission = lsf_f3_load(material->emission);
-    if (masked_out(e, material, p))
-        return lsf_f3(0.0f, 0.0f, 0.0f);
     if (material->emissive_texture.texture == LSF_NONE)
         return emission;
     lsf_texel t = sample_slot(e, &material->emissive_texture, p);
@@ -86,14 +88,15 @@ static lsf_float3 emission_at(const lsf_emitters *e, uint64_t at, const triangle
 static float mean_luminance(const lsf_emitters *e, uint64_t at)
 {
     const lsf_material *material = material_of(e, e->instance[at]);
+    bool opaque = material->alpha_mode == LSF_ALPHA_OPAQUE;
     float factor = lsf_f3_luminance(lsf_f3_load(material->emission)), sum = 0.0f;
-    if (material->emissive_texture.texture == LSF_NONE && material->alpha_mode != LSF_ALPHA_MASK)
+    if (material->emissive_texture.texture == LSF_NONE && opaque)
         return factor;
     for (uint32_t i = 0; i < MEAN_POINTS; i++) {
         float u[2];
         lsf_sobol_2d(i, (uint32_t)at, u);
         triangle_point p = point_on(e, at, u[0], u[1]);
-        sum += lsf_f3_luminance(emission_at(e, at, &p));
+        sum += lsf_f3_luminance(emission_at(e, at, &p)) * coverage(e, material, &p);
     }
     return fmaxf(sum / MEAN_POINTS, MEAN_FLOOR * factor);
 }
@@ -151,6 +154,12 @@ float lsf_emitters_weight(const lsf_emitters *e)
     return e->power.sum > 0.0 ? (float)(1.0 / e->power.sum) : 0.0f;
 }
 
+/* A third number in [0, 1), of the last digits of the first two. */
+static float chance_of(const double u[2])
+{
+    return lsf_random_float((uint64_t)(u[0] * 0x1p32), (uint64_t)(u[1] * 0x1p32));
+}
+
 lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *e, const double u[2])
 {
     double rest;
@@ -163,7 +172,9 @@ lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *e, const double u[2])
         rest = rest < 0.5 ? 2.0 * rest : 2.0 * rest - 1.0;
     }
     triangle_point p = point_on(e, at, (float)rest, (float)u[1]);
-    lsf_float3 radiance = emission_at(e, at, &p);
+    lsf_float3 radiance = lsf_f3(0.0f, 0.0f, 0.0f);
+    if (chance_of(u) < coverage(e, material_of(e, e->instance[at]), &p))
+        radiance = emission_at(e, at, &p);
     lsf_placed_triangle placed =
         lsf_place_triangle(e->scene, e->state, e->instance[at], e->triangle[at]);
     lsf_placed_triangle_point(&placed, p.weights, sample.position);

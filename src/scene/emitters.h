@@ -36,7 +36,8 @@ float lsf_emitters_power(const lsf_emitters *emitters);
 /* `weight_density` of a point by its luminance: this times it. 0 when nothing emits. */
 float lsf_emitters_weight(const lsf_emitters *emitters);
 
-/* u: uniform in [0, 1). Not to be called when the power is 0. */
+/* u: uniform in [0, 1). Not to be called when the power is 0. Radiance is 0 where a mask cuts the
+ * point out, and as often as a blended surface is not there. */
 lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *emitters, const double u[2]);
 
 #endif

@@ -28,6 +28,7 @@ static bool in_use(lsf_requirements *r, const lsf_texture_slot *slot)
 static void add_material(lsf_requirements *r, const lsf_material *material, bool diffuse_only)
 {
     r->masked |= material->alpha_mode == LSF_ALPHA_MASK;
+    r->blended |= material->alpha_mode == LSF_ALPHA_BLEND;
     r->base_color_textured |= in_use(r, &material->base_color_texture);
     if (material->unlit) {
         r->unlit = true;

@@ -229,6 +229,10 @@ bool lsf_material_is_thin_wall(const lsf_material *material);
 void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,
                           float absorption[3]);
 
+/* Makes blended materials opaque whose alpha is 1 wherever they are used: factor, texture and
+ * vertex colours (alpha.c). */
+void lsf_scene_settle_alpha(lsf_scene *scene);
+
 /* Fills scene->requirements from what the instances use (requirements.c). */
 void lsf_scene_compute_requirements(lsf_scene *scene);
 

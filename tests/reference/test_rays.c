@@ -69,7 +69,7 @@ static void hits_are_those_of_single_rays(void **unused)
     for (uint32_t i = 0; i < RAYS; i++) {
         lsf_reference_hit hit = {.distance = INFINITY};
         lsf_reference_trace(&geometry, lsf_f3_load(rays[i].origin), lsf_f3_load(rays[i].direction),
-                            near, INFINITY, &hit);
+                            near, INFINITY, (lsf_reference_chance){0, 0}, &hit);
         missed += isinf(hit.distance) != 0;
         /* Trees of other shapes round other corners: a ray at an edge may go either way. */
         if (isinf(hit.distance) || isinf(distances[i]))

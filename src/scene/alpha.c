@@ -1,0 +1,71 @@
+#include "scene/scene.h"
+
+#include <stdlib.h>
+
+#include "base/base.h"
+
+/* Channel of a texel's alpha; 0: the image has none. */
+static uint32_t alpha_channel(const lsf_texture_image *image)
+{
+    return image->channels == 2 || image->channels == 4 ? image->channels - 1 : 0;
+}
+
+static bool image_is_opaque(const lsf_texture_image *image)
+{
+    uint32_t alpha = alpha_channel(image);
+    uint64_t end = (uint64_t)image->width * image->height * image->channels;
+    if (alpha == 0)
+        return true;
+    for (uint64_t i = alpha; i < end; i += image->channels) {
+        bool full = image->type == LSF_TEXEL_U8 ? ((const uint8_t *)image->texels)[i] == UINT8_MAX
+                    : image->type == LSF_TEXEL_U16
+                        ? ((const uint16_t *)image->texels)[i] == UINT16_MAX
+                        : ((const float *)image->texels)[i] >= 1.0f;
+        if (!full)
+            return false;
+    }
+    return true;
+}
+
+/* Whether an image's alpha is 1 everywhere. */
+typedef enum found { UNKNOWN, OPAQUE, NOT_OPAQUE } found;
+
+static bool is_opaque(const lsf_scene *scene, const lsf_material *material, found *known)
+{
+    uint32_t texture = material->base_color_texture.texture;
+    if (!(material->base_color[3] >= 1.0f) || texture == LSF_NONE)
+        return material->base_color[3] >= 1.0f;
+    uint32_t image = scene->textures[texture].image;
+    if (known[image] == UNKNOWN)
+        known[image] = image_is_opaque(&scene->images[image]) ? OPAQUE : NOT_OPAQUE;
+    return known[image] == OPAQUE;
+}
+
+static bool vertices_are_opaque(const lsf_scene *scene, const lsf_primitive *primitive)
+{
+    const float *colors = scene->vertices.color;
+    for (uint64_t i = 0; colors && i < primitive->vertex_count; i++)
+        if (colors[4 * (primitive->first_vertex + i) + 3] < 1.0f)
+            return false;
+    return true;
+}
+
+/* Without memory blended materials stay so, which is right if dearer. */
+void lsf_scene_settle_alpha(lsf_scene *scene)
+{
+    found *known = lsf_alloc(scene->image_count, sizeof *known);
+    bool *opaque = lsf_alloc(scene->material_count, sizeof *opaque);
+    for (uint32_t m = 0; known && opaque && m < scene->material_count; m++)
+        opaque[m] = scene->materials[m].alpha_mode == LSF_ALPHA_BLEND &&
+                    is_opaque(scene, &scene->materials[m], known);
+    for (uint32_t p = 0; known && opaque && p < scene->primitive_count; p++) {
+        const lsf_primitive *primitive = &scene->primitives[p];
+        if (opaque[primitive->material])
+            opaque[primitive->material] = vertices_are_opaque(scene, primitive);
+    }
+    for (uint32_t m = 0; known && opaque && m < scene->material_count; m++)
+        if (opaque[m])
+            scene->materials[m].alpha_mode = LSF_ALPHA_OPAQUE;
+    free(known);
+    free(opaque);
+}
