@@ -5,18 +5,27 @@
 #include "lib/lat_long.glsl"
 #include "shared/scene_data.h"
 
-layout(location = LSF_LOCATION_ENVIRONMENT) uniform vec3 environment_uniform; /* radiance, without a map */
+layout(location = LSF_LOCATION_ENVIRONMENT) uniform vec4 environment_uniform;
+/* rgb: radiance, without a map; w: turn of the map, of a full one */
 #if LSF_ENVIRONMENT_MAP
 layout(binding = LSF_UNIT_ENVIRONMENT) uniform sampler2D environment_texture;
+#endif
+
+#if LSF_ENVIRONMENT_MAP
+/* Where a unit direction lies on the map. */
+vec2 environment_place(vec3 direction)
+{
+    return lat_long(direction) + vec2(environment_uniform.w, 0.0);
+}
 #endif
 
 /* `direction` is a unit vector. */
 vec3 environment_radiance(vec3 direction)
 {
 #if LSF_ENVIRONMENT_MAP
-    return textureLod(environment_texture, lat_long(direction), 0.0).rgb;
+    return textureLod(environment_texture, environment_place(direction), 0.0).rgb;
 #else
-    return environment_uniform;
+    return environment_uniform.rgb;
 #endif
 }
 

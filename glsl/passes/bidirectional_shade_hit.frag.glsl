@@ -16,6 +16,11 @@ layout(binding = 4) uniform usampler2D hit_texture;
 /* Whether emission is added, and the light (0 or 1); how many bundles begin a path; the density with which
  * VPLs find what emits, for each unit of its luminance. */
 layout(location = LSF_LOCATION_ADDED) uniform vec4 added;
+#if LSF_ENVIRONMENT
+/* Of the environment along the bundle and against it: what directions drawn by its radiance leave to the
+ * bundle (xy), and the kernel of suppression without that of the vertex before (zw). */
+layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec4 sky;
+#endif
 
 #define DIRECT_TARGET (1 + LSF_SPECULAR)
 #define VERTEX_TARGET (DIRECT_TARGET + LSF_SPLIT_DIRECT * (1 + LSF_SPECULAR))
@@ -122,18 +127,22 @@ void main()
         return;
     uvec2 hit = texelFetch(hit_texture, ivec2(gl_FragCoord.xy), 0).xy;
     float p_r = bundle.forward.w;
-    vec3 direction = dot(v.s.geometric_normal, bundle.forward.xyz) > 0.0 ? bundle.forward.xyz
-                                                                         : -bundle.forward.xyz;
+    bool along = dot(v.s.geometric_normal, bundle.forward.xyz) > 0.0;
+    vec3 direction = along ? bundle.forward.xyz : -bundle.forward.xyz;
     /* Of rays from the vertex alone the density is N p_r (equation 14). */
-    light_parts through =
-        vertex_reflect(v, direction, suppression.x / (added.z * p_r) + suppression.z);
+    float kernel = suppression.x / (added.z * p_r);
+#if LSF_ENVIRONMENT
+    if (hit.y == LSF_NO_NODE)
+        kernel = along ? sky.z : sky.w;
+#endif
+    light_parts through = vertex_reflect(v, direction, kernel + suppression.z);
     vec3 arriving = vec3(0.0); /* emission */
     light_parts through_emission = through;
     light_parts reflected;
     reflected.irradiance = reflected.specular = vec3(0.0);
     if (hit.y == LSF_NO_NODE) {
 #if LSF_ENVIRONMENT
-        arriving = environment_radiance(direction);
+        arriving = environment_radiance(direction) * (along ? sky.x : sky.y);
 #endif
     } else {
         surface x2 = bundle_surface(hit.y, direction, arriving);

@@ -1,9 +1,10 @@
 /* Light that arrives at visible points from voxels and from beyond them, by cones. */
-#include "lib/brdf.glsl"
+#include "lib/brdf_sample.glsl"
 #include "lib/coarse.glsl"
 #include "lib/environment.glsl"
 #include "lib/hash.glsl"
 #include "lib/gbuffer_textures.glsl"
+#include "lib/sky.glsl"
 #include "lib/voxel_cone.glsl"
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility */
@@ -16,14 +17,34 @@ layout(location = 1) out vec4 specular_out;
 #define CONE_WIDEST 2.0
 #endif
 
-vec3 arriving(cone_light light, vec3 direction)
+/* Of a diffuse cone; directions drawn by the environment's radiance have the rest of it. */
+vec3 arriving(cone_light light, vec3 direction, float cosine)
 {
     vec3 radiance = light.radiance * grid.unit.x;
 #if LSF_ENVIRONMENT
-    radiance += light.transmittance * environment_radiance(direction);
+    radiance += light.transmittance *
+                sky_left(environment_radiance(direction), cone_gather.z * cosine / LSF_PI);
 #endif
     return radiance;
 }
+
+#if LSF_SPECULAR && LSF_ENVIRONMENT && LSF_SEALED
+/* The environment in the specular lobe, by a ray drawn from it, as directions drawn by radiance leave it. */
+vec3 lobe_environment(surface s, vec3 point, vec3 to_viewer)
+{
+    vec2 u = fract(cone_gather.xw + hash_unit(hash(uvec3(gl_FragCoord.xy, 1u))).xy);
+    brdf_sampler p = brdf_sampler_of(s, to_viewer, true);
+    p.specular = 1.0;
+    vec3 direction = brdf_draw(p, vec3(u, 0.0));
+    float cosine = dot(s.normal, direction);
+    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
+        cone_diffuse(point, s.geometric_normal, direction, 0.0).transmittance == 0.0)
+        return vec3(0.0);
+    float pdf = brdf_pdf(p, direction);
+    return brdf_evaluate(s, to_viewer, direction, 0.0).specular *
+           sky_left(environment_radiance(direction), pdf) * (cosine / pdf);
+}
+#endif
 
 /* Pixels of a tile of 4 x 4 take the turns 0 to 15 of 16, neighbours far from each other; tiles differ by
  * chance, in turn and ring: where few directions are the same, no edge shows twice. */
@@ -70,7 +91,7 @@ void main()
         vec3 h = normalize(to_viewer + direction);
         reflected -= lsf_fresnel_schlick(s.f0, clamp(dot(to_viewer, h), 0.0, 1.0));
 #endif
-        irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction),
+        irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction, local.z),
                                        light.transmittance);
     }
 #if LSF_SPECULAR
@@ -83,7 +104,14 @@ void main()
         vec2 place = vec2(dot(s.normal, view_direction), s.roughness);
         vec2 albedo = textureLod(albedo_texture, place, 0.0).rg;
         vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
-        specular_out.rgb = (f0 * albedo.x + albedo.y) * arriving(light, mirrored);
+        vec3 radiance = light.radiance * grid.unit.x;
+#if LSF_ENVIRONMENT && !LSF_SEALED
+        radiance += light.transmittance * environment_radiance(mirrored);
+#endif
+        specular_out.rgb = (f0 * albedo.x + albedo.y) * radiance;
     }
+#if LSF_ENVIRONMENT && LSF_SEALED
+    specular_out.rgb += lobe_environment(s, point, to_viewer);
+#endif
 #endif
 }

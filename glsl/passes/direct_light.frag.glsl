@@ -1,11 +1,43 @@
-/* Light that one punctual light sends to the eye by one reflection: f V E, added to the target. */
+/* Light that one light sends to the eye by one reflection: f V E, added to the target. Switch
+ * LSF_SKY_CHANCE, lsf_sky_chance: what else finds the environment, and leaves a share of it. */
 #include "lib/brdf.glsl"
+#if LSF_SKY_CHANCE
+#include "lib/brdf_sample.glsl"
+#endif
 #include "lib/gbuffer_textures.glsl"
 #include "lib/light.glsl"
 #include "lib/shadow.glsl"
 #include "lib/view.glsl"
 
 layout(location = 0) out vec4 radiance_out;
+
+#if LSF_SKY_CHANCE
+#define LSF_SKY_CHANCE_PATHS 1
+#define LSF_SKY_CHANCE_LOBES 2
+
+/* Number of paths, or rays, of a pixel at roughness 0 and 1. */
+layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec2 sky_paths;
+
+/* Takes what is left to this light of the environment, which it has `density` of. */
+void share_sky(surface s, vec3 view_direction, vec3 direction, float density, inout brdf_value f)
+{
+    float count = floor(mix(sky_paths.x, sky_paths.y, s.roughness) + 0.5);
+    brdf_sampler p = brdf_sampler_of(s, view_direction, true);
+#if LSF_SKY_CHANCE == LSF_SKY_CHANCE_PATHS
+    float left = density / (density + count * brdf_pdf(p, direction));
+    f.diffuse *= left;
+    f.specular *= left;
+#else
+    f.diffuse *= density / (density + count * dot(s.normal, direction) / LSF_PI);
+#if LSF_SPECULAR && LSF_SKY_CHANCE == LSF_SKY_CHANCE_LOBES
+    p.specular = 1.0;
+    f.specular *= density / (density + brdf_pdf(p, direction));
+#else
+    f.specular = vec3(0.0);
+#endif
+#endif
+}
+#endif
 
 void main()
 {
@@ -36,6 +68,12 @@ void main()
 #if LSF_SHADOW_TINT
     irradiance *= shadow_tint(position, s.geometric_normal, s.transmission > 0.0);
 #endif
+#if LSF_SKY_CHANCE
     brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
+    if (light.intensity.w > 0.0)
+        share_sky(s, view_direction, direction, light.intensity.w, f);
+#else
+    brdf_value f = brdf_evaluate(s, view_direction, direction, light.map_offset.w);
+#endif
     radiance_out.rgb = brdf_sum(s, f) * irradiance * (cosine * visibility);
 }

@@ -1,6 +1,7 @@
 /* What voxels reflect of the light that arrives at them from others and from beyond, on each side of
  * their surface. */
 #include "lib/environment.glsl"
+#include "lib/sky.glsl"
 #include "lib/voxel_cone.glsl"
 #include "lib/voxel_sides.glsl"
 
@@ -30,7 +31,8 @@ vec3 gather(vec3 place, vec3 n, float turn)
         cone_light light = cone_diffuse(place, n, direction, cone_set[i].w);
         sum += light.radiance;
 #if LSF_ENVIRONMENT
-        sum += light.transmittance * grid.unit.y * environment_radiance(direction);
+        sum += light.transmittance * grid.unit.y *
+               sky_left(environment_radiance(direction), cone_gather.z * local.z / LSF_PI);
 #endif
     }
     return sum / cone_gather.z;

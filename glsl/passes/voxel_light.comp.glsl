@@ -21,6 +21,11 @@ layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D emission_texture;
 /* Places in voxels are kept to 2^-10 of a voxel; the receiver is lifted off its surface by as much. */
 #define LIFT (1.0 / 1024.0)
 
+#if LSF_SKY
+/* Rays that find the environment from a voxel by chance, drawn by the cosine. */
+layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
+#endif
+
 /* Radiance of the side that faces the light. */
 #if LSF_REFLECT
 vec3 reflected(ivec3 cell, vec3 n, out bool front)
@@ -32,6 +37,11 @@ vec3 reflected(ivec3 cell, vec3 n, out bool front)
     vec3 to_light = light_direction(position, irradiance, distance2);
     float cosine = dot(n, to_light);
     front = cosine > 0.0;
+#if LSF_SKY
+    float density = light.intensity.w; /* 0: no part of the environment */
+    if (density > 0.0)
+        irradiance *= density / (density + sky_rays * abs(cosine) / LSF_PI);
+#endif
     vec3 side = front ? n : -n;
     float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
     vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);

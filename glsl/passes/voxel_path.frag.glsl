@@ -7,6 +7,7 @@
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/path_random.glsl"
+#include "lib/sky.glsl"
 #include "lib/voxel_sight.glsl"
 #if LSF_ABSORPTION
 #include "lib/scene.glsl"
@@ -233,7 +234,22 @@ bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segmen
     return true;
 }
 
-void add_path(path_vertex v, path_random_key key, uint index)
+#if LSF_ENVIRONMENT
+/* Radiance from outside along a direction drawn with density `pdf`; directions drawn by this radiance have
+ * the rest of it: from a visible point, which sends out `count` paths, by its BRDF, from voxels by the
+ * cosine, as voxel_light has it. What passes a surface nothing else finds. */
+vec3 sky_found(path_vertex v, vec3 direction, float pdf, int segment, float count)
+{
+    vec3 radiance = environment_radiance(direction);
+    if (pdf <= 0.0)
+        return radiance;
+    return sky_left(radiance,
+                    segment == 0 ? count * pdf : dot(v.s.normal, direction) / LSF_PI);
+}
+#endif
+
+/* The `index`-th path of all iterations, one of `count` of this one. */
+void add_path(path_vertex v, path_random_key key, uint index, int count)
 {
     light_parts through = light_parts(vec3(1.0), vec3(1.0));
     vec3 absorption = vec3(0.0); /* the camera is in air */
@@ -250,7 +266,7 @@ void add_path(path_vertex v, path_random_key key, uint index)
         ivec3 cell;
         if (!trace(v, direction, cell)) {
 #if LSF_ENVIRONMENT
-            add_light(through, environment_radiance(direction), segment == 0);
+            add_light(through, sky_found(v, direction, pdf, segment, float(count)), segment == 0);
 #endif
             return;
         }
@@ -305,7 +321,7 @@ void main()
         key.seed = turn.y;
         key.place = texel + int(view_depth(depth) * grid.size.w);
         for (int i = 0; i < count; i++)
-            add_path(v, key, turn.x * uint(count) + uint(i));
+            add_path(v, key, turn.x * uint(count) + uint(i), count);
         share = 1.0 / float(count);
     }
     irradiance_out = vec4(share * indirect.irradiance, 0.0);

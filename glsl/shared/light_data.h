@@ -20,12 +20,14 @@
 struct lsf_light_data {
     vec4 position;    /* xyz; w: of adaptive emission, see lib/emission_pdf.glsl */
     vec4 direction;   /* xyz: unit, the way the light shines */
-    vec4 intensity;   /* rgb: W/sr in normalised units; directional W/m^2 */
+    vec4 intensity;   /* rgb: W/sr in normalised units; directional W/m^2; w: of a direction of the
+                       * environment, density of all that an iteration draws [1/sr], else 0 */
     vec4 attenuation; /* 1/range^2, spot scale, spot offset (light.h), type */
     vec4 map_origin;  /* xyz; w: number of faces */
     vec4 map_shape;   /* near, far (0: perspective), texels along a side, 1 / texels */
     vec4 map_offset; /* xy: offset, within a texel; z: how far what is lit may be off its surface by
-                      * rounding */
+                      * rounding; w: of a direction of the environment, the kernel that suppresses
+                      * glossy lobes [sr], see brdf_evaluate */
     vec4 map_window[6]; /* xy: center, zw: extent (perspective: tangent of the half angle) */
     vec4 map_right[6], map_up[6], map_forward[6]; /* unit axes */
 };

@@ -88,6 +88,12 @@ struct lsf_material_data {
 #define LSF_CONE_MAX 32
 /* Location of what decides by chance; see lib/chance.glsl. */
 #define LSF_LOCATION_CHANCE 60
+/* Location of the density of directions drawn by the environment's radiance; see lib/sky.glsl. */
+#define LSF_LOCATION_SKY (LSF_LOCATION_CONE_SET + LSF_CONE_MAX)
+/* Location of what finds the environment by chance, in passes/direct_light.frag.glsl and
+ * passes/voxel_light.comp.glsl; and of how a bundle shares it, in
+ * passes/bidirectional_shade_hit.frag.glsl. */
+#define LSF_LOCATION_SKY_CHANCE (LSF_LOCATION_SKY + 1)
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

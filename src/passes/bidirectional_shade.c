@@ -260,6 +260,20 @@ static void set_sample(const lsf_bidirectional_shade *pass, const lsf_bidirectio
                 before, sample->light_probability);
 }
 
+/* Balance heuristic between the bundle and directions drawn by the environment's radiance. */
+static void set_sky(const lsf_bidirectional_shade *pass, const lsf_bidirectional_sample *sample)
+{
+    float share[2], kernel[2] = {0.0f, 0.0f};
+    for (int side = 0; side < 2; side++) {
+        float density = sample->bundle_pdf + sample->sky_pdf[side];
+        share[side] = sample->bundle_pdf / density;
+        if (sample->iterations > 0.0f)
+            kernel[side] = pass->params.kernel_samples /
+                           (sample->iterations * sample->path_count * density);
+    }
+    glUniform4f(LSF_LOCATION_SKY_CHANCE, share[0], share[1], kernel[0], kernel[1]);
+}
+
 void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
                                  const lsf_bidirectional_shade_inputs *inputs,
                                  const lsf_bidirectional_sample *sample, bool deep, uint32_t vpl,
@@ -295,6 +309,8 @@ void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iterat
     lsf_bind_texture(4, inputs->hits);
     lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
     lsf_scene_gpu_bind_environment(iteration->scene);
+    if (iteration->plan->requirements.environment)
+        set_sky(pass, sample);
     glUniform4f(LSF_LOCATION_ADDED, emission, light, sample->path_count, sample->emitter_weight);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);

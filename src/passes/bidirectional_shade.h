@@ -64,6 +64,9 @@ typedef struct lsf_bidirectional_sample {
                            * for each unit of its luminance; 0: they do not */
     bool emitter;         /* VPLs: the one in turn is on an emissive surface */
     float clamp_distance; /* 0: no bound */
+    /* Hits: densities with which directions drawn by the environment's radiance join the vertex to it
+     * along the bundle and against it, and that of the bundle [1/sr], per path. */
+    float sky_pdf[2], bundle_pdf;
     /* The bundle that found the vertices, for deep ones: its direction and density [1/sr]. */
     const float *arrival;
     float arrival_pdf;

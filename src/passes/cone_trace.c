@@ -34,7 +34,9 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)lsf_cone_slices(params), "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: a cone is round");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY",
+                        gloss && r->anisotropic && params->sealed && r->environment,
+                        "the environment is found by rays of the lobe; cones are round");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_texture_add(plan, "cone_trace.irradiance", GL_RGBA32F, width, height,
@@ -126,6 +128,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance);
     lsf_scene_gpu_bind_environment(iteration->scene);
+    if (iteration->plan->requirements.environment)
+        lsf_iteration_bind_sky(iteration);
     if (pass->lobe_albedo)
         glUniform1f(LOCATION_LOBE, LOBE_SPREAD);
     lsf_draw_fullscreen(pass->context);

@@ -6,11 +6,11 @@
 #include "plan/light_walls.h"
 #include "shared/scene_data.h"
 
-void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
+void lsf_direct_light_plan(lsf_plan *plan, const lsf_direct_light_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
-    lsf_plan_pass_add(plan, "direct_light", "one reflection of each punctual light");
+    lsf_plan_pass_add(plan, "direct_light", "one reflection of each light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
@@ -22,17 +22,19 @@ void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf)
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
                         "light passes thin walls");
-    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", shadow_pcf ? 4 : 0, "shadow.filter");
+    lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", plan->sky_lights > 0 ? (int)use->chance : 0,
+                        "what else finds the environment");
+    lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->shadow_pcf ? 4 : 0, "shadow.filter");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the sum over lights");
 }
 
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
-                             lsf_error *error)
+                             const lsf_direct_light_use *use, lsf_error *error)
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl",
                                          "passes/direct_light.frag.glsl"};
-    *pass = (lsf_direct_light){.context = context};
+    *pass = (lsf_direct_light){.context = context, .use = *use};
     if (!lsf_plan_create_texture(plan, context, "direct_light.radiance", &pass->radiance, error))
         return false;
     lsf_framebuffer_desc desc = {
@@ -61,6 +63,8 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
     lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
     lsf_bind_texture(LSF_UNIT_SHADOW_TINT, inputs->shadow_tint);
+    if (iteration->plan->sky_lights > 0 && pass->use.chance != LSF_SKY_CHANCE_NONE)
+        glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.paths);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

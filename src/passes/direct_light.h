@@ -1,4 +1,4 @@
-/* Reflected direct light of punctual lights. See direct_light.md. */
+/* Reflected direct light of punctual lights and of the environment. See direct_light.md. */
 #ifndef LSF_PASSES_DIRECT_LIGHT_H
 #define LSF_PASSES_DIRECT_LIGHT_H
 
@@ -10,17 +10,31 @@ typedef struct lsf_direct_light_inputs {
         shadow_tint; /* of the light in turn, whose buffer is bound */
 } lsf_direct_light_inputs;
 
+/* What else finds the environment from a visible point, by chance: its light is shared with that. */
+typedef enum lsf_sky_chance {
+    LSF_SKY_CHANCE_NONE,    /* nothing that the light's own share does not know of */
+    LSF_SKY_CHANCE_PATHS,   /* paths drawn by the whole BRDF */
+    LSF_SKY_CHANCE_LOBES,   /* diffuse rays by the cosine, and one by the specular lobe */
+    LSF_SKY_CHANCE_DIFFUSE, /* diffuse rays; the specular lobe does without this pass */
+} lsf_sky_chance;
+
+typedef struct lsf_direct_light_use {
+    bool shadow_pcf; /* shadows are filtered by percentage-closer filtering */
+    lsf_sky_chance chance;
+    float paths[2]; /* of chance: their number at roughness 0 and 1, rounded between */
+} lsf_direct_light_use;
+
 typedef struct lsf_direct_light {
     lsf_context *context;
     GLuint radiance; /* output: RGBA32F, the sum over lights since lsf_direct_light_clear */
     GLuint framebuffer, program;
+    lsf_direct_light_use use;
     lsf_timer *timer;
 } lsf_direct_light;
 
-/* `shadow_pcf`: shadows are filtered by percentage-closer filtering. */
-void lsf_direct_light_plan(lsf_plan *plan, bool shadow_pcf);
+void lsf_direct_light_plan(lsf_plan *plan, const lsf_direct_light_use *use);
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
-                             lsf_error *error);
+                             const lsf_direct_light_use *use, lsf_error *error);
 void lsf_direct_light_clear(lsf_direct_light *pass);
 /* Adds the light whose shadow map was drawn last. */
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,

@@ -96,13 +96,13 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
                                     const lsf_state *state)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool needed[LSF_LIGHT_MAP_KINDS] = {false};
-    for (uint32_t i = 0; i < state->light_count; i++)
-        needed[lsf_light_map_kind_of(&state->lights[i])] = true;
+    bool needed[LSF_LIGHT_MAP_KINDS];
+    lsf_light_map_kinds(plan, state, needed);
     bool gloss = r->specular && (r->anisotropic || r->glossy || r->variable_ior);
     uint32_t most_faces = 1;
-    lsf_plan_pass_add(plan, "reflective_shadow_map", "the surfaces that %u punctual light%s light",
-                      state->light_count, state->light_count == 1 ? "" : "s");
+    lsf_plan_pass_add(plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
+                      state->light_count, state->light_count == 1 ? "" : "s",
+                      plan->sky_lights > 0 ? " and directions of the environment" : "");
     lsf_scene_gpu_material_switches(plan, gloss, false);
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {
         char name[64];
@@ -225,10 +225,12 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
                                    uint32_t light_index)
 {
     static const GLfloat zero[4] = {0};
-    const lsf_light_state *light = &iteration->state->lights[light_index];
+    const lsf_light_state *light = &iteration->lights[light_index];
     const lsf_reflective_shadow_map_target *target = &pass->targets[lsf_light_map_kind_of(light)];
-    const lsf_light_map_layout layout = {target->faces, target->resolution,
-                                         LSF_PURPOSE_REFLECTIVE_SHADOW_MAP};
+    const lsf_light_map_layout layout = {.faces = target->faces,
+                                         .resolution = target->resolution,
+                                         .purpose = LSF_PURPOSE_REFLECTIVE_SHADOW_MAP,
+                                         .use = LSF_LIGHT_BOUNCED};
     lsf_reflective_shadow_map_outputs *out = &pass->outputs;
     lsf_timer_begin(pass->timer);
     lsf_light_map_project(&out->light, iteration, light_index, &layout);

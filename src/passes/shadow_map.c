@@ -21,6 +21,8 @@ const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
      "texels of a shadow map, all its faces together, for each pixel of the picture"},
 };
 
+#define CASCADES 4
+
 static const struct {
     const char *name;
     uint32_t faces;
@@ -28,13 +30,14 @@ static const struct {
 } kinds[LSF_LIGHT_MAP_KINDS] = {
     {"cube", 6, "no point light and no wide spot"},
     {"spot", 1, "no narrow spot"},
-    {"cascades", 4, "no directional light"},
+    {"cascades", CASCADES, "no directional light"},
 };
 
-static uint32_t face_side(const lsf_plan *plan, const lsf_shadow_map_params *params, uint32_t faces)
+/* `parts`: faces that share the texels of a map. */
+static uint32_t face_side(const lsf_plan *plan, const lsf_shadow_map_params *params, uint32_t parts)
 {
     double texels = (double)plan->width * plan->height * params->texels_per_pixel;
-    uint32_t side = (uint32_t)ceil(sqrt(texels / faces));
+    uint32_t side = (uint32_t)ceil(sqrt(texels / parts));
     return side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
 }
 
@@ -65,8 +68,9 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     bool needed[LSF_LIGHT_MAP_KINDS] = {false};
     for (uint32_t i = 0; i < state->light_count; i++)
         needed[lsf_light_map_kind_of(&state->lights[i])] = true;
-    lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s see", state->light_count,
-                      state->light_count == 1 ? "" : "s");
+    lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s%s see", state->light_count,
+                      state->light_count == 1 ? "" : "s",
+                      plan->sky_lights > 0 ? " and directions of the environment" : "");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", params->filter == LSF_SHADOW_FILTER_NONE,
                         "shadow.filter is none: planes are compared");
     lsf_scene_gpu_mask_switches(plan);
@@ -81,6 +85,11 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
         else
             lsf_plan_omit(plan, name, "%s", kinds[kind].omitted);
     }
+    /* Directions of the environment change from iteration to iteration and are many: the borders of
+     * their shadows need no cascades. */
+    if (plan->sky_lights > 0)
+        plan_map(plan, params, "sky", 1, face_side(plan, params, CASCADES),
+                 "a direction of the environment in turn");
     lsf_plan_buffer_add(plan, "shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
     lsf_light_walls_plan(plan, "shadow_map_walls", params->filter == LSF_SHADOW_FILTER_NONE);
@@ -89,12 +98,12 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
 void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *params,
                                const lsf_state *state, uint32_t resolution)
 {
-    for (uint32_t i = 0; i < state->light_count; i++)
-        if (lsf_light_map_kind_of(&state->lights[i]) == LSF_LIGHT_MAP_WINDOWS) {
-            plan_map(plan, params, "scene", 1, resolution, "the whole scene, for voxels");
-            return;
-        }
-    lsf_plan_omit(plan, "shadow_map.scene", "no directional light");
+    bool needed[LSF_LIGHT_MAP_KINDS];
+    lsf_light_map_kinds(plan, state, needed);
+    if (needed[LSF_LIGHT_MAP_WINDOWS])
+        plan_map(plan, params, "scene", 1, resolution, "the whole scene, for voxels");
+    else
+        lsf_plan_omit(plan, "shadow_map.scene", "no directional light");
 }
 
 static bool create_target(lsf_shadow_map_target *target, lsf_context *context, const lsf_plan *plan,
@@ -140,7 +149,8 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         if (!create_target(&pass->targets[kind], context, plan, kinds[kind].name, error))
             return false;
-    if (!create_target(&pass->scene, context, plan, "scene", error))
+    if (!create_target(&pass->sky, context, plan, "sky", error) ||
+        !create_target(&pass->scene, context, plan, "scene", error))
         return false;
     if (!lsf_plan_create_buffer(plan, context, "shadow_map.light", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->outputs.light_buffer, error))
@@ -155,7 +165,11 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
                      const lsf_iteration *iteration, uint32_t light_index)
 {
     static const GLfloat zero[4] = {0};
-    const lsf_light_map_layout layout = {target->faces, target->resolution, LSF_PURPOSE_SHADOW_MAP};
+    const lsf_light_map_layout layout = {.faces = target->faces,
+                                         .view = target != &pass->scene,
+                                         .resolution = target->resolution,
+                                         .purpose = LSF_PURPOSE_SHADOW_MAP,
+                                         .use = LSF_LIGHT_STRAIGHT};
     struct lsf_light_data *data = &pass->outputs.light;
     lsf_timer_begin(pass->timer);
     lsf_light_map_project(data, iteration, light_index, &layout);
@@ -189,7 +203,9 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
 static const lsf_shadow_map_target *target_of(const lsf_shadow_map *pass,
                                               const lsf_iteration *iteration, uint32_t light_index)
 {
-    return &pass->targets[lsf_light_map_kind_of(&iteration->state->lights[light_index])];
+    if (light_index >= iteration->state->light_count)
+        return &pass->sky;
+    return &pass->targets[lsf_light_map_kind_of(&iteration->lights[light_index])];
 }
 
 void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index)
@@ -200,9 +216,9 @@ void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, ui
 void lsf_shadow_map_run_scene(lsf_shadow_map *pass, const lsf_iteration *iteration,
                               uint32_t light_index)
 {
-    const lsf_shadow_map_target *target = target_of(pass, iteration, light_index);
-    draw_map(pass, target == &pass->targets[LSF_LIGHT_MAP_WINDOWS] ? &pass->scene : target,
-             iteration, light_index);
+    bool directional = iteration->lights[light_index].type == LSF_LIGHT_DIRECTIONAL;
+    draw_map(pass, directional ? &pass->scene : target_of(pass, iteration, light_index), iteration,
+             light_index);
 }
 
 static void destroy_target(lsf_context *context, lsf_shadow_map_target *target)
@@ -222,6 +238,7 @@ void lsf_shadow_map_destroy(lsf_shadow_map *pass)
         return;
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
+    destroy_target(pass->context, &pass->sky);
     destroy_target(pass->context, &pass->scene);
     lsf_buffer_destroy(pass->context, &pass->outputs.light_buffer);
     lsf_timer_destroy(pass->timer);

@@ -46,6 +46,7 @@ typedef struct lsf_shadow_map {
     lsf_context *context;
     lsf_shadow_map_outputs outputs;
     lsf_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
+    lsf_shadow_map_target sky; /* of directions of the environment: one window on what is seen */
     lsf_shadow_map_target
         scene; /* of directional lights, for points that the camera does not see */
     GLuint program;
@@ -63,7 +64,7 @@ void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *para
                                const lsf_state *state, uint32_t resolution);
 bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf_plan *plan,
                            lsf_error *error);
-/* Draws the map of state->lights[light_index], randomly turned and shifted for this iteration. */
+/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration. */
 void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index);
 /* The same, where the light is directional, with the map that holds the whole scene. */
 void lsf_shadow_map_run_scene(lsf_shadow_map *pass, const lsf_iteration *iteration,

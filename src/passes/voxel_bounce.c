@@ -104,6 +104,8 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     if (sum->source)
         lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
     lsf_scene_gpu_bind_environment(iteration->scene);
+    if (iteration->plan->requirements.environment)
+        lsf_iteration_bind_sky(iteration);
     dispatch(radiance, inputs->bricks);
     lsf_timer_end(pass->timer);
     return radiance;

@@ -47,6 +47,8 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
         lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf ? 2 : 0,
                             "shadow.filter; texels are small beside voxels");
         lsf_light_switches(plan);
+        lsf_plan_switch_add(plan, "LSF_SKY", variants[i].reflect && plan->sky_lights > 0,
+                            "the environment lights by directions");
     }
     lsf_voxel_texture_plan(plan, grid, "voxel_light.radiance", GL_RGBA16F, use->sides, use->levels,
                            "radiance of each side of a voxel's surface");
@@ -57,7 +59,8 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
 {
     static const char *const files[5] = {"passes/voxel_light.comp.glsl"};
     static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
-    *pass = (lsf_voxel_light){.context = context, .use = *use};
+    *pass = (lsf_voxel_light){
+        .context = context, .use = *use, .sky = plan->sky_lights > 0};
     GLuint *const programs[] = {&pass->emit_program, &pass->first_program, &pass->add_program};
     if (!lsf_plan_create_texture(plan, context, "voxel_light.radiance", &pass->radiance, error))
         return false;
@@ -71,12 +74,14 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
     return pass->clear_program && pass->timer;
 }
 
-static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list)
+static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list, bool sky)
 {
     glBindImageTexture(0, pass->radiance, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, list);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list);
     glUseProgram(program);
+    if (sky)
+        glUniform1f(LSF_LOCATION_SKY_CHANCE, pass->use.sky_rays);
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -96,7 +101,7 @@ void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *
     if (!inputs->changed || pass->use.levels == 1)
         return;
     lsf_timer_begin(pass->timer);
-    dispatch(pass, pass->clear_program, inputs->previous_bricks);
+    dispatch(pass, pass->clear_program, inputs->previous_bricks, false);
     lsf_timer_end(pass->timer);
 }
 
@@ -106,7 +111,7 @@ void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxel_light_inputs *i
         return;
     lsf_timer_begin(pass->timer);
     bind_voxels(inputs);
-    dispatch(pass, pass->emit_program, inputs->bricks);
+    dispatch(pass, pass->emit_program, inputs->bricks, false);
     lsf_timer_end(pass->timer);
     pass->written = true;
 }
@@ -119,7 +124,8 @@ void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *in
     lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, map->depth);
     lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, map->gradient);
     lsf_bind_texture(LSF_UNIT_SHADOW_TINT, map->tint);
-    dispatch(pass, pass->written ? pass->add_program : pass->first_program, inputs->bricks);
+    dispatch(pass, pass->written ? pass->add_program : pass->first_program, inputs->bricks,
+             pass->sky);
     lsf_timer_end(pass->timer);
     pass->written = true;
 }

@@ -22,6 +22,7 @@ typedef struct lsf_voxel_light_use {
     uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and
                       * texels of empty voxels mean nothing */
     bool pcf;        /* maps have no gradients */
+    float sky_rays;  /* that find the environment from a voxel by chance, drawn by the cosine */
 } lsf_voxel_light_use;
 
 typedef struct lsf_voxel_light {
@@ -30,6 +31,7 @@ typedef struct lsf_voxel_light {
                       * a surface faces that way */
     lsf_voxel_light_use use;
     bool written; /* since it began */
+    bool sky;     /* some lights stand for the environment */
     GLuint clear_program, emit_program, first_program, add_program;
     lsf_timer *timer;
 } lsf_voxel_light;

@@ -146,6 +146,8 @@ static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iterati
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     lsf_bind_texture(LSF_UNIT_PATH_RANDOM, pass->random);
     lsf_scene_gpu_bind_environment(iteration->scene);
+    if (iteration->plan->requirements.environment)
+        lsf_iteration_bind_sky(iteration);
 }
 
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,

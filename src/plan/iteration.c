@@ -2,8 +2,10 @@
 #include "plan/purpose.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/base.h"
 #include "math/sampling.h"
 #include "shared/scene_data.h"
 
@@ -100,6 +102,28 @@ static void set_view(struct lsf_view_data *view, const lsf_plan *plan, const lsf
     depth_law(camera, &view->depth.x, &view->depth.y);
 }
 
+/* Suppression m' of glossy lobes, Tokuyoshi and Ogaki 2012, section 4. */
+#define KERNEL_SAMPLES 16.0f
+
+static bool create_lights(lsf_iteration *iteration, lsf_error *error)
+{
+    const lsf_state *state = iteration->state;
+    uint32_t count = state->light_count + iteration->plan->sky_lights;
+    iteration->light_count = count;
+    iteration->lights = lsf_alloc(count, sizeof *iteration->lights);
+    iteration->shares = lsf_alloc(count, sizeof *iteration->shares);
+    if (!iteration->lights || !iteration->shares)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights", count);
+    if (state->light_count > 0)
+        memcpy(iteration->lights, state->lights, state->light_count * sizeof *state->lights);
+    for (uint32_t i = 0; i < count; i++)
+        iteration->shares[i] = (lsf_sky_share){.shares = {1.0f, 1.0f}};
+    return iteration->plan->sky_lights == 0 ||
+           lsf_sky_init(&iteration->sky, &iteration->scene->scene->environment) ||
+           lsf_error_set(error, LSF_ERROR_RENDER,
+                         "out of memory for the environment's distribution");
+}
+
 bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_plan *plan,
                           lsf_scene_gpu *scene, const lsf_state *state, const lsf_state *previous,
                           uint64_t seed, lsf_error *error)
@@ -108,7 +132,8 @@ bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_pl
         .context = context, .plan = plan, .state = state, .scene = scene, .seed = seed};
     set_view(&iteration->view, plan, state);
     iteration->previous_camera = previous ? previous->camera : state->camera;
-    return lsf_plan_create_buffer(plan, context, "view", NULL, GL_DYNAMIC_STORAGE_BIT,
+    return create_lights(iteration, error) &&
+           lsf_plan_create_buffer(plan, context, "view", NULL, GL_DYNAMIC_STORAGE_BIT,
                                   &iteration->view_buffer, error);
 }
 
@@ -116,6 +141,30 @@ void lsf_iteration_destroy(lsf_iteration *iteration)
 {
     if (iteration->context)
         lsf_buffer_destroy(iteration->context, &iteration->view_buffer);
+    lsf_sky_finish(&iteration->sky);
+    free(iteration->lights);
+    free(iteration->shares);
+}
+
+float lsf_iteration_expected(const lsf_iteration *iteration)
+{
+    uint32_t samples = iteration->plan->samples;
+    return samples == UINT32_MAX ? (float)iteration->index + 1.0f : (float)samples;
+}
+
+static void draw_sky_lights(lsf_iteration *iteration)
+{
+    uint32_t count = iteration->plan->sky_lights;
+    uint32_t first = iteration->light_count - count;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t bits[2];
+        lsf_iteration_sample(iteration, iteration->index * count + i, LSF_PURPOSE_SKY, bits);
+        const double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
+        lsf_sky_share *share = &iteration->shares[first + i];
+        lsf_sky_light_draw(&iteration->lights[first + i], share, &iteration->sky, u, count);
+        if (share->density > 0.0f)
+            share->kernel = KERNEL_SAMPLES / (lsf_iteration_expected(iteration) * share->density);
+    }
 }
 
 void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32_t purpose,
@@ -160,6 +209,14 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index)
     iteration->view.previous_start = vec4_from(iteration->previous_camera.start);
     glNamedBufferSubData(iteration->view_buffer, 0, sizeof iteration->view, &iteration->view);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VIEW, iteration->view_buffer);
+    draw_sky_lights(iteration);
+}
+
+void lsf_iteration_bind_sky(const lsf_iteration *iteration)
+{
+    const lsf_sky *sky = &iteration->sky;
+    glUniform4f(LSF_LOCATION_SKY, sky->whole, sky->held, sky->mean,
+                (float)iteration->plan->sky_lights);
 }
 
 void lsf_iteration_region(const lsf_iteration *iteration, lsf_draw_region *region)

@@ -3,6 +3,7 @@
 #define LSF_PLAN_ITERATION_H
 
 #include "plan/scene_gpu.h"
+#include "plan/sky_light.h"
 #include "shared/view.h"
 
 typedef struct lsf_iteration {
@@ -15,6 +16,11 @@ typedef struct lsf_iteration {
     GLuint view_buffer; /* struct lsf_view_data */
     struct lsf_view_data view;
     lsf_camera_state previous_camera; /* for motion */
+    uint32_t light_count;   /* the state's lights, then those that stand for the environment */
+    lsf_light_state *lights;
+    lsf_sky_share *shares;  /* one for each light; a technique that finds the environment in other
+                             * ways, too, sets them for the iteration */
+    lsf_sky sky;
 } lsf_iteration;
 
 /* A part of the picture to work on: a viewport, and with interleaved sampling the tile whose pixels
@@ -34,9 +40,15 @@ bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_pl
                           uint64_t seed, lsf_error *error);
 void lsf_iteration_destroy(lsf_iteration *iteration);
 
-/* Jitters the pixel for iteration `index` (uniform over the pixel: a box filter) and uploads the
- * view. */
+/* Jitters the pixel for iteration `index` (uniform over the pixel: a box filter), uploads the view
+ * and draws the directions from which the environment lights. */
 void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index);
+
+/* Iterations that the picture will have; those so far when that is open. */
+float lsf_iteration_expected(const lsf_iteration *iteration);
+
+/* For lib/sky.glsl in the program in use. */
+void lsf_iteration_bind_sky(const lsf_iteration *iteration);
 
 /* The half spaces of the view's four sides and its near plane. */
 void lsf_iteration_region(const lsf_iteration *iteration, lsf_draw_region *region);

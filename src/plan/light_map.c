@@ -25,13 +25,31 @@ lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light)
     return narrow ? LSF_LIGHT_MAP_SPOT : LSF_LIGHT_MAP_CUBE;
 }
 
+bool lsf_light_any(const lsf_plan *plan, const lsf_state *state)
+{
+    return state->light_count > 0 || plan->sky_lights > 0;
+}
+
+void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
+                         bool needed[LSF_LIGHT_MAP_KINDS])
+{
+    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
+        needed[kind] = false;
+    for (uint32_t i = 0; i < state->light_count; i++)
+        needed[lsf_light_map_kind_of(&state->lights[i])] = true;
+    if (plan->sky_lights > 0)
+        needed[LSF_LIGHT_MAP_WINDOWS] = true;
+}
+
 void lsf_light_switches(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
     lsf_plan_switch_add(plan, "LSF_SPOT_LIGHT", r->spot_lights > 0, "there are spot lights (%u)",
                         r->spot_lights);
-    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT", r->directional_lights > 0,
-                        "there are directional lights (%u)", r->directional_lights);
+    lsf_plan_switch_add(plan, "LSF_DIRECTIONAL_LIGHT",
+                        r->directional_lights > 0 || plan->sky_lights > 0,
+                        "there are directional lights (%u), or the environment lights as such",
+                        r->directional_lights);
 }
 
 static lsf_vec4 vec4_from(lsf_float3 v, float w)
@@ -176,16 +194,16 @@ static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration 
 /* Along the light, each window holds the whole scene, which may cast its shadow from outside the
  * view. */
 static void project_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
-                            uint32_t faces, const lsf_float3 axes[3])
+                            const lsf_light_map_layout *layout, const lsf_float3 axes[3])
 {
     box scene = scene_box(iteration->state, axes);
     float half_range = fmaxf(0.5f * (scene.high[2] - scene.low[2]), 1e-3f);
     float start = 0.5f * (scene.high[2] + scene.low[2]) - 1.01f * half_range;
-    data->map_origin = vec4_from(lsf_f3_scale(axes[2], start), (float)faces);
+    data->map_origin = vec4_from(lsf_f3_scale(axes[2], start), (float)layout->faces);
     data->map_shape.x = 0.0f;
     data->map_shape.y = 2.02f * half_range;
-    if (faces > 1) {
-        set_nested_windows(data, iteration, faces, axes, &scene);
+    if (layout->view) {
+        set_nested_windows(data, iteration, layout->faces, axes, &scene);
         return;
     }
     float center[2], extent[2];
@@ -196,7 +214,8 @@ static void project_windows(struct lsf_light_data *data, const lsf_iteration *it
     set_window(data, 0, axes, center, extent);
 }
 
-static void set_light(struct lsf_light_data *data, const lsf_light_state *light)
+static void set_light(struct lsf_light_data *data, const lsf_light_state *light,
+                      const lsf_sky_share *share, lsf_light_use use)
 {
     float spot_scale = 0.0f, spot_offset = 1.0f;
     if (light->type == LSF_LIGHT_SPOT) {
@@ -206,18 +225,20 @@ static void set_light(struct lsf_light_data *data, const lsf_light_state *light)
     memset(data, 0, sizeof *data);
     data->position = vec4_from(lsf_f3_load(light->position), 0.0f);
     data->direction = vec4_from(lsf_f3_load(light->direction), 0.0f);
-    data->intensity = vec4_from(lsf_f3_load(light->intensity), 0.0f);
+    data->intensity = vec4_from(
+        lsf_f3_scale(lsf_f3_load(light->intensity), share->shares[use]), share->density);
     data->attenuation = (lsf_vec4){1.0f / (light->range * light->range), spot_scale, spot_offset,
                                    (float)light->type};
+    data->map_offset.w = share->kernel;
 }
 
 void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *iteration,
                            uint32_t light_index, const lsf_light_map_layout *layout)
 {
-    const lsf_light_state *light = &iteration->state->lights[light_index];
+    const lsf_light_state *light = &iteration->lights[light_index];
     uint32_t purpose = layout->purpose + 2 * light_index;
     float texels = (float)layout->resolution;
-    set_light(data, light);
+    set_light(data, light, &iteration->shares[light_index], layout->use);
     float turn[2], shift[2], rotation[9];
     lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, purpose), turn);
     lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, purpose + 1), shift);
@@ -234,7 +255,7 @@ void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *ite
     data->map_offset.x = (2.0f * shift[0] - 1.0f) / texels;
     data->map_offset.y = (2.0f * shift[1] - 1.0f) / texels;
     if (light->type == LSF_LIGHT_DIRECTIONAL) {
-        project_windows(data, iteration, layout->faces, axes);
+        project_windows(data, iteration, layout, axes);
     } else {
         float tangent = sqrtf(1.0f - light->cos_outer * light->cos_outer) / light->cos_outer;
         float extent = fmaxf(tangent, 1e-4f) * (1.0f + 2.0f / texels);

@@ -15,19 +15,27 @@ typedef enum lsf_light_map_kind {
 
 lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light);
 
+/* Whether anything lights straight: a punctual light, or the environment by directions. */
+bool lsf_light_any(const lsf_plan *plan, const lsf_state *state);
+/* Which kinds of map the lights need. */
+void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
+                         bool needed[LSF_LIGHT_MAP_KINDS]);
+
 /* Adds to the pass in turn the switches of lib/light.glsl. */
 void lsf_light_switches(lsf_plan *plan);
 
 /* A map to project on. */
 typedef struct lsf_light_map_layout {
-    uint32_t faces; /* of a directional light: one window holds the whole scene, several are nested
-                     * about what the camera sees */
+    uint32_t faces;
+    bool view; /* windows of a directional light are nested about what the camera sees; else the one
+                * holds the whole scene */
     uint32_t resolution; /* texels along a face's side */
     uint32_t purpose;    /* its random turn and shift are of lsf_iteration_seed's purposes from
                           * here on, two for each light */
+    lsf_light_use use;
 } lsf_light_map_layout;
 
-/* Describes state->lights[light_index] and the projection onto its map, which is turned and
+/* Describes iteration->lights[light_index] and the projection onto its map, which is turned and
  * shifted at random for this iteration. */
 void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *iteration,
                            uint32_t light_index, const lsf_light_map_layout *layout);

@@ -44,6 +44,7 @@ struct lsf_plan {
     const char *technique;
     lsf_requirements requirements;
     uint32_t width, height, samples, bounces, aovs;
+    uint32_t sky_lights; /* directions an iteration from which the environment lights */
     bool orthographic;
     bool transmission; /* there are materials that transmit light */
     bool straight;     /* ... and it goes straight through them, for the technique cannot refract */

@@ -20,15 +20,16 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_CONE_TURN,
     LSF_PURPOSE_CONE_ELEVATION,
     LSF_PURPOSE_VOXEL_EMITTER,
+    LSF_PURPOSE_SKY,
+    LSF_PURPOSE_BLEND_VOXEL, /* whether blended surfaces are there */
     /* Whether surfaces that transmit, and blended ones, are there; see lib/straight.glsl and
      * lib/alpha.glsl. */
     LSF_PURPOSE_STRAIGHT_PIXEL,
-    LSF_PURPOSE_STRAIGHT_SHADOW_MAP,            /* one for each light */
-    LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP, /* the same */
-    LSF_PURPOSE_BLEND_VPL, /* whether blended surfaces are there; one for each VPL of an iteration
-                            */
-    LSF_PURPOSE_BLEND_BUNDLE, /* the same for each bundle */
-    LSF_PURPOSE_BLEND_VOXEL,
+    LSF_PURPOSE_STRAIGHT_SHADOW_MAP = 0x80000,            /* one for each light */
+    LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP = 0xa0000, /* the same */
+    LSF_PURPOSE_BLEND_VPL = 0xc0000,    /* whether blended surfaces are there; one for each VPL of
+                                         * an iteration */
+    LSF_PURPOSE_BLEND_BUNDLE = 0xe0000, /* the same for each bundle */
 } lsf_purpose;
 
 #endif

@@ -464,8 +464,9 @@ void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu)
 {
     const lsf_environment *environment = &gpu->scene->environment;
     lsf_bind_texture(LSF_UNIT_ENVIRONMENT, gpu->environment);
-    if (environment->present && !environment->width)
-        glUniform3fv(LSF_LOCATION_ENVIRONMENT, 1, environment->radiance);
+    if (environment->present)
+        glUniform4f(LSF_LOCATION_ENVIRONMENT, environment->radiance[0], environment->radiance[1],
+                    environment->radiance[2], environment->turn);
 }
 
 void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material, lsf_draw_mode mode)

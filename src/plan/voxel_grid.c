@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "math/sampling.h"
+#include "scene/sky.h"
 
 /* Of a 3D texture, that every device has (GL 4.5, table 23.53). */
 #define MAX_TEXTURE_DEPTH 2048
@@ -52,6 +53,7 @@ void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const
     float brightest = 0.0f;
     for (uint32_t i = 0; i < state->light_count; i++)
         brightest = fmaxf(brightest, largest(state->lights[i].intensity));
+    brightest = fmaxf(brightest, (float)lsf_sky_fluence(&scene->environment));
     for (uint32_t i = 0; i < state->instance_count; i++) {
         const lsf_material *material = &scene->materials[state->instances[i].material];
         brightest = fmaxf(brightest, largest(material->emission) / 256.0f);

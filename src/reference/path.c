@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "reference/bsdf.h"
+#include "scene/environment.h"
 #include "shared/brdf.h"
 #include "shared/light.h"
 
@@ -309,7 +310,7 @@ static void add_sky(walk *w)
     if (!(reflection.pdf > 0.0f) || !reaches_sky(w, direction))
         return;
     float weight = mis_weight(pdf, reflection.pdf) / pdf;
-    add_reflected(w, &reflection, lsf_f3_scale(lsf_reference_sky_radiance(sky, direction), weight));
+    add_reflected(w, &reflection, lsf_f3_scale(lsf_environment_radiance(sky->environment, direction), weight));
 }
 
 /* Whether rays that leave a surface can meet something that shines. */
@@ -357,7 +358,7 @@ static bool step(walk *w)
         if (world->sky.environment->present) {
             float other = world->sky.sampled ? lsf_reference_sky_pdf(&world->sky, direction) : 0.0f;
             float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
-            lsf_float3 radiance = lsf_reference_sky_radiance(&world->sky, direction);
+            lsf_float3 radiance = lsf_environment_radiance(world->sky.environment, direction);
             add_met(w, &reflection, crosses, lsf_f3_scale(radiance, weight));
         }
         return false;
@@ -418,7 +419,7 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     lsf_reference_hit hit;
     if (!lsf_reference_trace(&world->geometry, origin, along, camera->near_plane - before, INFINITY,
                              next_chance(&w), &hit)) {
-        path->emission = lsf_reference_sky_radiance(&world->sky, direction);
+        path->emission = lsf_environment_radiance(world->sky.environment, direction);
         return;
     }
     lsf_reference_surface_init(&w.surface, &world->geometry, &hit, direction);

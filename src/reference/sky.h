@@ -16,10 +16,6 @@ bool lsf_reference_sky_init(lsf_reference_sky *sky, const lsf_environment *envir
                             lsf_error *error);
 void lsf_reference_sky_finish(lsf_reference_sky *sky);
 
-/* Radiance from the unit `direction`: bilinear between texel centres, around the horizon without
- * a seam. */
-lsf_float3 lsf_reference_sky_radiance(const lsf_reference_sky *sky, lsf_float3 direction);
-
 /* Draws a direction; returns its density per steradian (0: none). */
 float lsf_reference_sky_sample(const lsf_reference_sky *sky, const double u[2],
                                lsf_float3 *direction);

@@ -145,12 +145,13 @@ typedef struct lsf_animation_channel {
     float *values; /* 3 (4 for rotation) a key; cubic: in-tangent, value, out-tangent */
 } lsf_animation_channel;
 
-/* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi, v = acos(y) / pi from
- * the top row. width == 0: uniform `radiance`. */
+/* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi + turn, v = acos(y) / pi
+ * from the top row. width == 0: uniform `radiance`. */
 typedef struct lsf_environment {
     bool present;
     bool by_default; /* nobody gave it: the sky of default_light.c */
     float radiance[3];
+    float turn; /* of the map about +y, anticlockwise seen from above, in full turns, 0..1 */
     uint32_t width, height;
     float *texels; /* 3 each, linear radiance */
 } lsf_environment;

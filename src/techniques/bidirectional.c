@@ -14,6 +14,7 @@
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl.h"
 #include "plan/purpose.h"
+#include "scene/environment.h"
 #include "shared/scene_data.h"
 #include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
@@ -34,6 +35,7 @@ typedef struct bidirectional {
     lsf_compose compose;
     lsf_emitters emitters; /* empty unless they shine as VPLs */
     lsf_distribution light_picks;
+    float sky_probability; /* that a light picked stands for the environment */
     uint32_t *lights; /* that each sample of the iteration takes */
     lsf_bidirectional_shade_params shade_params;
 } bidirectional;
@@ -45,24 +47,35 @@ static uint32_t sample_count(const lsf_bidirectional_sampling *s)
     return count > s->emitter_count ? count : s->emitter_count;
 }
 
-/* Half of the samples by power, half evenly among the lights that shine: one with much power may do
- * little in view, as a sun outside does, and must not take all from those that do. */
-static bool create_light_picks(bidirectional *b, const lsf_state *state, lsf_error *error)
+/* Half of the samples by power, half evenly among the lights that shine, the environment one of them:
+ * one with much power may do little in view, as a sun outside does, and must not take all from those
+ * that do. */
+static bool create_light_picks(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
+                               const lsf_state *state, lsf_error *error)
 {
-    uint32_t count = state->light_count, shining = 0;
+    uint32_t count = state->light_count + plan->sky_lights, shining = plan->sky_lights > 0;
     float *weights = lsf_alloc(count, sizeof *weights), sum = 0.0f;
+    float sky = plan->sky_lights > 0
+                    ? (float)lsf_sky_fluence(&scene->environment) / (float)plan->sky_lights
+                    : 0.0f;
+    const lsf_light_state sky_light = {.type = LSF_LIGHT_DIRECTIONAL, .intensity = {sky, sky, sky}};
     for (uint32_t i = 0; weights && i < count; i++) {
-        weights[i] = lsf_light_power(&state->lights[i]);
+        bool punctual = i < state->light_count;
+        weights[i] = lsf_light_power(punctual ? &state->lights[i] : &sky_light);
         sum += weights[i];
-        shining += weights[i] > 0.0f;
+        shining += punctual && weights[i] > 0.0f;
     }
-    for (uint32_t i = 0; weights && i < count; i++)
+    for (uint32_t i = 0; weights && i < count; i++) {
+        float parts = i < state->light_count ? 1.0f : (float)plan->sky_lights;
         if (weights[i] > 0.0f)
-            weights[i] = weights[i] / sum + 1.0f / (float)shining;
+            weights[i] = weights[i] / sum + 1.0f / ((float)shining * parts);
+    }
     bool good = weights && lsf_distribution_init(&b->light_picks, weights, count);
     free(weights);
-    return good || lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights",
-                                 state->light_count);
+    for (uint32_t i = state->light_count; good && i < count; i++)
+        b->sky_probability += (float)lsf_distribution_probability(&b->light_picks, i);
+    return good ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights", count);
 }
 
 static bool create_emitters(bidirectional *b, const lsf_scene *scene, const lsf_state *state,
@@ -107,9 +120,9 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
     b->lights = lsf_alloc(draws, sizeof *b->lights);
     if (!b->lights)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u samples", draws);
-    return lsf_direct_chain_create(&b->chain, context, plan, params, scene, error) &&
+    return lsf_direct_chain_create(&b->chain, context, plan, params, scene, NULL, error) &&
            ((!s.vpl_light && !s.bundle_light) ||
-            (create_light_picks(b, state, error) &&
+            (create_light_picks(b, plan, scene->scene, state, error) &&
              lsf_reflective_shadow_map_create(&b->rsm, context, plan, error))) &&
            (!s.vpl_emitter || create_emitters(b, scene->scene, state, error)) &&
            (vpl.count == 0 || lsf_vpl_create(&b->vpl, context, plan, &vpl, error)) &&
@@ -143,18 +156,61 @@ static float dealt(uint32_t count, uint32_t tiles, uint32_t tile)
     return (float)(count / tiles + (tile < count % tiles));
 }
 
-/* Iterations that suppression may count on. */
+/* Iterations that suppression may count on; 0: there is none. */
 static float suppressed_iterations(const bidirectional *b, const lsf_iteration *iteration)
 {
-    if (b->shade_params.suppression == LSF_GLOSSY_SUPPRESSION_NONE)
-        return 0.0f;
-    uint32_t samples = iteration->plan->samples;
-    return samples == UINT32_MAX ? (float)iteration->index + 1.0f : (float)samples;
+    return b->shade_params.suppression == LSF_GLOSSY_SUPPRESSION_NONE
+               ? 0.0f
+               : lsf_iteration_expected(iteration);
 }
 
 static float light_probability(const bidirectional *b, uint32_t light)
 {
     return (float)lsf_distribution_probability(&b->light_picks, light);
+}
+
+/* Bundles at a visible point that may find the environment, and at a vertex beyond it. */
+static float sky_bundles(const lsf_bidirectional_sampling *s, bool deep)
+{
+    if (deep)
+        return s->segments > 1 ? 1.0f : 0.0f;
+    return s->emission ? (float)s->bundle_count / (float)s->tiles : 0.0f;
+}
+
+/* The environment as light paths find it and as bundles do: what a light that stands for it keeps. Deep
+ * vertices have one light each, `light_picks` says which. */
+static void share_sky(bidirectional *b, const lsf_iteration *iteration)
+{
+    const lsf_bidirectional_sampling *s = &b->sampling;
+    float iterations = suppressed_iterations(b, iteration);
+    for (uint32_t i = iteration->state->light_count; i < iteration->light_count; i++) {
+        lsf_sky_share *share = &iteration->shares[i];
+        lsf_float3 direction = lsf_f3_scale(lsf_f3_load(iteration->lights[i].direction), -1.0f);
+        float p_r = lsf_bundle_directions_pdf(&b->directions, direction);
+        float straight = share->density + sky_bundles(s, false) * p_r;
+        float bounced = b->sky_probability * share->density / (float)iteration->plan->sky_lights;
+        if (straight > 0.0f)
+            share->shares[LSF_LIGHT_STRAIGHT] = share->density / straight;
+        if (bounced > 0.0f)
+            share->shares[LSF_LIGHT_BOUNCED] = bounced / (bounced + sky_bundles(s, true) * p_r);
+        share->kernel =
+            iterations * straight > 0.0f ? b->shade_params.kernel_samples / (iterations * straight) : 0.0f;
+    }
+}
+
+/* The same for a bundle: densities along it and against it, per path of a pixel. */
+static void share_bundle(const bidirectional *b, const lsf_iteration *iteration, uint32_t bundle,
+                         bool deep, lsf_bidirectional_sample *sample)
+{
+    float p_r = b->aims[bundle].pdf, count = sky_bundles(&b->sampling, deep);
+    sample->bundle_pdf = p_r;
+    for (int side = 0; side < 2 && iteration->plan->sky_lights > 0; side++) {
+        lsf_float3 direction = lsf_f3_scale(lsf_f3_load(b->aims[bundle].direction), side ? -1.0f : 1.0f);
+        float drawn = lsf_sky_density(
+            &iteration->sky, lsf_environment_radiance(iteration->sky.environment, direction));
+        sample->sky_pdf[side] = deep ? b->sky_probability * drawn
+                                     : (float)iteration->plan->sky_lights * drawn / count;
+    }
 }
 
 /* One sample: a VPL of each kind, and a path along bundles that begins with one of the same number.
@@ -247,6 +303,7 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
     if (s->vpl_emitter && !s->bundle_emitter)
         sample.bundle_count = 0.0f; /* nor do they share the light of punctual ones */
     inputs.bundle_pdf = b->bundle_pdf;
+    share_bundle(b, turn->iteration, bundle, deep, &sample);
     if (lit) {
         inputs.map_depth = b->rsm.outputs.depth;
         inputs.map_gradient = b->rsm.outputs.gradient;
@@ -349,7 +406,7 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
         lsf_ray_bundle_build(b->bundle, iteration, i);
     if (s->vpl_light || s->bundle_light) {
         pick_lights(b, iteration, count);
-        for (uint32_t light = 0; light < iteration->state->light_count; light++)
+        for (uint32_t light = 0; light < iteration->light_count; light++)
             run_light(&turn, light, count);
     } else {
         for (uint32_t i = 0; i < count; i++)
@@ -367,6 +424,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     const lsf_interleave_points points = {
         .depth = gbuffer->depth, .surface = gbuffer->surface, .gloss = gbuffer->gloss};
     GLuint irradiance = b->shade.outputs.irradiance, specular = b->shade.outputs.specular;
+    share_sky(b, iteration);
     lsf_direct_chain_run(&b->chain, iteration);
     if (b->sampling.interleave > 1) {
         lsf_interleave_split(&b->interleave, iteration, &points);

@@ -9,8 +9,11 @@ static uint32_t max_u32(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-static bool punctual_light_shines(const lsf_state *state)
+/* Of lights that have a map: punctual ones, and those that stand for the environment. */
+static bool mapped_light_shines(const lsf_plan *plan, const lsf_state *state)
 {
+    if (plan->sky_lights > 0)
+        return true;
     for (uint32_t i = 0; i < state->light_count; i++)
         if (lsf_light_power(&state->lights[i]) > 0.0f)
             return true;
@@ -25,14 +28,14 @@ lsf_bidirectional_sampling lsf_bidirectional_sampling_choose(const lsf_plan *pla
     int strategy = params->bidirectional_shade.strategy;
     int window = params->ray_bundle.window;
     uint32_t vpl_count = (uint32_t)params->vpl.count;
-    bool punctual = punctual_light_shines(state) && plan->bounces > 0;
+    bool mapped = mapped_light_shines(plan, state) && plan->bounces > 0;
     lsf_bidirectional_sampling s = {
         .bounces = plan->bounces,
         .bundle_count = (uint32_t)params->ray_bundle.count,
         .interleave = (uint32_t)params->interleave.size,
         .tiles = (uint32_t)(params->interleave.size * params->interleave.size)};
-    s.vpl_light = punctual && strategy != LSF_BIDIRECTIONAL_BUNDLE && vpl_count > 0;
-    s.bundle_light = punctual && strategy != LSF_BIDIRECTIONAL_VPL;
+    s.vpl_light = mapped && strategy != LSF_BIDIRECTIONAL_BUNDLE && vpl_count > 0;
+    s.bundle_light = mapped && strategy != LSF_BIDIRECTIONAL_VPL;
     s.vpl_emitter = r->emissive && strategy != LSF_BIDIRECTIONAL_BUNDLE && vpl_count > 0;
     s.bundle_emitter = r->emissive && !(s.vpl_emitter && strategy == LSF_BIDIRECTIONAL_VPL);
     s.emission = s.bundle_emitter || r->unlit || r->environment;
@@ -118,7 +121,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_bidirectional_sampling s = lsf_bidirectional_sampling_choose(plan, params, state);
     lsf_vpl_params vpl = lsf_bidirectional_vpl_params(params, &s);
     plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
-    lsf_direct_chain_plan(plan, params, state);
+    lsf_direct_chain_plan(plan, params, state, NULL);
     if (s.interleave > 1)
         lsf_interleave_plan(plan, &params->interleave);
     else
@@ -160,7 +163,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     } else {
         lsf_plan_omit(plan, "bidirectional_shade", "no light bounces");
     }
-    lsf_compose_plan(plan, &(lsf_compose_use){.direct = state->light_count > 0,
+    lsf_compose_plan(plan, &(lsf_compose_use){.direct = lsf_light_any(plan, state),
                                               .indirect = indirect,
                                               .split_direct = s.split_direct});
     remark(plan, params, &s);

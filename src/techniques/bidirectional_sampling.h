@@ -11,7 +11,7 @@ typedef struct lsf_bidirectional_sampling {
     uint32_t bundle_count;
     uint32_t segments;   /* bundles along a path */
     uint32_t vertices;   /* of these, whose hits become vertices */
-    bool vpl_light;      /* punctual lights shine by VPLs */
+    bool vpl_light;      /* lights with maps, the environment's among them, shine by VPLs */
     bool bundle_light;   /* and by the hits of bundles */
     bool vpl_emitter;    /* emissive surfaces shine as VPLs */
     bool bundle_emitter; /* and into bundles */

@@ -6,6 +6,7 @@
 
 #include "base/base.h"
 #include "math/sampling.h"
+#include "scene/environment.h"
 #include "shared/brdf.h"
 
 static uint32_t cells_around(uint32_t map_width)
@@ -30,24 +31,17 @@ static double cosine_of_edge(const lsf_bundle_directions *d, uint32_t row)
 
 static double solid_angle(const lsf_bundle_directions *d, uint32_t cell)
 {
-    uint32_t row = cell / d->width;
-    return 2.0 * M_PI / d->width * (cosine_of_edge(d, row) - cosine_of_edge(d, row + 1));
+    return lsf_environment_cell_solid_angle(d->width, d->height, cell / d->width);
 }
 
-/* Luminance of the map, which is bilinear between texel centres, over a texel: the texel itself
- * weighs 3/4 along each axis and its neighbours 1/8. */
-static float mean_luminance(const lsf_environment *map, uint32_t x, uint32_t y)
+/* Luminance of the map about the middle of a cell, which is turned with the map. */
+static float cell_luminance(const lsf_bundle_directions *d, const lsf_environment *map,
+                            uint32_t cell)
 {
-    static const float weights[3] = {0.125f, 0.75f, 0.125f};
-    float sum = 0.0f;
-    for (uint32_t j = 0; j < 3; j++)
-        for (uint32_t i = 0; i < 3; i++) {
-            uint32_t column = (x + map->width + i - 1) % map->width;
-            uint32_t row = y + j == 0 ? 0 : y + j - 1 >= map->height ? map->height - 1 : y + j - 1;
-            const float *texel = map->texels + 3 * ((uint64_t)row * map->width + column);
-            sum += weights[i] * weights[j] * lsf_f3_luminance(lsf_f3_load(texel));
-        }
-    return sum;
+    double u = (cell % d->width + 0.5) / d->width + (double)map->turn;
+    u -= floor(u);
+    uint32_t x = (uint32_t)(u * map->width);
+    return lsf_environment_texel_luminance(map, x < map->width ? x : 0, cell / d->width);
 }
 
 /* The opposite of a cell. */
@@ -73,8 +67,7 @@ bool lsf_bundle_directions_init(lsf_bundle_directions *directions,
     if (good) {
         double mean = 0.0, integral = 0.0;
         for (uint32_t i = 0; i < count; i++) {
-            uint32_t x = (uint32_t)((i % width + 0.5) / width * environment->width);
-            light[i] = mean_luminance(environment, x, i / width);
+            light[i] = cell_luminance(directions, environment, i);
             mean += (double)light[i] * solid_angle(directions, i) / (4.0 * M_PI);
         }
         /* A black map leaves a uniform density. */

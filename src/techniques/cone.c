@@ -54,6 +54,10 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w
     uint32_t slices = lsf_cone_slices(&params->cone);
     return (lsf_voxel_chain_use){.sides = slices,
                                  .levels = w->levels,
+                                 .direct = {params->cone.sealed ? LSF_SKY_CHANCE_LOBES
+                                                                : LSF_SKY_CHANCE_DIFFUSE,
+                                            {(float)params->cone.count, (float)params->cone.count}},
+                                 .voxel_rays = (float)params->cone.count,
                                  .bytes_per_voxel =
                                      (8 * slices * 8 / 7 + 1) * (w->bounces < 2 ? w->bounces : 2)};
 }
@@ -88,11 +92,11 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         lsf_upsample_search_plan(plan, &params->upsample_search, w.width, w.height);
         lsf_blur_remark(plan, &params->blur);
     } else {
-        lsf_direct_chain_plan(plan, params, state);
+        lsf_direct_chain_plan(plan, params, state, NULL);
         lsf_plan_omit(plan, "cone_trace", "no light bounces");
     }
     lsf_compose_plan(plan,
-                     &(lsf_compose_use){.direct = state->light_count > 0, .indirect = w.traced});
+                     &(lsf_compose_use){.direct = lsf_light_any(plan, state), .indirect = w.traced});
     remark(plan, &w);
 }
 
@@ -124,7 +128,7 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
     c->way = choose_way(plan, params);
     return (c->way.traced
                 ? create_traced(c, context, plan, params, scene, state, error)
-                : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene, error)) &&
+                : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene, NULL, error)) &&
            lsf_compose_create(&c->compose, context, plan, error);
 }
 
@@ -293,6 +297,7 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
 const lsf_technique lsf_technique_cone = {
     .name = "cone",
     .help = "global illumination by cones through voxels",
+    .draws_lobes = true,
     .plan = plan_cone,
     .create = create_cone,
     .run = run_cone,

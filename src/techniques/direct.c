@@ -1,4 +1,4 @@
-/* Direct light of punctual sources, by shadow maps. Emissive surfaces and the environment are seen
+/* Direct light of punctual sources and of the environment, by shadow maps. Emissive surfaces are seen
  * but light nothing. */
 #include <stdlib.h>
 
@@ -23,11 +23,12 @@ static bool needs_compose(const lsf_plan *plan, bool lit)
 static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool lit = state->light_count > 0;
-    lsf_direct_chain_plan(plan, params, state);
+    bool lit = lsf_light_any(plan, state);
+    lsf_direct_chain_plan(plan, params, state, NULL);
     if (!lit)
-        lsf_log(LSF_LOG_WARNING, "no point, spot or directional light: the direct technique leaves "
-                                 "every surface black but for what it emits");
+        lsf_log(LSF_LOG_WARNING, "no point, spot or directional light and no environment: the "
+                                 "direct technique leaves every surface black but for what it "
+                                 "emits");
     if (needs_compose(plan, lit))
         lsf_compose_plan(plan, &(lsf_compose_use){.direct = lit});
     else
@@ -35,9 +36,9 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
     if (r->emissive)
         lsf_plan_remark(plan, "emissive surfaces are seen, but light other surfaces only with the "
                               "bidirectional technique");
-    if (r->environment)
-        lsf_plan_remark(plan, "the environment is seen, but lights surfaces only with the "
-                              "bidirectional technique");
+    if (r->environment && plan->sky_lights == 0)
+        lsf_plan_remark(plan, "environment.directions=0: the environment is seen, but lights "
+                              "nothing");
     if (plan->bounces > plan->requirements.bounces)
         lsf_plan_remark(plan, "the direct technique has no bounces; %u asked for", plan->bounces);
     if (plan->aovs & (LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR))
@@ -53,7 +54,7 @@ static bool create_direct(void **self, lsf_context *context, const lsf_plan *pla
     if (!d)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     d->composed = lsf_plan_find_pass(plan, "compose") != NULL;
-    return lsf_direct_chain_create(&d->chain, context, plan, params, scene, error) &&
+    return lsf_direct_chain_create(&d->chain, context, plan, params, scene, NULL, error) &&
            (!d->composed || lsf_compose_create(&d->compose, context, plan, error));
 }
 
@@ -101,7 +102,7 @@ static uint32_t report_direct(void *self, lsf_pass_report reports[LSF_TECHNIQUE_
 
 const lsf_technique lsf_technique_direct = {
     .name = "direct",
-    .help = "direct light of punctual sources, by shadow maps",
+    .help = "direct light of punctual sources and environments, by shadow maps",
     .plan = plan_direct,
     .create = create_direct,
     .run = run_direct,

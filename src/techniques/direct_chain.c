@@ -1,25 +1,41 @@
 #include "techniques/direct_chain.h"
 
-void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
+static lsf_direct_light_use light_use(const lsf_pass_params *params,
+                                      const lsf_direct_chain_use *use)
+{
+    lsf_direct_light_use light = {.shadow_pcf =
+                                      params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
+    if (use) {
+        light.chance = use->chance;
+        light.paths[0] = use->paths[0];
+        light.paths[1] = use->paths[1];
+    }
+    return light;
+}
+
+void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
+                           const lsf_direct_chain_use *use)
 {
     lsf_gbuffer_plan(plan);
-    if (state->light_count > 0) {
+    if (lsf_light_any(plan, state)) {
         lsf_shadow_map_plan(plan, &params->shadow_map, state);
-        lsf_direct_light_plan(plan, params->shadow_map.filter == LSF_SHADOW_FILTER_PCF);
+        lsf_direct_light_use light = light_use(params, use);
+        lsf_direct_light_plan(plan, &light);
     } else {
-        lsf_plan_omit(plan, "shadow_map", "no punctual light");
-        lsf_plan_omit(plan, "direct_light", "no punctual light");
+        lsf_plan_omit(plan, "shadow_map", "no light but what surfaces emit");
+        lsf_plan_omit(plan, "direct_light", "no light but what surfaces emit");
     }
 }
 
 bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, const lsf_plan *plan,
                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
-                             lsf_error *error)
+                             const lsf_direct_chain_use *use, lsf_error *error)
 {
+    lsf_direct_light_use light = light_use(params, use);
     chain->lit = lsf_plan_find_pass(plan, "direct_light") != NULL;
     return lsf_gbuffer_create(&chain->gbuffer, context, plan, &params->gbuffer, scene, error) &&
            (!chain->lit || (lsf_shadow_map_create(&chain->shadow_map, context, plan, error) &&
-                            lsf_direct_light_create(&chain->direct_light, context, plan, error)));
+                            lsf_direct_light_create(&chain->direct_light, context, plan, &light, error)));
 }
 
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration)
@@ -47,7 +63,7 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
 {
     lsf_direct_chain_begin(chain, iteration);
-    for (uint32_t i = 0; i < iteration->state->light_count; i++)
+    for (uint32_t i = 0; i < iteration->light_count; i++)
         lsf_direct_chain_light(chain, iteration, i);
 }
 

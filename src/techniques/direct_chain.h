@@ -14,10 +14,17 @@ typedef struct lsf_direct_chain {
     bool lit; /* there are punctual lights */
 } lsf_direct_chain;
 
-void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
+/* What of a technique besides this chain finds the environment; NULL: nothing. */
+typedef struct lsf_direct_chain_use {
+    lsf_sky_chance chance;
+    float paths[2]; /* as in lsf_direct_light_use */
+} lsf_direct_chain_use;
+
+void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
+                           const lsf_direct_chain_use *use);
 bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, const lsf_plan *plan,
                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
-                             lsf_error *error);
+                             const lsf_direct_chain_use *use, lsf_error *error);
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration);
 /* The same in parts, for a technique that has a use of its own for each light's map: what is seen;
  * then each light. */

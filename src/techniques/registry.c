@@ -15,6 +15,7 @@ static const lsf_pass_params defaults = {LSF_PASS_PARAMS_DEFAULTS};
 
 const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(tessellation, LSF_TESSELLATION_OPTION_COUNT),
+    TABLE(sky_light, LSF_SKY_LIGHT_OPTION_COUNT),
     TABLE(gbuffer, LSF_GBUFFER_OPTION_COUNT),
     TABLE(shadow_map, LSF_SHADOW_MAP_OPTION_COUNT),
     TABLE(reflective_shadow_map, LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT),

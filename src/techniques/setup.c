@@ -98,6 +98,8 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     plan->bounces =
         params->bounces == LSF_BOUNCES_AUTO ? plan->requirements.bounces : params->bounces;
     plan->aovs = params->aovs;
+    if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
+        plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
     plan->orthographic = setup->state.camera.orthographic;
     lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);

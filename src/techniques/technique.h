@@ -20,6 +20,7 @@
 /* The params of everything that takes options; lsf_pass_option_tables names them. */
 typedef struct lsf_pass_params {
     lsf_tessellation_params tessellation;
+    lsf_sky_light_params sky_light;
     lsf_gbuffer_params gbuffer;
     lsf_shadow_map_params shadow_map;
     lsf_reflective_shadow_map_params reflective_shadow_map;
@@ -36,7 +37,8 @@ typedef struct lsf_pass_params {
 } lsf_pass_params;
 
 #define LSF_PASS_PARAMS_DEFAULTS                                                                   \
-    .tessellation = {LSF_TESSELLATION_PARAMS_DEFAULTS}, .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS},  \
+    .tessellation = {LSF_TESSELLATION_PARAMS_DEFAULTS},                                            \
+    .sky_light = {LSF_SKY_LIGHT_PARAMS_DEFAULTS}, .gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS},        \
     .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS},                                                \
     .reflective_shadow_map = {LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS},                          \
     .vpl = {LSF_VPL_PARAMS_DEFAULTS}, .ray_bundle = {LSF_RAY_BUNDLE_PARAMS_DEFAULTS},              \
@@ -74,6 +76,8 @@ typedef struct lsf_technique {
     const char *name, *help;
     bool
         refracts; /* scatters and refracts light that surfaces transmit; else it goes straight on */
+    bool draws_lobes; /* finds the environment by rays drawn from the BRDF, which suit a uniform one
+                       * better than directions drawn by its radiance */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
     /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets

@@ -17,6 +17,7 @@ static lsf_voxel_light_use light_use(const lsf_pass_params *params, const lsf_vo
 {
     return (lsf_voxel_light_use){.sides = use->sides,
                                  .levels = use->levels,
+                                 .sky_rays = use->voxel_rays,
                                  .pcf = params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
 }
 
@@ -36,7 +37,7 @@ lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params 
 void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
                           const lsf_voxel_chain_use *use)
 {
-    lsf_direct_chain_plan(plan, params, state);
+    lsf_direct_chain_plan(plan, params, state, &use->direct);
     if (!lsf_voxel_chain_has_voxels(plan)) {
         lsf_plan_omit(plan, "voxelize", "the scene has no triangles");
         lsf_plan_omit(plan, "voxel_light", "the scene has no triangles");
@@ -57,7 +58,7 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
                             const lsf_state *state, const lsf_voxel_chain_use *use,
                             lsf_error *error)
 {
-    if (!lsf_direct_chain_create(&chain->direct, context, plan, params, scene, error))
+    if (!lsf_direct_chain_create(&chain->direct, context, plan, params, scene, &use->direct, error))
         return false;
     if (!lsf_voxel_chain_has_voxels(plan))
         return true;
@@ -77,7 +78,7 @@ static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
                          const lsf_voxel_light_inputs *inputs, uint32_t light)
 {
     lsf_shadow_map *map = &chain->direct.shadow_map;
-    if (iteration->state->lights[light].type == LSF_LIGHT_DIRECTIONAL)
+    if (iteration->lights[light].type == LSF_LIGHT_DIRECTIONAL)
         lsf_shadow_map_run_scene(map, iteration, light);
     const lsf_voxel_light_map seen = {
         .depth = map->outputs.depth, .gradient = map->outputs.gradient, .tint = map->outputs.tint};
@@ -120,7 +121,7 @@ void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iterati
     lsf_voxel_light_inputs inputs = {0};
     if (on_voxels)
         inputs = light_inputs(chain->voxels);
-    for (uint32_t i = 0; i < iteration->state->light_count; i++) {
+    for (uint32_t i = 0; i < iteration->light_count; i++) {
         lsf_direct_chain_light(&chain->direct, iteration, i);
         if (on_voxels)
             light_voxels(chain, iteration, &inputs, i);

@@ -11,6 +11,8 @@
 typedef struct lsf_voxel_chain_use {
     uint32_t sides, levels;   /* of the voxels' radiance */
     uint32_t bytes_per_voxel; /* that the technique takes beside them */
+    lsf_direct_chain_use direct;
+    float voxel_rays; /* that find the environment from a voxel by chance, drawn by the cosine */
 } lsf_voxel_chain_use;
 
 typedef struct lsf_voxel_chain {

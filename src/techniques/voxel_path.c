@@ -9,7 +9,16 @@
 #include "passes/voxel_path.h"
 #include "techniques/voxel_chain.h"
 
-static const lsf_voxel_chain_use chain_use = {.sides = LSF_VOXEL_SIDES_SURFACE, .levels = 1};
+/* Of paths beyond the visible point, each goes on by one ray. */
+static lsf_voxel_chain_use chain_use(const lsf_pass_params *params)
+{
+    const lsf_voxel_path_params *p = &params->voxel_path;
+    return (lsf_voxel_chain_use){
+        .sides = LSF_VOXEL_SIDES_SURFACE,
+        .levels = 1,
+        .direct = {LSF_SKY_CHANCE_PATHS, {(float)p->min_samples, (float)p->max_samples}},
+        .voxel_rays = 1.0f};
+}
 
 typedef struct voxel_path {
     lsf_voxel_chain chain;
@@ -53,7 +62,8 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params, const lsf_voxe
 static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
     lsf_voxel_path_use use = path_use(plan, params, state);
-    lsf_voxel_chain_plan(plan, params, state, &chain_use);
+    lsf_voxel_chain_use chain = chain_use(params);
+    lsf_voxel_chain_plan(plan, params, state, &chain);
     if (use.segments > 0) {
         lsf_voxel_path_plan(plan, &params->voxel_path, &use);
         lsf_blur_plan(plan, &params->blur, use.width, use.height);
@@ -63,7 +73,7 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
                       lsf_voxel_chain_has_voxels(plan) ? "no light bounces"
                                                        : "the scene has no triangles");
     }
-    lsf_compose_plan(plan, &(lsf_compose_use){.direct = state->light_count > 0,
+    lsf_compose_plan(plan, &(lsf_compose_use){.direct = lsf_light_any(plan, state),
                                               .indirect = use.segments > 0,
                                               .split_direct = use.split_direct});
     remark(plan, params, &use);
@@ -90,7 +100,8 @@ static bool create_voxel_path(void **self, lsf_context *context, const lsf_plan 
     if (!v)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     lsf_voxel_path_use use = path_use(plan, params, state);
-    return lsf_voxel_chain_create(&v->chain, context, plan, params, scene, state, &chain_use,
+    lsf_voxel_chain_use chain = chain_use(params);
+    return lsf_voxel_chain_create(&v->chain, context, plan, params, scene, state, &chain,
                                   error) &&
            (use.segments == 0 ||
             create_paths(v, context, plan, params, &use, scene->scene, state, error)) &&
@@ -201,6 +212,7 @@ const lsf_technique lsf_technique_voxel_path = {
     .name = "voxel_path",
     .help = "global illumination by paths through the scene's voxels, blurred and upsampled",
     .refracts = true,
+    .draws_lobes = true,
     .plan = plan_voxel_path,
     .create = create_voxel_path,
     .run = run_voxel_path,

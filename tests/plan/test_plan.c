@@ -156,8 +156,10 @@ static void make_environment(lsf_scene *scene, lsf_material *material)
 static void environment(void **unused)
 {
     (void)unused;
-    const char *const names[] = {"compose.radiance"};
-    check_feature(make_environment, 0, 1, names, PIXELS * 16, "", 1);
+    const char *const names[] = {"shadow_map.sky_depth", "shadow_map.sky_gradient",
+                                 "compose.radiance"};
+    check_feature(make_environment, 0, 3, names, (uint64_t)128 * 128 * (4 + 4) + PIXELS * 16,
+                  "direct_light.LSF_DIRECTIONAL_LIGHT ", 1);
 }
 
 static void make_textured(lsf_scene *scene, lsf_material *material)
