@@ -64,12 +64,21 @@ static void read_buffers(gltf_import &import, const gltf_container &container,
     for (size_t i = 0; i < checked.buffers.size(); i++) {
         const gltf_buffer_source &source = checked.buffers[i];
         std::string location = location_of("buffers", i);
+        import.placeholders.push_back(source.placeholder);
+        if (source.placeholder) {
+            queue.contents.push_back({0});
+            continue;
+        }
         import.budget.take(source.byte_length, 1, location);
         if (source.uri.empty()) {
             if (!container.is_glb || i != 0)
                 fail("UNDEFINED_PROPERTY", location,
                      "\"uri\" is missing; only the first buffer of a .glb may leave it out");
             check_length(container.binary.size(), source.byte_length, location);
+            if (!checked.json.empty())
+                queue.contents.emplace_back(container.binary.begin(),
+                                            container.binary.begin() +
+                                                (ptrdiff_t)source.byte_length);
         } else if (uri_is_data(source.uri)) {
             uint64_t size = uri_data_size(source.uri, location + "/uri");
             if (size != source.byte_length)
@@ -104,6 +113,10 @@ void gltf_document_read(gltf_import &import)
     gltf_checked checked = gltf_schema_check(container.json, *import.params);
     buffer_queue queue;
     read_buffers(import, container, checked, queue);
+    if (!checked.json.empty()) {
+        container.json = checked.json;
+        container.binary = {};
+    }
 
     tinygltf::TinyGLTF parser;
     parser.SetFsCallbacks({queue_has_next, keep_path, take_next, write_nothing, &queue});
@@ -116,6 +129,10 @@ void gltf_document_read(gltf_import &import)
                                          (unsigned int)container.json.size(), "")
             : parser.LoadBinaryFromMemory(&import.model, &error, &warning, bytes.data(),
                                           (unsigned int)bytes.size(), "");
+    for (const gltf_checked::indices &indices : checked.indices_without_view)
+        if (parsed)
+            import.model.meshes[indices.mesh].primitives[indices.primitive].indices =
+                indices.accessor;
     if (!parsed)
         fail("INVALID_JSON", "/", "%s",
              error.empty() ? "the document cannot be read" : error.c_str());

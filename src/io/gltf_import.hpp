@@ -88,9 +88,19 @@ gltf_container gltf_container_split(std::string_view bytes); /* gltf_container.c
 struct gltf_buffer_source {
     std::string uri; /* empty: the GLB's binary chunk */
     uint64_t byte_length;
+    bool placeholder; /* without data: EXT_meshopt_compression says where they are */
 };
 struct gltf_checked {
     std::vector<gltf_buffer_source> buffers;
+    /* The document as tinygltf reads it, when it would not read it as it is; else empty. It wants a
+     * URI and a byte of every buffer, and a buffer view of all indices: those without are taken
+     * out of their primitive and listed. The GLB's binary chunk has a URI, too. */
+    std::string json;
+    struct indices {
+        size_t mesh, primitive;
+        int accessor;
+    };
+    std::vector<indices> indices_without_view;
 };
 bool extension_is_supported(const std::string &name);
 gltf_checked gltf_schema_check(std::string_view json, const lsf_scene_params &params);
@@ -127,6 +137,7 @@ struct gltf_import {
     std::string path, folder;
     memory_budget budget;
     tinygltf::Model model;
+    std::vector<bool> placeholders; /* by file's buffer */
     gltf_repairs repairs;
 
     size_t chosen_scene = 0;           /* by file's index; no meaning without scenes */
@@ -136,8 +147,10 @@ struct gltf_import {
 };
 
 void gltf_document_read(gltf_import &import);     /* gltf_document.cpp */
+void gltf_meshopt_decode(gltf_import &import);    /* gltf_meshopt.cpp */
 void gltf_choices_make(gltf_import &import);      /* gltf_choices.cpp */
 void gltf_nodes_import(gltf_import &import);      /* gltf_nodes.cpp */
+void gltf_draco_decode(gltf_import &import);      /* gltf_draco.cpp */
 void gltf_instancing_import(gltf_import &import); /* gltf_instancing.cpp */
 void gltf_placed_import(gltf_import &import);     /* gltf_placed.cpp: cameras and lights */
 void gltf_materials_import(gltf_import &import);  /* gltf_materials.cpp */

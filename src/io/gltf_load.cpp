@@ -68,9 +68,11 @@ static void import_file(lsf_scene *scene, const char *path, const lsf_scene_para
     scene->path = copy_text(import.path);
     scene->diffuse_only = params->diffuse_only;
     gltf_document_read(import);
+    gltf_meshopt_decode(import);
     accessors_check(import);
     gltf_choices_make(import);
     gltf_nodes_import(import);
+    gltf_draco_decode(import);
     gltf_instancing_import(import);
     gltf_placed_import(import);
     gltf_materials_import(import);

@@ -23,11 +23,10 @@ static const uint64_t DEPTH_MAX = 64;
 static const uint64_t BYTES_PER_TEXT_BYTE = 32, BYTES_PER_ENTRY = 1024;
 
 static const char *const supported_extensions[] = {
-    "EXT_mesh_gpu_instancing",  "KHR_lights_punctual",
-    "KHR_materials_anisotropy", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",        "KHR_materials_transmission",
-    "KHR_materials_unlit",      "KHR_materials_variants",
-    "KHR_materials_volume",     "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_anisotropy",   "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",  "KHR_materials_volume",       "KHR_mesh_quantization",
     "KHR_texture_transform",
 };
 
@@ -126,10 +125,11 @@ class checker
     void check_code(const json &value, const char *names);
     void check_name(const json &value, const char *names);
     void check_reference(const json &value, const char *array);
-    void check_attributes(const json &value);
     void expect(bool holds, const json &value, const char *wanted);
     /* Runs `each` on all entries with the location extended by their index. */
     template <class Each> void check_entries(const json &value, Each each);
+    /* The same for the members of an object. */
+    template <class Each> void check_members(const json &value, Each each);
 
     const json &root_;
     std::map<std::string, uint64_t> counts_;
@@ -221,13 +221,13 @@ void checker::check_reference(const json &value, const char *array)
              count(array));
 }
 
-void checker::check_attributes(const json &value)
+template <class Each> void checker::check_members(const json &value, Each each)
 {
     expect(value.is_object(), value, "an object");
     size_t length = location_.size();
     for (auto &member : value.items()) {
         location_ += "/" + member.key();
-        check_reference(member.value(), "accessors");
+        each(member.value());
         location_.resize(length);
     }
 }
@@ -259,6 +259,9 @@ void checker::check(const json &value, const rule &rule, bool extension)
             value, [&](const json &entry) { check_number(entry, rule.low, rule.high, extension); });
     case shape::reference:
         return check_reference(value, rule.names);
+    case shape::integers:
+        return check_members(
+            value, [&](const json &member) { check_integer(member, rule.low, rule.high); });
     case shape::references:
         return check_entries(value, [&](const json &entry) { check_reference(entry, rule.names); });
     case shape::object:
@@ -267,9 +270,12 @@ void checker::check(const json &value, const rule &rule, bool extension)
         return check_entries(
             value, [&](const json &entry) { check_object(entry, *rule.child, extension); });
     case shape::attributes:
-        return check_attributes(value);
+        return check_members(value,
+                             [&](const json &member) { check_reference(member, "accessors"); });
     case shape::targets:
-        return check_entries(value, [&](const json &entry) { check_attributes(entry); });
+        return check_entries(value, [&](const json &entry) {
+            check_members(entry, [&](const json &member) { check_reference(member, "accessors"); });
+        });
     case shape::extensions:
         return check_object(value, *rule.child, true);
     }
@@ -310,7 +316,7 @@ static void check_version(const json &root)
 
 static const char *remedy_for(const std::string &extension)
 {
-    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
+    if (extension == "KHR_meshopt_compression")
         return "export the file with mesh compression switched off";
     if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" ||
         extension == "EXT_texture_avif" || extension == "MSFT_texture_dds")
@@ -345,8 +351,29 @@ static void check_required_extensions(const json &root, bool lenient)
     }
 }
 
+static void check_compressed_view(const json &root, const json &view, const json &extension,
+                                  const std::string &location)
+{
+    uint64_t offset = extension.value("byteOffset", (uint64_t)0), end, size;
+    uint64_t length = extension["byteLength"].get<uint64_t>();
+    const json &buffer = root["buffers"][extension["buffer"].get<size_t>()];
+    if (__builtin_add_overflow(offset, length, &end) ||
+        end > buffer["byteLength"].get<uint64_t>() || is_placeholder(buffer))
+        fail("BUFFER_VIEW_TOO_LONG", location,
+             "bytes from %" PRIu64 " on, %" PRIu64 " of them, are not in buffer %" PRIu64, offset,
+             length, extension["buffer"].get<uint64_t>());
+    if (__builtin_mul_overflow(extension["count"].get<uint64_t>(),
+                               extension["byteStride"].get<uint64_t>(), &size) ||
+        size != view["byteLength"].get<uint64_t>())
+        fail("COMPRESSED_DATA_INVALID", location,
+             "%" PRIu64 " elements of %" PRIu64 " bytes are not the view's %" PRIu64 " bytes",
+             extension["count"].get<uint64_t>(), extension["byteStride"].get<uint64_t>(),
+             view["byteLength"].get<uint64_t>());
+}
+
 static void check_buffer_views(const json &root)
 {
+    static const json::json_pointer compressed("/extensions/EXT_meshopt_compression");
     auto views = root.find("bufferViews");
     if (views == root.end())
         return;
@@ -364,6 +391,10 @@ static void check_buffer_views(const json &root)
         if (view.contains("byteStride") && view["byteStride"].get<uint64_t>() % 4 != 0)
             fail("VALUE_NOT_IN_RANGE", location_of("bufferViews", i) + "/byteStride",
                  "%" PRIu64 " is not a multiple of 4", view["byteStride"].get<uint64_t>());
+        if (view.contains(compressed))
+            check_compressed_view(root, view, view[compressed],
+                                  location_of("bufferViews", i) +
+                                      "/extensions/EXT_meshopt_compression");
     }
 }
 
@@ -435,10 +466,7 @@ gltf_checked gltf_schema_check(std::string_view text, const lsf_scene_params &pa
     check_choices(root);
 
     gltf_checked checked;
-    if (root.contains("buffers"))
-        for (const json &buffer : root["buffers"])
-            checked.buffers.push_back(
-                {buffer.value("uri", std::string()), buffer["byteLength"].get<uint64_t>()});
+    adapt_document(root, checked);
     return checked;
 }
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace lsf
 {
 
@@ -22,6 +24,7 @@ enum class shape {
     references, /* an array of them */
     object,
     objects,    /* an array of objects */
+    integers,   /* an object whose members are integers, low..high */
     attributes, /* an object whose members are references into accessors */
     targets,    /* an array of such objects */
     extensions, /* an object whose members are objects, `child` naming the known ones */
@@ -45,6 +48,12 @@ struct schema {
 };
 
 extern const schema gltf_root_schema;
+
+/* gltf_adapt.cpp */
+struct gltf_checked;
+bool is_placeholder(const nlohmann::json &buffer);
+/* Fills `checked`; changes the document, which has been checked, where tinygltf needs it. */
+void adapt_document(nlohmann::json &root, gltf_checked &checked);
 
 } // namespace lsf
 

@@ -75,14 +75,32 @@ static const rule asset_rules[] = {text("version", REQUIRED), text("minVersion")
                                    text("copyright")};
 static const schema asset = of(asset_rules);
 
+static const rule buffer_fallback_rules[] = {flag("fallback")};
+static const schema buffer_fallback = of(buffer_fallback_rules);
+static const rule buffer_extension_rules[] = {
+    object("EXT_meshopt_compression", OPTIONAL, &buffer_fallback)};
+static const schema buffer_extensions = of(buffer_extension_rules);
 static const rule buffer_rules[] = {integer("byteLength", REQUIRED, 1, ANY_SIZE), text("uri"),
-                                    text("name")};
+                                    text("name"), extensions(&buffer_extensions)};
 static const schema buffer = of(buffer_rules);
 
+static const rule meshopt_rules[] = {
+    reference("buffer", REQUIRED, "buffers"),
+    integer("byteOffset", OPTIONAL, 0, ANY_INT),
+    integer("byteLength", REQUIRED, 1, ANY_INT),
+    integer("byteStride", REQUIRED, 1, 256),
+    integer("count", REQUIRED, 1, ANY_INT),
+    one_of("mode", REQUIRED, "ATTRIBUTES|TRIANGLES|INDICES"),
+    one_of("filter", OPTIONAL, "NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL")};
+static const schema meshopt = of(meshopt_rules);
+static const rule buffer_view_extension_rules[] = {
+    object("EXT_meshopt_compression", OPTIONAL, &meshopt)};
+static const schema buffer_view_extensions = of(buffer_view_extension_rules);
 static const rule buffer_view_rules[] = {
     reference("buffer", REQUIRED, "buffers"),     integer("byteOffset", OPTIONAL, 0, ANY_SIZE),
     integer("byteLength", REQUIRED, 1, ANY_SIZE), integer("byteStride", OPTIONAL, 4, 252),
-    integer("target", OPTIONAL, 0, ANY_INT),      text("name")};
+    integer("target", OPTIONAL, 0, ANY_INT),      text("name"),
+    extensions(&buffer_view_extensions)};
 static const schema buffer_view = of(buffer_view_rules);
 
 static const rule sparse_indices_rules[] = {reference("bufferView", REQUIRED, "bufferViews"),
@@ -117,7 +135,12 @@ static const rule mapping_rules[] = {{"variants", shape::references, REQUIRED, 0
 static const schema mapping = of(mapping_rules);
 static const rule mappings_rules[] = {objects("mappings", REQUIRED, &mapping)};
 static const schema mappings = of(mappings_rules);
+/* Its attributes are numbers of its own: gltf_draco.cpp checks them. */
+static const rule draco_rules[] = {reference("bufferView", REQUIRED, "bufferViews"),
+                                   {"attributes", shape::integers, REQUIRED, 0, ANY_INT}};
+static const schema draco = of(draco_rules);
 static const rule primitive_extension_rules[] = {
+    object("KHR_draco_mesh_compression", OPTIONAL, &draco),
     object("KHR_materials_variants", OPTIONAL, &mappings)};
 static const schema primitive_extensions = of(primitive_extension_rules);
 

@@ -4,6 +4,7 @@ import json
 import os
 import struct
 import sys
+import zlib
 
 folder = sys.argv[1]
 cases = []  # name, "ok" or the finding, number of triangles, text of a note
@@ -74,6 +75,21 @@ class File:
     def glb(self, name):
         write(name, glb([(JSON, json.dumps(self.document()).encode()), (BIN, bytes(self.data))]))
 
+
+def png(width, height, texels, channels=3):
+    """A PNG of 8 bits a channel, as a data URI."""
+    rows = b''.join(b'\0' + bytes(texels[y * width * channels:(y + 1) * width * channels])
+                    for y in range(height))
+    content = b'\x89PNG\r\n\x1a\n'
+    for kind, data in ((b'IHDR', struct.pack('>IIBBBBB', width, height, 8,
+                                             {1: 0, 3: 2, 4: 6}[channels], 0, 0, 0)),
+                       (b'IDAT', zlib.compress(rows)), (b'IEND', b'')):
+        content += struct.pack('>I', len(data)) + kind + data
+        content += struct.pack('>I', zlib.crc32(kind + data))
+    return 'data:image/png;base64,' + base64.b64encode(content).decode()
+
+
+PIXEL = png(1, 1, [255, 255, 255])
 
 JSON, BIN = 0x4e4f534a, 0x004e4942
 
