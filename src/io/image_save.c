@@ -163,6 +163,22 @@ static float *pack_rgb(const lsf_image *image, const char *path, lsf_error *erro
     return rgb;
 }
 
+/* The depth of the background is infinite by right. */
+static void warn_of_lost_pixels(const lsf_image *image, const char *path)
+{
+    uint64_t count = (uint64_t)image->width * image->height, lost = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        bool finite = true;
+        for (uint32_t c = 0; c < image->channel_count; c++)
+            finite = finite && (isfinite(image->pixels[i * image->channel_count + c]) ||
+                                strncmp(image->channel_names[c], "depth.", 6) == 0);
+        lost += !finite;
+    }
+    if (lost > 0)
+        lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", shown_path(path),
+                (unsigned long long)lost, (unsigned long long)count);
+}
+
 bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_save_params *params,
                     lsf_error *error)
 {
@@ -172,7 +188,7 @@ bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_sa
     lsf_image_format format = params->format;
     if (!find_format(&format, path, error) || !check_size(image->width, image->height, path, error))
         return false;
-
+    warn_of_lost_pixels(image, path);
     if (format == LSF_IMAGE_FORMAT_EXR) {
         lsf_encode_request request = {
             .file = LSF_IMAGE_FILE_EXR,

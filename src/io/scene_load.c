@@ -3,6 +3,7 @@
 #include "io/io.h"
 #include "scene/default_light.h"
 #include "scene/hierarchy.h"
+#include "scene/light_range.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -97,12 +98,16 @@ lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_
         return NULL;
     }
     if (!lsf_gltf_load(scene, path, params, error) || !check_transforms(scene, error) ||
-        !load_environment(scene, params, error)) {
+        !load_environment(scene, params, error) || !lsf_bound_radiance(scene, error)) {
         lsf_scene_destroy(scene);
         return NULL;
     }
     lsf_scene_settle_alpha(scene);
     lsf_scene_compute_requirements(scene);
+    if (!lsf_bound_lights(scene, error)) {
+        lsf_scene_destroy(scene);
+        return NULL;
+    }
     if (scene->camera_count == 0 && !add_default_camera(scene)) {
         lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
         lsf_scene_destroy(scene);

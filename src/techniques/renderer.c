@@ -290,25 +290,28 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb
     return lsf_context_check(renderer->context, error);
 }
 
-/* How much of the picture's luminance bounds took away: alpha holds it. */
-static double lost_share(const lsf_renderer *renderer)
+/* Goes over the picture in strips of some megabytes: how much of its luminance bounds took away,
+ * which alpha holds, and how many pixels are not finite. */
+static void look_at_pixels(const lsf_renderer *renderer, double *lost_share, uint64_t *lost_pixels)
 {
     const lsf_plan *plan = renderer->setup.plan;
-    uint64_t pixels = (uint64_t)plan->width * plan->height;
-    float *texels = renderer->outputs.bounded ? lsf_alloc(pixels, 16) : NULL;
-    if (!texels || pixels * 16 > INT32_MAX) {
-        free(texels);
-        return 0.0;
-    }
-    glGetTextureImage(renderer->accumulate.means[0], 0, GL_RGBA, GL_FLOAT, (GLsizei)(pixels * 16),
-                      texels);
+    uint32_t rows = (1u << 18) / plan->width + 1;
+    float *texels = lsf_alloc((uint64_t)plan->width * rows, 16);
     double lost = 0.0, kept = 0.0;
-    for (uint64_t i = 0; i < pixels; i++) {
-        lost += (double)texels[4 * i + 3];
-        kept += (double)lsf_f3_luminance(lsf_f3_load(texels + 4 * i));
+    *lost_pixels = 0;
+    for (uint32_t y = 0; texels && y < plan->height; y += rows) {
+        uint32_t count = rows < plan->height - y ? rows : plan->height - y;
+        uint64_t pixels = (uint64_t)plan->width * count;
+        glGetTextureSubImage(renderer->accumulate.means[0], 0, 0, (GLint)y, 0, (GLsizei)plan->width,
+                             (GLsizei)count, 1, GL_RGBA, GL_FLOAT, (GLsizei)(pixels * 16), texels);
+        for (const float *t = texels; t < texels + 4 * pixels; t += 4) {
+            lost += (double)t[3];
+            kept += (double)lsf_f3_luminance(lsf_f3_load(t));
+            *lost_pixels += !isfinite(t[0]) || !isfinite(t[1]) || !isfinite(t[2]);
+        }
     }
     free(texels);
-    return lost > 0.0 ? lost / (lost + kept) : 0.0;
+    *lost_share = renderer->outputs.bounded && lost > 0.0 ? lost / (lost + kept) : 0.0;
 }
 
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
@@ -330,11 +333,15 @@ lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
             .count_names = reports[i].count_names,
             .counts = reports[i].counts,
         };
+    double lost_share;
+    uint64_t lost_pixels;
+    look_at_pixels(renderer, &lost_share, &lost_pixels);
     return (lsf_renderer_stats){.samples = renderer->samples,
                                 .compile_seconds = renderer->compile_seconds,
                                 .upload_seconds = renderer->upload_seconds,
                                 .render_seconds = renderer->render_seconds,
-                                .lost_share = lost_share(renderer),
+                                .lost_share = lost_share,
+                                .lost_pixels = lost_pixels,
                                 .pass_count = count,
                                 .passes = renderer->pass_stats};
 }

@@ -71,6 +71,9 @@ static bool save_rgb8(render_job *job, lsf_error *error)
         rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination.path);
     good = good && lsf_renderer_read_rgb8(job->renderer, job->settings.exposure, rgb, error) &&
            lsf_image_save_rgb8(rgb, width, height, job->destination.path, error);
+    if (good && job->stats.lost_pixels > 0) /* lsf_image_save says so by itself */
+        lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination.path,
+                (unsigned long long)job->stats.lost_pixels, (unsigned long long)width * height);
     free(rgb);
     return good;
 }

@@ -322,12 +322,43 @@ static void test_foreign_files(void **state)
     }
 }
 
+static void keep_message(lsf_log_level level, const char *message, void *user)
+{
+    (void)level;
+    snprintf(user, 256, "%s", message);
+}
+
+/* Pixels that are not finite are counted, each once; an infinite depth is one. */
+static void test_lost_pixels_are_counted(void **state)
+{
+    (void)state;
+    char message[256] = "";
+    const char *const names[4] = {"R", "G", "B", "depth.Z"};
+    lsf_image *image = lsf_image_create(4, 2, 4, names, NULL);
+    assert_non_null(image);
+    image->pixels[3] = INFINITY;
+    lsf_log_set_handler(keep_message, message);
+    save(image, in_folder("finite.exr"));
+    assert_string_equal(message, "");
+    image->pixels[4] = NAN;
+    image->pixels[5] = INFINITY;
+    image->pixels[8] = -INFINITY;
+    save(image, in_folder("lost.exr"));
+    assert_non_null(strstr(message, "2 of 8 pixels are not finite"));
+    message[0] = '\0';
+    save(image, in_folder("lost.png"));
+    assert_non_null(strstr(message, "2 of 8 pixels are not finite"));
+    lsf_log_set_handler(NULL, NULL);
+    lsf_image_destroy(image);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exr_keeps_every_bit_and_layer),
         cmocka_unit_test(test_hdr_is_rounded_to_its_precision),
         cmocka_unit_test(test_png_is_tone_mapped),
+        cmocka_unit_test(test_lost_pixels_are_counted),
         cmocka_unit_test(test_integers_are_decoded_from_srgb),
         cmocka_unit_test(test_standard_output_and_pipes),
         cmocka_unit_test(test_failures_leave_nothing_behind),
