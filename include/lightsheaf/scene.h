@@ -31,7 +31,8 @@ typedef struct lsf_scene_params {
     lsf_default_light default_light;
     bool diffuse_only; /* read every material as Lambert of its base colour, without normal maps */
     bool lenient; /* ignore extensions that the file requires when they change the look alone */
-    uint64_t memory_limit; /* bytes that geometry and decoded images may take together */
+    uint64_t memory_limit; /* bytes that loading may take at any moment: document, buffers,
+                            * geometry, decoded images, and what making them takes */
     /* A name, or an index from 0, of what the file offers; a name goes first. */
     const char *scene;             /* NULL: the file's own, else the first */
     const char *variant;           /* KHR_materials_variants; NULL: the file's own materials */

@@ -46,6 +46,9 @@ double lsf_now(void);
  * devices and directories without blocking. LSF_ERROR_FILE on failure; the caller frees. */
 char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error *error);
 
+/* The same for a file of any size, of which the first `most` bytes are read. */
+char *lsf_file_read_start(const char *path, uint64_t most, size_t *length, lsf_error *error);
+
 /* The real path of `relative` below `folder`, for files that a file names: absolute paths, ".."
  * and symbolic links that lead out of the folder are refused. malloc'ed; NULL on failure. */
 char *lsf_path_confine(const char *folder, const char *relative, lsf_error *error);

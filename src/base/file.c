@@ -62,28 +62,24 @@ static int open_regular(const char *path, struct stat *status, lsf_error *error)
     return file;
 }
 
-char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error *error)
+/* Reads on until the file ends or `most` bytes are there. */
+static char *read_most(int file, uint64_t size, uint64_t most, const char *path, size_t *length,
+                       lsf_error *error)
 {
-    struct stat status;
-    int file = open_regular(path, &status, error);
-    if (file < 0)
-        return NULL;
-
     void *bytes = NULL;
     uint64_t capacity = 0, count = 0;
-    bool good = (uint64_t)status.st_size <= limit;
-    if (!good)
-        refuse_size(path, limit, error);
-
+    bool good = true;
     /* The size is a hint only: files in /proc say 0, and a file may grow while it is read. */
-    uint64_t wanted = (uint64_t)status.st_size + 1;
+    uint64_t wanted = size + 1;
     while (good) {
+        wanted = wanted < most ? wanted : most;
         if (!lsf_grow(&bytes, &capacity, wanted + 1, 1)) {
             good = lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for its %llu bytes",
                                  path, (unsigned long long)wanted);
             break;
         }
-        ssize_t got = read(file, (char *)bytes + count, capacity - 1 - count);
+        uint64_t room = (capacity - 1 < most ? capacity - 1 : most) - count;
+        ssize_t got = read(file, (char *)bytes + count, room);
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
@@ -92,18 +88,47 @@ char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error 
         if (got <= 0)
             break;
         count += (uint64_t)got;
-        if (count > limit)
-            good = refuse_size(path, limit, error);
         if (count + 1 == capacity)
             wanted = count + 65536;
     }
-    close(file);
     if (!good) {
         free(bytes);
         return NULL;
     }
     ((char *)bytes)[count] = '\0';
     *length = (size_t)count;
+    return bytes;
+}
+
+char *lsf_file_read_start(const char *path, uint64_t most, size_t *length, lsf_error *error)
+{
+    struct stat status;
+    int file = open_regular(path, &status, error);
+    if (file < 0)
+        return NULL;
+    char *bytes = read_most(file, (uint64_t)status.st_size, most, path, length, error);
+    close(file);
+    return bytes;
+}
+
+char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error *error)
+{
+    struct stat status;
+    int file = open_regular(path, &status, error);
+    if (file < 0)
+        return NULL;
+    char *bytes = NULL;
+    if ((uint64_t)status.st_size > limit)
+        refuse_size(path, limit, error);
+    else
+        bytes = read_most(file, (uint64_t)status.st_size, limit + (limit < UINT64_MAX), path,
+                          length, error);
+    close(file);
+    if (bytes && *length > limit) {
+        refuse_size(path, limit, error);
+        free(bytes);
+        bytes = NULL;
+    }
     return bytes;
 }
 

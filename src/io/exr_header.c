@@ -177,5 +177,9 @@ bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
     if (chunks > (length - at) / 16)
         return damaged(name, "it is too short for its table of chunks", error);
     *pixels_max = decoded_bytes_max(found.compression, length) / found.pixel_bytes;
+    /* OpenImageIO converts by blocks; OpenEXR keeps chunks compressed and expanded, all of them
+     * where they are few. */
+    header->working_bytes =
+        ((uint64_t)64 << 20) + 2 * (uint64_t)header->width * header->height * found.pixel_bytes;
     return true;
 }

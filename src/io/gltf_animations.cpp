@@ -31,6 +31,8 @@ static float *copy_floats(gltf_import &import, int accessor, const std::string &
 {
     std::vector<float> values;
     uint64_t count = import.model.accessors[(size_t)accessor].count;
+    memory_loan loan(import.budget, location);
+    loan.take(count, 4 * sizeof(float));
     import.budget.take(count, 4 * sizeof(float), location);
     accessor_read_floats(import, accessor, values);
     return copy_array(values);

@@ -58,6 +58,22 @@ static void check_length(uint64_t actual, uint64_t declared, const std::string &
              declared, actual);
 }
 
+/* As many bytes of the file as the buffer declares; a file may hold more. */
+static std::vector<unsigned char>
+read_buffer_file(gltf_import &import, const gltf_buffer_source &source, const std::string &location)
+{
+    std::string path = uri_to_path(import.folder, source.uri, location + "/uri");
+    memory_loan reading(import.budget, location);
+    reading.take(source.byte_length, 1);
+    lsf_error error;
+    file_content file;
+    file.bytes.reset(lsf_file_read_start(path.c_str(), source.byte_length, &file.length, &error));
+    if (!file.bytes)
+        throw failure(error.message);
+    check_length(file.length, source.byte_length, location);
+    return {file.bytes.get(), file.bytes.get() + file.length};
+}
+
 static void read_buffers(gltf_import &import, const gltf_container &container,
                          const gltf_checked &checked, buffer_queue &queue)
 {
@@ -86,19 +102,15 @@ static void read_buffers(gltf_import &import, const gltf_container &container,
                      "%" PRIu64 " bytes are declared, the data URI holds %" PRIu64,
                      source.byte_length, size);
         } else {
-            std::string path = uri_to_path(import.folder, source.uri, location + "/uri");
-            std::vector<unsigned char> bytes = file_bytes(path, import.params->memory_limit);
-            check_length(bytes.size(), source.byte_length, location);
-            bytes.resize(source.byte_length);
-            queue.contents.push_back(std::move(bytes));
+            queue.contents.push_back(read_buffer_file(import, source, location));
         }
     }
 }
 
-static void refuse_other_formats(const std::string &path, const std::vector<unsigned char> &bytes)
+static void refuse_other_formats(const std::string &path, const file_content &file)
 {
     const lsf_foreign_file *foreign =
-        lsf_foreign_file_find(path.c_str(), bytes.data(), bytes.size());
+        lsf_foreign_file_find(path.c_str(), file.bytes.get(), file.length);
     if (foreign)
         throw failure(path + ": only .gltf and .glb are read, and this is " + foreign->what + "; " +
                       foreign->remedy);
@@ -106,11 +118,12 @@ static void refuse_other_formats(const std::string &path, const std::vector<unsi
 
 void gltf_document_read(gltf_import &import)
 {
-    std::vector<unsigned char> bytes = file_bytes(import.path, import.params->memory_limit);
-    refuse_other_formats(import.path, bytes);
-    gltf_container container =
-        gltf_container_split({reinterpret_cast<const char *>(bytes.data()), bytes.size()});
-    gltf_checked checked = gltf_schema_check(container.json, *import.params);
+    file_content file = file_read(import.path, import.budget);
+    memory_loan file_loan(import.budget, "/");
+    file_loan.take(file.length, 1);
+    refuse_other_formats(import.path, file);
+    gltf_container container = gltf_container_split({file.bytes.get(), file.length});
+    gltf_checked checked = gltf_schema_check(container.json, import.params->lenient, import.budget);
     buffer_queue queue;
     read_buffers(import, container, checked, queue);
     if (!checked.json.empty()) {
@@ -127,8 +140,9 @@ void gltf_document_read(gltf_import &import)
         container.binary.empty()
             ? parser.LoadASCIIFromString(&import.model, &error, &warning, container.json.data(),
                                          (unsigned int)container.json.size(), "")
-            : parser.LoadBinaryFromMemory(&import.model, &error, &warning, bytes.data(),
-                                          (unsigned int)bytes.size(), "");
+            : parser.LoadBinaryFromMemory(&import.model, &error, &warning,
+                                          reinterpret_cast<unsigned char *>(file.bytes.get()),
+                                          (unsigned int)file.length, "");
     for (const gltf_checked::indices &indices : checked.indices_without_view)
         if (parsed)
             import.model.meshes[indices.mesh].primitives[indices.primitive].indices =

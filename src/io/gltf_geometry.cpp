@@ -16,9 +16,6 @@
 namespace lsf
 {
 
-/* With all streams: what vertices that are added to those of the file may take. */
-static const uint64_t VERTEX_BYTES_MAX = (3 + 3 + 4 + 2 + 2 + 4) * sizeof(float);
-
 /* A stream of the scene that grows. */
 class stream
 {
@@ -70,9 +67,12 @@ class geometry_importer
                     lsf_primitive &primitive);
     void add_computed(const tinygltf::Primitive &source, const std::string &location, bool flat,
                       bool tangents, lsf_primitive &primitive);
-    void repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles);
+    void repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles, memory_loan &loan);
+    void make_flat(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
+                   const std::string &location, memory_loan &loan);
     void compute_tangents(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
-                          const lsf_material &material);
+                          const lsf_material &material, const std::string &location,
+                          memory_loan &loan);
     void append_vertices(const vertex_arrays &arrays, lsf_primitive &primitive);
     void append_indices(const std::vector<uint32_t> &triangles, lsf_primitive &primitive);
     void find_bounds(lsf_primitive &primitive) const;
@@ -190,7 +190,11 @@ void geometry_importer::count_ignored(const tinygltf::Primitive &source,
 
 /* --- repairs --- */
 
-void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles)
+/* What lsf_replace_zero_normals and lsf_make_tangents take for each vertex. */
+static const uint64_t SUM_BYTES = 3 * sizeof(double);
+
+void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles,
+                               memory_loan &loan)
 {
     uint64_t zeros = 0;
     for (uint64_t i = 0; i < arrays.normal.size() / 3; i++) {
@@ -200,9 +204,11 @@ void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t
         else
             zeros++;
     }
-    if (zeros > 0)
+    if (zeros > 0) {
+        loan.take(arrays.count, SUM_BYTES);
         lsf_replace_zero_normals(arrays.position.data(), arrays.count, triangles.data(),
                                  triangles.size(), arrays.normal.data());
+    }
     import_.repairs.normals_zero += zeros;
 
     for (uint64_t i = 0; i < arrays.tangent.size() / 4; i++) {
@@ -217,10 +223,27 @@ void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t
     }
 }
 
+void geometry_importer::make_flat(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
+                                  const std::string &location, memory_loan &loan)
+{
+    import_.repairs.normals_missing_primitives++;
+    loan.take(triangles.size(), vertex_bytes(streams_));
+    if (triangles.size() > arrays.count)
+        import_.budget.take(triangles.size() - arrays.count, vertex_bytes(streams_), location);
+    arrays.gather(triangles);
+    for (size_t i = 0; i < triangles.size(); i++)
+        triangles[i] = (uint32_t)i;
+    arrays.normal.resize(arrays.count * 3);
+    lsf_flat_normals(arrays.position.data(), arrays.count / 3, arrays.normal.data());
+}
+
 void geometry_importer::compute_tangents(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
-                                         const lsf_material &material)
+                                         const lsf_material &material, const std::string &location,
+                                         memory_loan &loan)
 {
     const std::vector<float> &uvs = tangent_uv_set(material) == 0 ? arrays.uv0 : arrays.uv1;
+    /* For lsf_split_mirrored, and for the largest stream while it grows. */
+    loan.take(arrays.count, 1 + sizeof(uint32_t) + 4 * sizeof(float));
     if (uvs.empty()) {
         import_.repairs.tangents_without_uv++;
     } else {
@@ -231,8 +254,11 @@ void geometry_importer::compute_tangents(vertex_arrays &arrays, std::vector<uint
         std::unique_ptr<uint32_t, decltype(&std::free)> owner(copied, std::free);
         if (!split)
             throw std::bad_alloc();
+        import_.budget.take(copied_count, vertex_bytes(streams_), location);
+        loan.take(copied_count, vertex_bytes(streams_) + sizeof(uint32_t));
         arrays.append_copies(copied, copied_count);
     }
+    loan.take(arrays.count, SUM_BYTES);
     arrays.tangent.resize(arrays.count * 4);
     lsf_make_tangents(arrays.position.data(), arrays.normal.data(),
                       uvs.empty() ? nullptr : uvs.data(), arrays.count, triangles.data(),
@@ -298,12 +324,13 @@ void geometry_importer::add_shared(const tinygltf::Primitive &source, const std:
                       find_attribute(source, "TEXCOORD_1"), find_attribute(source, "COLOR_0")};
     auto vertices = known_vertices_.find(key);
     bool known = vertices != known_vertices_.end();
+    memory_loan loan(import_.budget, location);
     vertex_arrays arrays;
     if (known) {
         primitive.first_vertex = vertices->second.first_vertex;
         primitive.vertex_count = vertices->second.vertex_count;
     } else {
-        arrays = read_vertices(import_, source, streams_, location);
+        arrays = read_vertices(import_, source, streams_, location, loan);
         primitive.vertex_count = (uint32_t)arrays.count;
         primitive.first_vertex = scene_->vertices.count;
     }
@@ -312,43 +339,36 @@ void geometry_importer::add_shared(const tinygltf::Primitive &source, const std:
     if (indices != known_indices_.end()) {
         primitive.first_index = indices->second.first_index;
         primitive.index_count = indices->second.index_count;
+        std::copy_n(indices->second.bounds_min, 3, primitive.bounds_min);
+        std::copy_n(indices->second.bounds_max, 3, primitive.bounds_max);
         return;
     }
     std::vector<uint32_t> triangles =
-        read_triangles(import_, source, primitive.vertex_count, location);
+        read_triangles(import_, source, primitive.vertex_count, location, loan);
     if (!known) {
-        repair(arrays, triangles);
+        repair(arrays, triangles, loan);
         append_vertices(arrays, primitive);
         known_vertices_[key] = primitive;
     }
     append_indices(triangles, primitive);
+    find_bounds(primitive);
     known_indices_[indices_key] = primitive;
 }
 
 void geometry_importer::add_computed(const tinygltf::Primitive &source, const std::string &location,
                                      bool flat, bool tangents, lsf_primitive &primitive)
 {
-    vertex_arrays arrays = read_vertices(import_, source, streams_, location);
-    std::vector<uint32_t> triangles = read_triangles(import_, source, arrays.count, location);
-    uint64_t before = arrays.count;
-    if (flat) {
-        import_.repairs.normals_missing_primitives++;
-        if (triangles.size() > before)
-            import_.budget.take(triangles.size() - before, VERTEX_BYTES_MAX, location);
-        before = std::max(before, (uint64_t)triangles.size());
-        arrays.gather(triangles);
-        for (size_t i = 0; i < triangles.size(); i++)
-            triangles[i] = (uint32_t)i;
-        arrays.normal.resize(arrays.count * 3);
-        lsf_flat_normals(arrays.position.data(), arrays.count / 3, arrays.normal.data());
-    }
-    repair(arrays, triangles);
+    memory_loan loan(import_.budget, location);
+    vertex_arrays arrays = read_vertices(import_, source, streams_, location, loan);
+    std::vector<uint32_t> triangles = read_triangles(import_, source, arrays.count, location, loan);
+    if (flat)
+        make_flat(arrays, triangles, location, loan);
+    repair(arrays, triangles, loan);
     if (tangents)
-        compute_tangents(arrays, triangles, material_of(import_, source));
-    if (arrays.count > before)
-        import_.budget.take(arrays.count - before, VERTEX_BYTES_MAX, location);
+        compute_tangents(arrays, triangles, material_of(import_, source), location, loan);
     append_vertices(arrays, primitive);
     append_indices(triangles, primitive);
+    find_bounds(primitive);
 }
 
 void geometry_importer::add_primitive(const tinygltf::Primitive &source,
@@ -372,7 +392,6 @@ void geometry_importer::add_primitive(const tinygltf::Primitive &source,
         add_computed(source, location, flat, tangents, primitive);
     else
         add_shared(source, location, primitive);
-    find_bounds(primitive);
     primitives_.push_back(primitive);
 }
 

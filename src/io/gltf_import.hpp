@@ -13,7 +13,9 @@
 #include <tiny_gltf.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,7 +54,7 @@ class no_such_choice : public failure
 /* "/accessors/7" */
 std::string location_of(const char *array, size_t index);
 
-/* What geometry and decoded images may take together; taken before it is allocated. */
+/* What loading may take at any moment; taken before it is allocated. */
 class memory_budget
 {
   public:
@@ -60,17 +62,42 @@ class memory_budget
     {
     }
     void take(uint64_t count, uint64_t size, const std::string &location);
+    void give_back(uint64_t bytes)
+    {
+        used_ -= bytes;
+    }
     uint64_t left() const
     {
         return limit_ - used_;
     }
-    uint64_t limit() const
-    {
-        return limit_;
-    }
 
   private:
     uint64_t limit_, used_ = 0;
+};
+
+/* Memory that is given back at the end of its scope. */
+class memory_loan
+{
+  public:
+    memory_loan(memory_budget &budget, const std::string &location)
+        : budget_(budget), location_(location)
+    {
+    }
+    memory_loan(const memory_loan &) = delete;
+    ~memory_loan()
+    {
+        budget_.give_back(bytes_);
+    }
+    void take(uint64_t count, uint64_t size)
+    {
+        budget_.take(count, size, location_);
+        bytes_ += count * size;
+    }
+
+  private:
+    memory_budget &budget_;
+    std::string location_;
+    uint64_t bytes_ = 0;
 };
 
 /* --- the file --- */
@@ -103,7 +130,7 @@ struct gltf_checked {
     std::vector<indices> indices_without_view;
 };
 bool extension_is_supported(const std::string &name);
-gltf_checked gltf_schema_check(std::string_view json, const lsf_scene_params &params);
+gltf_checked gltf_schema_check(std::string_view json, bool lenient, memory_budget &budget);
 
 /* gltf_uri.cpp */
 bool uri_is_data(const std::string &uri);
@@ -112,8 +139,12 @@ uint64_t uri_data_size(const std::string &uri, const std::string &location);
 /* Path of a file below `folder`; refuses schemes, absolute paths and ways out of the folder. */
 std::string uri_to_path(const std::string &folder, const std::string &uri,
                         const std::string &location);
-/* The whole file; fails when it is not a regular one or longer than `limit`. */
-std::vector<unsigned char> file_bytes(const std::string &path, uint64_t limit);
+/* The whole file; fails when it is not a regular one or longer than what is left of the budget. */
+struct file_content {
+    std::unique_ptr<char, decltype(&std::free)> bytes{nullptr, std::free};
+    size_t length = 0;
+};
+file_content file_read(const std::string &path, const memory_budget &budget);
 
 /* --- the import --- */
 
@@ -124,6 +155,7 @@ struct gltf_repairs {
     uint64_t trailing_indices = 0, no_position = 0, morph_targets = 0;
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
+    uint64_t textures_without_image = 0;
 };
 
 struct gltf_import {
@@ -145,6 +177,9 @@ struct gltf_import {
     std::vector<bool> mesh_used;       /* by file's index */
     std::vector<uint32_t> material_of; /* file's material -> scene's; LSF_NONE: not used */
 };
+
+/* What a node of that name takes, its matrix included once all are placed (gltf_nodes.cpp). */
+uint64_t node_bytes(const char *name);
 
 void gltf_document_read(gltf_import &import);     /* gltf_document.cpp */
 void gltf_meshopt_decode(gltf_import &import);    /* gltf_meshopt.cpp */

@@ -87,7 +87,7 @@ static void add_instances(gltf_import &import, uint32_t parent, const tinygltf::
     uint64_t count = count_instances(import, attributes);
     if (count == 0)
         return;
-    import.budget.take(count, sizeof(lsf_node), location);
+    import.budget.take(count, node_bytes(scene->nodes[parent].name), location);
     std::vector<float> translations =
         read_attribute(import, attributes, translation_attribute, count, location);
     std::vector<float> rotations =

@@ -36,7 +36,8 @@ void memory_budget::take(uint64_t count, uint64_t size, const std::string &locat
         sum > limit_)
         fail("MEMORY_LIMIT", location,
              "%" PRIu64 " elements of %" PRIu64 " bytes do not fit into the %" PRIu64
-             " bytes that the memory limit leaves of %" PRIu64 "; raise it or simplify the scene",
+             " bytes that are left of the memory limit of %" PRIu64
+             "; raise it or simplify the scene",
              count, size, limit_ - used_, limit_);
     used_ = sum;
 }
@@ -57,7 +58,8 @@ char *copy_text(const std::string &text)
     return copy;
 }
 
-static void import_file(lsf_scene *scene, const char *path, const lsf_scene_params *params)
+/* Returns what is left of the memory limit. */
+static uint64_t import_file(lsf_scene *scene, const char *path, const lsf_scene_params *params)
 {
     gltf_import import(scene, params);
     import.path = path;
@@ -79,15 +81,16 @@ static void import_file(lsf_scene *scene, const char *path, const lsf_scene_para
     gltf_geometry_import(import);
     gltf_animations_import(import);
     gltf_notes_add(import);
+    return import.budget.left();
 }
 
 } // namespace lsf
 
 bool lsf_gltf_load(lsf_scene *scene, const char *path, const lsf_scene_params *params,
-                   lsf_error *error)
+                   uint64_t *memory_left, lsf_error *error)
 {
     try {
-        lsf::import_file(scene, path, params);
+        *memory_left = lsf::import_file(scene, path, params);
         return true;
     } catch (const std::bad_alloc &) {
         return lsf_error_set(error, LSF_ERROR_FILE,

@@ -52,10 +52,7 @@ uint32_t texture_importer::add(int index, bool srgb)
         return found->second;
     const tinygltf::Texture &source = import_.model.textures[(size_t)index];
     if (source.source < 0) {
-        lsf_scene_add_note(import_.scene,
-                           "texture %d has no PNG or JPEG image: the materials that use it are "
-                           "shown without it",
-                           index);
+        import_.repairs.textures_without_image++;
         return known_[{index, srgb}] = LSF_NONE;
     }
     lsf_texture texture = {};
@@ -84,9 +81,10 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
 {
     const tinygltf::Image &source = import_.model.images[index];
     std::string location = location_of("images", index);
-    std::vector<unsigned char> file;
-    const unsigned char *bytes;
+    file_content file;
+    const void *bytes;
     size_t length;
+    memory_loan loan(import_.budget, location);
     if (source.bufferView >= 0) {
         const tinygltf::BufferView &view = import_.model.bufferViews[(size_t)source.bufferView];
         bytes = import_.model.buffers[(size_t)view.buffer].data.data() + view.byteOffset;
@@ -95,17 +93,18 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
         bytes = source.image.data();
         length = source.image.size();
     } else {
-        file = file_bytes(uri_to_path(import_.folder, source.uri, location + "/uri"),
-                          import_.params->memory_limit);
-        bytes = file.data();
-        length = file.size();
+        file =
+            file_read(uri_to_path(import_.folder, source.uri, location + "/uri"), import_.budget);
+        bytes = file.bytes.get();
+        length = file.length;
+        loan.take(length, 1);
     }
 
     std::string name = !source.uri.empty() ? source.uri : "image " + std::to_string(index);
     decoded.name = copy_text(name);
     lsf_error error;
-    uint64_t limit = std::min(import_.budget.left(), (uint64_t)LSF_IMAGE_MAX_BYTES);
-    if (!lsf_texture_image_decode(&decoded, bytes, length, limit, name.c_str(), &error))
+    if (!lsf_texture_image_decode(&decoded, bytes, length, import_.budget.left(), name.c_str(),
+                                  &error))
         fail("IMAGE_DATA_INVALID", location, "%s", error.message);
     static const uint64_t texel_bytes[] = {1, 2, 4};
     import_.budget.take((uint64_t)decoded.width * decoded.height * decoded.channels,

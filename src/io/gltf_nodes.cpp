@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -114,6 +115,12 @@ static void set_transform(gltf_import &import, const tinygltf::Node &source,
              "the last row must be 0, 0, 0, 1; export the file again");
 }
 
+uint64_t node_bytes(const char *name)
+{
+    const uint64_t block_bytes = 32; /* what a short text takes of the heap */
+    return sizeof(lsf_node) + sizeof(double[16]) + block_bytes + strlen(name);
+}
+
 void gltf_nodes_import(gltf_import &import)
 {
     const tinygltf::Model &model = import.model;
@@ -124,7 +131,7 @@ void gltf_nodes_import(gltf_import &import)
 
     import.node_of.assign(model.nodes.size(), LSF_NONE);
     import.mesh_used.assign(model.meshes.size(), false);
-    import.budget.take(order.size(), sizeof(lsf_node), "/nodes");
+    import.budget.take(order.size(), node_bytes(""), "/nodes"); /* names are part of the document */
     scene->nodes = static_cast<lsf_node *>(allocate(order.size(), sizeof(lsf_node)));
     for (size_t i = 0; i < order.size(); i++) {
         const tinygltf::Node &source = model.nodes[order[i]];

@@ -50,7 +50,9 @@ static void import_cameras(gltf_import &import)
         camera.node = import.node_of[i];
         import.scene->nodes[camera.node].camera = (uint32_t)cameras.size();
         cameras.push_back(camera);
-        names.push_back(source.name.empty() ? node.name : source.name);
+        const std::string &name = source.name.empty() ? node.name : source.name;
+        import.budget.take(2, name.size(), location_of("nodes", i)); /* in both lists */
+        names.push_back(name);
     }
     import.scene->cameras = copy_array(cameras);
     for (const std::string &name : names)

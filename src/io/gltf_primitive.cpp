@@ -141,8 +141,15 @@ static void widen_colors(std::vector<float> &colors, uint64_t count)
     colors = std::move(widened);
 }
 
+uint64_t vertex_bytes(const stream_choice &streams)
+{
+    return sizeof(float) * (6 + (streams.tangent ? 4 : 0) + (streams.uv0 ? 2 : 0) +
+                            (streams.uv1 ? 2 : 0) + (streams.color ? 4 : 0));
+}
+
 vertex_arrays read_vertices(gltf_import &import, const tinygltf::Primitive &primitive,
-                            const stream_choice &streams, const std::string &location)
+                            const stream_choice &streams, const std::string &location,
+                            memory_loan &loan)
 {
     vertex_arrays arrays;
     int position = find_attribute(primitive, "POSITION");
@@ -150,9 +157,10 @@ vertex_arrays read_vertices(gltf_import &import, const tinygltf::Primitive &prim
     if (arrays.count >= UINT32_MAX)
         fail("ACCESSOR_TOO_LONG", location, "%" PRIu64 " vertices are more than an index can name",
              arrays.count);
-    uint64_t bytes = sizeof(float) * (6 + (streams.tangent ? 4 : 0) + (streams.uv0 ? 2 : 0) +
-                                      (streams.uv1 ? 2 : 0) + (streams.color ? 4 : 0));
-    import.budget.take(arrays.count, bytes, location);
+    import.budget.take(arrays.count, vertex_bytes(streams), location);
+    loan.take(arrays.count, vertex_bytes(streams));
+    if (streams.color)
+        loan.take(arrays.count, 3 * sizeof(float)); /* those without alpha are copied once */
 
     read_attribute(import, primitive, position_attribute, arrays.count, location, arrays.position);
     bool normals =
@@ -174,7 +182,8 @@ vertex_arrays read_vertices(gltf_import &import, const tinygltf::Primitive &prim
 /* --- triangles --- */
 
 std::vector<uint32_t> read_triangles(gltf_import &import, const tinygltf::Primitive &primitive,
-                                     uint64_t vertex_count, const std::string &location)
+                                     uint64_t vertex_count, const std::string &location,
+                                     memory_loan &loan)
 {
     uint64_t source_count = primitive.indices >= 0
                                 ? import.model.accessors[(size_t)primitive.indices].count
@@ -185,6 +194,9 @@ std::vector<uint32_t> read_triangles(gltf_import &import, const tinygltf::Primit
         fail("ACCESSOR_TOO_LONG", location, "%" PRIu64 " triangles in one primitive",
              triangle_count);
     import.budget.take(triangle_count, 3 * sizeof(uint32_t), location);
+    loan.take(source_count, sizeof(uint32_t));
+    if (!list)
+        loan.take(triangle_count, 3 * sizeof(uint32_t));
     if (list)
         import.repairs.trailing_indices += source_count % 3;
 

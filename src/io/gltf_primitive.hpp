@@ -26,13 +26,20 @@ int find_attribute(const tinygltf::Primitive &primitive, const char *name);
 
 bool mode_is_triangles(int mode);
 
-/* Reads the attributes that `streams` asks for, checks their formats and counts. */
-vertex_arrays read_vertices(gltf_import &import, const tinygltf::Primitive &primitive,
-                            const stream_choice &streams, const std::string &location);
+/* What the scene stores of a vertex. */
+uint64_t vertex_bytes(const stream_choice &streams);
 
-/* Lists, strips and fans, indexed or not, as a triangle list. */
+/* Reads the attributes that `streams` asks for, checks their formats and counts. Takes memory for
+ * the scene, and lends what is returned. */
+vertex_arrays read_vertices(gltf_import &import, const tinygltf::Primitive &primitive,
+                            const stream_choice &streams, const std::string &location,
+                            memory_loan &loan);
+
+/* Lists, strips and fans, indexed or not, as a triangle list. Takes and lends like
+ * read_vertices. */
 std::vector<uint32_t> read_triangles(gltf_import &import, const tinygltf::Primitive &primitive,
-                                     uint64_t vertex_count, const std::string &location);
+                                     uint64_t vertex_count, const std::string &location,
+                                     memory_loan &loan);
 
 } // namespace lsf
 

@@ -17,11 +17,6 @@ using nlohmann::json;
 /* Nothing that is read nests deeper than 10; extras may, within reason. */
 static const uint64_t DEPTH_MAX = 64;
 
-/* A parsed document takes about this many times the bytes of its text, and about this many bytes
- * for each entry of the root's arrays (tinygltf::Node, ::Material); the text and the entries are
- * held against the memory limit before they are parsed. */
-static const uint64_t BYTES_PER_TEXT_BYTE = 32, BYTES_PER_ENTRY = 1024;
-
 static const char *const supported_extensions[] = {
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",     "KHR_materials_anisotropy",   "KHR_materials_emissive_strength",
@@ -60,17 +55,34 @@ class locating_parser : public nlohmann::detail::json_sax_dom_parser<json>
     std::string message_;
 };
 
-static json parse(std::string_view text, uint64_t memory_limit)
+/* What the document and the structures that are made of it take, at most: measured on documents of
+ * little but extras, which become tinygltf::Value of 152 bytes, and of little but entries in the
+ * root's arrays. Taken for good, though part of it is free again after parsing. */
+static void take_document(memory_budget &budget, std::string_view text, const lsf_json_shape &shape)
 {
-    if (text.size() > memory_limit / BYTES_PER_TEXT_BYTE)
-        fail("INVALID_JSON", "/",
-             "%zu bytes of JSON are more than the %" PRIu64
-             " that the memory limit allows; raise it or keep data in buffers",
-             text.size(), memory_limit / BYTES_PER_TEXT_BYTE);
-    uint64_t depth = lsf_json_depth(text.data(), text.size());
-    if (depth > DEPTH_MAX)
+    budget.take(text.size(), 6, "/"); /* base64 is copied most often */
+    budget.take(shape.objects, 512, "/");
+    budget.take(shape.arrays + shape.commas, 240, "/");
+    budget.take(shape.strings, 160, "/");
+}
+
+static void take_entries(memory_budget &budget, const json &root)
+{
+    for (const auto &[key, member] : root.items())
+        if (member.is_array() && key != "extras")
+            budget.take(member.size(), key == "materials" ? 4096 : 1024, "/" + key);
+    json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+    if (root.contains(lights))
+        budget.take(root[lights].size(), 1024, lights.to_string());
+}
+
+static json parse(std::string_view text, memory_budget &budget)
+{
+    lsf_json_shape shape = lsf_json_scan(text.data(), text.size());
+    if (shape.depth > DEPTH_MAX)
         fail("INVALID_JSON", "/", "nested %" PRIu64 " deep; at most %" PRIu64 " levels are read",
-             depth, DEPTH_MAX);
+             shape.depth, DEPTH_MAX);
+    take_document(budget, text, shape);
 
     json root;
     locating_parser parser(root);
@@ -442,23 +454,14 @@ static void check_choices(const json &root)
         }
 }
 
-gltf_checked gltf_schema_check(std::string_view text, const lsf_scene_params &params)
+gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budget &budget)
 {
-    uint64_t memory_limit = params.memory_limit;
-    json root = parse(text, memory_limit);
+    json root = parse(text, budget);
     checker checker(root);
     /* First: what such a file leaves out may be just what the extension would bring. */
-    check_required_extensions(root, params.lenient);
+    check_required_extensions(root, lenient);
 
-    uint64_t entries = 0;
-    for (const json &member : root)
-        entries += member.is_array() ? member.size() : 0;
-    if (entries > memory_limit / BYTES_PER_ENTRY)
-        fail("INVALID_JSON", "/",
-             "%" PRIu64 " entries are more than the %" PRIu64
-             " that the memory limit allows; raise it",
-             entries, memory_limit / BYTES_PER_ENTRY);
-
+    take_entries(budget, root);
     checker.check_object(root, gltf_root_schema);
     check_version(root);
     check_buffer_views(root);

@@ -3,7 +3,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
 
 namespace lsf
 {
@@ -106,15 +105,14 @@ std::string uri_to_path(const std::string &folder, const std::string &uri,
     return path.get();
 }
 
-std::vector<unsigned char> file_bytes(const std::string &path, uint64_t limit)
+file_content file_read(const std::string &path, const memory_budget &budget)
 {
     lsf_error error;
-    size_t length;
-    std::unique_ptr<char, decltype(&std::free)> bytes(
-        lsf_file_read(path.c_str(), limit, &length, &error), std::free);
-    if (!bytes)
+    file_content file;
+    file.bytes.reset(lsf_file_read(path.c_str(), budget.left(), &file.length, &error));
+    if (!file.bytes)
         throw failure(error.message);
-    return {bytes.get(), bytes.get() + length};
+    return file;
 }
 
 } // namespace lsf

@@ -85,16 +85,24 @@ bool lsf_image_header_read(lsf_image_header *header, const void *data, size_t le
                            : header->type == LSF_TEXEL_U16 ? 2
                                                            : 1;
     uint64_t pixels = (uint64_t)header->width * header->height;
-    if (pixels > byte_limit / (header->channels * texel_bytes))
+    if (pixels > LSF_IMAGE_MAX_BYTES / (header->channels * texel_bytes))
         return lsf_error_set(error, LSF_ERROR_FILE,
                              "%s: the image (%u x %u, %u channels) would take more than %llu bytes "
                              "once decoded; scale it down",
                              name, header->width, header->height, header->channels,
-                             (unsigned long long)byte_limit);
+                             (unsigned long long)LSF_IMAGE_MAX_BYTES);
     if (pixels > pixels_max)
         return lsf_error_set(error, LSF_ERROR_FILE,
                              "%s: claims %u x %u pixels, more than its %zu bytes can hold; it is "
                              "damaged or was made to exhaust memory",
                              name, header->width, header->height, length);
+    uint64_t needed = length + pixels * header->channels * texel_bytes + header->working_bytes;
+    if (needed > byte_limit)
+        return lsf_error_set(error, LSF_ERROR_FILE,
+                             "%s: to decode the image (%u x %u, %u channels) may take %llu bytes, "
+                             "more than the %llu that the memory limit leaves; raise it or scale "
+                             "the image down",
+                             name, header->width, header->height, header->channels,
+                             (unsigned long long)needed, (unsigned long long)byte_limit);
     return true;
 }

@@ -22,11 +22,13 @@ typedef struct lsf_image_header {
     uint32_t width, height;
     uint32_t channels;   /* once decoded: palettes and colour keys count as RGB and alpha */
     lsf_texel_type type; /* once decoded: half is F32 */
+    uint64_t working_bytes; /* what decoding takes beside the pixels and a copy of the file */
 } lsf_image_header;
 
 /* Recognises the file by its magic bytes and checks it: known features only, a size within
- * LSF_IMAGE_MAX_SIZE and `byte_limit` once decoded, no more pixels than so many bytes can hold, not
- * cut short as far as the container tells. `name` is for messages. */
+ * LSF_IMAGE_MAX_SIZE and LSF_IMAGE_MAX_BYTES, no more memory for decoding it than `byte_limit`, no
+ * more pixels than so many bytes can hold, not cut short as far as the container tells. `name` is
+ * for messages. */
 bool lsf_image_header_read(lsf_image_header *header, const void *bytes, size_t length,
                            uint64_t byte_limit, const char *name, lsf_error *error);
 

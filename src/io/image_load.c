@@ -92,15 +92,26 @@ static lsf_image *linear_from_integers(const lsf_decoded_image *decoded, lsf_err
     return image;
 }
 
-static lsf_image *image_from_memory(const void *bytes, size_t length, const char *name,
-                                    lsf_error *error)
+#define FLOATS_TOO_LARGE                                                                           \
+    "%s: %u x %u pixels as floats are more than the memory limit leaves; raise it or scale the "   \
+    "image down"
+
+static lsf_image *image_from_memory(const void *bytes, size_t length, uint64_t byte_limit,
+                                    const char *name, lsf_error *error)
 {
     lsf_image_header header;
     lsf_decoded_image decoded;
-    if (!decode(&decoded, &header, bytes, length, LSF_IMAGE_MAX_BYTES, name, error))
+    if (!decode(&decoded, &header, bytes, length, byte_limit, name, error))
         return NULL;
     if (decoded.type != LSF_TEXEL_F32) {
-        lsf_image *image = linear_from_integers(&decoded, error);
+        uint64_t pixels = (uint64_t)decoded.width * decoded.height;
+        uint64_t encoded_bytes = pixels * decoded.channels * (decoded.type == LSF_TEXEL_U8 ? 1 : 2);
+        lsf_image *image = NULL;
+        if (pixels * 4 * sizeof(float) > byte_limit - encoded_bytes)
+            lsf_error_set(error, LSF_ERROR_FILE, FLOATS_TOO_LARGE, name, decoded.width,
+                          decoded.height);
+        else
+            image = linear_from_integers(&decoded, error);
         release(&decoded);
         return image;
     }
@@ -119,15 +130,27 @@ static lsf_image *image_from_memory(const void *bytes, size_t length, const char
     return image;
 }
 
-lsf_image *lsf_image_load(const char *path, lsf_error *error)
+static lsf_image *image_from_file(const char *path, uint64_t byte_limit, lsf_error *error)
 {
+    uint64_t file_limit = byte_limit < LSF_IMAGE_MAX_BYTES ? byte_limit : LSF_IMAGE_MAX_BYTES;
     size_t length;
-    char *bytes = lsf_file_read(path, LSF_IMAGE_MAX_BYTES, &length, error);
+    char *bytes = lsf_file_read(path, file_limit, &length, error);
     if (!bytes)
         return NULL;
-    lsf_image *image = image_from_memory(bytes, length, path, error);
+    lsf_image *image = image_from_memory(bytes, length, byte_limit - length, path, error);
     free(bytes);
     return image;
+}
+
+lsf_image *lsf_image_load(const char *path, lsf_error *error)
+{
+    return image_from_file(path, UINT64_MAX, error);
+}
+
+static void *shrink(void *array, size_t bytes)
+{
+    void *moved = realloc(array, bytes);
+    return moved ? moved : array;
 }
 
 /* Keeps the channels that make a colour, in the order R, G, B, A (or Y, A). */
@@ -157,6 +180,7 @@ static bool keep_colour_channels(lsf_decoded_image *decoded, const char *name, l
         memcpy(texels + i * count, kept, count * sizeof *kept);
     }
     decoded->channels = count;
+    decoded->texels = shrink(texels, pixels * count * sizeof *texels);
     return true;
 }
 
@@ -197,33 +221,53 @@ bool lsf_texture_image_decode(lsf_texture_image *image, const void *bytes, size_
     return true;
 }
 
-bool lsf_environment_load(lsf_environment *environment, const char *path, uint64_t *repaired,
-                          lsf_error *error)
+/* Three channels of the image, packed; in place where it has as many, which leaves it without
+ * pixels. NULL without memory. */
+static float *take_channels(lsf_image *image, const int channels[3])
 {
-    lsf_image *image = lsf_image_load(path, error);
+    uint64_t pixels = (uint64_t)image->width * image->height;
+    bool in_place = image->channel_count >= 3;
+    float *taken = in_place ? image->pixels : lsf_alloc(pixels, 3 * sizeof *taken);
+    if (!taken)
+        return NULL;
+    for (uint64_t i = 0; i < pixels; i++) {
+        const float *pixel = image->pixels + i * image->channel_count;
+        float rgb[3] = {pixel[channels[0]], pixel[channels[1]], pixel[channels[2]]};
+        memcpy(taken + 3 * i, rgb, sizeof rgb);
+    }
+    if (!in_place)
+        return taken;
+    image->pixels = NULL;
+    return shrink(taken, pixels * 3 * sizeof *taken);
+}
+
+bool lsf_environment_load(lsf_environment *environment, const char *path, uint64_t byte_limit,
+                          uint64_t *repaired, lsf_error *error)
+{
+    lsf_image *image = image_from_file(path, byte_limit, error);
     if (!image)
         return false;
     int channels[3] = {lsf_image_channel(image, "R"), lsf_image_channel(image, "G"),
                        lsf_image_channel(image, "B")};
-    int grey = lsf_image_channel(image, "Y");
+    bool colour = channels[0] >= 0 && channels[1] >= 0 && channels[2] >= 0;
+    if (!colour)
+        channels[0] = channels[1] = channels[2] = lsf_image_channel(image, "Y");
     uint64_t pixels = (uint64_t)image->width * image->height;
     float *texels = NULL;
-    if ((channels[0] < 0 || channels[1] < 0 || channels[2] < 0) && grey < 0)
+    if (channels[0] < 0)
         lsf_error_set(error, LSF_ERROR_FILE,
                       "%s: an environment needs channels R, G, B or Y; the first here is \"%s\"",
                       path, image->channel_names[0]);
-    else if (!(texels = lsf_alloc(pixels, 3 * sizeof *texels)))
+    else if (image->channel_count < 3 &&
+             pixels * (3 + image->channel_count) * sizeof *texels > byte_limit)
+        lsf_error_set(error, LSF_ERROR_FILE, FLOATS_TOO_LARGE, path, image->width, image->height);
+    else if (!(texels = take_channels(image, channels)))
         lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for %u x %u pixels", path,
                       image->width, image->height);
     if (!texels) {
         lsf_image_destroy(image);
         return false;
     }
-    bool colour = channels[0] >= 0 && channels[1] >= 0 && channels[2] >= 0;
-    for (uint64_t i = 0; i < pixels; i++)
-        for (int c = 0; c < 3; c++)
-            texels[3 * i + (uint64_t)c] =
-                image->pixels[i * image->channel_count + (uint32_t)(colour ? channels[c] : grey)];
     *repaired = repair(texels, 3 * pixels, false);
     environment->present = true;
     environment->width = image->width;

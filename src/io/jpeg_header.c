@@ -87,6 +87,15 @@ static bool read_frame(lsf_image_header *header, const uint8_t *frame, size_t si
     return true;
 }
 
+/* Decoders keep the coefficients of a picture whose scans hold less than everything: two bytes for
+ * each, in whole units of at most 4 x 4 blocks. */
+static uint64_t coefficient_bytes(const lsf_image_header *header)
+{
+    uint64_t width = (header->width + 31u) / 32u * 32u;
+    uint64_t height = (header->height + 31u) / 32u * 32u;
+    return 2 * width * height * header->channels;
+}
+
 bool lsf_jpeg_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
                           uint64_t *pixels_max, const char *name, lsf_error *error)
 {
@@ -94,6 +103,7 @@ bool lsf_jpeg_header_read(lsf_image_header *header, const uint8_t *bytes, size_t
      * about ten. */
     enum { SCANS_MAX = 100 };
     uint32_t scans = 0;
+    bool progressive = false;
     segment part;
     for (size_t at = 2; next_segment(&part, bytes, length, at); at = part.end) {
         uint32_t marker = part.marker;
@@ -108,6 +118,10 @@ bool lsf_jpeg_header_read(lsf_image_header *header, const uint8_t *bytes, size_t
         if (marker >= SOF0 && marker <= SOF15 && marker != DHT && marker != JPG && marker != DAC &&
             !read_frame(header, bytes + part.begin, part.end - part.begin, name, error))
             return false;
+        progressive |= marker == SOF2;
+        if (marker == SOS && part.end - part.begin > 4 &&
+            (progressive || bytes[part.begin + 4] != header->channels))
+            header->working_bytes = coefficient_bytes(header);
         if (marker == SOS && ++scans > SCANS_MAX)
             return lsf_error_set(error, LSF_ERROR_FILE,
                                  "%s: JPEG with more than %d scans; save it as baseline", name,

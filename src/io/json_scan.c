@@ -2,9 +2,10 @@
 
 #include <stdbool.h>
 
-uint64_t lsf_json_depth(const char *text, size_t length)
+lsf_json_shape lsf_json_scan(const char *text, size_t length)
 {
-    uint64_t depth = 0, deepest = 0;
+    lsf_json_shape shape = {0};
+    uint64_t depth = 0;
     bool quoted = false;
     for (size_t i = 0; i < length; i++) {
         char c = text[i];
@@ -15,15 +16,22 @@ uint64_t lsf_json_depth(const char *text, size_t length)
                 quoted = false;
         } else if (c == '"') {
             quoted = true;
+            shape.strings++;
+        } else if (c == ',') {
+            shape.commas++;
         } else if (c == '[' || c == '{') {
+            if (c == '{')
+                shape.objects++;
+            else
+                shape.arrays++;
             depth++;
-            if (depth > deepest)
-                deepest = depth;
+            if (depth > shape.depth)
+                shape.depth = depth;
         } else if ((c == ']' || c == '}') && depth > 0) {
             depth--;
         }
     }
-    return deepest;
+    return shape;
 }
 
 void lsf_json_location(const char *text, size_t length, size_t offset, uint64_t *line,

@@ -9,8 +9,12 @@
 extern "C" {
 #endif
 
-/* Deepest nesting of arrays and objects, found without recursion; the text need not be valid. */
-uint64_t lsf_json_depth(const char *text, size_t length);
+/* What stands outside of strings, found without recursion; the text need not be valid. */
+typedef struct lsf_json_shape {
+    uint64_t depth; /* deepest nesting of arrays and objects */
+    uint64_t objects, arrays, strings, commas;
+} lsf_json_shape;
+lsf_json_shape lsf_json_scan(const char *text, size_t length);
 
 /* Line and column, both from 1, of the byte at `offset`. */
 void lsf_json_location(const char *text, size_t length, size_t offset, uint64_t *line,

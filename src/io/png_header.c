@@ -68,6 +68,10 @@ bool lsf_png_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
     if (transparent && (colour == GREY || colour == RGB || colour == PALETTE))
         header->channels++;
     *pixels_max = (uint64_t)length * DEFLATE_RATIO_MAX * 8 / (stored * depth);
+    /* OpenImageIO keeps interlaced pictures whole; a row is small. */
+    uint64_t pixel_bytes = header->channels * (depth == 16 ? 2u : 1u);
+    if (bytes[28] != 0)
+        header->working_bytes = (uint64_t)header->width * header->height * pixel_bytes;
     return true;
 }
 

@@ -41,7 +41,8 @@ static bool add_default_camera(lsf_scene *scene)
     return camera->name != NULL;
 }
 
-static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, lsf_error *error)
+static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, uint64_t memory_left,
+                             lsf_error *error)
 {
     const float *radiance = params->environment_radiance;
     if (params->environment_path && radiance)
@@ -60,7 +61,8 @@ static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, l
     if (!params->environment_path)
         return true;
     uint64_t repaired = 0;
-    if (!lsf_environment_load(&scene->environment, params->environment_path, &repaired, error))
+    if (!lsf_environment_load(&scene->environment, params->environment_path, memory_left, &repaired,
+                              error))
         return false;
     scene->environment.present = true;
     if (repaired > 0)
@@ -97,13 +99,19 @@ lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_
         lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
         return NULL;
     }
-    if (!lsf_gltf_load(scene, path, params, error) || !check_transforms(scene, error) ||
-        !load_environment(scene, params, error) || !lsf_bound_radiance(scene, error)) {
+    uint64_t memory_left;
+    if (!lsf_gltf_load(scene, path, params, &memory_left, error) ||
+        !check_transforms(scene, error) || !load_environment(scene, params, memory_left, error) ||
+        !lsf_bound_radiance(scene, error)) {
         lsf_scene_destroy(scene);
         return NULL;
     }
     lsf_scene_settle_alpha(scene);
-    lsf_scene_compute_requirements(scene);
+    if (!lsf_scene_compute_requirements(scene)) {
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
+        lsf_scene_destroy(scene);
+        return NULL;
+    }
     if (!lsf_bound_lights(scene, error)) {
         lsf_scene_destroy(scene);
         return NULL;

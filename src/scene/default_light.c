@@ -106,7 +106,8 @@ bool lsf_default_light_add(lsf_scene *scene, lsf_default_light mode, lsf_error *
     if (!scene->environment.present && !add_sky(&scene->environment))
         goto no_memory;
     add_key(&scene->key_light);
-    lsf_scene_compute_requirements(scene);
+    if (!lsf_scene_compute_requirements(scene))
+        goto no_memory;
     return true;
 
 no_memory:

@@ -84,24 +84,23 @@ void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves)
     }
 }
 
-/* True when an animation moves a node that carries something. */
-static bool is_moving(const lsf_scene *scene)
+/* Finds whether an animation moves a node that carries something. False without memory. */
+static bool find_moving(const lsf_scene *scene, lsf_requirements *r)
 {
     if (scene->channel_count == 0)
-        return false;
+        return true;
     bool *moves = lsf_alloc(scene->node_count, sizeof(bool));
     if (!moves)
-        return true; /* the safe answer */
+        return false;
     lsf_scene_moving_nodes(scene, moves);
-    bool found = false;
-    for (uint32_t i = 0; i < scene->node_count && !found; i++) {
+    for (uint32_t i = 0; i < scene->node_count && !r->moving; i++) {
         const lsf_node *node = &scene->nodes[i];
         bool carries = node->light != LSF_NONE || node->camera != LSF_NONE ||
                        (node->mesh != LSF_NONE && scene->meshes[node->mesh].primitive_count > 0);
-        found = moves[i] && carries;
+        r->moving = moves[i] && carries;
     }
     free(moves);
-    return found;
+    return true;
 }
 
 /* --- bounds --- */
@@ -204,16 +203,19 @@ static uint64_t count_degenerate(const lsf_scene *scene, const lsf_primitive *pr
     return count;
 }
 
-static void add_instances(const lsf_scene *scene, lsf_requirements *r)
+/* False without memory. */
+static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
 {
     double *matrices = lsf_alloc(scene->node_count, 16 * sizeof(double));
     bool *primitive_seen = lsf_alloc(scene->primitive_count, sizeof(bool));
     bool *material_seen = lsf_alloc(scene->material_count, sizeof(bool));
+    /* By a list's first triangle: primitives may share one. */
+    bool *list_seen = lsf_alloc(scene->index_count / 3, sizeof(bool));
+    bool enough = matrices && primitive_seen && material_seen && list_seen;
     uint64_t visits = 0;
-    if (matrices)
+    if (enough)
         lsf_scene_world_matrices(scene, 0.0, matrices);
-    for (uint32_t i = 0; matrices && primitive_seen && material_seen && i < scene->instance_count;
-         i++) {
+    for (uint32_t i = 0; enough && i < scene->instance_count; i++) {
         const lsf_instance *instance = &scene->instances[i];
         const lsf_primitive *primitive = &scene->primitives[instance->primitive];
         if (primitive->index_count == 0)
@@ -224,6 +226,9 @@ static void add_instances(const lsf_scene *scene, lsf_requirements *r)
         if (!primitive_seen[instance->primitive]) {
             primitive_seen[instance->primitive] = true;
             r->primitives++;
+        }
+        if (!list_seen[primitive->first_index / 3]) {
+            list_seen[primitive->first_index / 3] = true;
             r->unique_triangles += primitive->index_count / 3;
             r->degenerate_triangles += count_degenerate(scene, primitive);
         }
@@ -236,15 +241,18 @@ static void add_instances(const lsf_scene *scene, lsf_requirements *r)
     free(matrices);
     free(primitive_seen);
     free(material_seen);
+    free(list_seen);
+    return enough;
 }
 
-void lsf_scene_compute_requirements(lsf_scene *scene)
+bool lsf_scene_compute_requirements(lsf_scene *scene)
 {
     lsf_requirements *r = &scene->requirements;
     memset(r, 0, sizeof(*r));
     clear_bounds(r);
     add_lights(scene, r);
-    add_instances(scene, r);
+    if (!add_instances(scene, r) || !find_moving(scene, r))
+        return false;
     find_center(r);
     /* Every crossing of a surface is a bounce. Seen through a vase or a bottle, the world lies behind
      * two walls of glass with two sides each; through solid bodies, behind two of them. */
@@ -257,7 +265,7 @@ void lsf_scene_compute_requirements(lsf_scene *scene)
                       (environment->radiance[0] > 0.0f || environment->radiance[1] > 0.0f ||
                        environment->radiance[2] > 0.0f));
     r->vertex_colored = scene->vertices.color != NULL && r->instances > 0;
-    r->moving = is_moving(scene);
     r->vertices = scene->vertices.count;
     r->textures = scene->texture_count;
+    return true;
 }

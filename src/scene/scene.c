@@ -9,8 +9,13 @@
 
 /* --- notes */
 
+/* A file may give cause for any number; who has read so many knows. */
+enum { NOTES_MAX = 256 };
+
 void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
 {
+    if (scene->note_count == NOTES_MAX)
+        return;
     va_list arguments;
     va_start(arguments, format);
     char *note = NULL;
@@ -23,6 +28,12 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
             free(note);
             return;
         }
+    if (scene->note_count == NOTES_MAX - 1) {
+        free(note);
+        note = strdup("there are more such notes: they are left out");
+        if (!note)
+            return;
+    }
     lsf_log(LSF_LOG_WARNING, "%s", note);
     char **notes = realloc(scene->notes, (scene->note_count + 1) * sizeof(char *));
     if (!notes) {

@@ -214,7 +214,8 @@ struct lsf_scene {
     lsf_requirements requirements;
 };
 
-/* Logs a warning and keeps it as a note. The same text is kept once. */
+/* Logs a warning and keeps it as a note. The same text is kept once, and a few hundred texts in
+ * all. */
 void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -234,8 +235,8 @@ void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,
  * vertex colours (alpha.c). */
 void lsf_scene_settle_alpha(lsf_scene *scene);
 
-/* Fills scene->requirements from what the instances use (requirements.c). */
-void lsf_scene_compute_requirements(lsf_scene *scene);
+/* Fills scene->requirements from what the instances use (requirements.c). False without memory. */
+bool lsf_scene_compute_requirements(lsf_scene *scene);
 
 #ifdef __cplusplus
 }

@@ -430,7 +430,7 @@ lsf_scene *lsf_scene_tessellate(const lsf_scene *scene, uint32_t factor, float s
         return NULL;
     tessellation t = {.source = scene, .factor = factor, .shape = (double)shape};
     t.target = create_copy(scene, index_count);
-    bool done = t.target && split_all(&t);
+    bool done = t.target && split_all(&t) && lsf_scene_compute_requirements(t.target);
     lsf_key_map_finish(&t.places);
     lsf_key_map_finish(&t.edges);
     lsf_key_map_finish(&t.corners);
@@ -443,7 +443,6 @@ lsf_scene *lsf_scene_tessellate(const lsf_scene *scene, uint32_t factor, float s
         lsf_scene_tessellated_destroy(t.target);
         return NULL;
     }
-    lsf_scene_compute_requirements(t.target);
     return t.target;
 }
 

@@ -11,7 +11,7 @@ static lsf_texture_image decode(const void *data, size_t length)
 {
     lsf_texture_image image = {0};
     lsf_error error = {0};
-    if (!lsf_texture_image_decode(&image, data, length, 1 << 20, "file", &error))
+    if (!lsf_texture_image_decode(&image, data, length, 1 << 27, "file", &error))
         fail_msg("%s", error.message);
     return image;
 }
@@ -35,7 +35,7 @@ static bool try_decode(const void *data, size_t length)
 {
     lsf_texture_image image = {0};
     lsf_error error = {0};
-    bool done = lsf_texture_image_decode(&image, data, length, 1 << 24, "file", &error);
+    bool done = lsf_texture_image_decode(&image, data, length, 1 << 27, "file", &error);
     assert_true(done || (error.code == LSF_ERROR_FILE && error.message[0]));
     free(image.texels);
     return done;
@@ -264,6 +264,43 @@ static void test_bombs_are_refused_before_memory_is_taken(void **state)
     assert_true(after.ru_maxrss - before.ru_maxrss < 64 * 1024);
 }
 
+static void test_what_decoding_takes_is_held_against_the_limit(void **state)
+{
+    (void)state;
+    lsf_image_header header;
+    assert_true(lsf_image_header_read(&header, jpeg_file, sizeof jpeg_file, 1 << 20, "", NULL));
+    assert_true(header.working_bytes == 0);
+    uint8_t progressive[sizeof jpeg_file];
+    memcpy(progressive, jpeg_file, sizeof progressive);
+    uint8_t *frame = memmem(progressive, sizeof progressive, "\xff\xc0\x00\x11", 4);
+    assert_non_null(frame);
+    frame[1] = 0xc2;
+    uint64_t coefficients = 32 * 32 * 3 * 2; /* 16 x 8 pixels, as if in 4 x 4 blocks */
+    uint64_t needed = sizeof jpeg_file + 16 * 8 * 3 + coefficients;
+    assert_true(lsf_image_header_read(&header, progressive, sizeof progressive, needed, "", NULL));
+    assert_true(header.working_bytes == coefficients);
+    lsf_error error = {0};
+    assert_false(
+        lsf_image_header_read(&header, progressive, sizeof progressive, needed - 1, "", &error));
+    assert_non_null(strstr(error.message, "memory limit"));
+
+    bytes png = make_png(&(png_description){8, 8, 8, 2, 1, 0, 0, 0, 0, "", 0});
+    assert_true(lsf_image_header_read(&header, png.data, png.length, 1 << 20, "", NULL));
+    assert_true(header.working_bytes == 8 * 8 * 3);
+
+    static const char *const names[] = {"R", "G", "B"};
+    lsf_image *image = lsf_image_create(4, 2, 3, names, NULL);
+    assert_non_null(image);
+    assert_true(lsf_image_save(image, in_folder("limit.exr"), NULL, NULL));
+    lsf_image_destroy(image);
+    lsf_environment environment = {0};
+    uint64_t repaired;
+    assert_false(
+        lsf_environment_load(&environment, in_folder("limit.exr"), 1 << 20, &repaired, &error));
+    assert_non_null(strstr(error.message, "memory limit"));
+    assert_null(environment.texels);
+}
+
 static void test_other_kinds_are_refused(void **state)
 {
     (void)state;
@@ -385,7 +422,7 @@ static void test_bad_values_are_repaired_and_counted(void **state)
 
     lsf_environment environment = {0};
     uint64_t repaired = 0;
-    assert_true(lsf_environment_load(&environment, in_folder("sky.exr"), &repaired, NULL));
+    assert_true(lsf_environment_load(&environment, in_folder("sky.exr"), 1 << 27, &repaired, NULL));
     assert_true(environment.present);
     assert_int_equal(repaired, 3);
     assert_true(environment.texels[3] == 0 && environment.texels[11] == 0);
@@ -422,6 +459,7 @@ int main(void)
         cmocka_unit_test(test_jpeg_metadata_is_not_decoded),
         cmocka_unit_test(test_png_metadata_is_not_decoded),
         cmocka_unit_test(test_bombs_are_refused_before_memory_is_taken),
+        cmocka_unit_test(test_what_decoding_takes_is_held_against_the_limit),
         cmocka_unit_test(test_other_kinds_are_refused),
         cmocka_unit_test(test_exr_kinds),
         cmocka_unit_test(test_cut_files_are_refused),
