@@ -58,5 +58,5 @@ void main()
                        lsf_bundle_extent(box.y, box.w, texels));
     /* The window came with the grid's offset [texels] in place of its centre. */
     vec2 center = 0.5 * (box.xy + box.zw) + b.window.xy * 2.0 * extent / texels;
-    projections[gl_WorkGroupID.x].data.window = vec4(center, extent);
+    projections[gl_WorkGroupID.x].data.window = vec4(center, extent * b.right.w);
 }

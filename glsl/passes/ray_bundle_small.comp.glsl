@@ -60,8 +60,9 @@ void main()
     uvec3 corners = triangle_corners(triangle);
     vec3 p0 = to_map(corners.x), p1 = to_map(corners.y), p2 = to_map(corners.z);
     vec2 low = min(p0.xy, min(p1.xy, p2.xy)), high = max(p0.xy, max(p1.xy, p2.xy));
-    float side = float(LSF_BUNDLE_SIDE);
-    if (!(min(high.x, high.y) >= 0.0 && max(low.x, low.y) <= side))
+    int margin = (LSF_BUNDLE_SIDE - int(bundle.range.z)) / 2; /* texels that are not in use */
+    if (!(min(high.x, high.y) >= float(margin) &&
+          max(low.x, low.y) <= float(LSF_BUNDLE_SIDE - margin)))
         return;
     vec2 size = high - low + 1.0;
     if (size.x * size.y > float(LSF_BUNDLE_SMALL_TEXELS)) {
@@ -76,8 +77,8 @@ void main()
     bool anticlockwise = area > 0;
     if (area == 0)
         return;
-    ivec2 least = max((min(s0, min(s1, s2)) + middle - 1) / step, ivec2(0));
-    ivec2 most = min((max(s0, max(s1, s2)) - middle) / step, ivec2(LSF_BUNDLE_SIDE - 1));
+    ivec2 least = max((min(s0, min(s1, s2)) + middle - 1) / step, ivec2(margin));
+    ivec2 most = min((max(s0, max(s1, s2)) - middle) / step, ivec2(LSF_BUNDLE_SIDE - 1 - margin));
     ivec2 count = most - least + 1;
     int samples = count.x > 0 && count.y > 0 ? count.x * count.y : 0;
     ivec2 at = least * step + middle;

@@ -41,6 +41,8 @@ void main()
     status.draw_instances = 1u;
     status.draw_first = 0u;
     status.draw_base = 0u;
+    if (!good && status.first_needed == 0u)
+        status.first_needed = status.needed;
     if (good) {
         status.iterations_done = iterations_done;
         add(status.nodes_low, status.nodes_high, status.new_nodes_low);

@@ -9,10 +9,11 @@
  *   place = ((q.xy - center) / extent * 0.5 + 0.5) * texels,   depth = (q.z - start) / length
  * Both are affine in p. right x up = -forward: seen along forward, x is right and y up. */
 struct lsf_bundle_data {
-    vec4 right, up; /* unit axes */
+    vec4 right, up; /* unit axes; right.w: the map's texels to those in use, along a side */
     vec4 forward;   /* unit: the bundle's direction; w: its density [1/sr], p_r in the paper */
-    vec4 window;    /* xy: center, zw: extent (half width and height) */
-    vec4 range;     /* start, length (along forward), texels along a side, 1 / texels */
+    vec4 window;    /* xy: center, zw: extent (half width and height) of the whole map */
+    vec4 range; /* start, length (along forward), texels in use along a side, which lie about the
+                 * map's centre; 1 / texels of the map */
 };
 
 /* In an array, at 256 bytes each: GL's largest alignment of ranges bound as uniform buffers. */
@@ -55,6 +56,8 @@ struct lsf_bundle_status {
     uint new_chained_low, new_chained_high;
     uint nodes_low, nodes_high;
     uint chained_low, chained_high;
+    uint first_needed; /* chained nodes of the largest bundle of the iteration that lacked room
+                          first */
 };
 
 /* Its storage buffer, while no materials are read. */

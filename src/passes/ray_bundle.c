@@ -127,6 +127,7 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf
     pass->params = *params;
     pass->use = *use;
     pass->fitted = window_is_fitted(params, use);
+    pass->side = (uint32_t)params->resolution;
     if (!create_resources(pass, plan, error) || !lsf_ray_bundle_raster_create(pass, plan, error) ||
         (pass->fitted && !lsf_ray_bundle_aim_create(pass, plan, error)))
         return false;
@@ -165,6 +166,9 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     lsf_timer_begin(pass->build_timer);
     lsf_begin_fullscreen(pass->build_framebuffer, side, side, pass->build_program);
     glEnable(GL_DEPTH_CLAMP); /* rounding must not clip what lies on the range's ends */
+    GLint margin = (GLint)(side - pass->side) / 2;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(margin, margin, (GLsizei)pass->side, (GLsizei)pass->side);
     clear_lists(pass, &pass->slots[bundle % pass->use.slots]);
     lsf_ray_bundle_bind(pass, bundle);
     glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
@@ -177,6 +181,7 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
                            pass->draw_counts);
     }
     glEndQuery(GL_SAMPLES_PASSED);
+    glDisable(GL_SCISSOR_TEST);
     lsf_ray_bundle_tally_build(pass);
     lsf_timer_end(pass->build_timer);
 }

@@ -62,7 +62,8 @@ static void turned_axes(lsf_float3 forward, float angle, lsf_float3 *right, lsf_
 static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
                     const lsf_ray_bundle_direction *direction, struct lsf_bundle_data *data)
 {
-    float turn[2], shift[2], texels = (float)pass->params.resolution;
+    float turn[2], shift[2], texels = (float)pass->side;
+    float whole = (float)pass->params.resolution;
     uint32_t index = iteration->index * pass->use.count + bundle;
     lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_TURN), turn);
     lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_SHIFT), shift);
@@ -79,12 +80,15 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
             center[axis] =
                 0.5f * (low[axis] + high[axis]) + center[axis] * 2.0f * extent[axis] / texels;
     }
+    if (!pass->fitted)
+        for (int axis = 0; axis < 2; axis++)
+            extent[axis] *= whole / texels;
     *data = (struct lsf_bundle_data){
-        .right = vec4_from(axes[0], 0.0f),
+        .right = vec4_from(axes[0], whole / texels),
         .up = vec4_from(axes[1], 0.0f),
         .forward = vec4_from(axes[2], direction->pdf),
         .window = {center[0], center[1], extent[0], extent[1]},
-        .range = {low[2], fmaxf(high[2] - low[2], MIN_LENGTH), texels, 1.0f / texels},
+        .range = {low[2], fmaxf(high[2] - low[2], MIN_LENGTH), texels, 1.0f / whole},
     };
 }
 

@@ -14,6 +14,9 @@
 #define LARGEST_BLOCK (UINT64_C(1) << 27)
 #define SURFACE_BYTES 12
 
+/* Texels along a side below which a map tells next to nothing. */
+#define SMALLEST_SIDE 16
+
 static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"heads", "keys",     "surfaces",
                                                                "gloss", "emission", "chain"};
 
@@ -114,12 +117,32 @@ void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *para
         lsf_plan_omit(plan, "ray_bundle.emission", "nothing emits");
 }
 
+static uint64_t block_size(void)
+{
+    GLint64 bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    return (uint64_t)bytes;
+}
+
+/* Chained nodes for which storage blocks have room. */
+static uint32_t most_room(const lsf_ray_bundle *pass, const lsf_plan *plan)
+{
+    uint64_t most = UINT32_MAX - 1, block = block_size();
+    for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
+        uint64_t none = array_bytes(plan, &pass->params, pass->use.distances_only, array, 0);
+        uint64_t node = array_bytes(plan, &pass->params, pass->use.distances_only, array, 1) - none;
+        uint64_t room = block > none && node > 0 ? (block - none) / node : 0;
+        if (node > 0 && room < most)
+            most = room;
+    }
+    return (uint32_t)most;
+}
+
 static bool check_size(const char *name, uint64_t bytes, const lsf_ray_bundle_params *params,
                        lsf_error *error)
 {
-    GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    if (bytes <= (uint64_t)most)
+    uint64_t most = block_size();
+    if (bytes <= most)
         return true;
     return lsf_error_set(error, LSF_ERROR_RENDER,
                          "%s takes %.0f MiB and this device reads %.0f at once; lower "
@@ -204,10 +227,31 @@ static bool grow_slot(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot 
     return true;
 }
 
+/* So many texels are put out of use, on all sides alike, that the others need no more than `most`
+ * chained nodes, and an eighth less: directions differ. */
+static void use_fewer_texels(lsf_ray_bundle *pass, uint32_t needed, uint32_t most)
+{
+    uint32_t before = pass->side;
+    double share = sqrt(0.875 * (double)most / (double)needed);
+    double unused = fmin(ceil(0.5 * (1.0 - share) * before), (before - SMALLEST_SIDE) / 2);
+    pass->side -= 2 * (uint32_t)unused;
+    lsf_log(
+        LSF_LOG_WARNING,
+        "a ray-bundle of %u x %u texels meets %u surfaces and more, beyond those in slices, and "
+        "this device has room for %u: from here on %u x %u texels are used",
+        before, before, needed, most, pass->side, pass->side);
+}
+
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
                                lsf_error *error)
 {
+    uint32_t most = most_room(pass, plan);
     uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
+    bool fits = needed <= most || pass->side >= SMALLEST_SIDE + 2;
+    if (fits && room > most)
+        room = most;
+    if (fits && needed > most)
+        use_fewer_texels(pass, needed, most);
     room = room > UINT32_MAX ? UINT32_MAX : room;
     for (uint32_t i = 0; i < pass->use.slots; i++)
         if (!grow_slot(pass, plan, &pass->slots[i], (uint32_t)room, error))

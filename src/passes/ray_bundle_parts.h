@@ -40,6 +40,7 @@ struct lsf_ray_bundle {
     GLuint projection_buffer;
     lsf_ray_bundle_slot *slots;
     uint32_t room;                        /* for chained nodes, in each slot */
+    uint32_t side;                        /* texels of a map that are in use, along a side */
     GLuint status, readback;              /* lsf_bundle_status, and a copy on its way to the host */
     const struct lsf_bundle_status *read; /* mapped */
     GLsync sent;                          /* the copy has arrived; NULL: none is under way */
@@ -69,7 +70,8 @@ bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use);
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
-/* Room for `needed` chained nodes and some more. On failure there are no nodes at all. */
+/* Room for `needed` chained nodes and some more. Where the device cannot hold that many, later
+ * bundles use fewer texels. On failure there are no nodes at all. */
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
                                lsf_error *error);
 void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot);

@@ -108,8 +108,13 @@ bool lsf_ray_bundle_settle(lsf_ray_bundle *pass, const lsf_iteration *iteration,
     pass->counts[LSF_RAY_BUNDLE_REGROWN]++;
     glClearNamedBufferSubData(pass->status, GL_R32UI, offsetof(struct lsf_bundle_status, needed), 4,
                               GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glClearNamedBufferSubData(pass->status, GL_R32UI,
+                              offsetof(struct lsf_bundle_status, first_needed), 4, GL_RED_INTEGER,
+                              GL_UNSIGNED_INT, &zero);
     *iterations_done = status.iterations_done;
-    if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, status.needed, &error))
+    /* What later iterations needed depends on when the host learned of it, and would on the texels
+     * in use, and with them on the picture. */
+    if (lsf_ray_bundle_nodes_grow(pass, iteration->plan, status.first_needed, &error))
         return false;
     lsf_context_fail(pass->context, &error);
     return true;

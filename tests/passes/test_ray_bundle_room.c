@@ -1,5 +1,6 @@
 /* Room for nodes that runs out while a picture is made: the host learns of it late, and the picture
  * has the same bits as with ample room. */
+#include <math.h>
 #include <stdio.h>
 
 #include "base/base.h"
@@ -138,11 +139,57 @@ static void too_little_later(void **unused)
     destroy_scene(scene);
 }
 
+/* A floor below `layers` coincident ceilings that shine. */
+static lsf_scene *under_layers(uint32_t layers)
+{
+    const lsf_float3 quad[6] = {{-2, 1, -2}, {2, 1, -2}, {2, 1, 2},
+                                {-2, 1, -2}, {2, 1, 2},  {-2, 1, 2}};
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.8f, 0.6f, 0.4f);
+    build_floor(scene, 0.0f, 2.0f);
+    build_material(scene, 0, 0, 0)->emission[1] = 1.0f;
+    lsf_float3 *corners = lsf_alloc(layers, sizeof quad);
+    assert_non_null(corners);
+    for (uint32_t i = 0; i < layers; i++)
+        memcpy(corners + 6 * (size_t)i, quad, sizeof quad);
+    build_triangles(scene, corners, 2 * layers);
+    free(corners);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+/* More surfaces than any storage block of 128 MiB holds: fewer texels are used, and as many layers
+ * seen as one. */
+static void thousands_of_layers(void **unused)
+{
+    (void)unused;
+    double mean[2];
+    for (int many = 0; many < 2; many++) {
+        lsf_scene *scene = under_layers(many ? 3200 : 1);
+        const char *const options[] = {"bundle.resolution=64", "bundle.slices=0", "vpl.count=0"};
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+        params.technique = "bidirectional";
+        params.samples = 6;
+        params.bounces = 0;
+        params.options = options;
+        params.option_count = LSF_COUNT(options);
+        lsf_image *image = render_gl_from(scene, params, 8, lsf_f3(0, 0.9f, 0.1f), lsf_f3(0, 0, 0));
+        double rgb[3];
+        mean_rgb(image, 0, rgb);
+        mean[many] = rgb[1];
+        lsf_image_destroy(image);
+        destroy_scene(scene);
+    }
+    print_message("%g by 1 layer, %g by 3200\n", mean[0], mean[1]);
+    assert_true(mean[0] > 0.1 && fabs(mean[1] / mean[0] - 1.0) < 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(too_little_at_first),
         cmocka_unit_test(too_little_later),
+        cmocka_unit_test(thousands_of_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
