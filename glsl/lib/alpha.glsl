@@ -6,7 +6,7 @@
 
 #include "shared/scene_data.h"
 
-#if LSF_BLEND
+#if LSF_BLEND || LSF_STRAIGHT
 #include "lib/chance.glsl"
 #endif
 
@@ -14,7 +14,7 @@
  * that is seen where a surface folds at that vertex. */
 uint layer_key(uint instance, uint vertex, bool front)
 {
-#if LSF_BLEND
+#if LSF_BLEND || LSF_STRAIGHT
     return hash(uvec3(instance, vertex, front)).x;
 #else
     return 0u;

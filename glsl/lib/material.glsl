@@ -32,8 +32,8 @@ flat in vec4 vertex_base_color_row_0, vertex_base_color_row_1;
 #if LSF_ANISOTROPY
 flat in vec4 vertex_anisotropy;
 #endif
-#if LSF_BLEND
-flat in uvec2 vertex_layer;
+#if LSF_BLEND || LSF_STRAIGHT
+flat in uvec2 vertex_layer; /* instance, vertex */
 #endif
 
 texture_place place_on_textures()

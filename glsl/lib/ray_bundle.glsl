@@ -48,7 +48,8 @@ layout(std430,
     uint bundle_surfaces[];
 };
 #if LSF_BUNDLE_ANISOTROPY
-/* x: gloss; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16 */
+/* x: gloss; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16; with LSF_STRAIGHT 12 bits of
+ * each | transmission unorm8 << 24 */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 3) LSF_BUNDLE_ACCESS buffer lsf_bundle_gloss_block
 {
     uvec2 bundle_gloss[];
@@ -217,6 +218,84 @@ vec3 bundle_emission_unpack(uvec2 bits, out uint sides)
     return ldexp(vec3(m), ivec3(int(bits.y >> 22 & 0xffu) - 126 - 18));
 }
 
+#if LSF_STRAIGHT
+/* --- veils: surfaces that let light straight through, and are not there. Rays meet none of them; what lies
+ * behind is tinted. In the key the slope along x is -128, which no plane has; its bits lie with the rest, in the
+ * place of the finer bits of the slope along y. */
+
+bundle_plane_bits bundle_veil_pack(bundle_plane_bits plane)
+{
+    bundle_plane_bits bits;
+    bits.key = (plane.key & 0xffff00ffu) | 0x8000u;
+    bits.rest = (plane.rest & 0xffff0000u) | (plane.key & 0xff00u) | (plane.rest >> 8 & 0xffu);
+    return bits;
+}
+
+bool bundle_is_veil(uint key)
+{
+    return (key & 0xff00u) == 0x8000u;
+}
+
+/* As bundle_plane. */
+vec3 bundle_veil_plane(uint node, uint key)
+{
+    uint rest = bundle_surfaces[3u * node + 2u];
+    vec2 c = vec2(float(int(rest << 16) >> 24) + float(int(rest << 24) >> 24) / 256.0,
+                  int(key << 24) >> 24);
+    float depth = bundle_key_depth(key) + 0.5 * unpackSnorm2x16(rest).y;
+    return vec3(depth / LSF_BUNDLE_DEPTH_STEPS, c / (128.0 - abs(c)));
+}
+
+/* In steps of 2^(-1/128), of blue 2^(-1/64), down to 2^-16: within 0.3 % (blue 0.6 %). Of several veils the
+ * steps add up, in any order. */
+#define BUNDLE_TINT_STEPS vec3(128.0, 128.0, 64.0)
+
+uint bundle_tint_pack(vec3 tint)
+{
+    uvec3 steps = uvec3(min(-log2(clamp(tint, 1e-6, 1.0)) * BUNDLE_TINT_STEPS,
+                            vec3(2047.0, 2047.0, 1023.0)) + 0.5);
+    return steps.r | steps.g << 11 | steps.b << 22;
+}
+
+uvec3 bundle_tint_steps(uint bits)
+{
+    return uvec3(bits & 0x7ffu, bits >> 11 & 0x7ffu, bits >> 22);
+}
+
+/* What veils leave of light that comes from `far` along a ray, to its origin. */
+vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
+{
+    vec3 q = bundle_coordinates(origin);
+    vec2 place = bundle_place(q), size = bundle_texel_size();
+    ivec2 at = ivec2(floor(place));
+    if (min(at.x, at.y) < 0 || max(at.x, at.y) >= LSF_BUNDLE_SIDE)
+        return vec3(1.0);
+    uint texel = uint(bundle_texel(at)), count = bundle_fragments(texel), link = 0u;
+    vec2 from_center = (place - vec2(at) - 0.5) * size;
+    float side = dot(ray_direction, bundle.forward.xyz) < 0.0 ? -1.0 : 1.0;
+    /* As in a search: within it, it is the surface that the ray leaves. */
+    float self = LSF_BUNDLE_SELF_TEXELS * max(size.x, size.y) +
+                 0.5 * bundle.range.y / LSF_BUNDLE_DEPTH_STEPS;
+    uvec3 steps = uvec3(0u);
+    for (uint i = 0u; i < count; i++) {
+        uint node = bundle_slice_node(texel, i);
+        if (i >= uint(LSF_BUNDLE_SLICES)) {
+            link = i == uint(LSF_BUNDLE_SLICES) ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
+                                                : bundle_chain[link].y;
+            node = LSF_BUNDLE_FIRST_LINK + link;
+        }
+        uint key = bundle_key(node);
+        if (!bundle_is_veil(key))
+            continue;
+        vec3 plane = bundle_veil_plane(node, key);
+        float t = side * (bundle.range.x + bundle.range.y * plane.x + dot(plane.yz, from_center) - q.z);
+        if (t > 0.0 && t < far && t * t > self * self * (1.0 + dot(plane.yz, plane.yz)))
+            steps += bundle_tint_steps(bundle_surfaces[3u * node + 1u]);
+    }
+    return exp2(-vec3(steps) / BUNDLE_TINT_STEPS);
+}
+#endif
+
 /* Where a ray from `origin`, along the bundle or against it, meets a node of its texel. The node's
  * plane is known to hold the surface at the texel's centre; steep ones may leave it long before the
  * ray, and lie outside of a closed room there, so no point is farther off the centre than the
@@ -260,6 +339,10 @@ surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
     uvec2 gloss = bundle_gloss[node];
     bundle_gloss_unpack(gloss.x, s);
     vec2 anisotropy = unpackUnorm2x16(gloss.y);
+#if LSF_STRAIGHT
+    anisotropy = vec2(gloss.y & 0xfffu, gloss.y >> 12 & 0xfffu) / 4095.0;
+    s.transmission = float(gloss.y >> 24) / 255.0;
+#endif
     s.anisotropy = anisotropy.x;
     s.anisotropy_turn = anisotropy.y;
     if (side < 0.0) { /* the same tangent in the basis of the turned normal */

@@ -30,7 +30,11 @@ layout(binding = LSF_UNIT_SHADOW_GRADIENT) uniform sampler2DArray shadow_gradien
 #define LSF_SHADOW_TINT 0
 #endif
 #if LSF_SHADOW_TINT
+#if LSF_SHADOW_HEMISPHERE
+layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2D shadow_tint_texture;
+#else
 layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2DArray shadow_tint_texture;
+#endif
 #endif
 
 /* Of a perspective map: rounding of interpolated depth, relative to it. */
@@ -188,11 +192,15 @@ vec3 shadow_tint(vec3 position, vec3 normal, bool transmits)
 {
 #if LSF_SHADOW_TINT
     shadow_receiver r = shadow_project(position, normal);
+#if LSF_SHADOW_HEMISPHERE
+    float shown = hemisphere_unpack_depth(texelFetch(shadow_map, r.at, 0).r);
+    vec3 tint = texelFetch(shadow_tint_texture, r.at, 0).rgb;
+#else
     float shown = texelFetch(shadow_depth, ivec3(r.at, r.face), 0).r;
+    vec3 tint = texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;
+#endif
     float here = r.depth + dot(r.gradient, vec2(r.at) + 0.5 - r.texel);
-    if (transmits && shown < here - r.error)
-        return vec3(1.0);
-    return texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;
+    return transmits && shown < here - r.error ? vec3(1.0) : tint;
 #else
     return vec3(1.0);
 #endif

@@ -6,6 +6,7 @@
 #include "lib/mis.glsl"
 #include "lib/ray_bundle.glsl"
 #include "lib/shading_vertex.glsl"
+#include "lib/straight.glsl"
 #if LSF_PUNCTUAL
 #include "lib/emission_pdf.glsl"
 #include "lib/light.glsl"
@@ -61,6 +62,9 @@ light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3,
         max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0 ||
         shadow_visibility(position, x2.geometric_normal) == 0.0)
         return r;
+#if LSF_SHADOW_TINT
+    irradiance *= shadow_tint(position, x2.geometric_normal, x2.transmission > 0.0);
+#endif
     path_density p =
         path_density_at(cosine_0, max(distance2_0, LSF_LIGHT_DISTANCE2_MIN), cosine_3, distance2_3,
                         emission_pdf(position) * suppression.w,
@@ -140,12 +144,19 @@ void main()
     light_parts through_emission = through;
     light_parts reflected;
     reflected.irradiance = reflected.specular = vec3(0.0);
+#if LSF_STRAIGHT
+    /* Of light from the hit, by what it passes, and by the chance that the hit is there. */
+    vec3 left = bundle_tint(v.position, direction, hit.y == LSF_NO_NODE ? 1e30 : uintBitsToFloat(hit.x));
+#endif
     if (hit.y == LSF_NO_NODE) {
 #if LSF_ENVIRONMENT
         arriving = environment_radiance(direction) * (along ? sky.x : sky.y);
 #endif
     } else {
         surface x2 = bundle_surface(hit.y, direction, arriving);
+#if LSF_STRAIGHT
+        left *= straight_weight(x2, direction);
+#endif
         vec3 position = bundle_position(hit.y, v.position);
         float distance_3 = distance(position, v.position);
 #if LSF_EMITTERS
@@ -161,6 +172,10 @@ void main()
             light_parts t;
             t.irradiance = through.irradiance / p_r;
             t.specular = through.specular / p_r;
+#if LSF_STRAIGHT
+            t.irradiance *= left;
+            t.specular *= left;
+#endif
             position_out = vec4(position, 1.0);
             surface_out = surface_pack(x2);
             throughput_out = uvec4(throughput_pack(t), 0u);
@@ -170,6 +185,11 @@ void main()
         }
 #endif
     }
+#if LSF_STRAIGHT
+    reflected.irradiance *= left;
+    reflected.specular *= left;
+    arriving *= left;
+#endif
     vec3 emitted = added.x != 0.0 ? arriving * (strategy.w / p_r) : vec3(0.0);
 #if LSF_SPLIT_DIRECT
     direct_irradiance_out.rgb = through_emission.irradiance * emitted;

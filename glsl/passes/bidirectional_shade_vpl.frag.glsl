@@ -41,6 +41,7 @@ surface vpl_surface(lsf_vpl_data vpl)
     s.unlit = false;
 #if LSF_TRANSMISSION
     transmission_none(s);
+    s.transmission = vpl.intensity.w;
 #endif
     return s;
 }
@@ -119,6 +120,9 @@ void main()
     /* It is seen from x3 under cosine_3 / distance2 for each area. */
     light_parts f_3 = vertex_reflect(v, direction, l.kernel_3 + suppression.z);
     vec3 power = l.power * strategy.w;
+#if LSF_SHADOW_TINT
+    power *= shadow_tint(v.position, v.s.geometric_normal, v.s.transmission > 0.0);
+#endif
     float geometry = cosine_3 / distance2;
     float bounded = cosine_3 / max(distance2, suppression.y);
     vec3 irradiance = f_3.irradiance * power;

@@ -32,7 +32,9 @@ void main()
         discard;
 #if LSF_STRAIGHT
     float passes = straight_chance(straight_transmittance(s, to_viewer));
-    if (chance_number(uvec3(floatBitsToUint(gl_FragCoord.z), uvec2(gl_FragCoord.xy))) < passes)
+    /* By another number than that which decides whether what is blended is there. */
+    uint layer = ~layer_key(vertex_layer.x, vertex_layer.y, front);
+    if (chance_even_number(uvec3(layer, uvec2(gl_FragCoord.xy))) < passes)
         discard;
     tint_out = vec4(vec3(1.0 / (1.0 - passes)), 1.0);
 #endif

@@ -16,7 +16,7 @@ void main()
 #if LSF_ORTHOGRAPHIC
     vec3 to_viewer = -view.forward.xyz;
 #else
-    vec3 to_viewer = -vertex_position;
+    vec3 to_viewer = -vertex_position - view.depth.w * view.forward.xyz;
 #endif
     surface s;
     vec3 emission;

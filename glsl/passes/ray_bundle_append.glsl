@@ -5,6 +5,10 @@
 
 #define LSF_BUNDLE_ACCESS coherent
 #include "lib/ray_bundle.glsl"
+#if LSF_STRAIGHT
+#include "lib/chance.glsl"
+#include "lib/straight.glsl"
+#endif
 
 layout(location = 0) uniform uint chain_room; /* nodes for chaining */
 
@@ -31,16 +35,30 @@ uint append_node(uint texel, uint key)
 /* `sides`: LSF_BUNDLE_EMITS_BACK and LSF_BUNDLE_EMITS_AHEAD. */
 void append_surface(uint texel, bundle_plane_bits plane, surface s, vec3 emission, uint sides)
 {
+    uint color = bundle_color_pack(s.base_color);
+#if LSF_BUNDLE_SURFACES && LSF_STRAIGHT
+    float passes = straight_chance(straight_transmittance(s, bundle.forward.xyz));
+    if (passes > 0.0 && chance_number(uvec3(plane.key, plane.rest, texel)) < passes) {
+        plane = bundle_veil_pack(plane);
+        color = bundle_tint_pack(straight_tint(s, bundle.forward.xyz));
+    }
+#endif
     uint node = append_node(texel, plane.key);
     if (node == LSF_NO_NODE)
         return;
 #if LSF_BUNDLE_SURFACES
     bundle_surfaces[3u * node] = octahedral_encode(s.normal);
-    bundle_surfaces[3u * node + 1u] = bundle_color_pack(s.base_color);
+    bundle_surfaces[3u * node + 1u] = color;
     bundle_surfaces[3u * node + 2u] = plane.rest;
 #if LSF_BUNDLE_ANISOTROPY
-    bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0),
-                               packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)));
+#if LSF_STRAIGHT
+    uvec3 more = uvec3(clamp(vec3(s.anisotropy, s.anisotropy_turn, s.transmission), 0.0, 1.0) *
+                           vec3(4095.0, 4095.0, 255.0) + 0.5);
+    uint rest = more.x | more.y << 12 | more.z << 24;
+#else
+    uint rest = packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn));
+#endif
+    bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0), rest);
 #elif LSF_BUNDLE_GLOSS
     bundle_gloss[node] = bundle_gloss_pack(s.roughness, s.metallic, s.f0);
 #endif

@@ -96,6 +96,9 @@ void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hi
      * sqrt(1 + slope^2). */
     bool beyond = present && distance > 0.0 &&
                   distance * distance > ray.self * (1.0 + dot(slope, slope));
+#if LSF_STRAIGHT
+    beyond = beyond && !bundle_is_veil(key);
+#endif
 #if LSF_BUNDLE_SURFACES
     bool same = beyond && distance == hit.distance;
     bool nearer = (beyond && distance < hit.distance) || (same && key < hit.key);

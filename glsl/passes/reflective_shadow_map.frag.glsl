@@ -1,5 +1,8 @@
+/* Switches LSF_THIN_WALLS, where some transmit, and those of lib/material.glsl. */
+#include "lib/chance.glsl"
 #include "lib/light_map.glsl"
 #include "lib/material.glsl"
+#include "lib/straight.glsl"
 
 layout(location = 0) out vec2 gradient_out;
 layout(location = 1) out uvec4 surface_out;
@@ -15,9 +18,14 @@ void main()
     surface s;
     vec3 emission;
     bool front;
-    if (!material_evaluate(light_map_perspective() ? -vertex_position : -light.direction.xyz, s,
-                           emission, front))
+    vec3 to_light = light_map_perspective() ? -vertex_position : -light.direction.xyz;
+    if (!material_evaluate(to_light, s, emission, front))
         discard;
+#if LSF_THIN_WALLS
+    if (!s.volume && chance_number(uvec3(floatBitsToUint(z), uvec2(gl_FragCoord.xy))) <
+                         straight_chance(straight_transmittance(s, to_light)))
+        discard;
+#endif
     surface_out = surface_pack(s);
 #if LSF_GLOSS
     gloss_out = gloss_pack(s);

@@ -1,7 +1,7 @@
 /* Draws virtual point lights from a light's reflective shadow map: a direction is drawn exactly, the
  * texel that holds it says which plane the ray meets. */
 #include "lib/emission_pdf.glsl"
-#include "lib/gbuffer.glsl"
+#include "lib/straight.glsl"
 #include "lib/vpl_write.glsl"
 
 layout(local_size_x = 64) in;
@@ -10,6 +10,10 @@ layout(binding = 0) uniform sampler2DArray depth_texture;
 layout(binding = 1) uniform usampler2DArray surface_texture;
 #if LSF_GLOSS
 layout(binding = 2) uniform usampler2DArray gloss_texture;
+#endif
+
+#if LSF_SHADOW_TINT
+layout(binding = 3) uniform sampler2DArray tint_texture;
 #endif
 
 #if LSF_EMISSION_ADAPTIVE
@@ -243,6 +247,15 @@ void main()
                                               light.attenuation.y, light.attenuation.z);
 #endif
     }
+    float transmission = 0.0;
+#if LSF_TRANSMISSION
+    transmission = s.transmission;
+#if LSF_SHADOW_TINT
+    intensity *= texelFetch(tint_texture, ivec3(at, r.face), 0).rgb;
+    if (!s.volume)
+        intensity *= straight_weight(s, -r.direction);
+#endif
+#endif
     float pdf = emission_pdf(directional ? r.origin : position);
     bool lit = met.exists && reflects(s) && pdf > 0.0 &&
                max(intensity.r, max(intensity.g, intensity.b)) > 0.0 &&
@@ -251,7 +264,7 @@ void main()
         vec4(position, lit ? LSF_VPL_REFLECTS : LSF_VPL_DARK), vec4(s.geometric_normal, pdf * drawn.w),
         vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
         vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_turn), vec4(-r.direction, distance2),
-        vec4(intensity, 0.0));
+        vec4(intensity, transmission));
     float error = NORMAL_ERROR * length(position - met.point) + DISTANCE_ERROR * distance;
     vpl_map_write(index, position, s.geometric_normal, error, drawn.z, map_shape);
 }

@@ -21,8 +21,8 @@ struct lsf_vpl_data {
     vec4 base_color;       /* rgb; w: 1 when the light is directional: its rays are parallel */
     vec4 gloss;            /* roughness, f0, anisotropy, its turn (see lib/gbuffer.glsl) */
     vec4 to_light;         /* xyz: unit, towards x0; w: squared distance */
-    vec4 intensity;        /* rgb: of the light, towards x1 [W/sr]. Emissive: its radiance; w: the density
-                            * that weights are made of, see scene/emitters.h */
+    vec4 intensity;        /* rgb: of the light, towards x1 [W/sr]; w: transmission. Emissive: its
+                            * radiance;        the density that weights are made of, see scene/emitters.h */
 };
 
 #include "shared/shared_end.h"

@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "plan/light_map.h"
+#include "plan/light_walls.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
 
@@ -57,6 +58,9 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
     lsf_plan_switch_add(plan, "LSF_CLAMP_RADIANCE",
                         params->suppression == LSF_GLOSSY_SUPPRESSION_CLAMP,
                         "bidirectional.suppression is clamp");
+    lsf_plan_switch_add(plan, "LSF_SHADOW_TINT",
+                        of_vpl ? plan->straight : lsf_light_walls_needed(plan),
+                        "light comes through materials that transmit");
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", 0, "never: borders converge over iterations");
     lsf_plan_switch_add(plan, "LSF_SHADOW_HEMISPHERE", of_vpl, "the map is a VPL's");
     lsf_light_switches(plan);
@@ -243,6 +247,7 @@ static void bind_vertices(const lsf_bidirectional_shade *pass,
     }
     lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->map_depth);
     lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->map_gradient);
+    lsf_bind_texture(LSF_UNIT_SHADOW_TINT, inputs->map_tint);
     lsf_bind_texture(LSF_UNIT_BUNDLE_PDF, inputs->bundle_pdf);
 }
 

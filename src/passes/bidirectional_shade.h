@@ -76,6 +76,7 @@ typedef struct lsf_bidirectional_shade_inputs {
     GLuint depth, surface, gloss;   /* of the G-buffer, or split; not read for deep vertices */
     GLuint hits;                    /* of the bundle in turn; hits only */
     GLuint map_depth, map_gradient; /* of the light for hits; the map of the VPL in turn, and 0 */
+    GLuint map_tint;                /* of it; 0: nothing lets light through */
     GLuint importance;              /* of the light's map, with adaptive emission */
     GLuint bundle_pdf;              /* 0: uniform */
 } lsf_bidirectional_shade_inputs;

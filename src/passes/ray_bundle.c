@@ -47,8 +47,8 @@ void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params 
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
                         "bundle.slices, as a multiple of 4 less one that storage blocks hold");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
-    lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", gloss && plan->requirements.anisotropic,
-                        "some material is anisotropic");
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", lsf_ray_bundle_has_wide_gloss(plan),
+                        "some material is anisotropic or lets light through");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_EMISSION", lsf_ray_bundle_has_emission(plan),
                         "some material emits or is unlit");
 }
@@ -79,6 +79,10 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                         "size of the interleaving pattern");
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
     lsf_plan_switch_add(plan, "LSF_DEEP", use->deep_vertices, "paths go on from hits");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
+                        "light passes materials that transmit");
+    lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight,
+                        "light goes straight through materials that transmit");
     lsf_plan_buffer_add(plan, "ray_bundle.rest", 4 + 4 * (uint64_t)plan->width * plan->height,
                         "pixels whose search takes more than a look at the slices");
     lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, plan->width, plan->height,
@@ -160,6 +164,14 @@ static void clear_lists(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *s
                               4 * LSF_BUNDLE_COUNTERS, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
+void lsf_ray_bundle_set_chance(const lsf_ray_bundle *pass, const lsf_iteration *iteration,
+                               uint32_t bundle)
+{
+    bool straight = iteration->plan->straight && !pass->use.distances_only;
+    if (straight || iteration->plan->requirements.blended)
+        lsf_iteration_set_chance(iteration, LSF_PURPOSE_STRAIGHT_BUNDLE, bundle);
+}
+
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle)
 {
     uint32_t side = (uint32_t)pass->params.resolution;
@@ -176,7 +188,7 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
         lsf_ray_bundle_raster_run(pass, iteration, bundle);
     } else {
         glUniform1ui(0, pass->room);
-        lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_BUNDLE, bundle);
+        lsf_ray_bundle_set_chance(pass, iteration, bundle);
         lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
                            pass->draw_counts);
     }

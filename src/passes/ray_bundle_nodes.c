@@ -50,7 +50,12 @@ static uint64_t places(const lsf_ray_bundle_params *params)
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
-    return r->specular && (r->glossy || r->variable_ior || r->anisotropic);
+    return r->specular && (r->glossy || r->variable_ior || r->anisotropic || plan->straight);
+}
+
+bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan)
+{
+    return lsf_ray_bundle_has_gloss(plan) && (plan->requirements.anisotropic || plan->straight);
 }
 
 bool lsf_ray_bundle_has_emission(const lsf_plan *plan)
@@ -76,8 +81,9 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
     case LSF_RAY_BUNDLE_SURFACES:
         return SURFACE_BYTES * nodes;
     case LSF_RAY_BUNDLE_GLOSS:
-        return lsf_ray_bundle_has_gloss(plan) ? (plan->requirements.anisotropic ? 8 : 4) * nodes
-                                              : 0;
+        return lsf_ray_bundle_has_gloss(plan)
+                   ? (lsf_ray_bundle_has_wide_gloss(plan) ? 8 : 4) * nodes
+                   : 0;
     case LSF_RAY_BUNDLE_EMISSION:
         return lsf_ray_bundle_has_emission(plan) ? 8 * nodes : 0;
     default:

@@ -66,6 +66,8 @@ uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params);
 /* bundle.slices as a multiple of 4 less one, and no more than a storage block holds; or 0. */
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_has_gloss(const lsf_plan *plan);
+/* With anisotropy or transmission. */
+bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan);
 bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use);
@@ -82,8 +84,12 @@ void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
 
 void lsf_ray_bundle_raster_plan(lsf_plan *plan, const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
-/* Appends all of the scene to the bundle that is bound. */
+/* Appends all of the scene to the bundle that is bound, number `bundle` of the iteration. */
 void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration,
+                               uint32_t bundle);
+/* What decides whether surfaces that let light straight through, or are blended, are in the bundle, for the program
+ * in use. */
+void lsf_ray_bundle_set_chance(const lsf_ray_bundle *pass, const lsf_iteration *iteration,
                                uint32_t bundle);
 void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass);
 

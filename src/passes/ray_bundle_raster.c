@@ -95,7 +95,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     glUseProgram(pass->small_program);
     glUniform1ui(0, pass->room);
     glUniform1f(8, ldexpf(1.0f, bits));
-    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_BUNDLE, bundle);
+    lsf_ray_bundle_set_chance(pass, iteration, bundle);
     uint32_t bound = LSF_NONE;
     for (uint32_t i = 0; i < scene->draw_count; i++) {
         uint32_t index = scene->draw_order[i];
@@ -118,7 +118,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
                     GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(pass->build_program);
     glUniform1ui(0, pass->room);
-    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_BUNDLE, bundle);
+    lsf_ray_bundle_set_chance(pass, iteration, bundle);
     lsf_scene_gpu_draw_listed(scene, iteration->state, pass->large);
 }
 

@@ -33,7 +33,7 @@ static const struct {
 };
 
 /* The layers of a map. */
-enum { GRADIENT, SURFACE, GLOSS, IMPORTANCE, DEPTH, LAYERS };
+enum { GRADIENT, SURFACE, GLOSS, IMPORTANCE, TINT, DEPTH, LAYERS };
 
 static const struct {
     const char *name;
@@ -44,6 +44,7 @@ static const struct {
     [SURFACE] = {"surface", GL_RGBA32UI, "normals, base colour, metallic"},
     [GLOSS] = {"gloss", GL_R32UI, "roughness and f0"},
     [IMPORTANCE] = {"importance", GL_R32F, "the flux that each texel reflects"},
+    [TINT] = {"tint", LSF_LIGHT_TINT_FORMAT, "light passes thin walls"},
     [DEPTH] = {"depth", GL_DEPTH_COMPONENT32F, "rsm.resolution texels a side"},
 };
 
@@ -52,11 +53,12 @@ static void name_layer(char name[64], int kind, int layer)
     snprintf(name, 64, "reflective_shadow_map.%s_%s", kinds[kind].name, layers[layer].name);
 }
 
-/* Densities that follow what a texel shows would, with blended surfaces, go along with which of
- * them is there: the shares of both ways to find a path would no longer add up to one. */
+/* Densities that follow what a texel shows would, with surfaces that are there by chance, go along with
+ * which of them is: the shares of both ways to find a path would no longer add up to one. */
 static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_params *params)
 {
-    return params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE && !plan->requirements.blended;
+    return params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE && !plan->requirements.blended &&
+           !lsf_light_walls_needed(plan);
 }
 
 static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_params *params,
@@ -64,8 +66,11 @@ static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_p
 {
     uint32_t side = (uint32_t)params->resolution;
     const bool present[LAYERS] = {
-        [GRADIENT] = true, [SURFACE] = true,
-        [GLOSS] = gloss,   [IMPORTANCE] = is_adaptive(plan, params),
+        [GRADIENT] = true,
+        [SURFACE] = true,
+        [GLOSS] = gloss,
+        [IMPORTANCE] = is_adaptive(plan, params),
+        [TINT] = lsf_light_walls_needed(plan),
         [DEPTH] = true,
     };
     for (int layer = 0; layer < LAYERS; layer++) {
@@ -77,6 +82,8 @@ static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_p
             NULL, GL_TEXTURE_2D_ARRAY, layers[layer].format, side, side, kinds[kind].faces, 1};
         if (layer == GLOSS && plan->requirements.anisotropic)
             desc.internal_format = GL_RG32UI;
+        if (layer == GLOSS && plan->transmission)
+            desc.internal_format = GL_RGBA32UI;
         lsf_plan_texture_desc_add(plan, name, &desc, "%s", layers[layer].why);
     }
 }
@@ -98,12 +105,15 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     const lsf_requirements *r = &plan->requirements;
     bool needed[LSF_LIGHT_MAP_KINDS];
     lsf_light_map_kinds(plan, state, needed);
-    bool gloss = r->specular && (r->anisotropic || r->glossy || r->variable_ior);
+    bool gloss =
+        r->specular && (r->anisotropic || r->glossy || r->variable_ior || plan->transmission);
     uint32_t most_faces = 1;
     lsf_plan_pass_add(plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
                       state->light_count, state->light_count == 1 ? "" : "s",
                       plan->sky_lights > 0 ? " and directions of the environment" : "");
     lsf_scene_gpu_material_switches(plan, gloss, false);
+    lsf_plan_switch_add(plan, "LSF_THIN_WALLS", lsf_light_walls_needed(plan),
+                        "light passes thin walls");
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "reflective_shadow_map.%s", kinds[kind].name);
@@ -117,23 +127,22 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     }
     lsf_plan_buffer_add(plan, "reflective_shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
+    lsf_light_walls_plan(plan, "reflective_shadow_map_walls", false);
     if (is_adaptive(plan, params))
         plan_pdf(plan, most_faces, (uint32_t)params->resolution);
     else
         lsf_plan_omit(plan, "reflective_shadow_map_pdf",
                       params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE
-                          ? "some material is blended: VPLs are drawn uniformly"
+                          ? "some material is blended, or transmits: VPLs are drawn uniformly"
                           : "rsm.pdf is uniform");
 }
 
 static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context *context,
                           const lsf_plan *plan, int kind, lsf_error *error)
 {
-    GLuint *const textures[LAYERS] = {[GRADIENT] = &target->gradient,
-                                      [SURFACE] = &target->surface,
-                                      [GLOSS] = &target->gloss,
-                                      [IMPORTANCE] = &target->importance,
-                                      [DEPTH] = &target->depth};
+    GLuint *const textures[LAYERS] = {
+        [GRADIENT] = &target->gradient,     [SURFACE] = &target->surface, [GLOSS] = &target->gloss,
+        [IMPORTANCE] = &target->importance, [TINT] = &target->tint,       [DEPTH] = &target->depth};
     char name[64];
     for (int layer = 0; layer < LAYERS; layer++) {
         name_layer(name, kind, layer);
@@ -153,6 +162,13 @@ static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context 
                                      .layer = (int32_t)face};
         target->framebuffers[face] = lsf_framebuffer_create(context, &desc, error);
         if (!target->framebuffers[face])
+            return false;
+        desc = (lsf_framebuffer_desc){.label = "reflective_shadow_map.tint",
+                                      .color_count = 1,
+                                      .colors = {target->tint},
+                                      .layer = (int32_t)face};
+        if (target->tint &&
+            !(target->tint_framebuffers[face] = lsf_framebuffer_create(context, &desc, error)))
             return false;
     }
     return true;
@@ -189,7 +205,9 @@ bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_conte
         return false;
     pass->program = lsf_plan_program(plan, context, "reflective_shadow_map", files, error);
     pass->timer = lsf_timer_create(context, "reflective_shadow_map", error);
-    return pass->program && pass->timer && create_pdf(pass, context, plan, error);
+    return pass->program && pass->timer && create_pdf(pass, context, plan, error) &&
+           lsf_light_walls_create(&pass->walls, context, plan, "reflective_shadow_map_walls", false,
+                                  error);
 }
 
 /* Materials ask which side of a triangle is seen; on a face whose axes are mirrored, windings are
@@ -236,24 +254,31 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     lsf_light_map_project(&out->light, iteration, light_index, &layout);
     glNamedBufferSubData(out->light_buffer, 0, sizeof out->light, &out->light);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->light_buffer);
-    lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
-    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP,
-                                   light_index);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
         lsf_light_map_region(&out->light, face, &region);
+        lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
         glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[face]);
         /* Colours of texels without depth are never read. */
         glClearNamedFramebufferfv(target->framebuffers[face], GL_DEPTH, 0, zero);
         glFrontFace(front_winding(&out->light, face));
         glUniform1i(0, (GLint)face);
+        if (target->tint || iteration->plan->requirements.blended)
+            lsf_iteration_set_chance(iteration, LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP,
+                                     light_index);
         lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region,
                            pass->counts);
+        if (target->tint)
+            lsf_light_walls_tint(&pass->walls, iteration, target->tint_framebuffers[face],
+                                 target->resolution, (GLint)face,
+                                 LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP, light_index,
+                                 target->depth, &region, pass->counts);
     }
     out->depth = target->depth;
     out->gradient = target->gradient;
     out->surface = target->surface;
     out->gloss = target->gloss;
+    out->tint = target->tint;
     out->importance = target->importance;
     lsf_timer_end(pass->timer);
     if (pass->pdf_timer)
@@ -262,8 +287,11 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
 
 static void destroy_target(lsf_context *context, lsf_reflective_shadow_map_target *target)
 {
-    for (uint32_t face = 0; face < target->faces; face++)
+    for (uint32_t face = 0; face < target->faces; face++) {
         lsf_framebuffer_destroy(context, &target->framebuffers[face]);
+        lsf_framebuffer_destroy(context, &target->tint_framebuffers[face]);
+    }
+    lsf_texture_destroy(context, &target->tint);
     lsf_texture_destroy(context, &target->depth);
     lsf_texture_destroy(context, &target->gradient);
     lsf_texture_destroy(context, &target->surface);

@@ -4,6 +4,7 @@
 #define LSF_PASSES_REFLECTIVE_SHADOW_MAP_H
 
 #include "plan/light_map.h"
+#include "plan/light_walls.h"
 #include "plan/option.h"
 
 typedef enum lsf_reflective_shadow_map_pdf {
@@ -30,6 +31,7 @@ typedef struct lsf_reflective_shadow_map_outputs {
     GLuint gradient;     /* RG16F */
     GLuint surface;      /* RGBA32UI as in lib/gbuffer.glsl, normals towards the light */
     GLuint gloss;        /* R32UI or RG32UI, likewise; 0 when the scene does not require it */
+    GLuint tint;         /* RGB10_A2: of light that passes thin walls; 0: there are none */
     GLuint light_buffer; /* struct lsf_light_data */
     GLuint importance;   /* R32F; with adaptive emission, see lib/emission_pdf.glsl */
     GLuint sums;         /* buffer of floats: running sums of importance along each row, then over
@@ -39,8 +41,8 @@ typedef struct lsf_reflective_shadow_map_outputs {
 
 /* One set of textures for maps of the same shape; lights take turns. */
 typedef struct lsf_reflective_shadow_map_target {
-    GLuint depth, gradient, surface, gloss, importance;
-    GLuint framebuffers[6];
+    GLuint depth, gradient, surface, gloss, importance, tint;
+    GLuint framebuffers[6], tint_framebuffers[6];
     uint32_t faces, resolution;
 } lsf_reflective_shadow_map_target;
 
@@ -49,6 +51,7 @@ typedef struct lsf_reflective_shadow_map {
     lsf_reflective_shadow_map_outputs outputs;
     lsf_reflective_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
     GLuint program, rows_program, scan_program;
+    lsf_light_walls walls;
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer, *pdf_timer; /* pdf_timer: NULL without adaptive emission */
 } lsf_reflective_shadow_map;

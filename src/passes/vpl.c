@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "plan/light_map.h"
+#include "plan/light_walls.h"
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 
@@ -38,7 +39,8 @@ const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT] = {
 static void plan_draw(lsf_plan *plan, uint64_t count)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = r->specular && (r->anisotropic || r->glossy || r->variable_ior);
+    bool gloss =
+        r->specular && (r->anisotropic || r->glossy || r->variable_ior || plan->transmission);
     lsf_plan_pass_add(plan, "vpl_draw", "what punctual lights fall on");
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE",
@@ -46,8 +48,28 @@ static void plan_draw(lsf_plan *plan, uint64_t count)
                         "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
+                        "light passes materials that transmit");
+    lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
+                        "light passes thin walls");
     lsf_plan_buffer_add(plan, "vpl.random", count * sizeof(lsf_vec4),
                         "what the host draws for each");
+}
+
+/* What transmits is drawn apart. */
+static void plan_straight(lsf_plan *plan, const lsf_vpl_use *use, uint32_t side)
+{
+    if (!plan->straight)
+        return;
+    lsf_plan_pass_add(plan, "vpl_straight", "light passes materials that transmit");
+    lsf_scene_gpu_material_switches(plan, true, false);
+    if (use->lights)
+        lsf_plan_texture_add(plan, "vpl.shadow_tint", LSF_LIGHT_TINT_FORMAT, side, side,
+                             "what it leaves of the light");
+    if (use->emitters)
+        lsf_plan_texture_add(plan, "vpl.emitter_tint", LSF_LIGHT_TINT_FORMAT, side, side,
+                             "what it leaves of the light");
 }
 
 void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params, const lsf_vpl_use *use)
@@ -74,6 +96,7 @@ void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params, const lsf_vpl_us
     if (use->emitters)
         lsf_plan_texture_add(plan, "vpl.emitter_map", GL_R32UI, side, side,
                              "vpl.shadow_resolution is %u", side);
+    plan_straight(plan, use, side);
     lsf_scene_gpu_plan_triangles(plan);
     if (lsf_plan_find(plan, "scene.triangles")) {
         lsf_plan_buffer_add(plan, "vpl.large", plan->requirements.triangles * 4 * sizeof(uint32_t),
@@ -95,6 +118,32 @@ static bool create_buffers(lsf_vpl *pass, const lsf_plan *plan, lsf_error *error
                                   &pass->command, error) &&
            lsf_plan_create_texture(plan, context, "vpl.shadow_map", &out->shadow_map, error) &&
            lsf_plan_create_texture(plan, context, "vpl.emitter_map", &out->emitter_map, error);
+}
+
+static bool create_straight(lsf_vpl *pass, const lsf_plan *plan, lsf_error *error)
+{
+    static const char *const files[5] = {"passes/vpl_straight.vert.glsl",
+                                         "passes/vpl_straight.frag.glsl"};
+    static const char *const tint_files[5] = {"passes/vpl_straight.vert.glsl",
+                                              "passes/vpl_straight_tint.frag.glsl"};
+    lsf_context *context = pass->context;
+    lsf_vpl_outputs *out = &pass->outputs;
+    if (!lsf_plan_find_pass(plan, "vpl_straight"))
+        return true;
+    if (!lsf_plan_create_texture(plan, context, "vpl.shadow_tint", &out->shadow_tint, error) ||
+        !lsf_plan_create_texture(plan, context, "vpl.emitter_tint", &out->emitter_tint, error))
+        return false;
+    const GLuint tints[2] = {out->shadow_tint, out->emitter_tint};
+    for (int i = 0; i < 2; i++) {
+        lsf_framebuffer_desc desc = {
+            .label = "vpl_straight", .color_count = 1, .colors = {tints[i]}, .layer = -1};
+        if (tints[i] &&
+            !(pass->tint_framebuffers[i] = lsf_framebuffer_create(context, &desc, error)))
+            return false;
+    }
+    pass->straight_program = lsf_plan_program(plan, context, "vpl_straight", files, error);
+    pass->tint_program = lsf_plan_program(plan, context, "vpl_straight", tint_files, error);
+    return pass->straight_program && pass->tint_program;
 }
 
 /* Program and timer of a pass; both stay 0, with success, when the plan does not list it. */
@@ -140,7 +189,7 @@ bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
     pass->map_program = lsf_plan_program(plan, context, "vpl_shadow_map", map_files, error);
     pass->map_timer = lsf_timer_create(context, "vpl_shadow_map", error);
     return pass->framebuffer && pass->small_program && pass->large_program && pass->map_program &&
-           pass->map_timer;
+           pass->map_timer && create_straight(pass, plan, error);
 }
 
 /* Of the map of VPL `index` of all iterations about its normal, 0..1. */
@@ -179,6 +228,7 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
     lsf_bind_texture(0, inputs->depth);
     lsf_bind_texture(1, inputs->surface);
     lsf_bind_texture(2, inputs->gloss);
+    lsf_bind_texture(3, inputs->tint);
     lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
     if (inputs->sums)
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
@@ -242,6 +292,40 @@ static void draw_triangles(lsf_vpl *pass, const lsf_iteration *iteration)
     pass->counts[LSF_DRAW_TRIANGLES] += scene->triangle_count;
 }
 
+static void draw_octants(lsf_vpl *pass, const lsf_iteration *iteration, lsf_draw_mode mode)
+{
+    for (GLuint octant = 0; octant < 4; octant++) {
+        glUniform1ui(0, octant);
+        lsf_scene_gpu_draw(iteration->scene, iteration->state, mode, NULL, pass->counts);
+    }
+}
+
+static void clip_to_octants(void)
+{
+    for (GLenum plane = 0; plane < 2; plane++)
+        glEnable(GL_CLIP_DISTANCE0 + plane);
+}
+
+/* What transmits and is there, into the map; then the tint of what is not, before what the map
+ * shows. */
+static void draw_straight(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index)
+{
+    static const GLfloat white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    GLuint framebuffer = pass->tint_framebuffers[index >= pass->first_emitter];
+    glUseProgram(pass->straight_program);
+    lsf_iteration_set_chance(iteration, LSF_PURPOSE_STRAIGHT_VPL, index);
+    draw_octants(pass, iteration, LSF_DRAW_TRANSMISSIVE);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    lsf_begin_fullscreen(framebuffer, pass->shadow_resolution, pass->shadow_resolution,
+                         pass->tint_program);
+    clip_to_octants();
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, white);
+    lsf_blend_multiply(0);
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_VPL, index);
+    lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, map_of(pass, index));
+    draw_octants(pass, iteration, LSF_DRAW_TRANSMISSIVE);
+}
+
 void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index)
 {
     static const GLuint nothing = 0;
@@ -254,18 +338,16 @@ void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t 
     glBindImageTexture(0, map, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     lsf_begin_fullscreen(pass->framebuffer, pass->shadow_resolution, pass->shadow_resolution,
                          pass->map_program);
-    for (GLenum plane = 0; plane < 2; plane++)
-        glEnable(GL_CLIP_DISTANCE0 + plane);
+    clip_to_octants();
     bool listed = iteration->scene->triangle_count != 0;
     if (listed)
         draw_triangles(pass, iteration);
     glUseProgram(pass->map_program);
-    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_BLEND_VPL, index);
-    for (GLuint octant = 0; octant < 4 && (pass->masked || !listed); octant++) {
-        glUniform1ui(0, octant);
-        lsf_scene_gpu_draw(iteration->scene, iteration->state,
-                           listed ? LSF_DRAW_MASKED : LSF_DRAW_POSITIONS, NULL, pass->counts);
-    }
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_VPL, index);
+    if (pass->masked || !listed)
+        draw_octants(pass, iteration, listed ? LSF_DRAW_MASKED : LSF_DRAW_OPAQUE);
+    if (pass->straight_program)
+        draw_straight(pass, iteration, index);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(pass->map_timer);
 }
@@ -282,6 +364,10 @@ void lsf_vpl_destroy(lsf_vpl *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    for (int i = 0; i < 2; i++)
+        lsf_framebuffer_destroy(pass->context, &pass->tint_framebuffers[i]);
+    lsf_texture_destroy(pass->context, &pass->outputs.shadow_tint);
+    lsf_texture_destroy(pass->context, &pass->outputs.emitter_tint);
     glDeleteVertexArrays(1, &pass->vertex_array);
     lsf_texture_destroy(pass->context, &pass->outputs.shadow_map);
     lsf_texture_destroy(pass->context, &pass->outputs.emitter_map);

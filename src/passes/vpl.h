@@ -26,6 +26,7 @@ typedef struct lsf_vpl_use {
 
 /* A light's reflective shadow map. */
 typedef struct lsf_vpl_inputs {
+    GLuint tint;                  /* of the reflective shadow map, likewise */
     GLuint depth, surface, gloss; /* gloss 0 where the scene does not require it */
     GLuint light_buffer;
     GLuint importance, sums; /* with adaptive emission */
@@ -36,6 +37,7 @@ typedef struct lsf_vpl_outputs {
     GLuint maps; /* struct lsf_light_data each, 512 bytes apart */
     GLuint shadow_map,
         emitter_map; /* R32UI, lib/hemisphere.glsl; of the VPL of each kind in turn */
+    GLuint shadow_tint, emitter_tint; /* RGB10_A2, of light that passes what transmits; or 0 */
 } lsf_vpl_outputs;
 
 typedef struct lsf_vpl {
@@ -48,6 +50,8 @@ typedef struct lsf_vpl {
     GLuint large, command; /* triangles that the pipeline draws, and the command that draws them */
     GLuint framebuffer, vertex_array; /* without attachments, without attributes */
     GLuint draw_program, emitter_program, small_program, large_program, map_program;
+    GLuint straight_program, tint_program; /* of what transmits; 0: nothing does */
+    GLuint tint_framebuffers[2];           /* of shadow_tint and emitter_tint */
     bool masked;
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *draw_timer, *emitter_timer, *map_timer; /* the first two: NULL when not in use */

@@ -27,9 +27,9 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_STRAIGHT_PIXEL,
     LSF_PURPOSE_STRAIGHT_SHADOW_MAP = 0x80000,            /* one for each light */
     LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP = 0xa0000, /* the same */
-    LSF_PURPOSE_BLEND_VPL = 0xc0000,    /* whether blended surfaces are there; one for each VPL of
-                                         * an iteration */
-    LSF_PURPOSE_BLEND_BUNDLE = 0xe0000, /* the same for each bundle */
+    LSF_PURPOSE_STRAIGHT_VPL = 0xc0000,                   /* one for each VPL of an iteration */
+    LSF_PURPOSE_STRAIGHT_BUNDLE = 0xe0000,                /* one for each bundle of an iteration */
+    LSF_PURPOSE_BLEND_VOXEL = 0x100000, /* whether blended surfaces are there */
 } lsf_purpose;
 
 #endif

@@ -225,8 +225,9 @@ static bool upload_triangles(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
     for (uint32_t i = 0; i < state->instance_count; i++) {
         const lsf_instance_state *instance = &state->instances[i];
         const lsf_primitive *primitive = &scene->primitives[instance->primitive];
-        if (instance->skipped ||
-            scene->materials[instance->material].alpha_mode != LSF_ALPHA_OPAQUE)
+        const lsf_material *material = &scene->materials[instance->material];
+        if (instance->skipped || material->alpha_mode != LSF_ALPHA_OPAQUE ||
+            (plan->straight && material->transmission > 0.0f))
             continue;
         const float *m = instance->transform;
         const uint32_t *indices = scene->indices + primitive->first_index;
@@ -326,6 +327,7 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
     gpu->context = context;
     gpu->scene = scene;
     gpu->transmission = plan->transmission;
+    gpu->straight = plan->straight;
     if (!lsf_texture_upload_create(gpu, plan, error))
         return false;
     if (!lsf_plan_find(plan, "scene.positions"))
@@ -415,17 +417,20 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
         bind_slot(gpu, LSF_UNIT_TRANSMISSION, &material->transmission_texture, point);
 }
 
-static bool takes_part(const lsf_material *material, lsf_draw_mode mode)
+static bool takes_part(const lsf_scene_gpu *gpu, const lsf_material *material, lsf_draw_mode mode)
 {
+    bool transmits = material->transmission > 0.0f;
     switch (mode) {
+    case LSF_DRAW_OPAQUE:
+        return !(gpu->straight && transmits);
     case LSF_DRAW_MASKED:
-        return material->alpha_mode != LSF_ALPHA_OPAQUE;
+        return material->alpha_mode != LSF_ALPHA_OPAQUE && !(gpu->straight && transmits);
+    case LSF_DRAW_BUT_WALLS:
+        return !lsf_material_is_thin_wall(material);
     case LSF_DRAW_TRANSMISSIVE:
-        return material->transmission > 0.0f;
+        return transmits;
     case LSF_DRAW_WALLS:
         return lsf_material_is_thin_wall(material);
-    case LSF_DRAW_POSITIONS_BUT_WALLS:
-        return !lsf_material_is_thin_wall(material);
     default:
         return true;
     }
@@ -439,7 +444,7 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
     for (uint32_t i = 0; i < gpu->draw_count; i++) {
         const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
-        if (!takes_part(&gpu->scene->materials[instance->material], mode))
+        if (!takes_part(gpu, &gpu->scene->materials[instance->material], mode))
             continue;
         if (instance->skipped || (region && !lsf_clusters_inside(region, instance))) {
             counts[LSF_DRAW_CULLED]++;

@@ -11,11 +11,12 @@
 typedef struct lsf_scene_gpu {
     lsf_context *context;
     const lsf_scene *scene;
-    bool transmission; /* as in the plan */
+    bool transmission, straight; /* as in the plan */
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
     GLuint instances, previous_transforms, materials, environment;
     GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */
-    uint32_t triangle_count; /* in it: those of opaque materials */
+    uint32_t triangle_count; /* in it: those of opaque materials, without what lets light
+                              * straight through */
     GLuint *textures;        /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* scene texture to an entry of `textures` */
@@ -51,14 +52,15 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
 void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
 
 typedef enum lsf_draw_mode {
-    LSF_DRAW_SHADING,   /* all streams; material textures are bound for each draw */
-    LSF_DRAW_POINTWISE, /* the same, but textures give the nearest texel of the nearest level, for
-                         * passes whose samples are spread at random */
+    LSF_DRAW_SHADING,      /* all streams; material textures are bound for each draw */
+    LSF_DRAW_POINTWISE,    /* the same, but textures give the nearest texel of the nearest level,
+                            * for passes whose samples are spread at random */
     LSF_DRAW_TRANSMISSIVE, /* as for shading, of materials that transmit only */
     LSF_DRAW_WALLS,        /* the same of thin walls only */
-    LSF_DRAW_POSITIONS,    /* positions; base colour textures of what is not opaque are bound */
-    LSF_DRAW_POSITIONS_BUT_WALLS, /* the same, but of thin walls that transmit */
-    LSF_DRAW_MASKED,              /* the same of what is not opaque only */
+    LSF_DRAW_POSITIONS,    /* positions; those of base colour are bound where it is not opaque */
+    LSF_DRAW_BUT_WALLS,    /* the same, but of thin walls that transmit */
+    LSF_DRAW_OPAQUE,       /* ... but of what lets light straight through */
+    LSF_DRAW_MASKED,       /* ... of that, what is not opaque only */
 } lsf_draw_mode;
 
 /* What a pass drew since it was made. */

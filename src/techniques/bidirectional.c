@@ -235,6 +235,7 @@ static void connect_vpl(sample_turn *turn, bool deep, uint32_t vpl,
     lsf_vpl_bind(&b->vpl, vpl);
     inputs.map_depth = sample->emitter ? b->vpl.outputs.emitter_map : b->vpl.outputs.shadow_map;
     inputs.map_gradient = 0; /* in the same texels */
+    inputs.map_tint = sample->emitter ? b->vpl.outputs.emitter_tint : b->vpl.outputs.shadow_tint;
     lsf_bidirectional_shade_vpl(&b->shade, turn->iteration, &inputs, sample, deep, vpl,
                                 &turn->region);
 }
@@ -307,6 +308,7 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
     if (lit) {
         inputs.map_depth = b->rsm.outputs.depth;
         inputs.map_gradient = b->rsm.outputs.gradient;
+        inputs.map_tint = b->rsm.outputs.tint;
         inputs.importance = b->rsm.outputs.importance;
         glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, b->rsm.outputs.light_buffer);
     }
@@ -372,6 +374,7 @@ static void run_light(sample_turn *turn, uint32_t light, uint32_t count)
     const lsf_vpl_inputs map = {.depth = b->rsm.outputs.depth,
                                 .surface = b->rsm.outputs.surface,
                                 .gloss = b->rsm.outputs.gloss,
+                                .tint = b->rsm.outputs.tint,
                                 .light_buffer = b->rsm.outputs.light_buffer,
                                 .importance = b->rsm.outputs.importance,
                                 .sums = b->rsm.outputs.sums};
