@@ -63,7 +63,7 @@ static void lamps_shine_through_panes(void **unused)
         light->inner_cone = 0.4f;
         finish_gl_scene(scene);
         double rgb[3], expected[3];
-        look(scene, techniques[k], 256, eye, target, rgb);
+        look(scene, techniques[k], 128, eye, target, rgb);
         lsf_float3 view = lsf_f3_normalize(lsf_f3_sub(eye, target));
         double d2 = 0.4 * 0.4 + 9.0, cosine = 3.0 / sqrt(d2), pass = 1.0 - schlick(0.04, cosine);
         double lit = types[k] == LSF_LIGHT_DIRECTIONAL ? 10.0 : 10.0 / d2;
@@ -122,12 +122,60 @@ static void slabs_absorb(void **unused)
     }
 }
 
+/* A floor close under a wide tinted pane, seen from between: by the sky, which ray-bundles find,
+ * and by a small lamp straight above, which they share with VPLs. */
+static void bundles_and_vpls_pass(void **unused)
+{
+    (void)unused;
+    static const double tint[3] = {0.9, 0.5, 0.2};
+    static const char *const strategies[] = {"bidirectional.strategy=both",
+                                             "bidirectional.strategy=vpl"};
+    for (int k = 0; k < 3; k++) {
+        double rgb[2][3];
+        bool sky = k == 0;
+        for (int pane = 0; pane < 2; pane++) {
+            lsf_scene *scene = build_scene();
+            build_dull_floor(scene, 0.5f, 0.0f);
+            if (sky) {
+                build_environment(scene, 1.0f);
+            } else {
+                lsf_material *lamp = build_material(scene, 0, 0, 0);
+                lamp->emission[0] = lamp->emission[1] = lamp->emission[2] = 50.0f;
+                build_quad(scene, lsf_f3(-0.1f, 2, -0.1f), lsf_f3(0.1f, 2, -0.1f),
+                           lsf_f3(0.1f, 2, 0.1f), lsf_f3(-0.1f, 2, 0.1f));
+            }
+            lsf_material *glass = build_glass(scene, 1.0f, 0.0f, 0.0f);
+            for (int c = 0; c < 3; c++)
+                glass->base_color[c] = (float)tint[c];
+            if (pane)
+                build_floor(scene, 0.15f, 4.0f);
+            finish_gl_scene(scene);
+            lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+            params.bounces = 0;
+            params.samples = 64;
+            params.fov_y = 2.0f;
+            params.options = &strategies[k == 2];
+            params.option_count = 1;
+            lsf_image *image =
+                render_gl_from(scene, params, 16, lsf_f3(0, 0.1f, 0), lsf_f3(0.1f, 0, 0));
+            mean_rgb(image, 0, rgb[pane]);
+            lsf_image_destroy(image);
+            destroy_scene(scene);
+        }
+        double expected[3], share = 1.0 - (sky ? 0.04 + 0.96 / 21.0 : 0.04);
+        for (int c = 0; c < 3; c++)
+            expected[c] = rgb[0][c] * tint[c] * share;
+        assert_seen(sky ? "sky" : strategies[k == 2], rgb[1], expected, 0.03);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_shine_through_panes),
         cmocka_unit_test(panes_reflect),
         cmocka_unit_test(slabs_absorb),
+        cmocka_unit_test(bundles_and_vpls_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
