@@ -22,7 +22,8 @@ void main()
     if (!material_evaluate(to_light, s, emission, front))
         discard;
 #if LSF_THIN_WALLS
-    if (!s.volume && chance_number(uvec3(floatBitsToUint(z), uvec2(gl_FragCoord.xy))) <
+    bool passable = !s.volume || light.intensity.w > 0.0; /* to a lamp, or to the sky */
+    if (passable && chance_number(uvec3(floatBitsToUint(z), uvec2(gl_FragCoord.xy))) <
                          straight_chance(straight_transmittance(s, to_light)))
         discard;
 #endif

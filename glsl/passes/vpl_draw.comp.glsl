@@ -252,7 +252,7 @@ void main()
     transmission = s.transmission;
 #if LSF_SHADOW_TINT
     intensity *= texelFetch(tint_texture, ivec3(at, r.face), 0).rgb;
-    if (!s.volume)
+    if (!s.volume || light.intensity.w > 0.0)
         intensity *= straight_weight(s, -r.direction);
 #endif
 #endif

@@ -184,7 +184,7 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
         glClearNamedFramebufferfv(target->framebuffers[face], GL_DEPTH, 0, zero);
         glUniform1i(0, (GLint)face);
         lsf_scene_gpu_draw(iteration->scene, iteration->state,
-                           target->tint ? LSF_DRAW_BUT_WALLS : LSF_DRAW_POSITIONS, &region,
+                           lsf_light_passage_of(iteration, light_index).stops, &region,
                            pass->counts);
         if (!target->tint)
             continue;

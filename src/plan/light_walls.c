@@ -2,9 +2,26 @@
 
 #include "shared/scene_data.h"
 
+/* Where paths refract, what they meet by chance has to bring all light of the sky that passes. */
+static bool sky_passes(const lsf_plan *plan)
+{
+    return plan->straight && plan->sky_lights > 0;
+}
+
 bool lsf_light_walls_needed(const lsf_plan *plan)
 {
-    return plan->transmission && plan->requirements.thin_walls;
+    return plan->transmission && (plan->requirements.thin_walls || sky_passes(plan));
+}
+
+lsf_light_passage lsf_light_passage_of(const lsf_iteration *iteration, uint32_t light_index)
+{
+    const lsf_plan *plan = iteration->plan;
+    bool sky = light_index >= iteration->state->light_count;
+    if (!lsf_light_walls_needed(plan) || (sky && !sky_passes(plan)))
+        return (lsf_light_passage){.stops = LSF_DRAW_POSITIONS};
+    if (sky)
+        return (lsf_light_passage){true, LSF_DRAW_OPAQUE, LSF_DRAW_TRANSMISSIVE};
+    return (lsf_light_passage){true, LSF_DRAW_BUT_WALLS, LSF_DRAW_WALLS};
 }
 
 void lsf_light_walls_plan(lsf_plan *plan, const char *name, bool gradient)
@@ -35,26 +52,31 @@ bool lsf_light_walls_create(lsf_light_walls *walls, lsf_context *context, const 
 }
 
 void lsf_light_walls_draw(const lsf_light_walls *walls, const lsf_iteration *iteration, GLint face,
-                          uint32_t purpose, uint32_t map, const lsf_draw_region *region,
+                          uint32_t purpose, uint32_t light_index, const lsf_draw_region *region,
                           uint64_t *counts)
 {
+    lsf_light_passage passage = lsf_light_passage_of(iteration, light_index);
+    if (!passage.any)
+        return;
     glUseProgram(walls->depth_program);
     glUniform1i(0, face);
-    lsf_iteration_set_chance(iteration, purpose, map);
-    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_WALLS, region, counts);
+    lsf_iteration_set_chance(iteration, purpose, light_index);
+    lsf_scene_gpu_draw(iteration->scene, iteration->state, passage.passes, region, counts);
 }
 
 void lsf_light_walls_tint(const lsf_light_walls *walls, const lsf_iteration *iteration,
                           GLuint framebuffer, uint32_t resolution, GLint face, uint32_t purpose,
-                          uint32_t map, GLuint depth, const lsf_draw_region *region,
+                          uint32_t light_index, GLuint depth, const lsf_draw_region *region,
                           uint64_t *counts)
 {
     static const GLfloat white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    lsf_light_passage passage = lsf_light_passage_of(iteration, light_index);
     lsf_begin_fullscreen(framebuffer, resolution, resolution, walls->tint_program);
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, white);
     lsf_blend_multiply(0);
     glUniform1i(0, face);
-    lsf_iteration_set_blend_chance(iteration, purpose, map);
+    lsf_iteration_set_blend_chance(iteration, purpose, light_index);
     lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, depth);
-    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_WALLS, region, counts);
+    if (passage.any)
+        lsf_scene_gpu_draw(iteration->scene, iteration->state, passage.passes, region, counts);
 }

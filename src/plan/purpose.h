@@ -29,7 +29,6 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP = 0xa0000, /* the same */
     LSF_PURPOSE_STRAIGHT_VPL = 0xc0000,                   /* one for each VPL of an iteration */
     LSF_PURPOSE_STRAIGHT_BUNDLE = 0xe0000,                /* one for each bundle of an iteration */
-    LSF_PURPOSE_BLEND_VOXEL = 0x100000, /* whether blended surfaces are there */
 } lsf_purpose;
 
 #endif

@@ -333,6 +333,34 @@ static bool survives(walk *w)
     return true;
 }
 
+/* The last ray goes on through clear walls to what shines behind them. Walls hide that from points
+ * that are drawn: all of it is found so. */
+static void add_behind(walk *w, const lsf_reference_reflection *reflection,
+                       lsf_reference_surface wall, lsf_float3 direction)
+{
+    const lsf_reference_world *world = w->world;
+    float scale = 1.0f / reflection->pdf;
+    lsf_float3 left = {scale, scale, scale};
+    for (int walls = 0; walls < LSF_REFERENCE_WALLS; walls++) {
+        left = lsf_f3_mul(left, lsf_reference_straight(&wall));
+        lsf_reference_hit hit;
+        if (!(lsf_f3_max(left) > 0.0f))
+            return;
+        w->path->rays++;
+        if (!lsf_reference_trace(&world->geometry, ray_origin(&wall, direction), direction, 0.0f,
+                                 INFINITY, next_chance(w), &hit)) {
+            if (world->sky.environment->present)
+                add_reflected(
+                    w, reflection,
+                    lsf_f3_mul(left, lsf_environment_radiance(world->sky.environment, direction)));
+            return;
+        }
+        lsf_reference_surface_init(&wall, &world->geometry, &hit, direction);
+        if (lsf_f3_max(wall.emission) > 0.0f)
+            add_reflected(w, reflection, lsf_f3_mul(left, wall.emission));
+    }
+}
+
 /* Follows a direction drawn from the BRDF to the next vertex: adds what shines there, then moves
  * the walk on. False when the path ends. */
 static bool step(walk *w)
@@ -375,8 +403,11 @@ static bool step(walk *w)
         float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
         add_met(w, &reflection, crosses, lsf_f3_scale(next.emission, weight));
     }
-    if (last)
+    if (last) {
+        if (world->thin_walls)
+            add_behind(w, &reflection, next, direction);
         return false;
+    }
     lsf_float3 diffuse = lsf_f3_scale(reflection.diffuse, 1.0f / reflection.pdf);
     lsf_float3 specular = lsf_f3_scale(reflection.specular, 1.0f / reflection.pdf);
     if (w->vertex == w->walls) {
