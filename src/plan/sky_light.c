@@ -7,7 +7,8 @@
 const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT] = {
     {"environment.directions", LSF_OPTION_INT, offsetof(lsf_sky_light_params, directions), 0, 256,
      NULL, "directions",
-     "drawn by the environment's radiance in an iteration, each with a shadow map; 0: bundles, cones "
+     "drawn by the environment's radiance in an iteration, each with a shadow map; 0: bundles, "
+     "cones "
      "and paths find the environment by chance, and the direct technique is not lit by it"},
 };
 
@@ -24,8 +25,7 @@ void lsf_sky_light_draw(lsf_light_state *light, lsf_sky_share *share, const lsf_
     float pdf;
     lsf_float3 direction = lsf_sky_sample(sky, u, &pdf);
     lsf_float3 radiance = lsf_environment_radiance(sky->environment, direction);
-    *light = (lsf_light_state){
-        .type = LSF_LIGHT_DIRECTIONAL, .range = INFINITY};
+    *light = (lsf_light_state){.type = LSF_LIGHT_DIRECTIONAL, .range = INFINITY};
     lsf_f3_store(light->direction, lsf_f3_scale(direction, -1.0f));
     lsf_f3_store(light->tangent, lsf_basis_about(direction).t);
     lsf_f3_store(light->intensity, lsf_f3_scale(radiance, 1.0f / ((float)count * pdf)));

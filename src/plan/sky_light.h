@@ -1,12 +1,12 @@
-/* Lights that stand for the environment in an iteration: directions drawn by its radiance, each with
- * the irradiance of a directional light, so that whatever directional lights do (maps, VPLs, light on
- * voxels) the environment does, too. Other ways of finding the sky share its light with them by
- * multiple importance sampling. Where none does, the estimate is L f cos / (N p) alone. */
+/* Lights that stand for the environment in an iteration: directions drawn by its radiance, each
+ * with the irradiance of a directional light, so that whatever directional lights do (maps, VPLs,
+ * light on voxels) the environment does, too. Other ways of finding the sky share its light with
+ * them by multiple importance sampling. Where none does, the estimate is L f cos / (N p) alone. */
 #ifndef LSF_PLAN_SKY_LIGHT_H
 #define LSF_PLAN_SKY_LIGHT_H
 
-#include "plan/plan.h"
 #include "plan/option.h"
+#include "plan/plan.h"
 #include "scene/sky.h"
 #include "scene/state.h"
 

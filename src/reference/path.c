@@ -50,6 +50,20 @@ static bool init_light_power(lsf_reference_world *world, const lsf_state *state,
                                state->light_count);
 }
 
+static bool init_sky(lsf_sky *sky, const lsf_environment *environment, lsf_error *error)
+{
+    return lsf_sky_init(sky, environment) ||
+           lsf_error_set(error, LSF_ERROR_RENDER,
+                         "out of memory for a %u x %u environment's distribution",
+                         environment->width, environment->height);
+}
+
+/* Else rays drawn by the BRDF find what there is: nothing, or the same everywhere. */
+static bool sky_is_drawn(const lsf_sky *sky)
+{
+    return sky->weights && sky->mean > 0.0f;
+}
+
 bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene,
                               const lsf_state *state, uint32_t bounces, lsf_error *error)
 {
@@ -61,7 +75,7 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
                                      error))
         return false;
     if (lsf_reference_emitters_init(&world->emitters, &world->geometry, error) &&
-        lsf_reference_sky_init(&world->sky, &scene->environment, error) &&
+        init_sky(&world->sky, &scene->environment, error) &&
         init_light_power(world, state, error))
         return true;
     lsf_reference_world_finish(world);
@@ -71,7 +85,7 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
 void lsf_reference_world_finish(lsf_reference_world *world)
 {
     lsf_distribution_finish(&world->light_power);
-    lsf_reference_sky_finish(&world->sky);
+    lsf_sky_finish(&world->sky);
     lsf_reference_emitters_finish(&world->emitters);
     lsf_reference_geometry_finish(&world->geometry);
 }
@@ -295,17 +309,15 @@ static void add_emitter(walk *w)
 /* Outside of the scene is air: what comes from there to a medium comes through its surface. */
 static void add_sky(walk *w)
 {
-    const lsf_reference_sky *sky = &w->world->sky;
-    if (!sky->sampled)
+    const lsf_sky *sky = &w->world->sky;
+    if (!sky_is_drawn(sky))
         return;
     uint32_t bits[2];
     lsf_sobol_2d_bits(w->sampler->index, dimension_seed(w->sampler, w->vertex, DIMENSION_SKY),
                       bits);
     double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
-    lsf_float3 direction;
-    float pdf = lsf_reference_sky_sample(sky, u, &direction);
-    if (!(pdf > 0.0f))
-        return;
+    float pdf;
+    lsf_float3 direction = lsf_sky_sample(sky, u, &pdf);
     lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
     if (!(reflection.pdf > 0.0f) || !reaches_sky(w, direction))
         return;
@@ -384,7 +396,7 @@ static bool step(walk *w)
     if (!lsf_reference_trace(&world->geometry, ray_origin(&w->surface, direction), direction, 0.0f,
                              INFINITY, next_chance(w), &hit)) {
         if (world->sky.environment->present) {
-            float other = world->sky.sampled ? lsf_reference_sky_pdf(&world->sky, direction) : 0.0f;
+            float other = sky_is_drawn(&world->sky) ? lsf_sky_pdf(&world->sky, direction) : 0.0f;
             float weight = mis_weight(reflection.pdf, other) / reflection.pdf;
             lsf_float3 radiance = lsf_environment_radiance(world->sky.environment, direction);
             add_met(w, &reflection, crosses, lsf_f3_scale(radiance, weight));

@@ -4,7 +4,7 @@
 
 #include "reference/emitters.h"
 #include "reference/geometry.h"
-#include "reference/sky.h"
+#include "scene/sky.h"
 
 /* Up to this many punctual lights are each asked at every vertex; of more, one is drawn. */
 #define LSF_REFERENCE_ALL_LIGHTS 8u
@@ -19,7 +19,7 @@
 typedef struct lsf_reference_world {
     lsf_reference_geometry geometry;
     lsf_reference_emitters emitters;
-    lsf_reference_sky sky;
+    lsf_sky sky;
     lsf_distribution light_power; /* of state->lights, when there are too many to ask all */
     uint32_t bounces;
     bool thin_walls; /* some material transmits, and bounds no medium */

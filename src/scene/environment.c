@@ -24,8 +24,8 @@ lsf_float3 lsf_environment_direction(const lsf_environment *environment, double 
 {
     double angle = 2.0 * M_PI * (u - 0.5 - (double)environment->turn);
     double sine = sqrt(fmax(1.0 - zenith_cosine * zenith_cosine, 0.0));
-    return lsf_f3_normalize(lsf_f3((float)(sine * cos(angle)), (float)zenith_cosine,
-                                   (float)(sine * sin(angle))));
+    return lsf_f3_normalize(
+        lsf_f3((float)(sine * cos(angle)), (float)zenith_cosine, (float)(sine * sin(angle))));
 }
 
 lsf_float3 lsf_environment_radiance(const lsf_environment *environment, lsf_float3 direction)

@@ -1,5 +1,5 @@
-/* Radiance from outside by direction: where a direction lies on the map, and what is there. Both the
- * rasterised techniques and the reference look it up here. */
+/* Radiance from outside by direction: where a direction lies on the map, and what is there. Both
+ * the rasterised techniques and the reference look it up here. */
 #ifndef LSF_SCENE_ENVIRONMENT_H
 #define LSF_SCENE_ENVIRONMENT_H
 
@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-/* Place of a unit direction on the map, u in [0, 1) around the horizon, v in [0, 1] from the zenith. */
+/* Place of a unit direction on the map, u in [0, 1) around the horizon, v in [0, 1] from the
+ * zenith. */
 void lsf_environment_place(const lsf_environment *environment, lsf_float3 direction, double *u,
                            double *v);
 
@@ -23,8 +24,8 @@ lsf_float3 lsf_environment_direction(const lsf_environment *environment, double 
  * seam; (0, 0, 0) without an environment. */
 lsf_float3 lsf_environment_radiance(const lsf_environment *environment, lsf_float3 direction);
 
-/* Mean luminance of the bilinear radiance over the texel in column `x` and row `y`: it vanishes only
- * where the radiance does. */
+/* Mean luminance of the bilinear radiance over the texel in column `x` and row `y`: it vanishes
+ * only where the radiance does. */
 float lsf_environment_texel_luminance(const lsf_environment *environment, uint32_t x, uint32_t y);
 
 /* Solid angle of a cell in `row` of a grid of width x height cells over the map [sr]. */

@@ -38,27 +38,25 @@ static float half_over(double integral)
     return integral > 0.0 ? (float)(0.5 / integral) : 0.0f;
 }
 
-/* Fills `pdf`, and `weights` with the probability of each texel; a black map is uniform. */
-static void fill(lsf_sky *sky, float *weights)
+/* A black map is uniform. */
+static void fill(lsf_sky *sky)
 {
     const lsf_environment *map = sky->environment;
     uint64_t count = (uint64_t)map->width * map->height;
-    double whole = 0.0, held = 0.0;
-    for (uint64_t i = 0; i < count; i++) {
-        sky->pdf[i] = lsf_environment_texel_luminance(map, (uint32_t)(i % map->width),
-                                                      (uint32_t)(i / map->width));
-        whole += (double)sky->pdf[i] * solid_angle(map, i);
-    }
+    double whole = lsf_sky_fluence(map), held = 0.0;
     sky->mean = (float)(whole / (4.0 * M_PI));
-    for (uint64_t i = 0; i < count; i++)
-        held += (double)fminf(sky->pdf[i], sky->mean) * solid_angle(map, i);
+    for (uint64_t i = 0; i < count; i++) {
+        sky->weights[i] = lsf_f3_luminance(lsf_f3_load(map->texels + 3 * i));
+        held += (double)fminf(sky->weights[i], sky->mean) * solid_angle(map, i);
+    }
     sky->whole = half_over(whole);
     sky->held = half_over(held);
     for (uint64_t i = 0; i < count; i++) {
-        float l = sky->pdf[i];
-        sky->pdf[i] = whole > 0.0 ? sky->whole * l + sky->held * fminf(l, sky->mean)
-                                  : 0.25f / LSF_PI;
-        weights[i] = sky->pdf[i] * (float)solid_angle(map, i);
+        float density = whole > 0.0 ? sky->whole * sky->weights[i] +
+                                          sky->held * fminf(sky->weights[i], sky->mean)
+                                    : 0.25f / LSF_PI;
+        sky->weights[i] = density * (float)solid_angle(map, i);
+        sky->sum += (double)sky->weights[i];
     }
 }
 
@@ -70,42 +68,77 @@ bool lsf_sky_init(lsf_sky *sky, const lsf_environment *environment)
         sky->whole = sky->held = half_over(lsf_sky_fluence(environment));
         return true;
     }
-    uint64_t count = (uint64_t)environment->width * environment->height;
-    float *weights = lsf_alloc(count, sizeof *weights);
-    sky->pdf = lsf_alloc(count, sizeof *sky->pdf);
-    bool good = weights && sky->pdf;
-    if (good) {
-        fill(sky, weights);
-        good = lsf_distribution_2d_init(&sky->cells, weights, environment->width,
-                                        environment->height);
+    uint32_t width = environment->width, height = environment->height;
+    sky->weights = lsf_alloc((uint64_t)width * height, sizeof *sky->weights);
+    if (sky->weights) {
+        fill(sky);
+        if (lsf_distribution_2d_init(&sky->texels, sky->weights, width, height))
+            return true;
     }
-    free(weights);
-    if (!good)
-        lsf_sky_finish(sky);
-    return good;
+    lsf_sky_finish(sky);
+    return false;
 }
 
 void lsf_sky_finish(lsf_sky *sky)
 {
-    lsf_distribution_2d_finish(&sky->cells);
-    free(sky->pdf);
+    lsf_distribution_2d_finish(&sky->texels);
+    free(sky->weights);
     *sky = (lsf_sky){0};
 }
 
-/* Within a texel, uniform in angle and in cosine, that is in solid angle. */
+/* From a uniform number to one whose density is a tent over (-1, 1). */
+static double tent(double u)
+{
+    return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 * (1.0 - u));
+}
+
+/* Interpolation is a sum of tents about the texels' centres: one is drawn, then a place in it. What
+ * reaches beyond a pole is turned back, where the map repeats its last row. */
 lsf_float3 lsf_sky_sample(const lsf_sky *sky, const double u[2], float *pdf)
 {
-    if (!sky->pdf) {
+    if (!sky->weights) {
         *pdf = 0.25f / LSF_PI;
         return lsf_sample_sphere((float)u[0], (float)u[1]);
     }
     const lsf_environment *map = sky->environment;
     double x, y;
-    lsf_distribution_2d_sample(&sky->cells, u[0], u[1], &x, &y);
-    uint32_t column = (uint32_t)(x * map->width), row = (uint32_t)(y * map->height);
-    double top = cos(M_PI * row / map->height), bottom = cos(M_PI * (row + 1) / map->height);
-    *pdf = sky->pdf[(uint64_t)row * map->width + column];
-    return lsf_environment_direction(map, x, top + (y * map->height - row) * (bottom - top));
+    lsf_distribution_2d_sample(&sky->texels, u[0], u[1], &x, &y);
+    x *= map->width;
+    y *= map->height;
+    x = floor(x) + 0.5 + tent(x - floor(x));
+    y = fabs(floor(y) + 0.5 + tent(y - floor(y)));
+    y = fmin(y, 2.0 * map->height - y);
+    lsf_float3 direction =
+        lsf_environment_direction(map, x / map->width, cos(M_PI * y / map->height));
+    *pdf = lsf_sky_pdf(sky, direction);
+    return direction;
+}
+
+static double weight_at(const lsf_sky *sky, int64_t x, int64_t y)
+{
+    int64_t width = sky->environment->width, height = sky->environment->height;
+    y = y < 0 ? 0 : y >= height ? height - 1 : y;
+    return (double)sky->weights[y * width + (x + width) % width];
+}
+
+/* du dv = d omega / (2 pi^2 sin theta) */
+float lsf_sky_pdf(const lsf_sky *sky, lsf_float3 direction)
+{
+    if (!sky->weights)
+        return 0.25f / LSF_PI;
+    const lsf_environment *map = sky->environment;
+    double u, v, texels = (double)map->width * map->height;
+    lsf_environment_place(map, direction, &u, &v);
+    double x = u * map->width - 0.5, y = v * map->height - 0.5;
+    int64_t left = (int64_t)floor(x), top = (int64_t)floor(y);
+    double tx = x - (double)left, ty = y - (double)top;
+    double upper = (1.0 - tx) * weight_at(sky, left, top) + tx * weight_at(sky, left + 1, top);
+    double lower =
+        (1.0 - tx) * weight_at(sky, left, top + 1) + tx * weight_at(sky, left + 1, top + 1);
+    /* Nearer to a pole than any row's middle, the last row's weight stands for less. */
+    double sine = fmax(hypot((double)direction.x, (double)direction.z), 1e-9);
+    return (float)(((1.0 - ty) * upper + ty * lower) * texels /
+                   (sky->sum * 2.0 * M_PI * M_PI * sine));
 }
 
 float lsf_sky_density(const lsf_sky *sky, lsf_float3 radiance)
