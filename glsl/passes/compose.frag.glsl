@@ -32,6 +32,7 @@ layout(binding = 10) uniform sampler2D tint_texture;
 layout(binding = 11) uniform sampler2D absorption_texture;
 #endif
 #endif
+layout(location = 0) uniform vec3 background; /* radiance */
 layout(location = 0) out vec4 radiance_out;
 #if LSF_SEEN
 layout(location = LSF_SEEN) out vec4 seen_out; /* emission and environment alone */
@@ -45,6 +46,9 @@ layout(location = LSF_ALL_DIRECT) out vec4 direct_out; /* of every kind of light
 
 #if LSF_INDIRECT_SPECULAR
 layout(location = LSF_INDIRECT_SPECULAR) out vec4 indirect_specular_out;
+#endif
+#if LSF_COVERAGE
+layout(location = LSF_COVERAGE) out vec4 coverage_out;
 #endif
 
 /* What is left of light on its way from the surface in the pixel. */
@@ -60,6 +64,16 @@ vec3 left_on_the_way(ivec2 pixel)
     return tint;
 }
 
+/* By a surface, or by one that light came through: what is behind that is no background. */
+bool covered(ivec2 pixel, float depth)
+{
+#if LSF_STRAIGHT
+    if (texelFetch(tint_texture, pixel, 0).a == 0.0)
+        return true;
+#endif
+    return depth != 0.0;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -70,8 +84,15 @@ void main()
 #if LSF_EMISSION
     seen += texelFetch(emission_texture, pixel, 0).rgb;
 #endif
+#if LSF_BACKGROUND
+    bool sky = covered(pixel, depth) && depth == 0.0;
+    if (!covered(pixel, depth))
+        seen += background;
+#else
+    bool sky = depth == 0.0;
+#endif
 #if LSF_ENVIRONMENT
-    if (depth == 0.0)
+    if (sky)
         seen += environment_radiance(normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy))));
 #endif
 #if LSF_DIRECT
@@ -109,6 +130,9 @@ void main()
 #endif
 #if LSF_SEEN
     seen_out = vec4(seen * left, 1.0);
+#endif
+#if LSF_COVERAGE
+    coverage_out = vec4(covered(pixel, depth) ? 1.0 : 0.0);
 #endif
 #if LSF_ALL_DIRECT
     direct_out = vec4(direct * left, 1.0);

@@ -6,7 +6,7 @@
 
 layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2D depth_texture;
 
-layout(location = 0) out vec4 tint_out; /* multiplied */
+layout(location = 0) out vec4 tint_out; /* multiplied; alpha 0 tells that there was something */
 #if LSF_ABSORPTION
 layout(location = 1) out vec4 absorption_out; /* added */
 #endif
@@ -25,7 +25,7 @@ void main()
     float seen = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     if (!present || gl_FragCoord.z <= seen)
         discard;
-    tint_out = vec4(straight_tint(s, to_viewer), 1.0);
+    tint_out = vec4(straight_tint(s, to_viewer), 0.0);
 #if LSF_ABSORPTION
     /* From the front on the way is in the medium, from the back on out of it again. Behind all surfaces, no
      * matter where: media are closed. */

@@ -18,7 +18,8 @@ extern "C" {
 #define LSF_CHANNEL_NAME_SIZE 64
 
 /* Linear Rec.709 radiance [W/(m^2 sr)] in R, G, B; further layers are named as OpenEXR does:
- * "albedo.R", "normal.X", "depth.Z". Rows run from the top; channels are interleaved:
+ * "albedo.R", "normal.X", "depth.Z". A channel A is the share of the pixel that surfaces cover;
+ * R, G and B are multiplied by it. Rows run from the top; channels are interleaved:
  * pixels[(y * width + x) * channel_count + c]. */
 typedef struct lsf_image {
     uint32_t width, height;
@@ -46,7 +47,8 @@ typedef enum lsf_image_format {
     LSF_IMAGE_FORMAT_AUTO, /* by the path's ending */
     LSF_IMAGE_FORMAT_EXR,  /* float32, all channels, lossless */
     LSF_IMAGE_FORMAT_HDR,  /* R, G, B as RGBE */
-    LSF_IMAGE_FORMAT_PNG,  /* R, G, B tone-mapped to 8-bit sRGB, see tonemap.h */
+    LSF_IMAGE_FORMAT_PNG,  /* R, G, B tone-mapped to 8-bit sRGB, see tonemap.h; with alpha, not
+                            * multiplied into them, where there is a channel A */
 } lsf_image_format;
 
 typedef struct lsf_image_save_params {

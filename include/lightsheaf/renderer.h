@@ -41,6 +41,15 @@ uint32_t lsf_aov_from_name(const char *name);
 /* The name of the one AOV that is the lowest set bit of `aovs`. */
 const char *lsf_aov_name(uint32_t aovs);
 
+/* What is seen where no surface is; what lights the scene stays the environment. */
+typedef enum lsf_background {
+    LSF_BACKGROUND_AUTO, /* the environment, or middle grey in front of the default sky */
+    LSF_BACKGROUND_ENVIRONMENT,
+    LSF_BACKGROUND_UNIFORM,     /* lsf_render_params.background_radiance */
+    LSF_BACKGROUND_TRANSPARENT, /* nothing: R, G and B are of surfaces alone, premultiplied by the
+                                 * share of the pixel that they cover, which is channel A */
+} lsf_background;
+
 /* Called between iterations: `done` of `total` iterations. Return false to stop early. */
 typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 
@@ -58,6 +67,8 @@ typedef struct lsf_render_params {
     const float *camera_position; /* three floats in scene units; NULL: the camera's own */
     const float *camera_target;   /* three floats in scene units; NULL: the camera's own */
     float fov_y;             /* degrees, replaces the camera's; NAN: the camera's own */
+    lsf_background background;
+    float background_radiance[3];
     double time;             /* seconds, where node animations are sampled */
     uint32_t aovs;           /* lsf_aov bits */
     bool rgb8;               /* lsf_renderer_read_rgb8 will be called */
@@ -67,11 +78,12 @@ typedef struct lsf_render_params {
     void *progress_user;
 } lsf_render_params;
 
-#define LSF_RENDER_PARAMS_DEFAULTS                                                        \
-    .technique = "bidirectional", .width = 1024, .height = 768, .samples = 64,            \
-    .time_limit = 1.0 / 0.0, .bounces = LSF_BOUNCES_AUTO, .seed = 0, .camera = NULL,      \
-    .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f, .time = 0.0,    \
-    .aovs = 0, .rgb8 = false, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
+#define LSF_RENDER_PARAMS_DEFAULTS                                                                 \
+    .technique = "bidirectional", .width = 1024, .height = 768, .samples = 64,                     \
+    .time_limit = 1.0 / 0.0, .bounces = LSF_BOUNCES_AUTO, .seed = 0, .camera = NULL,               \
+    .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f,                          \
+    .background = LSF_BACKGROUND_AUTO, .background_radiance = {0}, .time = 0.0, .aovs = 0,         \
+    .rgb8 = false, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
 
 /* Registered techniques; NULL past the end. */
 const char *lsf_technique_name(uint32_t index);

@@ -18,7 +18,8 @@ typedef struct lsf_decoded_image {
     char (*names)[LSF_CHANNEL_NAME_SIZE]; /* malloc'ed */
 } lsf_decoded_image;
 
-/* Pixels ready for a file: PNG takes U8 in R, G, B; HDR F32 in R, G, B; EXR F32 in any channels. */
+/* Pixels ready for a file: PNG takes U8 in R, G, B or R, G, B and
+ * alpha, which is not multiplied into them; HDR F32 in R, G, B; EXR F32 in any channels. */
 typedef struct lsf_encode_request {
     lsf_image_file file;
     uint32_t width, height, channels;

@@ -109,24 +109,41 @@ static bool save_hdr(const float *rgb, uint32_t width, uint32_t height, const ch
     return saved;
 }
 
-static bool save_png(const float *rgb, uint32_t width, uint32_t height, float exposure,
-                     const char *path, lsf_error *error)
+/* Tone mapping is of light, not of pixels: a pixel that surfaces cover in part shows their light,
+ * divided by that part. */
+static void encode_pixel(const float *rgb, float alpha, float scale, uint8_t *codes)
+{
+    float exposed[3];
+    for (int c = 0; c < 3; c++)
+        exposed[c] = lsf_tonemap_expose(alpha > 0.0f ? rgb[c] / alpha : 0.0f, scale);
+    float smallest = fminf(exposed[0], fminf(exposed[1], exposed[2]));
+    float largest = fmaxf(exposed[0], fmaxf(exposed[1], exposed[2]));
+    for (int c = 0; c < 3; c++)
+        codes[c] = (uint8_t)(lsf_tonemap_display(exposed[c], smallest, largest) * 255.0f + 0.5f);
+}
+
+/* `alpha`: one for each pixel, or NULL. */
+static bool save_png(const float *rgb, const float *alpha, uint32_t width, uint32_t height,
+                     float exposure, const char *path, lsf_error *error)
 {
     uint64_t count = (uint64_t)width * height;
-    uint8_t *codes = lsf_alloc(count, 3);
+    uint32_t channels = alpha ? 4 : 3;
+    uint8_t *codes = lsf_alloc(count, channels);
     if (!codes)
         return lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", shown_path(path));
     float scale = exp2f(exposure);
     for (uint64_t i = 0; i < count; i++) {
-        float r = lsf_tonemap_expose(rgb[3 * i], scale);
-        float g = lsf_tonemap_expose(rgb[3 * i + 1], scale);
-        float b = lsf_tonemap_expose(rgb[3 * i + 2], scale);
-        float smallest = fminf(r, fminf(g, b)), largest = fmaxf(r, fmaxf(g, b));
-        codes[3 * i] = (uint8_t)(lsf_tonemap_display(r, smallest, largest) * 255.0f + 0.5f);
-        codes[3 * i + 1] = (uint8_t)(lsf_tonemap_display(g, smallest, largest) * 255.0f + 0.5f);
-        codes[3 * i + 2] = (uint8_t)(lsf_tonemap_display(b, smallest, largest) * 255.0f + 0.5f);
+        float a = alpha ? fminf(fmaxf(alpha[i], 0.0f), 1.0f) : 1.0f; /* NaN becomes 0 */
+        encode_pixel(rgb + 3 * i, a, scale, codes + channels * i);
+        if (alpha)
+            codes[channels * i + 3] = (uint8_t)(a * 255.0f + 0.5f);
     }
-    bool saved = lsf_image_save_rgb8(codes, width, height, path, error);
+    lsf_encode_request request = {.file = LSF_IMAGE_FILE_PNG,
+                                  .width = width,
+                                  .height = height,
+                                  .channels = channels,
+                                  .texels = codes};
+    bool saved = encode_and_write(&request, path, error);
     free(codes);
     return saved;
 }
@@ -137,6 +154,21 @@ bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, co
     lsf_encode_request request = {
         .file = LSF_IMAGE_FILE_PNG, .width = width, .height = height, .channels = 3, .texels = rgb};
     return check_size(width, height, path, error) && encode_and_write(&request, path, error);
+}
+
+static float *pack(const lsf_image *image, const int *channels, uint32_t count, const char *path,
+                   lsf_error *error)
+{
+    uint64_t pixels = (uint64_t)image->width * image->height;
+    float *packed = lsf_alloc(pixels, count * sizeof *packed);
+    if (!packed) {
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", shown_path(path));
+        return NULL;
+    }
+    for (uint64_t i = 0; i < pixels; i++)
+        for (uint32_t c = 0; c < count; c++)
+            packed[count * i + c] = image->pixels[i * image->channel_count + (uint32_t)channels[c]];
+    return packed;
 }
 
 /* R, G, B packed; NULL with an error when one is missing. The caller frees. */
@@ -150,17 +182,18 @@ static float *pack_rgb(const lsf_image *image, const char *path, lsf_error *erro
                       shown_path(path));
         return NULL;
     }
-    uint64_t count = (uint64_t)image->width * image->height;
-    float *rgb = lsf_alloc(count, 3 * sizeof *rgb);
-    if (!rgb) {
-        lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", shown_path(path));
-        return NULL;
-    }
-    for (uint64_t i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++)
-            rgb[3 * i + (uint64_t)c] =
-                image->pixels[i * image->channel_count + (uint32_t)channels[c]];
-    return rgb;
+    return pack(image, channels, 3, path, error);
+}
+
+static bool save_display(const lsf_image *image, const float *rgb, float exposure, const char *path,
+                         lsf_error *error)
+{
+    int channel = lsf_image_channel(image, "A");
+    float *alpha = channel >= 0 ? pack(image, &channel, 1, path, error) : NULL;
+    bool saved = (alpha || channel < 0) &&
+                 save_png(rgb, alpha, image->width, image->height, exposure, path, error);
+    free(alpha);
+    return saved;
 }
 
 /* The depth of the background is infinite by right. */
@@ -207,7 +240,7 @@ bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_sa
         return false;
     bool saved = format == LSF_IMAGE_FORMAT_HDR
                      ? save_hdr(rgb, image->width, image->height, path, error)
-                     : save_png(rgb, image->width, image->height, params->exposure, path, error);
+                     : save_display(image, rgb, params->exposure, path, error);
     free(rgb);
     return saved;
 }

@@ -12,7 +12,7 @@ typedef enum lsf_accumulate_source {
     LSF_ACCUMULATE_SOURCES,
 } lsf_accumulate_source;
 
-#define LSF_ACCUMULATE_MAX_LAYERS (1 + LSF_AOV_COUNT)
+#define LSF_ACCUMULATE_MAX_LAYERS (2 + LSF_AOV_COUNT) /* picture, coverage */
 
 typedef struct lsf_accumulate {
     lsf_context *context;

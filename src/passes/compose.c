@@ -34,6 +34,8 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
                         "light comes through materials that transmit");
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
     lsf_scene_gpu_environment_switches(plan, "an environment is seen");
+    lsf_plan_switch_add(plan, "LSF_BACKGROUND", !plan->background.environment,
+                        "something else is seen instead of the environment");
     lsf_plan_texture_add(plan, "compose.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the iteration's picture");
     int target = 1;
@@ -49,6 +51,8 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
                    (plan->aovs & LSF_AOV_INDIRECT_SPECULAR),
                "LSF_INDIRECT_SPECULAR", "compose.indirect_specular",
                "the indirect_specular layer is asked for, behind what transmits", &target);
+    plan_layer(plan, plan->background.coverage, "LSF_COVERAGE", "compose.coverage",
+               "the background is transparent", &target);
 }
 
 bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan *plan,
@@ -62,12 +66,13 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
                                  error) ||
         !lsf_plan_create_texture(plan, context, "compose.direct", &pass->direct, error) ||
         !lsf_plan_create_texture(plan, context, "compose.indirect_specular",
-                                 &pass->indirect_specular, error))
+                                 &pass->indirect_specular, error) ||
+        !lsf_plan_create_texture(plan, context, "compose.coverage", &pass->coverage, error))
         return false;
     lsf_framebuffer_desc desc = {.label = "compose",
-                                 .color_count = 5,
+                                 .color_count = 6,
                                  .colors = {pass->radiance, pass->seen, pass->indirect_diffuse,
-                                            pass->direct, pass->indirect_specular},
+                                            pass->direct, pass->indirect_specular, pass->coverage},
                                  .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "compose", files, error);
@@ -93,6 +98,7 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     lsf_bind_texture(10, inputs->tint);
     lsf_bind_texture(11, inputs->absorption);
     lsf_scene_gpu_bind_environment(iteration->scene);
+    glUniform3fv(0, 1, iteration->plan->background.radiance);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }
@@ -107,6 +113,7 @@ void lsf_compose_destroy(lsf_compose *pass)
     lsf_texture_destroy(pass->context, &pass->indirect_diffuse);
     lsf_texture_destroy(pass->context, &pass->direct);
     lsf_texture_destroy(pass->context, &pass->indirect_specular);
+    lsf_texture_destroy(pass->context, &pass->coverage);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

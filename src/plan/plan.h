@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "gl/gl.h"
+#include "scene/background.h"
 #include "scene/scene.h"
 #include <lightsheaf/renderer.h>
 
@@ -46,6 +47,7 @@ struct lsf_plan {
     uint32_t width, height, samples, bounces, aovs;
     uint32_t sky_lights; /* directions an iteration from which the environment lights */
     bool orthographic;
+    lsf_seen_background background;
     bool transmission; /* there are materials that transmit light */
     bool straight;     /* ... and it goes straight through them, for the technique cannot refract */
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */

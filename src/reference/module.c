@@ -1,6 +1,7 @@
 /* The module's entry: passes of samples over the picture, on several threads. */
 #include "reference/module.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -20,6 +21,7 @@
 /* Sums of a pixel, in double precision: the mean stays put beyond 2^24 samples. */
 typedef struct pixel_sum {
     double emission[3], direct[3], indirect_diffuse[3], indirect_specular[3];
+    uint64_t covered; /* samples that met a surface */
 } pixel_sum;
 
 typedef struct guide_sum {
@@ -73,6 +75,7 @@ static uint64_t render_pixel(render *r, uint32_t x, uint32_t y)
         add(r->sums[pixel].direct, path.direct);
         add(r->sums[pixel].indirect_diffuse, path.indirect_diffuse);
         add(r->sums[pixel].indirect_specular, path.indirect_specular);
+        r->sums[pixel].covered += isfinite(path.depth);
         if (r->guides != NULL) {
             add(r->guides[pixel].albedo, path.albedo);
             add(r->guides[pixel].normal, path.normal);
@@ -209,6 +212,8 @@ static void write_image(const render *r, uint32_t samples)
     for (uint64_t i = 0; i < pixels; i++) {
         float *pixel = job->image->pixels + i * job->image->channel_count;
         write_light(job, &r->sums[i], scale, pixel);
+        if (channels[LSF_REFERENCE_COVERAGE] >= 0)
+            pixel[channels[LSF_REFERENCE_COVERAGE]] = (float)((double)r->sums[i].covered * scale);
         if (channels[LSF_REFERENCE_ALBEDO] >= 0)
             store_mean(pixel + channels[LSF_REFERENCE_ALBEDO], r->guides[i].albedo, scale);
         if (channels[LSF_REFERENCE_NORMAL] >= 0)
@@ -227,6 +232,7 @@ bool lsf_reference_module_render(lsf_reference_job *job, lsf_error *error)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     double start = lsf_now();
     bool ok = lsf_reference_world_init(&r->world, job->scene, job->state, params->bounces, error);
+    r->world.background = job->background;
     job->result.build_seconds = lsf_now() - start;
     if (ok) {
         bool guides = job->channels[LSF_REFERENCE_ALBEDO] >= 0 ||

@@ -4,6 +4,7 @@
 
 #include <lightsheaf/reference.h>
 
+#include "scene/background.h"
 #include "scene/state.h"
 
 #define LSF_REFERENCE_MODULE_NAME "lightsheaf-reference"
@@ -18,6 +19,7 @@ typedef enum lsf_reference_layer {
     LSF_REFERENCE_DIRECT,
     LSF_REFERENCE_INDIRECT_DIFFUSE,
     LSF_REFERENCE_INDIRECT_SPECULAR,
+    LSF_REFERENCE_COVERAGE,
     LSF_REFERENCE_LAYER_COUNT,
 } lsf_reference_layer;
 
@@ -25,6 +27,7 @@ typedef struct lsf_reference_job {
     const lsf_scene *scene;
     const lsf_state *state;
     const lsf_render_params *params;
+    lsf_seen_background background;
     uint32_t half;
     uint32_t threads; /* 0: one for each core */
     lsf_image *image;

@@ -462,7 +462,9 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     lsf_reference_hit hit;
     if (!lsf_reference_trace(&world->geometry, origin, along, camera->near_plane - before, INFINITY,
                              next_chance(&w), &hit)) {
-        path->emission = lsf_environment_radiance(world->sky.environment, direction);
+        path->emission = world->background.environment
+                             ? lsf_environment_radiance(world->sky.environment, direction)
+                             : lsf_f3_load(world->background.radiance);
         return;
     }
     lsf_reference_surface_init(&w.surface, &world->geometry, &hit, direction);

@@ -4,6 +4,7 @@
 
 #include "reference/emitters.h"
 #include "reference/geometry.h"
+#include "scene/background.h"
 #include "scene/sky.h"
 
 /* Up to this many punctual lights are each asked at every vertex; of more, one is drawn. */
@@ -22,6 +23,7 @@ typedef struct lsf_reference_world {
     lsf_sky sky;
     lsf_distribution light_power; /* of state->lights, when there are too many to ask all */
     uint32_t bounces;
+    lsf_seen_background background; /* of paths that meet nothing at all; set by the caller */
     bool thin_walls; /* some material transmits, and bounds no medium */
 } lsf_reference_world;
 

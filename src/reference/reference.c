@@ -9,6 +9,9 @@
 #include "reference/module.h"
 #include "scene/state.h"
 
+/* Asked for by a transparent background, not as one of lsf_aov. */
+#define COVERAGE (1u << 31)
+
 typedef struct layer {
     lsf_reference_layer layer;
     uint32_t aov; /* 0: always there */
@@ -18,6 +21,7 @@ typedef struct layer {
 
 static const layer layers[] = {
     {LSF_REFERENCE_BEAUTY, 0, 3, {"R", "G", "B"}},
+    {LSF_REFERENCE_COVERAGE, COVERAGE, 1, {"A"}},
     {LSF_REFERENCE_ALBEDO, LSF_AOV_ALBEDO, 3, {"albedo.R", "albedo.G", "albedo.B"}},
     {LSF_REFERENCE_NORMAL, LSF_AOV_NORMAL, 3, {"normal.X", "normal.Y", "normal.Z"}},
     {LSF_REFERENCE_DEPTH, LSF_AOV_DEPTH, 1, {"depth.Z"}},
@@ -51,9 +55,9 @@ static lsf_image *create_image(const lsf_render_params *params, lsf_reference_jo
                                lsf_error *error)
 {
     const char *names[3 * LSF_COUNT(layers)];
-    uint32_t count = 0;
+    uint32_t count = 0, asked = params->aovs | (job->background.coverage ? COVERAGE : 0);
     for (size_t i = 0; i < LSF_COUNT(layers); i++) {
-        bool wanted = layers[i].aov == 0 || (params->aovs & layers[i].aov) != 0;
+        bool wanted = layers[i].aov == 0 || (asked & layers[i].aov) != 0;
         job->channels[layers[i].layer] = wanted ? (int)count : -1;
         for (int c = 0; wanted && c < layers[i].count; c++)
             names[count++] = layers[i].channels[c];
@@ -110,7 +114,11 @@ lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params 
     memcpy(&render, &symbol, sizeof render); /* ISO C has no cast from object to function */
 
     lsf_state state = {0};
-    lsf_reference_job job = {.scene = scene, .state = &state, .params = &resolved, .half = half};
+    lsf_reference_job job = {.scene = scene,
+                             .state = &state,
+                             .params = &resolved,
+                             .half = half,
+                             .background = lsf_background_resolve(scene, params)};
     lsf_view_params view = {
         .time = params->time,
         .camera = params->camera,

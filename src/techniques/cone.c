@@ -248,6 +248,7 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
         .depth = gbuffer->depth,
         .surface = gbuffer->surface,
         .emission = c->compose.seen,
+        .coverage = c->compose.coverage,
         .direct = c->compose.direct ? c->compose.direct : direct->direct_light.radiance,
         .indirect_diffuse = c->compose.indirect_diffuse,
         .indirect_specular =

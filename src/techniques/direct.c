@@ -17,7 +17,7 @@ static bool needs_compose(const lsf_plan *plan, bool lit)
 {
     const lsf_requirements *r = &plan->requirements;
     return r->emissive || r->unlit || r->environment || !lit || plan->straight ||
-           (plan->aovs & LSF_AOV_EMISSION);
+           !plan->background.environment || (plan->aovs & LSF_AOV_EMISSION);
 }
 
 static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
@@ -76,6 +76,7 @@ static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique
         .depth = gbuffer->depth,
         .surface = gbuffer->surface,
         .emission = d->compose.seen,
+        .coverage = d->compose.coverage,
         .direct = d->compose.direct ? d->compose.direct : d->chain.direct_light.radiance,
         .motion = gbuffer->motion,
     };

@@ -109,6 +109,8 @@ static GLuint layer_texture(const lsf_technique_outputs *outputs, uint32_t aov)
         return outputs->surface;
     case LSF_AOV_DEPTH:
         return outputs->depth;
+    case LSF_LAYER_COVERAGE:
+        return outputs->coverage;
     case LSF_AOV_EMISSION:
         return outputs->emission;
     case LSF_AOV_DIRECT:
@@ -213,8 +215,10 @@ static uint32_t name_channels(const lsf_setup *setup, char (*names)[LSF_CHANNEL_
             letters = "XY";
         else if (setup->layer_aovs[i] == LSF_AOV_DEPTH)
             letters = "Z";
+        else if (setup->layer_aovs[i] == LSF_LAYER_COVERAGE)
+            letters = "A";
         for (; *letters; letters++)
-            if (i == 0)
+            if (i == 0 || setup->layer_aovs[i] == LSF_LAYER_COVERAGE)
                 snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%c", *letters);
             else
                 snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%s.%c", setup->layer_names[i],
@@ -233,6 +237,19 @@ static void copy_layer(lsf_image *image, uint32_t first_channel, uint32_t channe
             size_t target = ((size_t)y * image->width + x) * image->channel_count + first_channel;
             memcpy(image->pixels + target, texels + source, channels * sizeof(float));
         }
+}
+
+static uint32_t channels_of(uint32_t aov)
+{
+    switch (aov) {
+    case LSF_AOV_DEPTH:
+    case LSF_LAYER_COVERAGE:
+        return 1;
+    case LSF_AOV_MOTION:
+        return 2;
+    default:
+        return 3;
+    }
 }
 
 lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
@@ -257,9 +274,7 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
         return NULL;
     }
     for (uint32_t i = 0, channel = 0; i < setup->layer_count; i++) {
-        uint32_t channels = setup->layer_aovs[i] == LSF_AOV_DEPTH    ? 1
-                            : setup->layer_aovs[i] == LSF_AOV_MOTION ? 2
-                                                                     : 3;
+        uint32_t channels = channels_of(setup->layer_aovs[i]);
         bool present = layer_texture(&renderer->outputs, setup->layer_aovs[i]) != 0;
         if (present) {
             glGetTextureImage(renderer->accumulate.means[i], 0, GL_RGBA, GL_FLOAT,

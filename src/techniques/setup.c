@@ -65,6 +65,10 @@ static bool check_params(const lsf_render_params *params, lsf_error *error)
 static void set_layers(lsf_setup *setup, uint32_t aovs)
 {
     setup->layer_names[setup->layer_count++] = "picture";
+    if (setup->plan->background.coverage) {
+        setup->layer_aovs[setup->layer_count] = LSF_LAYER_COVERAGE;
+        setup->layer_names[setup->layer_count++] = "coverage";
+    }
     for (size_t i = 0; i < LSF_COUNT(aov_names); i++) {
         if (!(aovs & aov_names[i].bit))
             continue;
@@ -101,6 +105,7 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
     plan->orthographic = setup->state.camera.orthographic;
+    plan->background = lsf_background_resolve(scene, params);
     lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);
     if (params->bounces == LSF_BOUNCES_AUTO && plan->requirements.transmissive)

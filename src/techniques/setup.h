@@ -6,6 +6,9 @@
 #include "scene/state.h"
 #include "techniques/technique.h"
 
+/* The layer of coverage, beside those of lsf_aov: channel A of the picture. */
+#define LSF_LAYER_COVERAGE (1u << 31)
+
 typedef struct lsf_setup {
     const lsf_technique *technique;
     lsf_pass_params pass_params;

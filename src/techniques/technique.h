@@ -58,6 +58,7 @@ typedef struct lsf_technique_outputs {
     GLuint depth, surface; /* of the G-buffer */
     GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
     GLuint motion;
+    GLuint coverage; /* RGBA32F, 1 or 0; where the plan's background asks for it */
     GLuint voxel_albedo, voxel_normal, voxel_radiance; /* RGBA32F layers */
     GLuint gate; /* see lsf_accumulate_run; of a technique that settles */
 } lsf_technique_outputs;

@@ -110,6 +110,12 @@ static const lsf_command_option options[] = {
     {"define", 'D', "pass.key=value", STAGING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,
      NULL, "set an option of a pass; repeatable; see --list-options"},
 
+    {"background", 0, "R,G,B|WORD", PLANNING, "Picture", LSF_VALUE_BACKGROUND, AT(background), 0,
+     1e30, NULL, NULL,
+     "what is seen where no surface is: a radiance; environment; or transparent, which gives .exr "
+     "and .png the alpha of each pixel; without it, the environment, or grey before the default "
+     "sky"},
+
     {"camera", 'c', "NAME|INDEX", STAGING, "Camera", LSF_VALUE_TEXT, AT(camera), 0, 0, NULL, NULL,
      "a camera of the scene, by name or by index from 0; without it, the first"},
     {"camera-position", 0, "X,Y,Z", STAGING, "Camera", LSF_VALUE_VECTOR, AT(camera_position), -1e30,
@@ -225,6 +231,9 @@ char *lsf_command_option_range(const lsf_command_option *option)
     case LSF_VALUE_ENVIRONMENT:
         return lsf_format("a file, or three numbers from 0 separated by commas, such as "
                           "1,1,1");
+    case LSF_VALUE_BACKGROUND:
+        return lsf_format("environment, transparent, or three numbers from 0 separated by commas, "
+                          "such as 1,1,1");
     case LSF_VALUE_THRESHOLD:
         return lsf_format("METRIC=X, such as rmse=0.02");
     }

@@ -47,6 +47,7 @@ typedef enum lsf_value_type {
     LSF_VALUE_AOVS,        /* uint32_t, lsf_aov bits */
     LSF_VALUE_DEFINE,      /* lsf_list_setting of "pass.key=value", the key known */
     LSF_VALUE_ENVIRONMENT, /* lsf_environment_setting */
+    LSF_VALUE_BACKGROUND,  /* lsf_background_setting */
     LSF_VALUE_THRESHOLD,   /* lsf_list_setting of "metric=x" */
 } lsf_value_type;
 
@@ -88,6 +89,11 @@ typedef struct lsf_environment_setting {
     lsf_vector_setting uniform; /* radiance */
 } lsf_environment_setting;
 
+typedef struct lsf_background_setting {
+    lsf_background kind;
+    float radiance[3];
+} lsf_background_setting;
+
 typedef struct lsf_settings {
     const lsf_command *command;
     lsf_list_setting operands;
@@ -109,6 +115,7 @@ typedef struct lsf_settings {
     uint64_t seed;
     uint32_t aovs;
     lsf_list_setting defines;
+    lsf_background_setting background;
 
     const char *camera;
     lsf_vector_setting camera_position, camera_target; /* scene units */

@@ -61,6 +61,10 @@ static bool check_format(lsf_destination *destination, const lsf_settings *setti
                              "--aov: only .exr holds layers, and --output is %s; leave --aov out "
                              "or write .exr",
                              path);
+    if (settings->background.kind == LSF_BACKGROUND_TRANSPARENT &&
+        destination->format == LSF_IMAGE_FORMAT_HDR)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--background transparent: .hdr holds no alpha; write .exr or .png");
     if (standard && isatty(STDOUT_FILENO))
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--output -: standard output is a terminal; redirect it into a file "

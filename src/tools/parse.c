@@ -157,6 +157,20 @@ static bool set_environment(lsf_environment_setting *place, const lsf_command_op
     return true;
 }
 
+static bool set_background(lsf_background_setting *place, const lsf_command_option *option,
+                           const char *text)
+{
+    lsf_background_setting setting = {.kind = LSF_BACKGROUND_UNIFORM};
+    if (strcmp(text, "environment") == 0)
+        setting.kind = LSF_BACKGROUND_ENVIRONMENT;
+    else if (strcmp(text, "transparent") == 0)
+        setting.kind = LSF_BACKGROUND_TRANSPARENT;
+    else if (!lsf_parse_numbers(text, option->minimum, option->maximum, 3, setting.radiance))
+        return false;
+    *place = setting;
+    return true;
+}
+
 static bool set_threshold(lsf_list_setting *place, const lsf_command_option *option,
                           const char *text, lsf_error *error)
 {
@@ -234,6 +248,9 @@ static bool set_value(lsf_settings *settings, const lsf_command_option *option, 
     case LSF_VALUE_ENVIRONMENT:
         return *text ? set_environment(place, option, text, error)
                      : bad_value(option, text, NULL, error);
+    case LSF_VALUE_BACKGROUND:
+        good = set_background(place, option, text);
+        break;
     case LSF_VALUE_THRESHOLD:
         return set_threshold(place, option, text, error);
     }
@@ -463,6 +480,9 @@ lsf_render_params lsf_settings_render_params(const lsf_settings *settings)
     if (settings->camera_target.given)
         params.camera_target = settings->camera_target.value;
     params.fov_y = settings->fov_y;
+    params.background = settings->background.kind;
+    memcpy(params.background_radiance, settings->background.radiance,
+           sizeof params.background_radiance);
     params.time = settings->time;
     params.aovs = settings->aovs;
     params.options = settings->defines.items;

@@ -15,6 +15,7 @@ typedef struct render_job {
     lsf_scene *scene;
     lsf_context *context;
     lsf_renderer *renderer;
+    bool maps_on_gpu; /* tones, for 8-bit output without alpha */
     lsf_progress_bar bar;
     lsf_renderer_stats stats;
     double start;
@@ -39,7 +40,9 @@ static bool start_gl(render_job *job, lsf_error *error)
 static bool converge(render_job *job, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(&job->settings);
-    params.rgb8 = job->destination.format == LSF_IMAGE_FORMAT_PNG;
+    job->maps_on_gpu = job->destination.format == LSF_IMAGE_FORMAT_PNG &&
+                       params.background != LSF_BACKGROUND_TRANSPARENT;
+    params.rgb8 = job->maps_on_gpu;
     params.progress = lsf_interrupt_progress;
     params.progress_user = &job->bar;
     job->renderer = lsf_renderer_create(job->context, job->scene, &params, error);
@@ -83,8 +86,7 @@ static bool save(render_job *job, lsf_error *error)
     if (!lsf_interrupt_may_save(&job->settings, job->stats.samples, error))
         return false;
     double start = lsf_now();
-    bool good = job->destination.format == LSF_IMAGE_FORMAT_PNG ? save_rgb8(job, error)
-                                                                : save_float(job, error);
+    bool good = job->maps_on_gpu ? save_rgb8(job, error) : save_float(job, error);
     job->save_seconds = lsf_now() - start;
     return good;
 }

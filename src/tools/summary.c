@@ -50,6 +50,11 @@ static void add_pass_options(lsf_json *json, const lsf_list_setting *defines)
 static void add_options(lsf_json *json, const lsf_settings *settings)
 {
     static const char *const backends[] = {"auto", "egl", "osmesa", "glfw"};
+    static const char *const backgrounds[] = {
+        [LSF_BACKGROUND_AUTO] = NULL,
+        [LSF_BACKGROUND_ENVIRONMENT] = "environment",
+        [LSF_BACKGROUND_TRANSPARENT] = "transparent",
+    };
     static const char *const default_lights[] = {"auto", "always", "never"};
     const lsf_vector_setting *position = &settings->camera_position;
     const lsf_vector_setting *target = &settings->camera_target;
@@ -72,6 +77,10 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
         lsf_json_vector(json, "environment", settings->environment.uniform.value, 3);
     else
         lsf_json_string(json, "environment", settings->environment.path);
+    if (settings->background.kind == LSF_BACKGROUND_UNIFORM)
+        lsf_json_vector(json, "background", settings->background.radiance, 3);
+    else
+        lsf_json_string(json, "background", backgrounds[settings->background.kind]);
     lsf_json_string(json, "default_light", default_lights[settings->default_light]);
     lsf_json_bool(json, "diffuse_only", settings->diffuse_only);
     lsf_json_bool(json, "lenient", settings->lenient);

@@ -95,6 +95,21 @@ class Pictures(CommandTest):
         self.assertEqual(self.read("c.exr"), self.read("d.exr"))
         self.assertNotEqual(self.read("c.exr"), self.read("e.exr"))
 
+    def test_background(self):
+        scene = self.scene()
+        words = ("render", scene, "-t", "direct", *SMALL)
+        self.run_command(*words, "-o", "a.exr", "--background", "transparent")
+        self.assertEqual(exr_channels(self.read("a.exr")), {"R": 2, "G": 2, "B": 2, "A": 2})
+        self.run_command(*words, "-o", "a.png", "--background", "transparent", "--json", "a.json")
+        self.assertEqual(self.read("a.png")[25], 6)  # colour type: RGB with alpha
+        self.assertEqual(self.read_json("a.json")["options"]["background"], "transparent")
+        self.run_command(*words, "-o", "b.png", "--background", "0,.5,0", "--json", "b.json")
+        self.assertEqual(self.read("b.png")[25], 2)
+        self.assertEqual(self.read_json("b.json")["options"]["background"], [0, 0.5, 0])
+        self.refuse(*words, "-o", "a.hdr", "--background", "transparent", says=["holds no alpha"])
+        self.refuse(*words, "-o", "a.png", "--background", "red",
+                    says=["--background red", "environment, transparent, or three numbers"])
+
     def test_default_scene(self):
         self.run_command("render", "-o", "a.png", *SMALL)
         self.run_command("render", os.path.join(SOURCE_ROOT, "data/scenes/interior.gltf"), "-o",
@@ -186,7 +201,7 @@ class Json(CommandTest):
         options = report["options"]
         self.assertEqual(set(options), {
             "samples", "time_limit", "camera", "camera_position", "camera_target", "fov_y", "time",
-            "exposure", "aovs", "environment", "default_light", "diffuse_only", "lenient", "scene",
+            "exposure", "aovs", "environment", "background", "default_light", "diffuse_only", "lenient", "scene",
             "animations", "variant", "keep_partial", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])

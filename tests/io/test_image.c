@@ -352,6 +352,39 @@ static void test_lost_pixels_are_counted(void **state)
     lsf_image_destroy(image);
 }
 
+/* Half covered by what has radiance 0.5, and not covered at all. */
+static void test_png_has_alpha_of_its_own(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"R", "G", "B", "A"};
+    static const float pixels[8] = {0.25f, 0.125f, 0.05f, 0.5f, 0, 0, 0, 0};
+    lsf_image *image = lsf_image_create(2, 1, 4, names, NULL);
+    memcpy(image->pixels, pixels, sizeof pixels);
+    save(image, in_folder("alpha.png"));
+    save(image, in_folder("alpha.exr"));
+    size_t length;
+    char *file = read_file(in_folder("alpha.png"), &length);
+    lsf_texture_image texture = {0};
+    assert_true(lsf_texture_image_decode(&texture, file, length, 1 << 20, "alpha.png", NULL));
+    free(file);
+    assert_int_equal(texture.channels, 4);
+    const uint8_t *codes = texture.texels;
+    for (int c = 0; c < 3; c++) {
+        float shown = lsf_tonemap_display(2 * pixels[c], 0.1f, 0.5f);
+        assert_int_equal(codes[c], (int)(shown * 255 + 0.5f));
+    }
+    assert_int_equal(codes[3], 128);
+    assert_int_equal(codes[7], 0);
+    free(texture.texels);
+
+    lsf_image *read = load(in_folder("alpha.exr"));
+    for (uint64_t i = 0; i < 2; i++)
+        for (int c = 0; c < 4; c++)
+            assert_true(value_at(read, i, names[c]) == pixels[4 * i + (uint64_t)c]);
+    lsf_image_destroy(read);
+    lsf_image_destroy(image);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -359,6 +392,7 @@ int main(void)
         cmocka_unit_test(test_hdr_is_rounded_to_its_precision),
         cmocka_unit_test(test_png_is_tone_mapped),
         cmocka_unit_test(test_lost_pixels_are_counted),
+        cmocka_unit_test(test_png_has_alpha_of_its_own),
         cmocka_unit_test(test_integers_are_decoded_from_srgb),
         cmocka_unit_test(test_standard_output_and_pipes),
         cmocka_unit_test(test_failures_leave_nothing_behind),

@@ -16,7 +16,7 @@ lsf_image *render_scene(const lsf_scene *scene, const lsf_render_params *params,
     static const char *const names[] = {
         "R",        "G",       "B",    "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y",
         "normal.Z", "depth.Z", "e.R",  "e.G",      "e.B",      "d.R",      "d.G",      "d.B",
-        "id.R",     "id.G",    "id.B", "is.R",     "is.G",     "is.B"};
+        "id.R",     "id.G",    "id.B", "is.R",     "is.G",     "is.B",     "A"};
     lsf_error error;
     lsf_state state = {0};
     lsf_view_params view = {
@@ -31,10 +31,11 @@ lsf_image *render_scene(const lsf_scene *scene, const lsf_render_params *params,
         .scene = scene,
         .state = &state,
         .params = params,
+        .background = lsf_background_resolve(scene, params),
         .half = half,
         .threads = threads,
         .image = lsf_image_create(params->width, params->height, LSF_COUNT(names), names, &error),
-        .channels = {0, 3, 6, 9, 10, 13, 16, 19},
+        .channels = {0, 3, 6, 9, 10, 13, 16, 19, 22},
     };
     assert_non_null(job.image);
     if (!lsf_state_update(&state, scene, &view, &error) ||

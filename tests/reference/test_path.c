@@ -372,6 +372,47 @@ static void stops_between_passes(void **unused)
     destroy_scene(scene);
 }
 
+/* A sphere before an environment: the light that it reflects is the same before any background. */
+static void background_fills_what_is_not_covered(void **state)
+{
+    (void)state;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.8f, 0.8f, 0.8f);
+    build_sphere(scene, 3, false);
+    build_environment(scene, 2.0f);
+    finish_scene(scene);
+    static const float eye[3] = {0, 0, 4}, target[3] = {0, 0, 0};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.width = params.height = 16;
+    params.samples = 64;
+    params.bounces = 0;
+    params.camera_position = eye;
+    params.camera_target = target;
+    params.background = LSF_BACKGROUND_TRANSPARENT;
+    lsf_image *clear = render_scene(scene, &params, 0, 0);
+    params.background = LSF_BACKGROUND_UNIFORM;
+    params.background_radiance[1] = 0.5f;
+    lsf_image *image = render_scene(scene, &params, 0, 0);
+    int alpha = lsf_image_channel(clear, "A");
+    double covered = 0;
+    for (uint64_t i = 0; i < 256; i++) {
+        const float *c = clear->pixels + i * clear->channel_count;
+        const float *p = image->pixels + i * image->channel_count;
+        covered += (double)c[alpha] / 256;
+        for (int k = 0; k < 3; k++) {
+            double seen = (1 - (double)c[alpha]) * (k == 1 ? 0.5 : 0);
+            assert_true(fabs((double)p[k] - (double)c[k] - seen) < 1e-5);
+        }
+        assert_true(p[2] <= 2.2f * c[alpha]); /* no more than the environment, but for noise */
+    }
+    /* A sphere of radius 1 at the distance 4 is seen as a disc of tan^2 = 1 / 15. */
+    double half = tan(0.4), share = M_PI / 15 / (4 * half * half);
+    assert_true(fabs(covered - share) < 0.01 * share);
+    lsf_image_destroy(clear);
+    lsf_image_destroy(image);
+    destroy_scene(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -385,6 +426,7 @@ int main(void)
         cmocka_unit_test(textures_blend_linear_values),
         cmocka_unit_test(environment_map_is_drawn_right),
         cmocka_unit_test(empty_scene_shows_background),
+        cmocka_unit_test(background_fills_what_is_not_covered),
         cmocka_unit_test(stops_between_passes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
