@@ -37,7 +37,7 @@ void lsf_image_destroy(lsf_image *image); /* NULL allowed */
 /* Index of the named channel, or -1. */
 int lsf_image_channel(const lsf_image *image, const char *name);
 
-/* Reads PNG, JPEG, HDR or EXR, recognised by magic bytes and checked for size and sense
+/* Reads PNG, JPEG, WebP, HDR or EXR, recognised by magic bytes and checked for size and sense
  * before anything is allocated. 8- and 16-bit files are decoded from sRGB to linear, and grey
  * ones get equal R, G and B; alpha stays as it is. All channels of an EXR are kept.
  * LSF_ERROR_FILE on failure. */

@@ -72,6 +72,11 @@ bool lsf_file_write(const char *path, const void *bytes, size_t length, lsf_erro
  * ends with `hint`: the package or the build option to look for. */
 void *lsf_module_open(const char *name, const char *hint, lsf_error *error);
 
+/* The table of functions that the module exports under `symbol`, opened on the first call and kept
+ * in *loaded; safe from any thread. NULL with LSF_ERROR_FILE. */
+const void *lsf_module_table(const char *name, const char *symbol, const char *hint,
+                             const void **loaded, lsf_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <limits.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,4 +71,27 @@ void *lsf_module_open(const char *name, const char *hint, lsf_error *error)
                       cause.length ? cause.text : "", hint);
     free(cause.text);
     return module;
+}
+
+const void *lsf_module_table(const char *name, const char *symbol, const char *hint,
+                             const void **loaded, lsf_error *error)
+{
+    static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&mutex);
+    if (!*loaded) {
+        double start = lsf_now();
+        void *module = lsf_module_open(name, hint, error);
+        if (module) {
+            *loaded = dlsym(module, symbol);
+            if (!*loaded)
+                lsf_error_set(error, LSF_ERROR_FILE,
+                              "module %s is of another version; install the one that belongs to "
+                              "this library",
+                              name);
+            lsf_log(LSF_LOG_DEBUG, "loaded %s in %.0f ms", name, 1e3 * (lsf_now() - start));
+        }
+    }
+    const void *result = *loaded;
+    pthread_mutex_unlock(&mutex);
+    return result;
 }

@@ -45,19 +45,29 @@ static lsf_wrap wrap_of(int code)
                                                            : LSF_WRAP_REPEAT;
 }
 
+/* EXT_texture_webp: `source` is for those who do not read it. */
+static int image_of(const tinygltf::Texture &texture)
+{
+    auto webp = texture.extensions.find("EXT_texture_webp");
+    if (webp != texture.extensions.end() && webp->second.Has("source"))
+        return webp->second.Get("source").GetNumberAsInt();
+    return texture.source;
+}
+
 uint32_t texture_importer::add(int index, bool srgb)
 {
     auto found = known_.find({index, srgb});
     if (found != known_.end())
         return found->second;
     const tinygltf::Texture &source = import_.model.textures[(size_t)index];
-    if (source.source < 0) {
+    int image = image_of(source);
+    if (image < 0) {
         import_.repairs.textures_without_image++;
         return known_[{index, srgb}] = LSF_NONE;
     }
     lsf_texture texture = {};
     texture.srgb = srgb;
-    texture.image = add_image((size_t)source.source);
+    texture.image = add_image((size_t)image);
     if (source.sampler >= 0) {
         const tinygltf::Sampler &sampler = import_.model.samplers[(size_t)source.sampler];
         texture.wrap_s = wrap_of(sampler.wrapS);

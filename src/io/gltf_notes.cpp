@@ -51,8 +51,9 @@ void gltf_notes_add(gltf_import &import)
         skinned += import.model.nodes[i].skin >= 0 && import.node_of[i] != LSF_NONE;
     note_count(import, skinned,
                "skinned nodes: skins are ignored, the meshes are shown undeformed");
-    note_count(import, repairs.textures_without_image,
-               "textures have no PNG or JPEG image: the materials that use them are shown without");
+    note_count(
+        import, repairs.textures_without_image,
+        "textures have no PNG, JPEG or WebP image: the materials that use them are shown without");
     note_count(import, repairs.morph_targets,
                "primitives with morph targets: the targets are ignored");
     note_left_out(import, repairs.point_primitives, repairs.points, "points");

@@ -18,10 +18,19 @@ using nlohmann::json;
 static const uint64_t DEPTH_MAX = 64;
 
 static const char *const supported_extensions[] = {
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",     "KHR_materials_anisotropy",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_variants",  "KHR_materials_volume",       "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
     "KHR_texture_transform",
 };
 
@@ -330,8 +339,8 @@ static const char *remedy_for(const std::string &extension)
 {
     if (extension == "KHR_meshopt_compression")
         return "export the file with mesh compression switched off";
-    if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" ||
-        extension == "EXT_texture_avif" || extension == "MSFT_texture_dds")
+    if (extension == "KHR_texture_basisu" || extension == "EXT_texture_avif" ||
+        extension == "MSFT_texture_dds")
         return "export the file with PNG or JPEG textures";
     return "export the file without it";
 }

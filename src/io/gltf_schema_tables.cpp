@@ -168,8 +168,14 @@ static const rule sampler_rules[] = {code("magFilter", OPTIONAL, "9728|9729"),
                                      code("wrapT", OPTIONAL, "33071|33648|10497"), text("name")};
 static const schema sampler = of(sampler_rules);
 
+static const rule texture_source_rules[] = {reference("source", OPTIONAL, "images")};
+static const schema texture_source = of(texture_source_rules);
+static const rule texture_extension_rules[] = {
+    object("EXT_texture_webp", OPTIONAL, &texture_source)};
+static const schema texture_extensions = of(texture_extension_rules);
 static const rule texture_rules[] = {reference("sampler", OPTIONAL, "samplers"),
-                                     reference("source", OPTIONAL, "images"), text("name")};
+                                     reference("source", OPTIONAL, "images"), text("name"),
+                                     extensions(&texture_extensions)};
 static const schema texture = of(texture_rules);
 
 static const rule texture_transform_rules[] = {numbers("offset", 2), number("rotation"),

@@ -66,9 +66,19 @@ bool lsf_image_header_read(lsf_image_header *header, const void *data, size_t le
     } else if (starts_with(bytes, length, "\x76\x2f\x31\x01", 4)) {
         header->file = LSF_IMAGE_FILE_EXR;
         valid = lsf_exr_header_read(header, bytes, length, &pixels_max, name, error);
+    } else if (starts_with(bytes, length, "RIFF", 4) && length >= 12 &&
+               memcmp(bytes + 8, "WEBP", 4) == 0) {
+        header->file = LSF_IMAGE_FILE_WEBP;
+        valid = lsf_webp_header_read(header, bytes, length, &pixels_max, name, error);
+    } else if (starts_with(bytes, length, "\xabKTX 20\xbb\r\n\x1a\n", 12)) {
+        return lsf_error_set(error, LSF_ERROR_FILE,
+                             "%s: is a KTX2 image, which is not read; export the file with PNG, "
+                             "JPEG or WebP textures",
+                             name);
     } else {
         return lsf_error_set(error, LSF_ERROR_FILE,
-                             "%s: is not a PNG, JPEG, HDR or EXR image; convert it to one", name);
+                             "%s: is not a PNG, JPEG, WebP, HDR or EXR image; convert it to one",
+                             name);
     }
     if (!valid)
         return false;

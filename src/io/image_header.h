@@ -15,6 +15,7 @@ typedef enum lsf_image_file {
     LSF_IMAGE_FILE_JPEG,
     LSF_IMAGE_FILE_HDR,
     LSF_IMAGE_FILE_EXR,
+    LSF_IMAGE_FILE_WEBP,
 } lsf_image_file;
 
 typedef struct lsf_image_header {
@@ -40,12 +41,15 @@ bool lsf_jpeg_header_read(lsf_image_header *header, const uint8_t *bytes, size_t
                           uint64_t *pixels_max, const char *name, lsf_error *error);
 bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
                          uint64_t *pixels_max, const char *name, lsf_error *error);
+bool lsf_webp_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
+                          uint64_t *pixels_max, const char *name, lsf_error *error);
 
 /* Takes out of a file that lsf_image_header_read let pass what no pixel needs: comments,
  * thumbnails, Exif, IPTC, XMP, colour profiles. Decoding libraries parse these with less care than
  * pixels. Returns the length that is left. */
 size_t lsf_png_without_metadata(uint8_t *bytes, size_t length);
 size_t lsf_jpeg_without_metadata(uint8_t *bytes, size_t length);
+size_t lsf_webp_without_metadata(uint8_t *bytes, size_t length);
 
 #ifdef __cplusplus
 }

@@ -5,35 +5,49 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Decodes PNG and JPEG without their metadata. */
-static bool decode_pixels(const lsf_image_module *module, lsf_decoded_image *decoded,
+typedef bool decode_function(lsf_decoded_image *decoded, const lsf_image_header *header,
+                             const void *bytes, size_t length, const char *name, lsf_error *error);
+
+static size_t (*const without_metadata[])(uint8_t *bytes, size_t length) = {
+    [LSF_IMAGE_FILE_PNG] = lsf_png_without_metadata,
+    [LSF_IMAGE_FILE_JPEG] = lsf_jpeg_without_metadata,
+    [LSF_IMAGE_FILE_WEBP] = lsf_webp_without_metadata,
+};
+
+/* Decodes a copy without metadata where the kind of file has any that a library would read. */
+static bool decode_pixels(decode_function *decode, lsf_decoded_image *decoded,
                           const lsf_image_header *header, const void *bytes, size_t length,
                           const char *name, lsf_error *error)
 {
-    if (header->file != LSF_IMAGE_FILE_PNG && header->file != LSF_IMAGE_FILE_JPEG)
-        return module->decode(decoded, header, bytes, length, name, error);
+    if (!without_metadata[header->file])
+        return decode(decoded, header, bytes, length, name, error);
     uint8_t *copy = lsf_alloc(length, 1);
     if (!copy)
         return lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for its %zu bytes", name,
                              length);
     memcpy(copy, bytes, length);
-    length = header->file == LSF_IMAGE_FILE_PNG ? lsf_png_without_metadata(copy, length)
-                                                : lsf_jpeg_without_metadata(copy, length);
-    bool decoded_well = module->decode(decoded, header, copy, length, name, error);
+    length = without_metadata[header->file](copy, length);
+    bool decoded_well = decode(decoded, header, copy, length, name, error);
     free(copy);
     return decoded_well;
 }
 
-static bool decode(lsf_decoded_image *decoded, lsf_image_header *header, const void *bytes,
-                   size_t length, uint64_t byte_limit, const char *name, lsf_error *error)
+static bool decode_file(lsf_decoded_image *decoded, lsf_image_header *header, const void *bytes,
+                        size_t length, uint64_t byte_limit, const char *name, lsf_error *error)
 {
     if (!lsf_image_header_read(header, bytes, length, byte_limit, name, error))
         return false;
     lsf_error cause;
-    const lsf_image_module *module = lsf_image_module_get(&cause);
-    if (!module)
+    const lsf_webp_module *webp = NULL;
+    const lsf_image_module *others = NULL;
+    if (header->file == LSF_IMAGE_FILE_WEBP)
+        webp = lsf_webp_module_get(&cause);
+    else
+        others = lsf_image_module_get(&cause);
+    if (!webp && !others)
         return lsf_error_set(error, cause.code, "%s: cannot be read: %s", name, cause.message);
-    return decode_pixels(module, decoded, header, bytes, length, name, error);
+    return decode_pixels(webp ? webp->decode : others->decode, decoded, header, bytes, length, name,
+                         error);
 }
 
 static void release(lsf_decoded_image *decoded)
@@ -101,7 +115,7 @@ static lsf_image *image_from_memory(const void *bytes, size_t length, uint64_t b
 {
     lsf_image_header header;
     lsf_decoded_image decoded;
-    if (!decode(&decoded, &header, bytes, length, byte_limit, name, error))
+    if (!decode_file(&decoded, &header, bytes, length, byte_limit, name, error))
         return NULL;
     if (decoded.type != LSF_TEXEL_F32) {
         uint64_t pixels = (uint64_t)decoded.width * decoded.height;
@@ -202,7 +216,7 @@ bool lsf_texture_image_decode(lsf_texture_image *image, const void *bytes, size_
 {
     lsf_image_header header;
     lsf_decoded_image decoded;
-    if (!decode(&decoded, &header, bytes, length, byte_limit, name, error))
+    if (!decode_file(&decoded, &header, bytes, length, byte_limit, name, error))
         return false;
     if (header.file == LSF_IMAGE_FILE_EXR && !keep_colour_channels(&decoded, name, error)) {
         release(&decoded);

@@ -36,9 +36,16 @@ typedef struct lsf_image_module {
                    const char *name, lsf_error *error);
 } lsf_image_module;
 
-/* Loads the module on the first call; safe from any thread. NULL with LSF_ERROR_FILE when it is
+/* The module lightsheaf-webp: WebP alone, decoded alone. */
+typedef struct lsf_webp_module {
+    bool (*decode)(lsf_decoded_image *decoded, const lsf_image_header *header, const void *bytes,
+                   size_t length, const char *name, lsf_error *error);
+} lsf_webp_module;
+
+/* Load the module on the first call; safe from any thread. NULL with LSF_ERROR_FILE when it is
  * not installed. */
 const lsf_image_module *lsf_image_module_get(lsf_error *error);
+const lsf_webp_module *lsf_webp_module_get(lsf_error *error);
 
 #ifdef __cplusplus
 }

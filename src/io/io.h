@@ -17,8 +17,8 @@ extern "C" {
 bool lsf_gltf_load(lsf_scene *scene, const char *path, const lsf_scene_params *params,
                    uint64_t *memory_left, lsf_error *error);
 
-/* Decodes PNG, JPEG, HDR or EXR from memory into `image` (name is kept). Type and channel count
- * as in the file (palettes expanded; half becomes F32). Non-finite texels are set to 0 and
+/* Decodes PNG, JPEG, WebP, HDR or EXR from memory into `image` (name is kept). Type and channel
+ * count as in the file (palettes expanded; half becomes F32). Non-finite texels are set to 0 and
  * counted. `byte_limit` bounds what decoding takes at any moment, checked before anything is
  * allocated. `name` is for messages. */
 bool lsf_texture_image_decode(lsf_texture_image *image, const void *bytes, size_t length,

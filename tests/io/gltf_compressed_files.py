@@ -1,4 +1,4 @@
-"""Writes small glTF files whose meshes are compressed.
+"""Writes small glTF files whose meshes or textures are compressed.
 
 usage: gltf_compressed_files.py FOLDER
 
@@ -256,5 +256,30 @@ def with_fallback(file):
 
 
 meshopt('meshopt_fallback.gltf', 'ok', WHOLE, change=with_fallback)
+
+# --- EXT_texture_webp ----------------------------------------------------------------------------
+
+# 4 x 3 pixels, lossless.
+WEBP = ('UklGRj4AAABXRUJQVlA4TDEAAAAvA4AAAF+goG0bhj9Xc2h3'
+        'QAyFQCDFg4Xw/BchKiLuX0AQQKIQSyyzzDLLpBH9D0x3AA==')
+
+
+def webp(name, expected, texture, image='data:image/webp;base64,' + WEBP, triangles='', note=''):
+    changed(name, expected, lambda f: (
+        f.json.update(images=[{'uri': PIXEL}, {'uri': image}], textures=[texture],
+                      materials=[{'pbrMetallicRoughness': {'baseColorTexture': {'index': 0}}}],
+                      extensionsUsed=['EXT_texture_webp']),
+        f.json['meshes'][0]['primitives'][0].update(material=0)), triangles, note)
+
+
+webp('webp.gltf', 'ok', {'source': 0, 'extensions': {'EXT_texture_webp': {'source': 1}}}, triangles=2)
+webp('webp_alone.gltf', 'ok', {'extensions': {'EXT_texture_webp': {'source': 1}}}, triangles=2)
+webp('webp_cut.gltf', 'IMAGE_DATA_INVALID', {'extensions': {'EXT_texture_webp': {'source': 1}}},
+     'data:image/webp;base64,' + WEBP[:48])
+webp('webp_source.gltf', 'UNRESOLVED_REFERENCE', {'extensions': {'EXT_texture_webp': {'source': 2}}})
+webp('ktx2.gltf', 'KTX2', {'source': 1},
+     'data:image/ktx2;base64,' + base64.b64encode(b'\xabKTX 20\xbb\r\n\x1a\n' + bytes(80)).decode())
+webp('basisu.gltf', 'ok', {'extensions': {'KHR_texture_basisu': {'source': 1}}}, triangles=2,
+     note='no PNG, JPEG or WebP image')
 
 write_table()

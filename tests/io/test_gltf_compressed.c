@@ -1,4 +1,4 @@
-/* Meshes that the modules lightsheaf-draco and lightsheaf-meshopt decompress. */
+/* Meshes and textures that the modules lightsheaf-draco, -meshopt and -webp decompress. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -94,6 +94,21 @@ static void test_meshopt(void **state)
     }
 }
 
+static void test_webp(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"webp.gltf", "webp_alone.gltf"};
+    for (size_t n = 0; n < LSF_COUNT(names); n++) {
+        lsf_scene *scene = load(names[n]);
+        assert_int_equal(scene->image_count, 1);
+        assert_int_equal(scene->images[0].width, 4);
+        assert_int_equal(scene->images[0].height, 3);
+        const uint8_t second[] = {20, 235, 60};
+        assert_memory_equal((uint8_t *)scene->images[0].texels + 3, second, 3);
+        lsf_scene_destroy(scene);
+    }
+}
+
 /* Any byte of what is compressed may be wrong: a result or an error, but no crash. */
 static void test_changed_bytes(void **state)
 {
@@ -136,6 +151,7 @@ int main(void)
         cmocka_unit_test_prestate(test_cases, &cases_min),
         cmocka_unit_test(test_draco),
         cmocka_unit_test(test_meshopt),
+        cmocka_unit_test(test_webp),
         cmocka_unit_test(test_changed_bytes),
     };
     return cmocka_run_group_tests_name("gltf compressed", tests, make_gltf_folder,

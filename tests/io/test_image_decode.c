@@ -304,9 +304,9 @@ static void test_what_decoding_takes_is_held_against_the_limit(void **state)
 static void test_other_kinds_are_refused(void **state)
 {
     (void)state;
-    refuse("", 0, "not a PNG, JPEG, HDR or EXR");
-    refuse("GIF89a", 6, "not a PNG, JPEG, HDR or EXR");
-    refuse("II*\0aaaaaaaa", 12, "not a PNG, JPEG, HDR or EXR");
+    refuse("", 0, "not a PNG, JPEG, WebP, HDR or EXR");
+    refuse("GIF89a", 6, "not a PNG, JPEG, WebP, HDR or EXR");
+    refuse("II*\0aaaaaaaa", 12, "not a PNG, JPEG, WebP, HDR or EXR");
     const char *xyze = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd";
     refuse(xyze, strlen(xyze), "xyze");
     const char *turned = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+X 1 -Y 1\nabcd";

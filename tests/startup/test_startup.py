@@ -11,7 +11,7 @@ import unittest
 
 COMMAND, LIBRARY, SANITIZED = sys.argv.pop(1), sys.argv.pop(1), sys.argv.pop(1) == "true"
 SCENE = pathlib.Path(os.environ["LSF_SOURCE_ROOT"]) / "data/scenes/cornell_point.gltf"
-LATE = re.compile(r"OpenImageIO|draco|meshopt|OpenEXR|opencv|embree|tbb|libEGL|libGL|OSMesa|glfw|LLVM")
+LATE = re.compile(r"OpenImageIO|draco|meshopt|webp|OpenEXR|opencv|embree|tbb|libEGL|libGL|OSMesa|glfw|LLVM")
 SECONDS = 0.05
 
 
