@@ -1,5 +1,5 @@
 /* The glTF BRDF of a G-buffer surface, split into its two lobes; formulas in shared/brdf.h.
- * Switches LSF_SPECULAR, LSF_ANISOTROPY, LSF_TRANSMISSION; LSF_CLAMP_RADIANCE where samples are sparse. */
+ * Switches LSF_SPECULAR, LSF_SPECULAR_TINT, LSF_ANISOTROPY, LSF_TRANSMISSION; LSF_CLAMP_RADIANCE where samples are sparse. */
 #ifndef LSF_LIB_BRDF
 #define LSF_LIB_BRDF
 
@@ -22,14 +22,31 @@ vec3 surface_diffuse(surface s)
 #endif
 }
 
-/* Schlick's term of one f0, for the side that the surface is seen from. */
-float surface_fresnel(surface s, float f0, float vh)
+/* Schlick's term, for the side that the surface is seen from. */
+float surface_fresnel(surface s, float f0, float f90, float vh)
 {
 #if LSF_TRANSMISSION
-    return lsf_fresnel_interface(f0, vh, s.eta);
+    return lsf_fresnel_interface_to(f0, f90, vh, s.eta);
 #else
-    return lsf_fresnel_schlick(f0, vh);
+    return lsf_fresnel_schlick_to(f0, f90, vh);
 #endif
+}
+
+/* What the dielectric does not pass on to what is below. */
+float surface_dielectric_fresnel(surface s, float vh)
+{
+    return surface_fresnel(s, largest(surface_f0(s)), surface_f90(s), vh);
+}
+
+/* What microfacets reflect of light from the front, and from the side. */
+vec3 surface_specular_f0(surface s)
+{
+    return mix(surface_f0(s), s.base_color, s.metallic);
+}
+
+float surface_specular_f90(surface s)
+{
+    return 1.0 - (1.0 - surface_f90(s)) * (1.0 - s.metallic);
 }
 
 vec3 brdf_sum(surface s, brdf_value f)
@@ -94,7 +111,7 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
     l.nv = max(dot(s.normal, l.view), LSF_COSINE_MIN);
     l.h = normalize(l.view + light);
     float vh = clamp(dot(l.view, l.h), 0.0, 1.0);
-    f.diffuse = 1.0 - surface_fresnel(s, s.f0, vh);
+    f.diffuse = 1.0 - surface_dielectric_fresnel(s, vh);
     if (l.nl > 0.0) {
         float alpha = lsf_alpha_from_roughness(s.roughness);
         float alpha_t = alpha;
@@ -106,9 +123,10 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
         l.bitangent = cross(s.normal, l.tangent);
         alpha_t = lsf_alpha_along_tangent(alpha, s.anisotropy);
 #endif
-        vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
-        vec3 fresnel = vec3(surface_fresnel(s, f0.r, vh), surface_fresnel(s, f0.g, vh),
-                            surface_fresnel(s, f0.b, vh));
+        vec3 f0 = surface_specular_f0(s);
+        float f90 = surface_specular_f90(s);
+        vec3 fresnel = vec3(surface_fresnel(s, f0.r, f90, vh), surface_fresnel(s, f0.g, f90, vh),
+                            surface_fresnel(s, f0.b, f90, vh));
         float v = lobe_visibility(l, alpha_t, alpha);
         float sharpest = kernel * max(fresnel.r, max(fresnel.g, fresnel.b)) * v * l.nl / LSF_PI;
 #if defined(LSF_CLAMP_RADIANCE) && LSF_CLAMP_RADIANCE

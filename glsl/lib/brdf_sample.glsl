@@ -19,18 +19,24 @@ struct brdf_sampler {
     float specular; /* with which probability this lobe is drawn */
 #endif
 #if LSF_TRANSMISSION
-    float f0, reflecting, passing; /* the dielectric's f0; luminance of the lobe's, and of what passes
-                                    * where nothing is reflected */
+    vec2 dielectric, reflecting; /* what the dielectric reflects of light from the front, and from the side;
+                                  * luminance of what the lobe does */
+    float passing;               /* luminance of what passes where nothing is reflected */
     float eta;
 #endif
 };
 
 #if LSF_TRANSMISSION
+float brdf_interface(brdf_sampler p, vec2 f, float vh)
+{
+    return lsf_fresnel_interface_to(f.x, f.y, vh, p.eta);
+}
+
 /* The share of its light that a microfacet is drawn to reflect. */
 float brdf_reflected_share(brdf_sampler p, float vh)
 {
-    float passes = p.passing * (1.0 - lsf_fresnel_interface(p.f0, vh, p.eta));
-    float reflects = lsf_fresnel_interface(p.reflecting, vh, p.eta);
+    float passes = p.passing * (1.0 - brdf_interface(p, p.dielectric, vh));
+    float reflects = brdf_interface(p, p.reflecting, vh);
     return passes > 0.0 ? reflects / (reflects + passes) : 1.0;
 }
 #endif
@@ -55,17 +61,17 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
                   max(dot(p.normal, lifted), LSF_COSINE_MIN));
     /* The share of the light that each would reflect if the surface were smooth. */
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
-    vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
-    float nv = min(p.view.z, 1.0);
-    float specular = surface_fresnel(s, dot(f0, luminance), nv);
-    float matte = dot(surface_diffuse(s), luminance) * (1.0 - s.f0);
-    float diffuse = matte > 0.0 ? dot(surface_diffuse(s), luminance) * (1.0 - surface_fresnel(s, s.f0, nv)) : 0.0;
+    float f0 = dot(surface_specular_f0(s), luminance), f90 = surface_specular_f90(s);
+    float nv = min(p.view.z, 1.0), through = 1.0 - surface_dielectric_fresnel(s, nv);
+    float specular = surface_fresnel(s, f0, f90, nv);
+    float matte = dot(surface_diffuse(s), luminance) * (1.0 - largest(surface_f0(s)));
+    float diffuse = matte > 0.0 ? dot(surface_diffuse(s), luminance) * through : 0.0;
 #if LSF_TRANSMISSION
-    p.f0 = s.f0;
-    p.reflecting = dot(f0, luminance);
+    p.dielectric = vec2(largest(surface_f0(s)), surface_f90(s));
+    p.reflecting = vec2(f0, f90);
     p.passing = s.transmission * (1.0 - s.metallic) * dot(s.base_color, luminance);
     p.eta = s.eta;
-    specular += p.passing * (1.0 - surface_fresnel(s, s.f0, nv));
+    specular += p.passing * through;
 #endif
     p.specular = clamp(specular / max(specular + diffuse, 1e-6), LOBE_LEAST, 1.0 - LOBE_LEAST);
     if (!both && matte <= 0.0)
@@ -136,7 +142,7 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
     if (local.z >= 0.0)
         return true;
     direction = normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
-    float passes = s.transmission * (1.0 - s.metallic) * (1.0 - lsf_fresnel_interface(p.f0, vh, p.eta));
+    float passes = s.transmission * (1.0 - s.metallic) * (1.0 - brdf_interface(p, p.dielectric, vh));
     weight = s.base_color * (passes * gain / (p.specular * (1.0 - share)));
     return true;
 }

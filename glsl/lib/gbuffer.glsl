@@ -5,15 +5,16 @@
  *   y  shading normal, the same
  *   z  base colour R, G as 2 x unorm16
  *   w  base colour B unorm16 | metallic unorm15 << 16 | unlit << 31
- * gbuffer.gloss R32UI (RG32UI with anisotropy, RGBA32UI with transmission), only when the scene requires it
+ * gbuffer.gloss R32UI (RG32UI with anisotropy, RGBA32UI with transmission or tints), only when the scene requires it
  *   x  roughness unorm16 | f0 of the dielectric unorm16 << 16
  *   y  anisotropy strength unorm16 | angle of its tangent in the shading normal's
  *      orthonormal_basis, unorm16 of a full turn << 16
  *   z  transmission unorm8 | seen from the front << 8 | surface of a medium << 9 | material << 10
+ *   w  tint of f0, weight of the dielectric's reflection, 4 x unorm8 (KHR_materials_specular)
  * gbuffer.tint RGBA16F, only where light goes straight through surfaces: what is left of the light on its way to
  *   the eye, over the probability of seeing this surface (lib/straight.glsl)
  * gbuffer.absorption RGBA32F, only with media: optical depth on that way
- * Switches LSF_TRANSMISSION, LSF_STRAIGHT. */
+ * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SPECULAR_TINT. */
 #ifndef LSF_LIB_GBUFFER
 #define LSF_LIB_GBUFFER
 
@@ -22,6 +23,9 @@
 
 #ifndef LSF_TRANSMISSION
 #define LSF_TRANSMISSION 0
+#endif
+#ifndef LSF_SPECULAR_TINT
+#define LSF_SPECULAR_TINT 0
 #endif
 #ifndef LSF_STRAIGHT
 #define LSF_STRAIGHT 0
@@ -34,6 +38,10 @@ struct surface {
     float anisotropy;      /* strength, 0..1 */
     float anisotropy_turn; /* tangent's angle in orthonormal_basis(normal), 0..1 of a turn */
     bool unlit;
+#if LSF_SPECULAR_TINT
+    vec3 f0_tint;          /* dielectrics reflect f0 times this ... */
+    float specular_weight; /* ... times this, which is what they reflect at grazing angles */
+#endif
 #if LSF_TRANSMISSION
     float transmission; /* of what the dielectric does not reflect */
     float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
@@ -41,6 +49,40 @@ struct surface {
     uint material;
 #endif
 };
+
+/* As surfaces are without extensions. */
+void lobes_none(inout surface s)
+{
+#if LSF_SPECULAR_TINT
+    s.f0_tint = vec3(1.0);
+    s.specular_weight = 1.0;
+#endif
+}
+
+/* Of the dielectric. */
+vec3 surface_f0(surface s)
+{
+#if LSF_SPECULAR_TINT
+    return s.specular_weight * s.f0 * s.f0_tint;
+#else
+    return vec3(s.f0);
+#endif
+}
+
+/* What the dielectric reflects at grazing angles. */
+float surface_f90(surface s)
+{
+#if LSF_SPECULAR_TINT
+    return s.specular_weight;
+#else
+    return 1.0;
+#endif
+}
+
+float largest(vec3 v)
+{
+    return max(v.x, max(v.y, v.z));
+}
 
 #if LSF_TRANSMISSION
 /* Of 2^22 materials. */
@@ -100,6 +142,9 @@ uvec4 gloss_pack(surface s)
 #if LSF_TRANSMISSION
     texel.z = transmission_pack(s);
 #endif
+#if LSF_SPECULAR_TINT
+    texel.w = packUnorm4x8(vec4(s.f0_tint, s.specular_weight));
+#endif
     return texel;
 }
 
@@ -120,6 +165,7 @@ surface surface_unpack(uvec4 texel)
     s.f0 = 0.04; /* ior 1.5 */
     s.anisotropy = 0.0;
     s.anisotropy_turn = 0.0;
+    lobes_none(s);
 #if LSF_TRANSMISSION
     transmission_unpack(0u, s);
 #endif
@@ -134,6 +180,11 @@ void gloss_unpack(uvec4 texel, inout surface s)
     vec2 anisotropy = unpackUnorm2x16(texel.y);
     s.anisotropy = anisotropy.x;
     s.anisotropy_turn = anisotropy.y;
+#if LSF_SPECULAR_TINT
+    vec4 tint = unpackUnorm4x8(texel.w);
+    s.f0_tint = tint.rgb;
+    s.specular_weight = tint.a;
+#endif
 #if LSF_TRANSMISSION
     transmission_unpack(texel.z, s);
 #endif

@@ -9,11 +9,20 @@
 #include "lib/gbuffer.glsl"
 #include "lib/scene.glsl"
 
+#ifndef LSF_LOBES_FOLDED
+#define LSF_LOBES_FOLDED 0
+#endif
+
 layout(binding = LSF_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
 layout(binding = LSF_UNIT_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_texture;
 layout(binding = LSF_UNIT_NORMAL) uniform sampler2D normal_texture;
 layout(binding = LSF_UNIT_EMISSIVE) uniform sampler2D emissive_texture;
 layout(binding = LSF_UNIT_ANISOTROPY) uniform sampler2D anisotropy_texture;
+#if LSF_SPECULAR_TINT
+layout(binding = LSF_UNIT_LOBES) uniform samplerBuffer lobe_table; /* lsf_lobe_data */
+layout(binding = LSF_UNIT_SPECULAR) uniform sampler2D specular_texture;
+layout(binding = LSF_UNIT_SPECULAR_COLOR) uniform sampler2D specular_color_texture;
+#endif
 #if LSF_TRANSMISSION_TEXTURE
 layout(binding = LSF_UNIT_TRANSMISSION) uniform sampler2D transmission_texture;
 #endif
@@ -59,6 +68,46 @@ bool material_emits(lsf_material_data material, bool front)
     return front || material.flags.x != 0.0 || material.flags.y != 0.0;
 }
 
+#if LSF_SPECULAR_TINT
+vec4 lobe_row(lsf_material_data material, int row)
+{
+    return texelFetch(lobe_table, int(material.flags.w) * LSF_LOBE_ROWS + row);
+}
+
+lsf_texture_slot_data lobe_slot(lsf_material_data material, int row)
+{
+    return lsf_texture_slot_data(lobe_row(material, row), lobe_row(material, row + 1));
+}
+
+/* KHR_materials_specular. What a channel reflects is at most 1; the brightest one's f0 goes to s.f0, but for that
+ * of a medium, which tells its index of refraction. */
+void tint_specular(lsf_material_data material, material_point point, inout surface s)
+{
+    vec4 factors = lobe_row(material, 0);
+#if LSF_SPECULAR_TEXTURE
+    lsf_texture_slot_data weight_slot = lobe_slot(material, 1);
+    if (slot_used(weight_slot))
+        factors.a *= slot_sample(specular_texture, weight_slot, point.place).a;
+#endif
+#if LSF_SPECULAR_COLOR_TEXTURE
+    lsf_texture_slot_data tint_slot = lobe_slot(material, 3);
+    if (slot_used(tint_slot))
+        factors.rgb *= slot_sample(specular_color_texture, tint_slot, point.place).rgb;
+#endif
+    bool medium = material.flags.z != 0.0;
+    vec3 f0 = min(s.f0 * factors.rgb, 1.0);
+    s.f0_tint = medium ? min(factors.rgb, 1.0) : f0 / max(largest(f0), 1e-6);
+    s.specular_weight = factors.a;
+    if (!medium)
+        s.f0 = largest(f0);
+#if LSF_LOBES_FOLDED
+    if (!medium)
+        s.f0 = dot(surface_f0(s), vec3(0.2126, 0.7152, 0.0722));
+    lobes_none(s);
+#endif
+}
+#endif
+
 /* Everything but the geometric normal, which is set to the vertices'. False where an alpha mask cuts
  * the point out, or a blended surface is not there. The shading normal is turned to the front or to the back, as seen. Emission is that of
  * the sides that material_emits names; of an unlit surface it is the base colour. */
@@ -90,6 +139,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     s.metallic = 0.0;
     s.roughness = 1.0;
     s.f0 = material.surface.w;
+    lobes_none(s);
     s.anisotropy = 0.0;
     s.anisotropy_turn = 0.0;
     s.unlit = material.flags.y != 0.0;
@@ -103,6 +153,9 @@ bool material_surface(lsf_material_data material, material_point point, out surf
         s.metallic *= texel.b;
         s.roughness *= texel.g;
     }
+#endif
+#if LSF_SPECULAR_TINT
+    tint_specular(material, point, s);
 #endif
 #if LSF_ANISOTROPY
     vec2 turn = material.anisotropy.yz;

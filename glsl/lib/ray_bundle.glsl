@@ -332,6 +332,7 @@ surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
     s.anisotropy_turn = 0.0;
     s.unlit = false;
     emission = vec3(0.0);
+    lobes_none(s);
 #if LSF_TRANSMISSION
     transmission_none(s);
 #endif

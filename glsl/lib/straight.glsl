@@ -19,7 +19,8 @@ vec3 straight_transmittance(surface s, vec3 to_viewer)
         return vec3(0.0);
     float cosine = clamp(abs(dot(s.normal, normalize(to_viewer))), LSF_COSINE_MIN, 1.0);
     return s.base_color *
-           (s.transmission * (1.0 - s.metallic) * (1.0 - lsf_fresnel_schlick(s.f0, cosine)));
+           (s.transmission * (1.0 - s.metallic) *
+            (1.0 - lsf_fresnel_schlick_to(largest(surface_f0(s)), surface_f90(s), cosine)));
 }
 
 /* With which probability light passes. */

@@ -39,6 +39,7 @@ surface vpl_surface(lsf_vpl_data vpl)
     s.anisotropy = vpl.gloss.z;
     s.anisotropy_turn = vpl.gloss.w;
     s.unlit = false;
+    lobes_none(s);
 #if LSF_TRANSMISSION
     transmission_none(s);
     s.transmission = vpl.intensity.w;

@@ -89,7 +89,7 @@ void main()
         float reflected = 1.0;
 #if LSF_SPECULAR
         vec3 h = normalize(to_viewer + direction);
-        reflected -= lsf_fresnel_schlick(s.f0, clamp(dot(to_viewer, h), 0.0, 1.0));
+        reflected -= surface_dielectric_fresnel(s, clamp(dot(to_viewer, h), 0.0, 1.0));
 #endif
         irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction, local.z),
                                        light.transmittance);
@@ -103,12 +103,12 @@ void main()
         cone_light light = cone_trace(point, s.geometric_normal, mirrored, spread);
         vec2 place = vec2(dot(s.normal, view_direction), s.roughness);
         vec2 albedo = textureLod(albedo_texture, place, 0.0).rg;
-        vec3 f0 = mix(vec3(s.f0), s.base_color, s.metallic);
+        vec3 reflected = surface_specular_f0(s) * albedo.x + surface_specular_f90(s) * albedo.y;
         vec3 radiance = light.radiance * grid.unit.x;
 #if LSF_ENVIRONMENT && !LSF_SEALED
         radiance += light.transmittance * environment_radiance(mirrored);
 #endif
-        specular_out.rgb = (f0 * albedo.x + albedo.y) * radiance;
+        specular_out.rgb = reflected * radiance;
     }
 #if LSF_ENVIRONMENT && LSF_SEALED
     specular_out.rgb += lobe_environment(s, point, to_viewer);

@@ -104,6 +104,7 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     v.s.metallic = 0.0;
     v.s.roughness = 1.0;
     v.s.f0 = 0.04; /* ior 1.5 */
+    lobes_none(v.s);
     v.s.anisotropy = 0.0;
     v.s.anisotropy_turn = 0.0;
 #if LSF_VOXEL_GLOSS

@@ -1,10 +1,13 @@
 /* The glTF 2.0 metallic-roughness BRDF, one definition for the shaders and for the reference.
- * glTF 2.0 specification, appendix B; KHR_materials_ior; KHR_materials_anisotropy;
+ * glTF 2.0 specification, appendix B; KHR_materials_ior; KHR_materials_anisotropy; KHR_materials_specular;
  * KHR_materials_transmission; KHR_materials_volume.
  *
  *   f = (1 - metallic) (1 - F(f0_dielectric)) ((1 - t) base / pi  +  t base f_t)  +  F(f0) V D
  *   f0_dielectric = ((ior - 1) / (ior + 1))^2,  f0 = mix(f0_dielectric, base, metallic)
  *
+ * KHR_materials_specular tints and weighs the dielectric's reflection: f0_dielectric = w min(tint ((ior - 1) /
+ * (ior + 1))^2, 1), which grows to w at grazing angles; the largest of its channels is what the lobes below do
+ * without.
  * F: Schlick, D: Trowbridge-Reitz (GGX), V: height-correlated Smith visibility, G / (4 nl nv).
  * t is the material's transmission and f_t the specular lobe on the surface's other side: through a thin
  * wall that of the reflection, mirrored; into a medium, Walter, Marschner, Li and Torrance 2007,
@@ -55,6 +58,14 @@ LSF_SHARED_FUNCTION float lsf_fresnel_schlick(float f0, float vh)
     return f0 + (1.0f - f0) * (m2 * m2 * m);
 }
 
+/* The same up to f90 at grazing angles. */
+LSF_SHARED_FUNCTION float lsf_fresnel_schlick_to(float f0, float f90, float vh)
+{
+    float m = 1.0f - vh;
+    float m2 = m * m;
+    return f0 + (f90 - f0) * (m2 * m2 * m);
+}
+
 /* Refractive indices nearer to 1 than this turn no ray: the half vector of the directions on both sides
  * has lost too many digits. */
 #define LSF_REFRACTION_MIN (1.0f / 128.0f)
@@ -78,6 +89,11 @@ LSF_SHARED_FUNCTION float lsf_refracted_cosine(float vh, float eta)
 LSF_SHARED_FUNCTION float lsf_fresnel_interface(float f0, float vh, float eta)
 {
     return lsf_fresnel_schlick(f0, eta < 1.0f ? lsf_refracted_cosine(vh, eta) : vh);
+}
+
+LSF_SHARED_FUNCTION float lsf_fresnel_interface_to(float f0, float f90, float vh, float eta)
+{
+    return lsf_fresnel_schlick_to(f0, f90, eta < 1.0f ? lsf_refracted_cosine(vh, eta) : vh);
 }
 
 /* Solid angle of half vectors to that of refracted directions, |d omega_h / d omega_l| (Walter et al. 2007,

@@ -35,6 +35,13 @@ struct lsf_material_data {
         anisotropy_slot, transmission_slot;
 };
 
+/* What few materials have beyond that, in a table of its own: one after the other, by the material's number. */
+struct lsf_lobe_data {
+    vec4 specular; /* rgb: tint of f0; w: weight */
+    lsf_texture_slot_data specular_slot, specular_color_slot;
+};
+#define LSF_LOBE_ROWS 5 /* of four floats */
+
 /* In place of an alpha cutoff. */
 #define LSF_ALPHA_ALL -1.0f     /* nothing is cut out */
 #define LSF_ALPHA_BLENDED -2.0f /* alphaMode BLEND; see lib/alpha.glsl */
@@ -59,6 +66,9 @@ struct lsf_material_data {
 #define LSF_UNIT_ANISOTROPY 4
 #define LSF_UNIT_ENVIRONMENT 5
 #define LSF_UNIT_TRANSMISSION 13
+#define LSF_UNIT_LOBES 24 /* the table of lsf_lobe_data, and textures of what it holds */
+#define LSF_UNIT_SPECULAR 25
+#define LSF_UNIT_SPECULAR_COLOR 26
 #define LSF_UNIT_SEEN_DEPTH 14 /* depth of what is seen, for surfaces before it */
 
 /* Texture units of the light in turn. */

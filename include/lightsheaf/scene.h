@@ -68,12 +68,14 @@ typedef struct lsf_requirements {
     bool thin_walls;             /* ... on one that does not bound a medium */
     uint32_t bounces;            /* of light that show what its materials do: 1, and 4 more where they
                                   * transmit, for a hollow vessel's walls: two walls, two sides each */
-    bool variable_ior;           /* some index of refraction other than 1.5 */
+    bool variable_ior;           /* some dielectric reflects other than one of index 1.5 */
+    bool specular_varied;        /* KHR_materials_specular with factors or textures that matter */
     bool masked;                 /* alphaMode MASK */
     bool blended;                /* alphaMode BLEND, where some alpha is below 1 */
     bool normal_mapped;
     bool base_color_textured, metallic_roughness_textured, emissive_textured;
     bool anisotropy_textured, transmission_textured;
+    bool specular_textured, specular_color_textured;
     bool texture_transformed;    /* KHR_texture_transform other than identity */
     bool second_uv;              /* some texture in use reads TEXCOORD_1 */
     bool vertex_colored;

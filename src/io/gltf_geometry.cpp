@@ -118,10 +118,11 @@ static bool wants_tangents(const lsf_material &material)
 static bool reads_uv(const lsf_material &material, uint32_t set)
 {
     const lsf_texture_slot *slots[] = {
-        &material.base_color_texture,  &material.metallic_roughness_texture,
-        &material.normal_texture,      &material.occlusion_texture,
-        &material.emissive_texture,    &material.anisotropy_texture,
-        &material.transmission_texture};
+        &material.base_color_texture,    &material.metallic_roughness_texture,
+        &material.normal_texture,        &material.occlusion_texture,
+        &material.emissive_texture,      &material.anisotropy_texture,
+        &material.transmission_texture,  &material.specular_texture,
+        &material.specular_color_texture};
     for (const lsf_texture_slot *slot : slots)
         if (slot->texture != LSF_NONE && slot->uv_set == set)
             return true;

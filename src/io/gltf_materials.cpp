@@ -199,7 +199,8 @@ static lsf_texture_slot core_slot(texture_importer &textures, const Info &info, 
 
 /* A texture inside a material extension, which tinygltf keeps as plain values. */
 static lsf_texture_slot extension_slot(texture_importer &textures, const Value &extension,
-                                       const char *key, const std::string &location)
+                                       const char *key, const std::string &location,
+                                       bool srgb = false)
 {
     if (!extension.IsObject() || !extension.Has(key))
         return empty_slot;
@@ -208,7 +209,7 @@ static lsf_texture_slot extension_slot(texture_importer &textures, const Value &
     if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform"))
         extensions["KHR_texture_transform"] = info.Get("extensions").Get("KHR_texture_transform");
     return make_slot(textures, info.Get("index").GetNumberAsInt(),
-                     (int)number_in(info, "texCoord", 0.0), false, extensions, location);
+                     (int)number_in(info, "texCoord", 0.0), srgb, extensions, location);
 }
 
 /* --- materials --- */
@@ -223,11 +224,13 @@ static lsf_material default_material()
     material.alpha_cutoff = 0.5f;
     material.ior = 1.5f;
     material.attenuation_distance = INFINITY;
-    for (float &color : material.attenuation_color)
-        color = 1.0f;
+    material.specular = 1.0f;
+    for (int c = 0; c < 3; c++)
+        material.attenuation_color[c] = material.specular_color[c] = 1.0f;
     material.base_color_texture = material.metallic_roughness_texture = material.normal_texture =
         material.occlusion_texture = material.emissive_texture = material.anisotropy_texture =
-            material.transmission_texture = empty_slot;
+            material.transmission_texture = material.specular_texture =
+                material.specular_color_texture = empty_slot;
     return material;
 }
 
@@ -264,16 +267,31 @@ static void read_base(texture_importer &textures, const tinygltf::Material &sour
     }
 }
 
+/* What it is stays where the extension does not say it. */
+static void read_color(const Value &extension, const char *key, float color[3])
+{
+    if (extension.IsObject() && extension.Has(key))
+        for (int c = 0; c < 3; c++)
+            color[c] = (float)extension.Get(key).Get(c).GetNumberAsDouble();
+}
+
+static void read_specular(texture_importer &textures, const Value &extension,
+                          const std::string &location, lsf_material &material)
+{
+    material.specular = (float)number_in(extension, "specularFactor", 1.0);
+    read_color(extension, "specularColorFactor", material.specular_color);
+    material.specular_texture = extension_slot(textures, extension, "specularTexture", location);
+    material.specular_color_texture =
+        extension_slot(textures, extension, "specularColorTexture", location, true);
+}
+
 /* The mesh says how thick its medium is: the extension's thickness, a stand-in for renderers that
  * do not know what is behind a surface, only tells whether there is a medium at all. */
 static void read_volume(const Value &extension, lsf_material &material)
 {
     material.volume = number_in(extension, "thicknessFactor", 0.0) > 0.0;
     material.attenuation_distance = (float)number_in(extension, "attenuationDistance", INFINITY);
-    if (extension.IsObject() && extension.Has("attenuationColor"))
-        for (int c = 0; c < 3; c++)
-            material.attenuation_color[c] =
-                (float)extension.Get("attenuationColor").Get(c).GetNumberAsDouble();
+    read_color(extension, "attenuationColor", material.attenuation_color);
 }
 
 static void read_surface(texture_importer &textures, const tinygltf::Material &source,
@@ -300,6 +318,8 @@ static void read_surface(texture_importer &textures, const tinygltf::Material &s
                 extension_slot(textures, extension, "transmissionTexture", location);
         } else if (name == "KHR_materials_volume") {
             read_volume(extension, material);
+        } else if (name == "KHR_materials_specular") {
+            read_specular(textures, extension, location, material);
         } else if (name == "KHR_materials_anisotropy") {
             material.anisotropy_strength = (float)number_in(extension, "anisotropyStrength", 0.0);
             material.anisotropy_rotation = (float)number_in(extension, "anisotropyRotation", 0.0);

@@ -214,6 +214,10 @@ static const rule anisotropy_rules[] = {number("anisotropyStrength", OPTIONAL, 0
                                         number("anisotropyRotation"),
                                         object("anisotropyTexture", OPTIONAL, &texture_info)};
 static const schema anisotropy = of(anisotropy_rules);
+static const rule specular_rules[] = {
+    number("specularFactor", OPTIONAL, 0, 1), object("specularTexture", OPTIONAL, &texture_info),
+    numbers("specularColorFactor", 3, 0), object("specularColorTexture", OPTIONAL, &texture_info)};
+static const schema specular = of(specular_rules);
 static const schema nothing = {nullptr, 0};
 static const rule material_extension_rules[] = {
     object("KHR_materials_emissive_strength", OPTIONAL, &emissive_strength),
@@ -221,6 +225,7 @@ static const rule material_extension_rules[] = {
     object("KHR_materials_transmission", OPTIONAL, &transmission),
     object("KHR_materials_volume", OPTIONAL, &volume),
     object("KHR_materials_anisotropy", OPTIONAL, &anisotropy),
+    object("KHR_materials_specular", OPTIONAL, &specular),
     object("KHR_materials_unlit", OPTIONAL, &nothing)};
 static const schema material_extensions = of(material_extension_rules);
 

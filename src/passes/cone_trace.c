@@ -37,6 +37,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY",
                         gloss && r->anisotropic && params->sealed && r->environment,
                         "the environment is found by rays of the lobe; cones are round");
+    lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_texture_add(plan, "cone_trace.irradiance", GL_RGBA32F, width, height,

@@ -19,6 +19,7 @@ void lsf_direct_light_plan(lsf_plan *plan, const lsf_direct_light_use *use)
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
                         "light passes thin walls");

@@ -69,6 +69,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
     lsf_scene_gpu_material_switches(plan, lsf_ray_bundle_has_gloss(plan) && !use->distances_only,
                                     lsf_ray_bundle_has_emission(plan) && !use->distances_only);
+    lsf_scene_gpu_fold_lobes(plan);
     lsf_ray_bundle_raster_plan(plan, params);
     lsf_ray_bundle_nodes_plan(plan, params, use);
     lsf_ray_bundle_tally_plan(plan);

@@ -112,6 +112,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
                       state->light_count, state->light_count == 1 ? "" : "s",
                       plan->sky_lights > 0 ? " and directions of the environment" : "");
     lsf_scene_gpu_material_switches(plan, gloss, false);
+    lsf_scene_gpu_fold_lobes(plan);
     lsf_plan_switch_add(plan, "LSF_THIN_WALLS", lsf_light_walls_needed(plan),
                         "light passes thin walls");
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {

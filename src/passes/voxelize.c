@@ -106,6 +106,7 @@ static void plan_programs(lsf_plan *plan)
     lsf_plan_pass_add(plan, "voxelize_write", "the surfaces of those that won");
     plan_switches(plan);
     lsf_scene_gpu_material_switches(plan, has_gloss(plan), has_emission(plan));
+    lsf_scene_gpu_fold_lobes(plan);
 }
 
 static void plan_occupancy(lsf_plan *plan, const lsf_voxel_grid *grid)

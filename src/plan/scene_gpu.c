@@ -22,8 +22,8 @@ static bool any_texture(const lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
     return r->base_color_textured || r->metallic_roughness_textured || r->normal_mapped ||
-           r->emissive_textured || r->anisotropy_textured ||
-           (plan->transmission && r->transmission_textured);
+           r->emissive_textured || r->anisotropy_textured || r->specular_textured ||
+           r->specular_color_textured || (plan->transmission && r->transmission_textured);
 }
 
 /* Whether fragments may be missing by their alpha. */
@@ -46,6 +46,12 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
                             "transforms and material of %u instances", scene->instance_count);
         lsf_plan_buffer_add(plan, "scene.materials", scene->material_count * sizeof(material_data),
                             "%u materials", scene->material_count);
+        if (r->specular_varied)
+            lsf_plan_buffer_add(plan, "scene.lobes",
+                                scene->material_count * sizeof(struct lsf_lobe_data),
+                                "some reflection is tinted or weighed");
+        else
+            lsf_plan_omit(plan, "scene.lobes", "no reflection is tinted or weighed");
         if (r->normal_mapped || r->anisotropic)
             lsf_plan_buffer_add(plan, "scene.tangents", vertices * 16, "%s",
                                 r->normal_mapped ? "normal maps" : "anisotropy");
@@ -87,6 +93,10 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
          "some roughness or metallic is a texture"},
         {"LSF_ANISOTROPY", gloss && r->anisotropic, "some material is anisotropic"},
         {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured, "some anisotropy is a texture"},
+        {"LSF_SPECULAR_TINT", gloss && r->specular_varied, "some reflection is tinted or weighed"},
+        {"LSF_SPECULAR_TEXTURE", gloss && r->specular_textured, "some weight is a texture"},
+        {"LSF_SPECULAR_COLOR_TEXTURE", gloss && r->specular_color_textured,
+         "some tint is a texture"},
         {"LSF_TRANSMISSION", plan->transmission, "light passes materials that transmit"},
         {"LSF_STRAIGHT", plan->straight, "it goes straight on"},
         {"LSF_TRANSMISSION_TEXTURE", plan->transmission && r->transmission_textured,
@@ -96,6 +106,18 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
     };
     for (size_t i = 0; i < LSF_COUNT(switches); i++)
         lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
+}
+
+void lsf_scene_gpu_fold_lobes(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_LOBES_FOLDED", plan->requirements.specular_varied,
+                        "only the G-buffer keeps lobes apart");
+}
+
+void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss)
+{
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_TINT", gloss && plan->requirements.specular_varied,
+                        "some reflection is tinted or weighed");
 }
 
 void lsf_scene_gpu_mask_switches(lsf_plan *plan)
@@ -178,6 +200,35 @@ static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error
                                      &gpu->materials, error);
     free(data);
     return ok;
+}
+
+static struct lsf_lobe_data lobe_data(const lsf_material *m)
+{
+    const float *tint = m->specular_color;
+    return (struct lsf_lobe_data){.specular = {tint[0], tint[1], tint[2], m->specular},
+                                  .specular_slot = slot_data(&m->specular_texture),
+                                  .specular_color_slot = slot_data(&m->specular_color_texture)};
+}
+
+static bool upload_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+{
+    const lsf_scene *scene = gpu->scene;
+    if (!lsf_plan_find(plan, "scene.lobes"))
+        return true;
+    struct lsf_lobe_data *data = lsf_alloc(scene->material_count, sizeof *data);
+    if (!data)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u materials",
+                             scene->material_count);
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        data[i] = lobe_data(&scene->materials[i]);
+    bool ok =
+        lsf_plan_create_buffer(plan, gpu->context, "scene.lobes", data, 0, &gpu->lobes, error);
+    free(data);
+    if (!ok)
+        return false;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &gpu->lobe_table);
+    glTextureBuffer(gpu->lobe_table, GL_RGBA32F, gpu->lobes);
+    return true;
 }
 
 static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
@@ -350,8 +401,8 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
                                     streams[i].buffer, error))
             return false;
     if (!upload_instances(gpu, plan, state, previous, error) ||
-        !upload_materials(gpu, plan, error) || !upload_triangles(gpu, plan, state, error) ||
-        !order_draws(gpu, state, error))
+        !upload_materials(gpu, plan, error) || !upload_lobes(gpu, plan, error) ||
+        !upload_triangles(gpu, plan, state, error) || !order_draws(gpu, state, error))
         return false;
     if (!lsf_clusters_init(&gpu->clusters, scene))
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the bounds of triangles");
@@ -365,20 +416,14 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
 {
     if (!gpu->context)
         return;
-    GLuint *buffers[] = {&gpu->positions,
-                         &gpu->normals,
-                         &gpu->tangents,
-                         &gpu->uv0,
-                         &gpu->uv1,
-                         &gpu->colors,
-                         &gpu->indices,
-                         &gpu->materials,
-                         &gpu->instances,
-                         &gpu->triangles,
-                         &gpu->previous_transforms};
+    GLuint *buffers[] = {&gpu->positions, &gpu->normals,   &gpu->tangents,
+                         &gpu->uv0,       &gpu->uv1,       &gpu->colors,
+                         &gpu->indices,   &gpu->materials, &gpu->lobes,
+                         &gpu->instances, &gpu->triangles, &gpu->previous_transforms};
     for (size_t i = 0; i < LSF_COUNT(buffers); i++)
         lsf_buffer_destroy(gpu->context, buffers[i]);
     lsf_texture_upload_destroy(gpu);
+    glDeleteTextures(1, &gpu->lobe_table);
     glDeleteVertexArrays(1, &gpu->shading_array);
     glDeleteVertexArrays(1, &gpu->position_array);
     free(gpu->draw_order);
@@ -415,6 +460,11 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
     bind_slot(gpu, LSF_UNIT_ANISOTROPY, &material->anisotropy_texture, point);
     if (gpu->transmission)
         bind_slot(gpu, LSF_UNIT_TRANSMISSION, &material->transmission_texture, point);
+    if (!gpu->lobe_table)
+        return;
+    lsf_bind_texture(LSF_UNIT_LOBES, gpu->lobe_table);
+    bind_slot(gpu, LSF_UNIT_SPECULAR, &material->specular_texture, point);
+    bind_slot(gpu, LSF_UNIT_SPECULAR_COLOR, &material->specular_color_texture, point);
 }
 
 static bool takes_part(const lsf_scene_gpu *gpu, const lsf_material *material, lsf_draw_mode mode)

@@ -17,6 +17,8 @@ typedef struct lsf_scene_gpu {
     GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */
     uint32_t triangle_count; /* in it: those of opaque materials, without what lets light
                               * straight through */
+    GLuint lobes, lobe_table; /* struct lsf_lobe_data of each material, and the texture that shaders
+                               * read it by; 0: no material needs it */
     GLuint *textures;        /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* scene texture to an entry of `textures` */
@@ -34,6 +36,13 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene);
 /* Adds to the pass in turn the switches of lib/material.glsl; gloss and emission are evaluated only
  * where asked for. */
 void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission);
+
+/* Adds to a pass that evaluates materials: lobes that only the G-buffer keeps apart are folded into
+ * those that every surface has, about as bright. */
+void lsf_scene_gpu_fold_lobes(lsf_plan *plan);
+
+/* Adds to a pass that reads the G-buffer's gloss which lobes it holds. */
+void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss);
 
 /* Adds those of lib/mask.glsl. */
 void lsf_scene_gpu_mask_switches(lsf_plan *plan);

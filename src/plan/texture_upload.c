@@ -55,9 +55,10 @@ static uint32_t number_textures(const lsf_scene *scene, const lsf_plan *plan, ui
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const lsf_material *m =
             &scene->materials[scene->primitives[scene->instances[i].primitive].material];
-        const lsf_texture_slot *slots[] = {&m->base_color_texture, &m->metallic_roughness_texture,
-                                           &m->normal_texture,     &m->emissive_texture,
-                                           &m->anisotropy_texture, &m->transmission_texture};
+        const lsf_texture_slot *slots[] = {
+            &m->base_color_texture,     &m->metallic_roughness_texture, &m->normal_texture,
+            &m->emissive_texture,       &m->anisotropy_texture,         &m->specular_texture,
+            &m->specular_color_texture, &m->transmission_texture};
         size_t count_read = LSF_COUNT(slots) - !plan->transmission;
         for (size_t s = 0; s < count_read; s++)
             if (slots[s]->texture != LSF_NONE)

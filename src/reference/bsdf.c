@@ -3,24 +3,28 @@
 #include "math/sampling.h"
 #include "shared/brdf.h"
 
-static lsf_float3 specular_f0(const lsf_reference_surface *s)
-{
-    lsf_float3 dielectric = lsf_f3(s->f0_dielectric, s->f0_dielectric, s->f0_dielectric);
-    return lsf_f3_mad(lsf_f3_scale(dielectric, 1.0f - s->metallic), s->base_color, s->metallic);
-}
-
 /* What is reflected of light that meets a microfacet under the cosine vh. */
 static lsf_float3 fresnel(const lsf_reference_surface *s, float vh)
 {
-    lsf_float3 f0 = specular_f0(s);
-    return lsf_f3(lsf_fresnel_interface(f0.x, vh, s->eta), lsf_fresnel_interface(f0.y, vh, s->eta),
-                  lsf_fresnel_interface(f0.z, vh, s->eta));
+    lsf_float3 f0 = lsf_f3_scale(s->f0_dielectric, 1.0f - s->metallic);
+    f0 = lsf_f3_mad(f0, s->base_color, s->metallic);
+    float f90 = 1.0f - (1.0f - s->f90_dielectric) * (1.0f - s->metallic);
+    return lsf_f3(lsf_fresnel_interface_to(f0.x, f90, vh, s->eta),
+                  lsf_fresnel_interface_to(f0.y, f90, vh, s->eta),
+                  lsf_fresnel_interface_to(f0.z, f90, vh, s->eta));
+}
+
+/* ... and what the dielectric lets on to what is below, alike of all colours. */
+static float below_dielectric(const lsf_reference_surface *s, float vh)
+{
+    float f0 = lsf_f3_max(s->f0_dielectric);
+    return 1.0f - lsf_fresnel_interface_to(f0, s->f90_dielectric, vh, s->eta);
 }
 
 /* ... and what is transmitted. */
 static lsf_float3 transmittance(const lsf_reference_surface *s, float vh)
 {
-    float passes = 1.0f - lsf_fresnel_interface(s->f0_dielectric, vh, s->eta);
+    float passes = below_dielectric(s, vh);
     return lsf_f3_scale(s->base_color, passes * s->transmission * (1.0f - s->metallic));
 }
 
@@ -41,9 +45,9 @@ static float choose_specular_probability(const lsf_reference_surface *s, float n
         lsf_f3_luminance(s->base_color) * (1.0f - s->metallic) * (1.0f - s->transmission);
     if (!s->specular)
         return diffuse > 0.0f ? 0.0f : -1.0f;
-    if (!(diffuse * (1.0f - s->f0_dielectric) > 0.0f))
+    if (!(diffuse * (1.0f - lsf_f3_max(s->f0_dielectric)) > 0.0f))
         return 1.0f;
-    diffuse *= 1.0f - lsf_fresnel_interface(s->f0_dielectric, nv, s->eta);
+    diffuse *= below_dielectric(s, nv);
     float specular = lsf_f3_luminance(lsf_f3_add(fresnel(s, nv), transmittance(s, nv)));
     /* Both lobes stay likely enough for either to carry what the other cannot. */
     return fminf(fmaxf(specular / (specular + diffuse), 0.1f), 0.9f);
@@ -107,7 +111,7 @@ static lsf_reference_reflection reflect(const lsf_reference_bsdf *bsdf, lsf_floa
     float diffuse = (1.0f - s->metallic) * (1.0f - s->transmission) * m.nl / LSF_PI;
     if (s->specular) {
         result.pdf += m.pdf * reflected_share(s, m.vh);
-        diffuse *= 1.0f - lsf_fresnel_interface(s->f0_dielectric, m.vh, s->eta);
+        diffuse *= below_dielectric(s, m.vh);
         result.specular = lsf_f3_scale(fresnel(s, m.vh), m.lobe);
     }
     result.diffuse = lsf_f3_scale(s->base_color, diffuse);

@@ -211,6 +211,23 @@ static void read_transmission(lsf_reference_surface *surface, const lsf_scene *s
         surface->alpha_t = surface->alpha_b = LSF_ALPHA_MIN;
 }
 
+/* KHR_materials_specular. */
+static void read_specular(lsf_reference_surface *surface, const lsf_scene *scene,
+                          const lsf_material *material, const corner_weights *at)
+{
+    float f0 = lsf_f0_from_ior(material->ior), weight = material->specular;
+    lsf_float3 tint = lsf_f3_load(material->specular_color);
+    if (material->specular_texture.texture != LSF_NONE)
+        weight *= sample_slot(scene, &material->specular_texture, at).a;
+    if (material->specular_color_texture.texture != LSF_NONE) {
+        lsf_texel t = sample_slot(scene, &material->specular_color_texture, at);
+        tint = lsf_f3_mul(tint, lsf_f3(t.r, t.g, t.b));
+    }
+    surface->f90_dielectric = weight;
+    surface->f0_dielectric = lsf_f3_scale(
+        lsf_f3(saturate(f0 * tint.x), saturate(f0 * tint.y), saturate(f0 * tint.z)), weight);
+}
+
 static void read_lobes(lsf_reference_surface *surface, const lsf_scene *scene,
                        const lsf_material *material, const corner_weights *at)
 {
@@ -221,7 +238,7 @@ static void read_lobes(lsf_reference_surface *surface, const lsf_scene *scene,
         metallic *= t.b;
     }
     surface->metallic = saturate(metallic);
-    surface->f0_dielectric = lsf_f0_from_ior(material->ior);
+    read_specular(surface, scene, material, at);
     surface->alpha_b = lsf_alpha_from_roughness(saturate(roughness));
     surface->alpha_t = surface->alpha_b;
     read_transmission(surface, scene, material, at);

@@ -40,7 +40,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 24 };
+enum { FLAG_COUNT = 27 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -56,6 +56,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"refractive", r->refractive},
         {"thin_walls", r->thin_walls},
         {"variable_ior", r->variable_ior},
+        {"specular_varied", r->specular_varied},
         {"masked", r->masked},
         {"blended", r->blended},
         {"normal_mapped", r->normal_mapped},
@@ -64,6 +65,8 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"emissive_textured", r->emissive_textured},
         {"anisotropy_textured", r->anisotropy_textured},
         {"transmission_textured", r->transmission_textured},
+        {"specular_textured", r->specular_textured},
+        {"specular_color_textured", r->specular_color_textured},
         {"texture_transformed", r->texture_transformed},
         {"second_uv", r->second_uv},
         {"vertex_colored", r->vertex_colored},

@@ -45,7 +45,15 @@ static void add_material(lsf_requirements *r, const lsf_material *material, bool
     bool textured = in_use(r, &material->metallic_roughness_texture);
     r->metallic_roughness_textured |= textured;
     r->glossy |= textured || material->roughness < 1.0f || material->metallic > 0.0f;
-    r->variable_ior |= material->ior != 1.5f;
+    bool weighted = in_use(r, &material->specular_texture);
+    bool tinted = in_use(r, &material->specular_color_texture);
+    const float *tint = material->specular_color;
+    bool varied = weighted || tinted || material->specular < 1.0f || tint[0] != 1.0f ||
+                  tint[1] != 1.0f || tint[2] != 1.0f;
+    r->specular_varied |= varied;
+    r->specular_textured |= weighted;
+    r->specular_color_textured |= tinted;
+    r->variable_ior |= material->ior != 1.5f || varied;
     r->normal_mapped |= in_use(r, &material->normal_texture);
     if (material->anisotropy_strength > 0.0f) {
         r->anisotropic = true;

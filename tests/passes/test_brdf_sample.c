@@ -15,14 +15,16 @@ typedef struct material {
     const char *name;
     float roughness, metallic, anisotropy, turn;
     float view[3];
+    float weight; /* of the dielectric's reflection, which is tinted then; 0: 1, without a tint */
 } material;
 
 static const material materials[] = {
-    {"plastic", 1.0f, 0.0f, 0.0f, 0.0f, {0.3f, 0.2f, 0.8f}},
-    {"rough metal", 0.7f, 1.0f, 0.0f, 0.0f, {-0.5f, 0.3f, 0.6f}},
-    {"mixed", 0.5f, 0.5f, 0.0f, 0.0f, {0.7f, -0.1f, 0.5f}},
-    {"brushed", 0.5f, 0.8f, 0.7f, 0.15f, {0.4f, 0.4f, 0.7f}},
-    {"grazing", 0.8f, 0.3f, 0.4f, 0.6f, {0.9f, 0.1f, 0.12f}},
+    {"plastic", 1.0f, 0.0f, 0.0f, 0.0f, {0.3f, 0.2f, 0.8f}, 0.0f},
+    {"rough metal", 0.7f, 1.0f, 0.0f, 0.0f, {-0.5f, 0.3f, 0.6f}, 0.0f},
+    {"mixed", 0.5f, 0.5f, 0.0f, 0.0f, {0.7f, -0.1f, 0.5f}, 0.0f},
+    {"brushed", 0.5f, 0.8f, 0.7f, 0.15f, {0.4f, 0.4f, 0.7f}, 0.0f},
+    {"grazing", 0.8f, 0.3f, 0.4f, 0.6f, {0.9f, 0.1f, 0.12f}, 0.0f},
+    {"tinted", 0.8f, 0.2f, 0.0f, 0.0f, {0.3f, 0.3f, 0.7f}, 0.6f},
 };
 
 /* Of each draw the cell, -1 below the horizon, and the weights of both lobes; or of each point the
@@ -30,6 +32,7 @@ static const material materials[] = {
 static const char shader[] =
     "#define LSF_SPECULAR 1\n"
     "#define LSF_ANISOTROPY 1\n"
+    "#define LSF_SPECULAR_TINT 1\n"
     "#include \"lib/brdf_sample.glsl\"\n"
     "#include \"lib/path_random.glsl\"\n"
     "layout(local_size_x = 64) in;\n"
@@ -37,6 +40,7 @@ static const char shader[] =
     "layout(location = 1) uniform vec3 view_direction;\n"
     "layout(location = 2) uniform ivec2 counts; /* rings, sectors */\n"
     "layout(location = 3) uniform bool density;\n"
+    "layout(location = 4) uniform float weight;\n"
     "layout(std430, binding = 0) writeonly buffer block { vec4 result[]; };\n"
     "void main()\n"
     "{\n"
@@ -44,6 +48,12 @@ static const char shader[] =
     "    s.normal = s.geometric_normal = normalize(vec3(0.3, -0.5, 0.7));\n"
     "    s.base_color = vec3(0.6);\n"
     "    s.f0 = 0.04;\n"
+    "    lobes_none(s);\n"
+    "    if (weight > 0.0) {\n"
+    "        s.f0 = 0.4;\n"
+    "        s.f0_tint = vec3(1.0, 0.2, 0.4);\n"
+    "        s.specular_weight = weight;\n"
+    "    }\n"
     "    s.roughness = gloss.x;\n"
     "    s.metallic = gloss.y;\n"
     "    s.anisotropy = gloss.z;\n"
@@ -118,6 +128,7 @@ static void ask(rig *r, const material *m, int rings, int sectors, bool density,
     glUniform3fv(1, 1, m->view);
     glUniform2i(2, rings, sectors);
     glUniform1i(3, density);
+    glUniform1f(4, m->weight);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, r->buffer);
     glDispatchCompute(count / 64, 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -163,8 +174,9 @@ static void test_draws(void **state)
                          expected[cell]);
         }
         assert_true(fabs(above / (double)DRAWS - sum) <= 0.003);
-        print_message("%s: %.4f above the horizon, reflects %.4f and %.4f\n", m->name, sum,
-                      drawn[0] / (double)LSF_PI, drawn[1]);
+        print_message("%s: %.4f above the horizon, reflects %.4f and %.4f (%.4f %.4f)\n", m->name,
+                      sum, drawn[0] / (double)LSF_PI, drawn[1], reflected[0] / (double)LSF_PI,
+                      reflected[1]);
         for (int lobe = 0; lobe < 2; lobe++)
             assert_true(fabs(drawn[lobe] / reflected[lobe] - 1.0) <= 0.003);
     }

@@ -337,6 +337,33 @@ static void textures(void **unused)
     check_view("textures", scene, (const float[3]){0.3f, 0.6f, 5}, INFINITY);
 }
 
+/* KHR_materials_specular: weight and tint, by factor and by texture, brighter than 1 too. */
+static void specular(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    put_ground(scene);
+    uint32_t weights = build_noise(scene, 3, 4, 4, false),
+             tints = build_noise(scene, 4, 3, 3, true);
+    for (int i = 0; i < 6; i++) {
+        lsf_material *material = build_material(scene, 0.2f, 0.15f, 0.1f);
+        material->roughness = i % 2 ? 0.35f : 0.7f;
+        material->metallic = i == 4 ? 0.5f : 0.0f;
+        material->specular = i == 0 ? 0.2f : 1.0f;
+        if (i >= 1)
+            memcpy(material->specular_color, (const float[3]){0.3f, 2.0f, 14.0f},
+                   3 * sizeof(float));
+        if (i == 2 || i == 5)
+            material->specular_texture.texture = weights;
+        if (i >= 3)
+            material->specular_color_texture.texture = tints;
+        move(build_sphere(scene, 3, false), 1.4 * (i % 3 - 1), i / 3 ? 0.7 : -0.4, i / 3 ? -1 : 0.5,
+             0.6);
+    }
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(-2, 3, 4), lsf_f3(0, -1, 0), 60.0f);
+    check_view("specular", scene, (const float[3]){0, 1.5f, 5}, INFINITY);
+}
+
 /* Alone, for to the path tracer it is a lamp. */
 static void unlit(void **unused)
 {
@@ -359,7 +386,8 @@ int main(void)
         cmocka_unit_test(cornell_glossy), cmocka_unit_test(roughness_and_metallic),
         cmocka_unit_test(mirrors),        cmocka_unit_test(orthographic),
         cmocka_unit_test(anisotropy),     cmocka_unit_test(normal_maps),
-        cmocka_unit_test(textures),       cmocka_unit_test(unlit),
+        cmocka_unit_test(textures),       cmocka_unit_test(specular),
+        cmocka_unit_test(unlit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

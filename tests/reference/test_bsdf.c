@@ -17,19 +17,34 @@
 
 typedef struct material_case {
     float roughness, metallic, anisotropy, cosine, azimuth;
+    float dim;     /* KHR_materials_specular: 1 less the weight */
+    float tint[3]; /* ... and the tint of f0; 0: none */
 } material_case;
 
 static const material_case cases[] = {
-    {1.0f, 0.0f, 0.0f, 0.9f, 0.0f}, {0.3f, 0.0f, 0.0f, 0.7f, 1.0f},
-    {0.5f, 1.0f, 0.0f, 0.8f, 2.0f}, {0.7f, 0.5f, 0.0f, 0.3f, -1.0f},
-    {0.4f, 1.0f, 0.8f, 0.6f, 0.5f}, {0.4f, 0.3f, 1.0f, 0.5f, 2.2f},
-    {0.9f, 1.0f, 0.0f, 0.1f, 0.0f}, {0.25f, 1.0f, 0.6f, 0.95f, -2.0f},
+    {.roughness = 1.0f, .cosine = 0.9f},
+    {.roughness = 0.3f, .cosine = 0.7f, .azimuth = 1.0f},
+    {.roughness = 0.5f, .metallic = 1.0f, .cosine = 0.8f, .azimuth = 2.0f},
+    {.roughness = 0.7f, .metallic = 0.5f, .cosine = 0.3f, .azimuth = -1.0f},
+    {.roughness = 0.4f, .metallic = 1.0f, .anisotropy = 0.8f, .cosine = 0.6f, .azimuth = 0.5f},
+    {.roughness = 0.4f, .metallic = 0.3f, .anisotropy = 1.0f, .cosine = 0.5f, .azimuth = 2.2f},
+    {.roughness = 0.9f, .metallic = 1.0f, .cosine = 0.1f},
+    {.roughness = 0.25f, .metallic = 1.0f, .anisotropy = 0.6f, .cosine = 0.95f, .azimuth = -2.0f},
+    {.roughness = 0.4f, .cosine = 0.6f, .azimuth = 0.3f, .dim = 0.7f},
+    {.roughness = 0.6f, .metallic = 0.3f, .cosine = 0.7f, .dim = 0.2f, .tint = {0.5f, 1.0f, 3.0f}},
+    {.roughness = 0.3f, .cosine = 0.8f, .tint = {40.0f, 0.5f, 0.1f}},
 };
+
+/* What the dielectric reflects of light from the front, before its weight. */
+static float tinted_f0(const material_case *c, int channel)
+{
+    return fminf(0.04f * (c->tint[channel] > 0.0f ? c->tint[channel] : 1.0f), 1.0f);
+}
 
 static lsf_reference_surface make_surface(const material_case *c)
 {
     float sine = sqrtf(1.0f - c->cosine * c->cosine);
-    float alpha = lsf_alpha_from_roughness(c->roughness);
+    float alpha = lsf_alpha_from_roughness(c->roughness), weight = 1.0f - c->dim;
     return (lsf_reference_surface){
         .geometric_normal = {0, 0, 1},
         .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -40,7 +55,9 @@ static lsf_reference_surface make_surface(const material_case *c)
         .metallic = c->metallic,
         .alpha_t = lsf_alpha_along_tangent(alpha, c->anisotropy),
         .alpha_b = alpha,
-        .f0_dielectric = 0.04f,
+        .f0_dielectric = {weight * tinted_f0(c, 0), weight * tinted_f0(c, 1),
+                          weight * tinted_f0(c, 2)},
+        .f90_dielectric = weight,
     };
 }
 
@@ -114,8 +131,12 @@ static void extremes_are_finite(void **unused)
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 4; c++) {
             for (uint32_t i = 0; i < 500; i++) {
-                material_case what = {roughnesses[r], i & 1 ? 1.0f : 0.0f, i & 2 ? 1.0f : 0.0f,
-                                      cosines[c], 0.3f};
+                material_case what = {.roughness = roughnesses[r],
+                                      .metallic = i & 1 ? 1.0f : 0.0f,
+                                      .anisotropy = i & 2 ? 1.0f : 0.0f,
+                                      .cosine = cosines[c],
+                                      .azimuth = 0.3f,
+                                      .dim = i & 8 ? 1.0f : 0.0f};
                 lsf_reference_surface surface = make_surface(&what);
                 if (i & 4)
                     surface.base_color = lsf_f3(0, 0, 0);
@@ -138,15 +159,19 @@ static void extremes_are_finite(void **unused)
 
 /* What a plane reflects of a uniform environment: the integral of f cos over the hemisphere, in
  * spherical coordinates about the mirror direction's side, in double precision, from the formulas
- * of glTF 2.0, appendix B. */
-static double reflectance(const material_case *c, double base)
+ * of glTF 2.0, appendix B, and of KHR_materials_specular. */
+static double reflectance(const material_case *c, int channel)
 {
+    static const double bases[3] = {0.8, 0.5, 0.2};
     enum { ROWS = 2000, COLUMNS = 720 };
     double alpha = (double)lsf_alpha_from_roughness(c->roughness);
     double at = alpha + (1.0 - alpha) * (double)(c->anisotropy * c->anisotropy), ab = alpha;
     double nv = (double)c->cosine, sine = sqrt(1.0 - nv * nv);
     double vx = sine * cos((double)c->azimuth), vy = sine * sin((double)c->azimuth);
-    double f0 = 0.04 * (1.0 - (double)c->metallic) + base * (double)c->metallic, sum = 0.0;
+    double base = bases[channel], weight = 1.0 - (double)c->dim, metallic = (double)c->metallic;
+    double own = (double)tinted_f0(c, channel), brightest = own, sum = 0.0;
+    for (int other = 0; other < 3; other++)
+        brightest = fmax(brightest, (double)tinted_f0(c, other));
     for (int row = 0; row < ROWS; row++) {
         double nl = (row + 0.5) / ROWS, r = sqrt(1.0 - nl * nl);
         for (int column = 0; column < COLUMNS; column++) {
@@ -162,8 +187,11 @@ static double reflectance(const material_case *c, double base)
             double d = 1.0 / (M_PI * at * ab * e * e);
             double lambda_l = nv * sqrt(at * at * lx * lx + ab * ab * ly * ly + nl * nl);
             double lambda_v = nl * sqrt(at * at * vx * vx + ab * ab * vy * vy + nv * nv);
-            double specular = (f0 + (1.0 - f0) * m5) * d * 0.5 / (lambda_l + lambda_v);
-            double diffuse = (1.0 - (double)c->metallic) * (1.0 - (0.04 + 0.96 * m5)) * base / M_PI;
+            double dielectric = weight * (own + (1.0 - own) * m5), metal = base + (1.0 - base) * m5;
+            double below = 1.0 - weight * (brightest + (1.0 - brightest) * m5);
+            double specular = ((1.0 - metallic) * dielectric + metallic * metal) * d * 0.5 /
+                              (lambda_l + lambda_v);
+            double diffuse = (1.0 - metallic) * below * base / M_PI;
             sum += (specular + diffuse) * nl;
         }
     }
@@ -181,6 +209,9 @@ static void furnace_by_material(void **unused)
         material->roughness = c->roughness;
         material->metallic = c->metallic;
         material->anisotropy_strength = c->anisotropy;
+        material->specular = 1.0f - c->dim;
+        for (int channel = 0; channel < 3; channel++)
+            material->specular_color[channel] = c->tint[channel] > 0.0f ? c->tint[channel] : 1.0f;
         build_floor(scene, 0.0f, 1.0f);
         /* The floor's tangents run along x and its bitangents along -z. */
         scene->vertices.tangent = calloc(4 * scene->vertices.count, sizeof(float));
@@ -192,9 +223,8 @@ static void furnace_by_material(void **unused)
         float sine = sqrtf(1.0f - c->cosine * c->cosine), rgb[3];
         render_point(scene, lsf_f3(sine * cosf(c->azimuth), c->cosine, -sine * sinf(c->azimuth)),
                      lsf_f3(0, 0, 0), 65536, 0, rgb);
-        static const double base[3] = {0.8, 0.5, 0.2};
         for (int channel = 0; channel < 3; channel++) {
-            double expected = reflectance(c, base[channel]);
+            double expected = reflectance(c, channel);
             double error = fabs((double)rgb[channel] / expected - 1.0);
             print_message("case %zu, channel %d: %.5f, expected %.5f\n", k, channel,
                           (double)rgb[channel], expected);

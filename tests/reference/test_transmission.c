@@ -32,7 +32,7 @@ static const wall_case cases[] = {
 
 static lsf_reference_surface make_surface(const wall_case *c)
 {
-    float ior = c->ior > 0.0f ? c->ior : 1.5f;
+    float ior = c->ior > 0.0f ? c->ior : 1.5f, f0 = lsf_f0_from_ior(ior);
     lsf_reference_surface surface = {
         .geometric_normal = {0, 0, 1},
         .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -40,7 +40,8 @@ static lsf_reference_surface make_surface(const wall_case *c)
         .reflects = true,
         .specular = true,
         .base_color = {0.9f, 0.9f, 0.9f},
-        .f0_dielectric = lsf_f0_from_ior(ior),
+        .f0_dielectric = {f0, f0, f0},
+        .f90_dielectric = 1.0f,
         .transmission = c->transmission,
         .volume = c->ior > 0.0f,
         .front = c->front,
@@ -322,7 +323,7 @@ static void extremes_are_finite(void **unused)
                        .cosine = cosines[i / 10 % 4]};
         lsf_reference_surface surface = make_surface(&c);
         if (i & 4)
-            surface.f0_dielectric = lsf_f0_from_ior(0.0f);
+            surface.f0_dielectric = lsf_f3(1.0f, 1.0f, 1.0f);
         lsf_reference_bsdf bsdf;
         lsf_reference_bsdf_init(&bsdf, &surface);
         float u[2] = {lsf_random_float(61, i), lsf_random_float(62, i)};

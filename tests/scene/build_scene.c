@@ -84,6 +84,8 @@ lsf_material *build_material(lsf_scene *scene, float r, float g, float b)
         .alpha_cutoff = 0.5f,
         .ior = 1.5f,
         .attenuation_distance = INFINITY,
+        .specular = 1.0f,
+        .specular_color = {1.0f, 1.0f, 1.0f},
         .attenuation_color = {1.0f, 1.0f, 1.0f},
         .base_color_texture = none,
         .metallic_roughness_texture = none,
@@ -92,6 +94,8 @@ lsf_material *build_material(lsf_scene *scene, float r, float g, float b)
         .emissive_texture = none,
         .anisotropy_texture = none,
         .transmission_texture = none,
+        .specular_texture = none,
+        .specular_color_texture = none,
     };
     return material;
 }
