@@ -136,6 +136,8 @@ gltf_checked gltf_schema_check(std::string_view json, bool lenient, memory_budge
 bool uri_is_data(const std::string &uri);
 /* Throws unless it is well-formed base64; returns the decoded size. */
 uint64_t uri_data_size(const std::string &uri, const std::string &location);
+/* What it holds. */
+std::string uri_data(const std::string &uri, const std::string &location);
 /* Path of a file below `folder`; refuses schemes, absolute paths and ways out of the folder. */
 std::string uri_to_path(const std::string &folder, const std::string &uri,
                         const std::string &location);

@@ -92,6 +92,7 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
     const tinygltf::Image &source = import_.model.images[index];
     std::string location = location_of("images", index);
     file_content file;
+    std::string decoded_uri;
     const void *bytes;
     size_t length;
     memory_loan loan(import_.budget, location);
@@ -102,6 +103,11 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
     } else if (!source.image.empty()) {
         bytes = source.image.data();
         length = source.image.size();
+    } else if (uri_is_data(source.uri)) { /* of a type that tinygltf does not know */
+        loan.take(source.uri.size(), 2);
+        decoded_uri = uri_data(source.uri, location + "/uri");
+        bytes = decoded_uri.data();
+        length = decoded_uri.size();
     } else {
         file =
             file_read(uri_to_path(import_.folder, source.uri, location + "/uri"), import_.budget);
@@ -110,7 +116,8 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
         loan.take(length, 1);
     }
 
-    std::string name = !source.uri.empty() ? source.uri : "image " + std::to_string(index);
+    bool has_file = !source.uri.empty() && !uri_is_data(source.uri);
+    std::string name = has_file ? source.uri : "image " + std::to_string(index);
     decoded.name = copy_text(name);
     lsf_error error;
     if (!lsf_texture_image_decode(&decoded, bytes, length, import_.budget.left(), name.c_str(),

@@ -41,6 +41,21 @@ uint64_t uri_data_size(const std::string &uri, const std::string &location)
     return digits / 4 * 3 + (digits % 4 ? digits % 4 - 1 : 0);
 }
 
+std::string uri_data(const std::string &uri, const std::string &location)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    uint64_t size = uri_data_size(uri, location);
+    std::string bytes;
+    bytes.reserve(size);
+    uint32_t bits = 0;
+    for (size_t i = uri.find(',') + 1, digit = 0; bytes.size() < size; i++, digit++) {
+        bits = bits << 6 | (uint32_t)(strchr(digits, uri[i]) - digits);
+        if (digit % 4 != 0)
+            bytes += (char)(bits >> (6 - digit % 4 * 2));
+    }
+    return bytes;
+}
+
 static int hex_digit(char c)
 {
     return c >= '0' && c <= '9'   ? c - '0'
