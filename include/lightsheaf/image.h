@@ -64,6 +64,11 @@ typedef struct lsf_image_save_params {
 bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_save_params *params,
                     lsf_error *error);
 
+/* Whether a picture of this size could be saved there: its format, its size, and the module that
+ * writes it, which is loaded. To be asked before a long rendering. */
+bool lsf_image_can_save(uint32_t width, uint32_t height, const char *path,
+                        const lsf_image_save_params *params, lsf_error *error);
+
 /* Writes 8-bit sRGB pixels as PNG: `width` * `height` * 3 bytes, rows from the top, as
  * lsf_renderer_read_rgb8 gives them. Written aside and renamed; path "-" is standard output. */
 bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,

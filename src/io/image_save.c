@@ -13,16 +13,21 @@ static const char *shown_path(const char *path)
     return strcmp(path, "-") == 0 ? "standard output" : path;
 }
 
-static bool encode_and_write(const lsf_encode_request *request, const char *path, lsf_error *error)
+static const lsf_image_module *get_module(const char *path, lsf_error *error)
 {
     lsf_error cause;
     const lsf_image_module *module = lsf_image_module_get(&cause);
     if (!module)
-        return lsf_error_set(error, cause.code, "%s: cannot write: %s", shown_path(path),
-                             cause.message);
+        lsf_error_set(error, cause.code, "%s: cannot write: %s", shown_path(path), cause.message);
+    return module;
+}
+
+static bool encode_and_write(const lsf_encode_request *request, const char *path, lsf_error *error)
+{
+    const lsf_image_module *module = get_module(path, error);
     void *bytes;
     size_t length;
-    if (!module->encode(request, &bytes, &length, shown_path(path), error))
+    if (!module || !module->encode(request, &bytes, &length, shown_path(path), error))
         return false;
     bool written = lsf_file_write(path, bytes, length, error);
     free(bytes);
@@ -212,10 +217,19 @@ static void warn_of_lost_pixels(const lsf_image *image, const char *path)
                 (unsigned long long)lost, (unsigned long long)count);
 }
 
+static const lsf_image_save_params defaults = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
+
+bool lsf_image_can_save(uint32_t width, uint32_t height, const char *path,
+                        const lsf_image_save_params *params, lsf_error *error)
+{
+    lsf_image_format format = params ? params->format : defaults.format;
+    return find_format(&format, path, error) && check_size(width, height, path, error) &&
+           get_module(path, error) != NULL;
+}
+
 bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_save_params *params,
                     lsf_error *error)
 {
-    static const lsf_image_save_params defaults = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     if (!params)
         params = &defaults;
     lsf_image_format format = params->format;

@@ -227,15 +227,50 @@ static uint32_t name_channels(const lsf_setup *setup, char (*names)[LSF_CHANNEL_
     return count;
 }
 
-/* Copies a layer, bottom row first, into channels of the image, top row first. */
-static void copy_layer(lsf_image *image, uint32_t first_channel, uint32_t channels,
-                       const float *texels)
+/* Textures are read back in strips of whole rows of about this size: OpenGL's sizes are signed
+ * 32-bit numbers, and after a long rendering memory may be short. */
+enum { STRIP_BYTES = 1 << 18 };
+
+static uint32_t strip_rows(uint32_t width, uint32_t texel_bytes)
 {
-    for (uint32_t y = 0; y < image->height; y++)
+    uint32_t rows = STRIP_BYTES / (width * texel_bytes);
+    return rows > 0 ? rows : 1;
+}
+
+/* Calls `take` with rows of R, G, B and alpha, bottom row first. */
+static bool read_strips(GLuint texture, uint32_t width, uint32_t height,
+                        void (*take)(const float *texels, uint32_t first_row, uint32_t rows,
+                                     void *user),
+                        void *user)
+{
+    uint32_t most = strip_rows(width, 16);
+    float *texels = lsf_alloc((uint64_t)most * width, 16);
+    for (uint32_t y = 0; texels && y < height; y += most) {
+        uint32_t rows = height - y < most ? height - y : most;
+        glGetTextureSubImage(texture, 0, 0, (GLint)y, 0, (GLsizei)width, (GLsizei)rows, 1, GL_RGBA,
+                             GL_FLOAT, (GLsizei)(rows * width * 16), texels);
+        take(texels, y, rows, user);
+    }
+    free(texels);
+    return texels != NULL;
+}
+
+/* Where a layer goes in an image, whose rows run from the top. */
+typedef struct layer_target {
+    lsf_image *image;
+    uint32_t first_channel, channels;
+} layer_target;
+
+static void copy_layer(const float *texels, uint32_t first_row, uint32_t rows, void *user)
+{
+    const layer_target *target = user;
+    lsf_image *image = target->image;
+    for (uint32_t row = 0; row < rows; row++)
         for (uint32_t x = 0; x < image->width; x++) {
-            size_t source = ((size_t)(image->height - 1 - y) * image->width + x) * 4;
-            size_t target = ((size_t)y * image->width + x) * image->channel_count + first_channel;
-            memcpy(image->pixels + target, texels + source, channels * sizeof(float));
+            size_t y = image->height - 1 - (first_row + row);
+            float *pixel = image->pixels + (y * image->width + x) * image->channel_count;
+            memcpy(pixel + target->first_channel, texels + ((size_t)row * image->width + x) * 4,
+                   target->channels * sizeof(float));
         }
 }
 
@@ -261,30 +296,21 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
     uint32_t channel_count = name_channels(setup, names);
     for (uint32_t i = 0; i < channel_count; i++)
         name_list[i] = names[i];
-    uint64_t texel_bytes = (uint64_t)plan->width * plan->height * 16;
     if (!catch_up(renderer, true, error))
         return NULL;
     lsf_image *image = lsf_image_create(plan->width, plan->height, channel_count, name_list, error);
-    float *texels = lsf_alloc(texel_bytes, 1);
-    if (!image || !texels || texel_bytes > INT32_MAX) {
-        lsf_error_set(error, LSF_ERROR_RENDER, "%ux%u is too large to read back", plan->width,
-                      plan->height);
-        free(texels);
-        lsf_image_destroy(image);
-        return NULL;
-    }
-    for (uint32_t i = 0, channel = 0; i < setup->layer_count; i++) {
+    bool good = image != NULL;
+    for (uint32_t i = 0, channel = 0; good && i < setup->layer_count; i++) {
         uint32_t channels = channels_of(setup->layer_aovs[i]);
         bool present = layer_texture(&renderer->outputs, setup->layer_aovs[i]) != 0;
-        if (present) {
-            glGetTextureImage(renderer->accumulate.means[i], 0, GL_RGBA, GL_FLOAT,
-                              (GLsizei)texel_bytes, texels);
-            copy_layer(image, channel, channels, texels);
-        }
+        layer_target target = {image, channel, channels};
+        if (present && !read_strips(renderer->accumulate.means[i], plan->width, plan->height,
+                                    copy_layer, &target))
+            good =
+                lsf_error_set(error, LSF_ERROR_RENDER, "no memory left to read the picture back");
         channel += channels;
     }
-    free(texels);
-    if (!lsf_context_check(renderer->context, error)) {
+    if (!good || !lsf_context_check(renderer->context, error)) {
         lsf_image_destroy(image);
         return NULL;
     }
@@ -300,33 +326,44 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb
     if (!catch_up(renderer, true, error))
         return false;
     lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure);
-    glGetTextureImage(renderer->tonemap.display, 0, GL_RGB, GL_UNSIGNED_BYTE,
-                      (GLsizei)(plan->width * plan->height * 3), rgb);
+    uint32_t most = strip_rows(plan->width, 3);
+    for (uint32_t y = 0; y < plan->height; y += most) {
+        uint32_t rows = plan->height - y < most ? plan->height - y : most;
+        glGetTextureSubImage(renderer->tonemap.display, 0, 0, (GLint)y, 0, (GLsizei)plan->width,
+                             (GLsizei)rows, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                             (GLsizei)(rows * plan->width * 3),
+                             rgb + (uint64_t)y * plan->width * 3);
+    }
     return lsf_context_check(renderer->context, error);
 }
 
-/* Goes over the picture in strips of some megabytes: how much of its luminance bounds took away,
+typedef struct pixel_tally {
+    uint32_t width;
+    double lost, kept;    /* luminance */
+    uint64_t lost_pixels; /* those that are not finite */
+} pixel_tally;
+
+static void tally_rows(const float *texels, uint32_t first_row, uint32_t rows, void *user)
+{
+    (void)first_row;
+    pixel_tally *tally = user;
+    for (const float *t = texels; t < texels + (size_t)4 * tally->width * rows; t += 4) {
+        tally->lost += (double)t[3];
+        tally->kept += (double)lsf_f3_luminance(lsf_f3_load(t));
+        tally->lost_pixels += !isfinite(t[0]) || !isfinite(t[1]) || !isfinite(t[2]);
+    }
+}
+
+/* Goes over the picture: how much of its luminance bounds took away,
  * which alpha holds, and how many pixels are not finite. */
 static void look_at_pixels(const lsf_renderer *renderer, double *lost_share, uint64_t *lost_pixels)
 {
     const lsf_plan *plan = renderer->setup.plan;
-    uint32_t rows = (1u << 18) / plan->width + 1;
-    float *texels = lsf_alloc((uint64_t)plan->width * rows, 16);
-    double lost = 0.0, kept = 0.0;
-    *lost_pixels = 0;
-    for (uint32_t y = 0; texels && y < plan->height; y += rows) {
-        uint32_t count = rows < plan->height - y ? rows : plan->height - y;
-        uint64_t pixels = (uint64_t)plan->width * count;
-        glGetTextureSubImage(renderer->accumulate.means[0], 0, 0, (GLint)y, 0, (GLsizei)plan->width,
-                             (GLsizei)count, 1, GL_RGBA, GL_FLOAT, (GLsizei)(pixels * 16), texels);
-        for (const float *t = texels; t < texels + 4 * pixels; t += 4) {
-            lost += (double)t[3];
-            kept += (double)lsf_f3_luminance(lsf_f3_load(t));
-            *lost_pixels += !isfinite(t[0]) || !isfinite(t[1]) || !isfinite(t[2]);
-        }
-    }
-    free(texels);
-    *lost_share = renderer->outputs.bounded && lost > 0.0 ? lost / (lost + kept) : 0.0;
+    pixel_tally tally = {.width = plan->width};
+    read_strips(renderer->accumulate.means[0], plan->width, plan->height, tally_rows, &tally);
+    bool lost = renderer->outputs.bounded && tally.lost > 0.0;
+    *lost_share = lost ? tally.lost / (tally.lost + tally.kept) : 0.0;
+    *lost_pixels = tally.lost_pixels;
 }
 
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)

@@ -117,7 +117,12 @@ bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *s
         return false;
     if (settings->halves && !check_halves(destination, error))
         return false;
-    return !settings->json_path || check_json(destination, settings->json_path, error);
+    if (settings->json_path && !check_json(destination, settings->json_path, error))
+        return false;
+    lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
+    params.format = destination->format;
+    return lsf_image_can_save(settings->resolution[0], settings->resolution[1], destination->path,
+                              &params, error);
 }
 
 void lsf_destination_finish(lsf_destination *destination)

@@ -385,6 +385,17 @@ static void test_png_has_alpha_of_its_own(void **state)
     lsf_image_destroy(image);
 }
 
+static void test_what_cannot_be_saved_is_known_before(void **state)
+{
+    (void)state;
+    lsf_error error = {0};
+    assert_true(lsf_image_can_save(65535, 1, in_folder("a.exr"), NULL, &error));
+    assert_false(lsf_image_can_save(65536, 1, in_folder("a.exr"), NULL, &error));
+    assert_non_null(strstr(error.message, "65536 x 1"));
+    assert_false(lsf_image_can_save(4, 4, in_folder("a.tiff"), NULL, &error));
+    assert_int_equal(error.code, LSF_ERROR_FILE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -399,6 +410,7 @@ int main(void)
         cmocka_unit_test(test_interrupt_removes_temporaries),
         cmocka_unit_test(test_links_stay_and_mode_follows_umask),
         cmocka_unit_test(test_foreign_files),
+        cmocka_unit_test(test_what_cannot_be_saved_is_known_before),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }
