@@ -1,7 +1,8 @@
 /* The voxel grid, and what its textures hold, packed and unpacked in one place.
  *
  * voxelize.albedo R32UI    square roots of R and G in 11 bits each, of B in 10
- * voxelize.normal R32UI    unit normal, octahedral, 2 x 12 bits | turn of the tangent about it << 24
+ * voxelize.normal R32UI    unit normal of the triangle's plane, octahedral, 2 x 12 bits | turn of the tangent
+ *                          about it << 24; with LSF_VOXEL_BENT RG32UI, the other word: the shading normal
  * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30 |
  *                          unlit << 31
  * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
@@ -88,6 +89,16 @@ vec3 voxel_normal_unpack(uint bits)
     if (n.z < 0.0)
         n.xy = (1.0 - abs(n.yx)) * octahedral_sign(n.xy);
     return normalize(n);
+}
+
+/* Of the surface that the texel's plane belongs to, seen from its front. */
+vec3 voxel_shading_normal(uvec2 texel)
+{
+#if defined(LSF_VOXEL_BENT) && LSF_VOXEL_BENT
+    return voxel_normal_unpack(texel.y);
+#else
+    return voxel_normal_unpack(texel.x);
+#endif
 }
 
 float voxel_turn_unpack(uint bits)

@@ -152,9 +152,10 @@ cone_light cone_diffuse(vec3 point, vec3 normal, vec3 direction, float spread)
 #if LSF_SEALED
     cone_light light = cone_light(vec3(0.0), 1.0);
     voxel_ray ray;
+    ivec3 met;
     if (voxel_ray_begin(point + voxel_lift(normal), direction, ray) && voxel_leave_start(ray) &&
-        voxel_ray_trace(ray, cone_march.z))
-        light = cone_light(cone_meet(ray.cell, direction), 0.0);
+        voxel_ray_meet(ray, cone_march.z, true, met))
+        light = cone_light(cone_meet(met, direction), 0.0);
     return light;
 #else
     return cone_trace(point, normal, direction, spread);

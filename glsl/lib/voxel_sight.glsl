@@ -7,7 +7,7 @@
 #include "lib/voxel_trace.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
-layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal;
+layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal; /* r: of the plane */
 
 /* How far a voxel's plane may be from its surface [voxels]: places are kept to 2^-11, normals to about
  * 2^-11 in direction, over three voxels at most. */
@@ -50,10 +50,15 @@ bool voxel_crossed(vec2 height, float first, float last)
     return min(abs(before), abs(after)) < VOXEL_PLANE || before * after < 0.0;
 }
 
+/* Below this cosine between the normals of two voxels beside each other surfaces meet in an edge. */
+#define VOXEL_EDGE 0.7
+
 /* Whether the ray, between two distances within a cell, crosses the surface there. Where surfaces meet or bend,
  * either has won the voxel, and those of the six cells about it count, too, as far as they are known to be on the
- * side of the cell's own plane that the ray is on: round an edge they are not. */
-bool voxel_blocks(ivec3 cell, voxel_ray ray, float first, float last)
+ * side of the cell's own plane that the ray is on: round an edge they are not. `corners`: an edge that is on the
+ * ray's side, as those of a room are from within, is closed, whatever the ray crosses: where three surfaces
+ * meet, none of the seven voxels may hold the third. */
+bool voxel_blocks(ivec3 cell, voxel_ray ray, float first, float last, bool corners)
 {
     vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
     vec3 q = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
@@ -66,11 +71,31 @@ bool voxel_blocks(ivec3 cell, voxel_ray ray, float first, float last)
         beside[side >> 1] += 2 * (side & 1) - 1;
         if (!voxel_inside(beside) || !voxel_occupied(beside))
             continue;
+        vec3 beside_n = voxel_normal_unpack(texelFetch(voxel_normal, beside, 0).r);
         vec3 beside_q = vec3(beside) + voxel_point_unpack(texelFetch(voxel_point, beside, 0).r);
         float beside_side = dot(n, beside_q - q);
-        if ((abs(beside_side) < VOXEL_PLANE || ray_side * beside_side > 0.0) &&
-            voxel_crossed(voxel_height(beside, ray), first, last))
+        if (abs(beside_side) >= VOXEL_PLANE && ray_side * beside_side <= 0.0)
+            continue;
+        vec2 height = vec2(dot(beside_n, ray.origin - beside_q), dot(beside_n, ray.direction));
+        if ((corners && abs(dot(n, beside_n)) < VOXEL_EDGE) || voxel_crossed(height, first, last))
             return true;
+    }
+    return false;
+}
+
+/* On to the first surface that the ray crosses before `end`, in the voxel `met`; the ray is then beyond that.
+ * False: there is none. `corners` as above. */
+bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
+{
+    int steps = voxel_ray_steps();
+    for (int i = 0; i < steps && voxel_ray_trace(ray, end); i++) {
+        float entry = ray.distance;
+        met = ray.cell;
+        voxel_ray_step(ray, met, ivec3(1));
+        if (voxel_blocks(met, ray, entry, min(ray.distance, end), corners))
+            return true;
+        if (!voxel_inside(ray.cell))
+            return false;
     }
     return false;
 }
@@ -85,17 +110,8 @@ bool voxel_sees(vec3 from, vec3 from_normal, vec3 to, vec3 to_normal)
     voxel_ray ray;
     if (dot(span, to - from) <= 0.0 || !voxel_ray_begin(start, span / end, ray))
         return true;
-    int steps = voxel_ray_steps();
-    for (int i = 0; i < steps && voxel_ray_trace(ray, end); i++) {
-        ivec3 cell = ray.cell;
-        float entry = ray.distance;
-        voxel_ray_step(ray, cell, ivec3(1));
-        if (voxel_blocks(cell, ray, entry, min(ray.distance, end)))
-            return false;
-        if (!voxel_inside(ray.cell))
-            return true;
-    }
-    return true;
+    ivec3 met;
+    return !voxel_ray_meet(ray, end, false, met);
 }
 
 #endif

@@ -18,16 +18,18 @@ float cell_turn(ivec3 cell)
     return float((c.x * 5u + c.y * 9u + c.z * 3u) & 15u) / 16.0;
 }
 
-/* The mean radiance that a side sees, weighted by the cosine. */
-vec3 gather(vec3 place, vec3 n, float turn)
+/* The mean radiance that a side sees, weighted by the cosine to its shading normal. */
+vec3 gather(vec3 place, vec3 n, vec3 shading, float turn)
 {
     vec3 tangent, bitangent;
-    orthonormal_basis(n, tangent, bitangent);
+    orthonormal_basis(shading, tangent, bitangent);
     vec3 sum = vec3(0.0);
     int count = int(cone_gather.z);
     for (int i = 0; i < count; i++) {
         vec3 local = cone_direction(i, vec2(turn, 0.0));
-        vec3 direction = local.x * tangent + local.y * bitangent + local.z * n;
+        vec3 direction = local.x * tangent + local.y * bitangent + local.z * shading;
+        if (dot(direction, n) <= 0.0)
+            continue;
         cone_light light = cone_diffuse(place, n, direction, cone_set[i].w);
         sum += light.radiance;
 #if LSF_ENVIRONMENT
@@ -51,14 +53,15 @@ void write(ivec3 cell, int slice, float share, vec3 reflected)
 
 void light_side(ivec3 cell, bool back)
 {
-    vec3 n = voxel_normal_unpack(texelFetch(normal_texture, cell, 0).r);
-    n = back ? -n : n;
+    uvec2 normals = texelFetch(normal_texture, cell, 0).rg;
+    float sign = back ? -1.0 : 1.0;
+    vec3 n = sign * voxel_normal_unpack(normals.x), shading = sign * voxel_shading_normal(normals);
     vec3 reflected = vec3(0.0);
     if (sum_of.z) {
         vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
         vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
         if (max(albedo.r, max(albedo.g, albedo.b)) > 0.0)
-            reflected = albedo * gather(place, n, cell_turn(cell));
+            reflected = albedo * gather(place, n, shading, cell_turn(cell));
     }
 #if LSF_VOXEL_SIDES == 1
     write(cell, 0, 1.0, reflected);

@@ -28,21 +28,21 @@ layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 
 /* Radiance of the side that faces the light. */
 #if LSF_REFLECT
-vec3 reflected(ivec3 cell, vec3 n, out bool front)
+vec3 reflected(ivec3 cell, vec3 n, vec3 shading, out bool front)
 {
     vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
     vec3 position = voxel_to_position(place);
     vec3 irradiance;
     float distance2;
     vec3 to_light = light_direction(position, irradiance, distance2);
-    float cosine = dot(n, to_light);
-    front = cosine > 0.0;
+    front = dot(n, to_light) > 0.0;
+    vec3 side = front ? n : -n;
+    float cosine = max(dot(front ? shading : -shading, to_light), 0.0);
 #if LSF_SKY
     float density = light.intensity.w; /* 0: no part of the environment */
     if (density > 0.0)
-        irradiance *= density / (density + sky_rays * abs(cosine) / LSF_PI);
+        irradiance *= density / (density + sky_rays * cosine / LSF_PI);
 #endif
-    vec3 side = front ? n : -n;
     float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
     vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
 #if LSF_SHADOW_TINT
@@ -51,7 +51,7 @@ vec3 reflected(ivec3 cell, vec3 n, out bool front)
 #if LSF_TRANSMISSION
     albedo *= 1.0 - voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
 #endif
-    return albedo * irradiance * (visibility * abs(cosine) / LSF_PI * grid.unit.y);
+    return albedo * irradiance * (visibility * cosine / LSF_PI * grid.unit.y);
 }
 #endif
 
@@ -89,10 +89,11 @@ uint put_side(ivec3 cell, vec3 n, bool front, vec3 radiance)
 
 uint light_voxel(ivec3 cell)
 {
-    vec3 n = voxel_normal_unpack(texelFetch(normal_texture, cell, 0).r);
+    uvec2 normals = texelFetch(normal_texture, cell, 0).rg;
+    vec3 n = voxel_normal_unpack(normals.x);
 #if LSF_REFLECT
     bool lit_front;
-    vec3 light = reflected(cell, n, lit_front);
+    vec3 light = reflected(cell, n, voxel_shading_normal(normals), lit_front);
 #endif
 #if LSF_EMIT
     vec3 front = vec3(0.0), back = vec3(0.0);

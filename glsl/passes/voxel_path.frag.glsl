@@ -1,6 +1,6 @@
 /* Uni-directional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches
  * LSF_EMISSION (surfaces shine), LSF_EMITTERS (points on them are drawn), LSF_ENVIRONMENT,
- * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS, LSF_TRANSMISSION, LSF_ABSORPTION (there
+ * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS, LSF_VOXEL_BENT, LSF_TRANSMISSION, LSF_ABSORPTION (there
  * are media) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/coarse.glsl"
@@ -82,23 +82,21 @@ bool trace(path_vertex v, vec3 direction, out ivec3 cell)
     }
 #endif
     voxel_ray ray;
-    if (!voxel_ray_begin(start, direction, ray) || !voxel_leave_start(ray) ||
-        !voxel_ray_trace(ray))
-        return false;
-    cell = ray.cell;
-    return true;
+    return voxel_ray_begin(start, direction, ray) && voxel_leave_start(ray) &&
+           voxel_ray_meet(ray, VOXEL_FAR, true, cell);
 }
 
 /* A voxel's surface as it is seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
 path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 {
     path_vertex v;
-    uint normal = texelFetch(voxel_normal, cell, 0).r;
-    vec3 n = voxel_normal_unpack(normal);
+    uvec2 normals = texelFetch(voxel_normal, cell, 0).rg;
+    vec3 n = voxel_normal_unpack(normals.x), shading = voxel_shading_normal(normals);
     side = dot(n, direction) <= 0.0 ? 0 : 1;
     v.position = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
     v.view = -direction;
-    v.s.geometric_normal = v.s.normal = side == 0 ? n : -n;
+    v.s.geometric_normal = side == 0 ? n : -n;
+    v.s.normal = side == 0 ? shading : -shading;
     v.s.base_color = voxel_albedo_unpack(texelFetch(voxel_albedo, cell, 0).r);
     v.s.unlit = false;
     v.s.metallic = 0.0;
@@ -119,7 +117,7 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     vec3 t, b, own_t, own_b;
     orthonormal_basis(n, t, b);
     orthonormal_basis(v.s.normal, own_t, own_b);
-    float angle = 2.0 * LSF_PI * voxel_turn_unpack(normal);
+    float angle = 2.0 * LSF_PI * voxel_turn_unpack(normals.x);
     vec3 along = cos(angle) * t + sin(angle) * b;
     v.s.anisotropy_turn = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
 #endif

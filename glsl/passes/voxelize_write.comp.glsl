@@ -12,7 +12,11 @@ layout(local_size_x = LSF_VOXELIZE_GROUP) in;
 layout(location = 28) uniform uint draw; /* the instance's place in the order of draws */
 
 layout(binding = 1, r32ui) writeonly uniform uimage3D albedo_image;
+#if LSF_VOXEL_BENT
+layout(binding = 2, rg32ui) writeonly uniform uimage3D normal_image;
+#else
 layout(binding = 2, r32ui) writeonly uniform uimage3D normal_image;
+#endif
 layout(binding = 3, r32ui) writeonly uniform uimage3D point_image;
 #if LSF_EMISSION
 layout(binding = 4, r32ui) writeonly uniform uimage3D emission_image;
@@ -36,7 +40,7 @@ void write_surface(voxel_triangle t, ivec3 cell)
     vec3 face = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;
     if (range.w != 0u)
         face = -face;
-    vec3 n = dot(s.geometric_normal, face) > 0.0 ? s.geometric_normal : normalize(face);
+    vec3 n = normalize(face);
     vec3 inside = t.a * weights.x + t.b * weights.y + t.c * weights.z - low;
     inside = t.axis == 0 ? inside.zxy : t.axis == 1 ? inside.yzx : inside;
     imageStore(albedo_image, cell,
@@ -50,7 +54,8 @@ void write_surface(voxel_triangle t, ivec3 cell)
     orthonormal_basis(n, along_t, along_b);
     turn = fract(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));
 #endif
-    imageStore(normal_image, cell, uvec4(voxel_normal_pack(n, turn)));
+    imageStore(normal_image, cell,
+               uvec4(voxel_normal_pack(n, turn), voxel_normal_pack(s.normal, 0.0), 0u, 0u));
     imageStore(point_image, cell,
                uvec4(voxel_point_pack(inside, material_emits(material, false), s.unlit)));
 #if LSF_EMISSION

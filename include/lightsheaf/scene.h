@@ -73,6 +73,7 @@ typedef struct lsf_requirements {
     bool masked;                 /* alphaMode MASK */
     bool blended;                /* alphaMode BLEND, where some alpha is below 1 */
     bool normal_mapped;
+    bool smooth; /* some vertex has a normal that is not its triangle's */
     bool base_color_textured, metallic_roughness_textured, emissive_textured;
     bool anisotropy_textured, transmission_textured;
     bool specular_textured, specular_color_textured;

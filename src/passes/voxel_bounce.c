@@ -21,6 +21,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
+    lsf_voxel_bend_switch(plan);
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     for (int i = 0; i < (of_own ? 2 : 1); i++)

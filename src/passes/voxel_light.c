@@ -38,6 +38,7 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
         plan_sides(plan, use);
         lsf_plan_switch_add(plan, "LSF_EMIT", variants[i].emit, "part of the program's purpose");
         lsf_plan_switch_add(plan, "LSF_REFLECT", variants[i].reflect, "the same");
+        lsf_voxel_bend_switch(plan);
         lsf_plan_switch_add(plan, "LSF_EMISSION", r->emissive || r->unlit,
                             "some material emits or is unlit");
         lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,

@@ -47,6 +47,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", voxel_gloss, "they vary between voxels");
+    lsf_voxel_bend_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
     lsf_scene_gpu_lobe_switches(plan, gloss);

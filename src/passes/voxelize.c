@@ -66,7 +66,8 @@ static bool has_emission(const lsf_plan *plan)
 /* Without lists and the coarser occupancy, which take half a byte together. */
 uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter)
 {
-    uint32_t bytes = 4 * (5 + has_emission(plan) + has_gloss(plan) + plan->transmission) + 1;
+    uint32_t words = 5u + lsf_voxel_bends(plan) + has_emission(plan) + has_gloss(plan);
+    uint32_t bytes = 4 * (words + plan->transmission) + 1;
     return lsf_voxelize_keeps_still(plan, jitter) ? 2 * bytes : bytes;
 }
 
@@ -105,6 +106,7 @@ static void plan_programs(lsf_plan *plan)
     plan_switches(plan);
     lsf_plan_pass_add(plan, "voxelize_write", "the surfaces of those that won");
     plan_switches(plan);
+    lsf_voxel_bend_switch(plan);
     lsf_scene_gpu_material_switches(plan, has_gloss(plan), has_emission(plan));
     lsf_scene_gpu_fold_lobes(plan);
 }
@@ -147,7 +149,9 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
     lsf_voxel_texture_plan(plan, grid, "voxelize.key", GL_R32UI, 1, 1, "the winning triangle");
     plan_occupancy(plan, grid);
     lsf_voxel_texture_plan(plan, grid, "voxelize.albedo", GL_R32UI, 1, 1, "base colour");
-    lsf_voxel_texture_plan(plan, grid, "voxelize.normal", GL_R32UI, 1, 1, "normal and tangent");
+    lsf_voxel_texture_plan(plan, grid, "voxelize.normal",
+                           lsf_voxel_bends(plan) ? GL_RG32UI : GL_R32UI, 1, 1,
+                           "normals and tangent");
     lsf_voxel_texture_plan(plan, grid, "voxelize.point", GL_R32UI, 1, 1,
                            "where the surface is in the voxel");
     if (has_emission(plan))
@@ -297,7 +301,9 @@ bool lsf_voxelize_create(lsf_voxelize **created, lsf_context *context, const lsf
 
 static void bind_image(GLuint unit, GLuint texture)
 {
-    glBindImageTexture(unit, texture, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
+    GLint format = GL_R32UI;
+    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+    glBindImageTexture(unit, texture, 0, GL_TRUE, 0, GL_READ_WRITE, (GLenum)format);
 }
 
 static void bind_occupancy(const lsf_voxelize *pass)

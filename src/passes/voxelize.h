@@ -24,7 +24,8 @@ extern const lsf_option_row lsf_voxelize_options[LSF_VOXELIZE_OPTION_COUNT];
 typedef struct lsf_voxelize_outputs {
     GLuint grid_buffer;                           /* struct lsf_voxel_grid_data */
     GLuint occupancy[LSF_VOXEL_OCCUPANCY_LEVELS]; /* R32UI */
-    GLuint albedo, normal, point;                 /* R32UI */
+    GLuint albedo, point;                         /* R32UI */
+    GLuint normal;                                /* R32UI; RG32UI where shading normals bend */
     GLuint emission;                              /* R32UI; 0 without emitting materials */
     GLuint gloss;                                 /* R32UI; 0 unless some material is glossy */
     GLuint transmission;                          /* R32UI; 0 unless light passes some material */

@@ -126,3 +126,14 @@ void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const ch
                              .levels = levels};
     lsf_plan_texture_desc_add(plan, name, &desc, "%s", why);
 }
+
+bool lsf_voxel_bends(const lsf_plan *plan)
+{
+    return plan->requirements.smooth || plan->requirements.normal_mapped;
+}
+
+void lsf_voxel_bend_switch(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_VOXEL_BENT", lsf_voxel_bends(plan),
+                        "normals are smooth or mapped: voxels keep them beside their planes'");
+}

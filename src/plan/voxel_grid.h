@@ -52,4 +52,9 @@ void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const ch
                             GLenum internal_format, uint32_t sides, uint32_t levels,
                             const char *why);
 
+/* Whether voxels keep shading normals beside those of their planes; adds the switch of the pass in
+ * turn that reads them. */
+bool lsf_voxel_bends(const lsf_plan *plan);
+void lsf_voxel_bend_switch(lsf_plan *plan);
+
 #endif

@@ -40,7 +40,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 27 };
+enum { FLAG_COUNT = 28 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -51,6 +51,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"unlit", r->unlit},
         {"specular", r->specular},
         {"glossy", r->glossy},
+        {"smooth", r->smooth},
         {"anisotropic", r->anisotropic},
         {"transmissive", r->transmissive},
         {"refractive", r->refractive},

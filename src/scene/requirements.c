@@ -211,6 +211,43 @@ static uint64_t count_degenerate(const lsf_scene *scene, const lsf_primitive *pr
     return count;
 }
 
+/* Cosine of the angle, half a degree, up to which a vertex' normal counts as its triangle's: what
+ * normals of 8 bits are rounded by. */
+#define FLAT_COSINE 0.99996
+
+static bool is_flat(const lsf_scene *scene, const uint32_t corners[3])
+{
+    double p[3][3], face[3], length2 = 0.0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            p[i][k] = (double)scene->vertices.position[3 * (size_t)corners[i] + (size_t)k];
+    for (int k = 0; k < 3; k++) {
+        int u = (k + 1) % 3, v = (k + 2) % 3;
+        face[k] =
+            (p[1][u] - p[0][u]) * (p[2][v] - p[0][v]) - (p[1][v] - p[0][v]) * (p[2][u] - p[0][u]);
+        length2 += face[k] * face[k];
+    }
+    for (int i = 0; i < 3; i++) {
+        const float *n = scene->vertices.normal + 3 * (size_t)corners[i];
+        double along = 0.0, n2 = 0.0;
+        for (int k = 0; k < 3; k++) {
+            along += face[k] * (double)n[k];
+            n2 += (double)n[k] * (double)n[k];
+        }
+        if (along < FLAT_COSINE * sqrt(length2 * n2))
+            return false;
+    }
+    return true;
+}
+
+static bool is_smooth(const lsf_scene *scene, const lsf_primitive *primitive)
+{
+    bool flat = true;
+    for (uint64_t i = 0; scene->vertices.normal && flat && i < primitive->index_count; i += 3)
+        flat = is_flat(scene, scene->indices + primitive->first_index + i);
+    return !flat;
+}
+
 /* False without memory. */
 static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
 {
@@ -239,6 +276,7 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
             list_seen[primitive->first_index / 3] = true;
             r->unique_triangles += primitive->index_count / 3;
             r->degenerate_triangles += count_degenerate(scene, primitive);
+            r->smooth = r->smooth || is_smooth(scene, primitive);
         }
         if (!material_seen[primitive->material]) {
             material_seen[primitive->material] = true;

@@ -1,5 +1,7 @@
-/* The surface that a voxel keeps is the one nearest to its centre, at the nearest point of it, against
- * closest points on triangles in double precision. */
+/* The surface that a voxel keeps is the one nearest to its centre, at the nearest point of it,
+ * against closest points on triangles in double precision; with the normals of its plane and of its
+ * shading.
+ */
 #include <math.h>
 
 #include "passes/voxelize_parts.h"
@@ -173,11 +175,68 @@ static void any_triangles(void **unused)
     }
 }
 
+/* --- normals --- */
+
+/* Unit, from octahedral 2 x 12 bits. */
+static lsf_float3 unpack_normal(uint32_t bits)
+{
+    float x = (float)(bits & 4095u) / 2047.0f - 1.0f,
+          y = (float)(bits >> 12 & 4095u) / 2047.0f - 1.0f;
+    float z = 1.0f - fabsf(x) - fabsf(y), fold = fmaxf(-z, 0.0f);
+    return lsf_f3_normalize(lsf_f3(x > 0 ? x - fold : x + fold, y > 0 ? y - fold : y + fold, z));
+}
+
+static void check_normals(lsf_scene *scene, lsf_float3 plane, lsf_float3 shading, bool bent)
+{
+    finish_gl_scene(scene);
+    assert_int_equal(scene->requirements.smooth, bent);
+    voxel_rig v;
+    voxel_rig_init(&v, scene, 32, LSF_VOXELIZE_COMPUTE, true, 0);
+    voxel_rig_run(&v, 0);
+    size_t count = voxel_rig_voxel_count(&v);
+    uint8_t *set = voxel_rig_read_occupancy(&v);
+    uint32_t(*normals)[2] = malloc(8 * count);
+    glGetTextureImage(v.outputs->normal, 0, GL_RG_INTEGER, GL_UNSIGNED_INT, (GLsizei)(8 * count),
+                      normals);
+    uint32_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!set[i])
+            continue;
+        found++;
+        assert_true(lsf_f3_dot(unpack_normal(normals[i][0]), plane) > 0.999998f);
+        if (bent)
+            assert_true(lsf_f3_dot(unpack_normal(normals[i][1]), shading) > 0.999998f);
+        else
+            assert_int_equal(normals[i][1], 0);
+    }
+    assert_true(found > 100);
+    free(set);
+    free(normals);
+    voxel_rig_finish(&v);
+    destroy_scene(scene);
+}
+
+/* A square with its own normals, and with normals that lean by 30 degrees. */
+static void normals_of_plane_and_shading(void **unused)
+{
+    (void)unused;
+    const lsf_float3 up = lsf_f3(0, 1, 0), leaning = lsf_f3(0.5f, 0.8660254f, 0);
+    for (int bent = 0; bent < 2; bent++) {
+        lsf_scene *scene = build_scene();
+        build_material(scene, 0.5f, 0.5f, 0.5f);
+        build_floor(scene, 0.0f, 1.0f);
+        for (uint64_t i = 0; bent && i < scene->vertices.count; i++)
+            memcpy(scene->vertices.normal + 3 * i, &leaning, sizeof leaning);
+        check_normals(scene, up, leaning, bent);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(long_triangles),
         cmocka_unit_test(any_triangles),
+        cmocka_unit_test(normals_of_plane_and_shading),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
