@@ -28,6 +28,9 @@ typedef enum lsf_default_light {
 typedef struct lsf_scene_params {
     const char *environment_path; /* lat-long .hdr or .exr; NULL: none */
     const float *environment_radiance; /* three floats, uniform radiance [W/(m^2 sr)]; NULL: none */
+    float environment_rotation; /* of the environment about +y, degrees, anticlockwise seen from
+                                 * above */
+    float environment_strength; /* its radiance is multiplied by this, at least 0 */
     lsf_default_light default_light;
     bool diffuse_only; /* read every material as Lambert of its base colour, without normal maps */
     bool lenient; /* ignore extensions that the file requires when they change the look alone */
@@ -41,7 +44,8 @@ typedef struct lsf_scene_params {
 } lsf_scene_params;
 
 #define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
-    .environment_path = NULL, .environment_radiance = NULL,                                        \
+    .environment_path = NULL, .environment_radiance = NULL, .environment_rotation = 0.0f,          \
+    .environment_strength = 1.0f,                                                                  \
     .default_light = LSF_DEFAULT_LIGHT_AUTO, .diffuse_only = false, .lenient = false,              \
     .memory_limit = (uint64_t)8 << 30, .scene = NULL, .variant = NULL, .animations = NULL,         \
     .animation_count = 0

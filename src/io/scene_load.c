@@ -6,6 +6,7 @@
 #include "scene/light_range.h"
 #include "scene/scene.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +42,31 @@ static bool add_default_camera(lsf_scene *scene)
     return camera->name != NULL;
 }
 
+/* Turns the environment that was given, and scales its radiance. */
+static bool adjust_environment(lsf_environment *environment, const lsf_scene_params *params,
+                               lsf_error *error)
+{
+    float rotation = params->environment_rotation, strength = params->environment_strength;
+    bool adjusted = rotation != 0.0f || strength != 1.0f;
+    if (adjusted && !environment->present)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "environment: rotation or strength was given without an environment; "
+                             "give one");
+    if (!isfinite(rotation) || !isfinite(strength) || strength < 0.0f)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "environment: rotation %g must be finite, strength %g finite and at "
+                             "least 0",
+                             (double)rotation, (double)strength);
+    double turn = (double)rotation / 360.0;
+    environment->turn = (float)(turn - floor(turn));
+    for (int c = 0; c < 3; c++)
+        environment->radiance[c] *= strength;
+    uint64_t values = (uint64_t)3 * environment->width * environment->height;
+    for (uint64_t i = 0; strength != 1.0f && i < values; i++)
+        environment->texels[i] = fminf(environment->texels[i] * strength, FLT_MAX);
+    return true;
+}
+
 static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, uint64_t memory_left,
                              lsf_error *error)
 {
@@ -59,7 +85,7 @@ static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, u
         scene->environment.present = true;
     }
     if (!params->environment_path)
-        return true;
+        return adjust_environment(&scene->environment, params, error);
     uint64_t repaired = 0;
     if (!lsf_environment_load(&scene->environment, params->environment_path, memory_left, &repaired,
                               error))
@@ -68,7 +94,7 @@ static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, u
     if (repaired > 0)
         lsf_scene_add_note(scene, "%s: %llu negative or non-finite values were set to 0",
                            params->environment_path, (unsigned long long)repaired);
-    return true;
+    return adjust_environment(&scene->environment, params, error);
 }
 
 static bool check_transforms(const lsf_scene *scene, lsf_error *error)

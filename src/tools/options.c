@@ -130,6 +130,11 @@ static const lsf_command_option options[] = {
     {"environment", 'e', "FILE|R,G,B", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_ENVIRONMENT,
      AT(environment), 0, 1e30, NULL, NULL,
      "light from outside: a latitude-longitude .hdr or .exr, or a uniform radiance in W/(m^2 sr)"},
+    {"environment-rotation", 0, "DEG", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLOAT,
+     AT(environment_rotation), -36000, 36000, NULL, "0",
+     "turn the environment about the vertical axis, in degrees, anticlockwise seen from above"},
+    {"environment-strength", 0, "X", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLOAT,
+     AT(environment_strength), 0, 1e20, NULL, "1", "multiply the environment's radiance by X"},
     {"default-light", 0, "WHEN", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_CHOICE,
      AT(default_light), LSF_DEFAULT_LIGHT_AUTO, 0, "auto|always|never", "auto",
      "when a soft sky and a key light are added: auto is where the file has no light, its emissive "

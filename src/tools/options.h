@@ -123,6 +123,7 @@ typedef struct lsf_settings {
     double time;                                       /* seconds */
 
     lsf_environment_setting environment;
+    float environment_rotation, environment_strength;
     int default_light; /* lsf_default_light */
     bool diffuse_only, lenient;
     const char *scene, *variant; /* NULL: not given */

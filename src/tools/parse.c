@@ -349,6 +349,7 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
         .bounces = render.bounces,
         .seed = render.seed,
         .fov_y = render.fov_y,
+        .environment_strength = 1.0f,
         .time = render.time,
         .difference_gain = 4,
         .epsilon = NAN,
@@ -496,6 +497,8 @@ lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings)
     params.environment_path = settings->environment.path;
     if (settings->environment.uniform.given)
         params.environment_radiance = settings->environment.uniform.value;
+    params.environment_rotation = settings->environment_rotation;
+    params.environment_strength = settings->environment_strength;
     params.default_light = (lsf_default_light)settings->default_light;
     params.diffuse_only = settings->diffuse_only;
     params.lenient = settings->lenient;

@@ -77,6 +77,8 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
         lsf_json_vector(json, "environment", settings->environment.uniform.value, 3);
     else
         lsf_json_string(json, "environment", settings->environment.path);
+    lsf_json_number(json, "environment_rotation", settings->environment_rotation);
+    lsf_json_number(json, "environment_strength", settings->environment_strength);
     if (settings->background.kind == LSF_BACKGROUND_UNIFORM)
         lsf_json_vector(json, "background", settings->background.radiance, 3);
     else
