@@ -201,7 +201,7 @@ class Json(CommandTest):
         options = report["options"]
         self.assertEqual(set(options), {
             "samples", "time_limit", "camera", "camera_position", "camera_target", "fov_y", "time",
-            "exposure", "aovs", "environment", "background", "default_light", "diffuse_only", "lenient", "scene",
+            "exposure", "aovs", "environment", "environment_rotation", "environment_strength", "background", "default_light", "diffuse_only", "lenient", "scene",
             "animations", "variant", "keep_partial", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])
