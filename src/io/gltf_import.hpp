@@ -210,6 +210,12 @@ void accessor_read_indices(const gltf_import &import, int accessor, uint64_t lim
                            std::vector<uint32_t> &values);
 std::string accessor_format(const tinygltf::Accessor &accessor); /* "VEC3 of FLOAT" */
 
+/* --- images, gltf_glossiness.cpp --- */
+
+/* 1 - factor * alpha of each texel, in one channel. */
+void make_roughness_image(gltf_import &import, const lsf_texture_image &source, double factor,
+                          lsf_texture_image &result);
+
 /* --- into the scene's C arrays --- */
 
 /* malloc'ed, freed by lsf_scene_destroy. */

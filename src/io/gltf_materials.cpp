@@ -25,6 +25,8 @@ class texture_importer
     {
     }
     uint32_t add(int texture, bool srgb);
+    /* What has roughness 1 - factor * alpha where `texture`, which was added, has alpha. */
+    uint32_t add_roughness(uint32_t texture, float factor);
     void finish();
 
   private:
@@ -36,6 +38,14 @@ class texture_importer
     std::map<size_t, uint32_t> known_images_;
     std::vector<lsf_texture> textures_;
     std::vector<size_t> images_;
+
+    /* Images that are made of others; their textures' image is set when all others are known. */
+    struct roughness {
+        uint32_t source, texture; /* into images_, textures_ */
+        float factor;
+    };
+    std::vector<roughness> made_;
+    std::map<std::pair<uint32_t, float>, uint32_t> known_roughness_;
 };
 
 static lsf_wrap wrap_of(int code)
@@ -87,6 +97,19 @@ uint32_t texture_importer::add_image(size_t image)
     return known_images_[image] = (uint32_t)images_.size() - 1;
 }
 
+uint32_t texture_importer::add_roughness(uint32_t texture, float factor)
+{
+    auto found = known_roughness_.find({texture, factor});
+    if (found != known_roughness_.end())
+        return found->second;
+    lsf_texture made = textures_[texture];
+    made.srgb = false;
+    uint32_t index = (uint32_t)textures_.size();
+    made_.push_back({made.image, index, factor});
+    textures_.push_back(made);
+    return known_roughness_[{texture, factor}] = index;
+}
+
 void texture_importer::decode(size_t index, lsf_texture_image &decoded)
 {
     const tinygltf::Image &source = import_.model.images[index];
@@ -134,13 +157,20 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
 void texture_importer::finish()
 {
     lsf_scene *scene = import_.scene;
+    for (size_t i = 0; i < made_.size(); i++)
+        textures_[made_[i].texture].image = (uint32_t)(images_.size() + i);
     scene->textures = copy_array(textures_);
     scene->texture_count = (uint32_t)textures_.size();
-    scene->images =
-        static_cast<lsf_texture_image *>(allocate(images_.size(), sizeof(lsf_texture_image)));
+    scene->images = static_cast<lsf_texture_image *>(
+        allocate(images_.size() + made_.size(), sizeof(lsf_texture_image)));
     for (size_t image : images_) {
         scene->image_count++;
         decode(image, scene->images[scene->image_count - 1]);
+    }
+    for (const roughness &made : made_) {
+        scene->image_count++;
+        make_roughness_image(import_, scene->images[made.source], made.factor,
+                             scene->images[scene->image_count - 1]);
     }
 }
 
@@ -247,13 +277,30 @@ static void make_lambert(lsf_material &material)
     material.roughness = 1.0f;
 }
 
+/* What it is stays where the extension does not say it. */
+static void read_color(const Value &extension, const char *key, float *color, int channels = 3)
+{
+    if (extension.IsObject() && extension.Has(key))
+        for (int c = 0; c < channels; c++)
+            color[c] = (float)extension.Get(key).Get(c).GetNumberAsDouble();
+}
+
+static const char SPECULAR_GLOSSINESS[] = "KHR_materials_pbrSpecularGlossiness";
+
 static void read_base(texture_importer &textures, const tinygltf::Material &source,
                       const std::string &location, lsf_material &material)
 {
     const tinygltf::PbrMetallicRoughness &pbr = source.pbrMetallicRoughness;
-    for (size_t c = 0; c < 4; c++)
-        material.base_color[c] = (float)pbr.baseColorFactor[c];
-    material.base_color_texture = core_slot(textures, pbr.baseColorTexture, true, location);
+    auto glossiness = source.extensions.find(SPECULAR_GLOSSINESS);
+    if (glossiness != source.extensions.end()) {
+        read_color(glossiness->second, "diffuseFactor", material.base_color, 4);
+        material.base_color_texture =
+            extension_slot(textures, glossiness->second, "diffuseTexture", location, true);
+    } else {
+        for (size_t c = 0; c < 4; c++)
+            material.base_color[c] = (float)pbr.baseColorFactor[c];
+        material.base_color_texture = core_slot(textures, pbr.baseColorTexture, true, location);
+    }
     material.emissive_texture = core_slot(textures, source.emissiveTexture, true, location);
     material.alpha_mode = source.alphaMode == "MASK"    ? LSF_ALPHA_MASK
                           : source.alphaMode == "BLEND" ? LSF_ALPHA_BLEND
@@ -272,14 +319,6 @@ static void read_base(texture_importer &textures, const tinygltf::Material &sour
             fail("VALUE_NOT_IN_RANGE", location,
                  "emissiveFactor times emissiveStrength is too large for a float");
     }
-}
-
-/* What it is stays where the extension does not say it. */
-static void read_color(const Value &extension, const char *key, float color[3])
-{
-    if (extension.IsObject() && extension.Has(key))
-        for (int c = 0; c < 3; c++)
-            color[c] = (float)extension.Get(key).Get(c).GetNumberAsDouble();
 }
 
 static void read_specular(texture_importer &textures, const Value &extension,
@@ -301,14 +340,44 @@ static void read_volume(const Value &extension, lsf_material &material)
     read_color(extension, "attenuationColor", material.attenuation_color);
 }
 
-static void read_surface(texture_importer &textures, const tinygltf::Material &source,
-                         const std::string &location, lsf_material &material)
+/* As a dielectric whose reflection has the specular colour: KHR_materials_ior keeps the index 0 for
+ * this, by which KHR_materials_specular's colour is that of the reflection at normal incidence. The
+ * diffuse part is (1 - F) (1 - max specular) diffuse in the extension's appendix, and
+ * (1 - max F) diffuse here. */
+static void read_specular_glossiness(texture_importer &textures, const Value &extension,
+                                     const std::string &location, lsf_material &material)
 {
-    const tinygltf::PbrMetallicRoughness &pbr = source.pbrMetallicRoughness;
+    double glossiness = number_in(extension, "glossinessFactor", 1.0);
+    material.metallic = 0.0f;
+    material.roughness = (float)(1.0 - glossiness);
+    material.ior = 0.0f;
+    read_color(extension, "specularFactor", material.specular_color);
+    lsf_texture_slot slot =
+        extension_slot(textures, extension, "specularGlossinessTexture", location, true);
+    if (slot.texture == LSF_NONE)
+        return;
+    material.specular_color_texture = material.metallic_roughness_texture = slot;
+    material.metallic_roughness_texture.texture =
+        textures.add_roughness(slot.texture, (float)glossiness);
+    material.roughness = 1.0f;
+}
+
+static void read_metallic_roughness(texture_importer &textures,
+                                    const tinygltf::PbrMetallicRoughness &pbr,
+                                    const std::string &location, lsf_material &material)
+{
     material.metallic = (float)pbr.metallicFactor;
     material.roughness = (float)pbr.roughnessFactor;
     material.metallic_roughness_texture =
         core_slot(textures, pbr.metallicRoughnessTexture, false, location);
+}
+
+static void read_surface(texture_importer &textures, const tinygltf::Material &source,
+                         const std::string &location, lsf_material &material)
+{
+    auto glossiness = source.extensions.find(SPECULAR_GLOSSINESS);
+    if (glossiness == source.extensions.end())
+        read_metallic_roughness(textures, source.pbrMetallicRoughness, location, material);
     material.normal_texture = core_slot(textures, source.normalTexture, false, location);
     material.normal_scale = (float)source.normalTexture.scale;
     material.occlusion_texture = core_slot(textures, source.occlusionTexture, false, location);
@@ -334,6 +403,8 @@ static void read_surface(texture_importer &textures, const tinygltf::Material &s
                 extension_slot(textures, extension, "anisotropyTexture", location);
         }
     }
+    if (glossiness != source.extensions.end())
+        read_specular_glossiness(textures, glossiness->second, location, material);
 }
 
 static std::vector<bool> find_used(const gltf_import &import)

@@ -219,7 +219,13 @@ static const rule specular_rules[] = {
     numbers("specularColorFactor", 3, 0), object("specularColorTexture", OPTIONAL, &texture_info)};
 static const schema specular = of(specular_rules);
 static const schema nothing = {nullptr, 0};
+static const rule specular_glossiness_rules[] = {
+    numbers("diffuseFactor", 4, 0, 1), object("diffuseTexture", OPTIONAL, &texture_info),
+    numbers("specularFactor", 3, 0, 1), number("glossinessFactor", OPTIONAL, 0, 1),
+    object("specularGlossinessTexture", OPTIONAL, &texture_info)};
+static const schema specular_glossiness = of(specular_glossiness_rules);
 static const rule material_extension_rules[] = {
+    object("KHR_materials_pbrSpecularGlossiness", OPTIONAL, &specular_glossiness),
     object("KHR_materials_emissive_strength", OPTIONAL, &emissive_strength),
     object("KHR_materials_ior", OPTIONAL, &ior),
     object("KHR_materials_transmission", OPTIONAL, &transmission),

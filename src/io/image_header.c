@@ -72,7 +72,8 @@ bool lsf_image_header_read(lsf_image_header *header, const void *data, size_t le
         valid = lsf_webp_header_read(header, bytes, length, &pixels_max, name, error);
     } else if (starts_with(bytes, length, "\xabKTX 20\xbb\r\n\x1a\n", 12)) {
         return lsf_error_set(error, LSF_ERROR_FILE,
-                             "%s: is a KTX2 image, which is not read; export the file with PNG, "
+                             "%s: is a KTX2 image (KHR_texture_basisu), which is not read; export "
+                             "the file with PNG, "
                              "JPEG or WebP textures",
                              name);
     } else {

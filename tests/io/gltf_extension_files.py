@@ -119,4 +119,28 @@ case('foreign/neither.txt', 'INVALID_JSON')
 write('foreign/nothing.obj', b'')
 case('foreign/nothing.obj', 'INVALID_JSON')
 
+# --- KHR_materials_pbrSpecularGlossiness ----------------------------------------------------------
+
+
+def glossy(name, expected, extension, note='', **more):
+    changed(name, expected, lambda f: (
+        f.json.update(images=[{'uri': PIXEL}, {'uri': png(2, 1, [255, 128, 0, 255, 0, 64, 255, 64], 4)}],
+                      textures=[{'source': 0}, {'source': 1}],
+                      materials=[{'extensions': {'KHR_materials_pbrSpecularGlossiness': extension},
+                                  'pbrMetallicRoughness': {'baseColorTexture': {'index': 0}}}],
+                      extensionsUsed=['KHR_materials_pbrSpecularGlossiness'],
+                      extensionsRequired=['KHR_materials_pbrSpecularGlossiness'], **more),
+        f.json['meshes'][0]['primitives'][0].update(material=0)),
+        2 if expected == 'ok' else '', note)
+
+
+glossy('glossiness.gltf', 'ok', {'diffuseFactor': [0.5, 0.25, 0.125, 1], 'glossinessFactor': 0.75,
+                                 'specularFactor': [0.25, 0.5, 1]})
+glossy('glossiness_textured.gltf', 'ok', {'diffuseTexture': {'index': 0}, 'glossinessFactor': 0.5,
+                                          'specularGlossinessTexture': {'index': 1, 'extensions': {
+                                              'KHR_texture_transform': {'scale': [2, 3]}}}})
+glossy('glossiness_opaque.gltf', 'ok', {'specularGlossinessTexture': {'index': 0}})
+glossy('glossiness_range.gltf', 'VALUE_NOT_IN_RANGE', {'glossinessFactor': 2})
+glossy('glossiness_reference.gltf', 'UNRESOLVED_REFERENCE', {'diffuseTexture': {'index': 2}})
+
 write_table()

@@ -171,6 +171,50 @@ static void test_instancing(void **state)
     lsf_scene_destroy(scene);
 }
 
+/* Diffuse and specular colour stay as they are: an index of 0 leaves the reflection to the latter.
+ */
+static void test_glossiness(void **state)
+{
+    (void)state;
+    lsf_scene *scene = load("glossiness.gltf", NULL);
+    const lsf_material *material = &scene->materials[scene->primitives[0].material];
+    static const float diffuse[] = {0.5f, 0.25f, 0.125f, 1}, specular[] = {0.25f, 0.5f, 1};
+    assert_memory_equal(material->base_color, diffuse, sizeof diffuse);
+    assert_memory_equal(material->specular_color, specular, sizeof specular);
+    assert_true(material->metallic == 0.0f && material->ior == 0.0f && material->specular == 1.0f);
+    assert_true(material->roughness == 0.25f);
+    assert_int_equal(scene->texture_count, 0); /* that of the metallic model is not loaded */
+    lsf_scene_destroy(scene);
+
+    scene = load("glossiness_textured.gltf", NULL);
+    material = &scene->materials[scene->primitives[0].material];
+    const lsf_texture_slot *tint = &material->specular_color_texture;
+    const lsf_texture_slot *rough = &material->metallic_roughness_texture;
+    assert_true(scene->textures[tint->texture].srgb && !scene->textures[rough->texture].srgb);
+    assert_memory_equal(tint->transform, rough->transform, sizeof rough->transform);
+    assert_true(rough->transform[0] == 2.0f && material->roughness == 1.0f);
+    const lsf_texture_image *image = &scene->images[scene->textures[rough->texture].image];
+    assert_int_equal(image->channels, 1);
+    assert_int_equal(image->width, 2);
+    assert_int_equal(((uint8_t *)image->texels)[0], 128); /* 255 (1 - 0.5), rounded */
+    assert_int_equal(((uint8_t *)image->texels)[1], 223); /* 255 - 0.5 * 64 */
+    lsf_scene_destroy(scene);
+
+    scene = load("glossiness_opaque.gltf", NULL); /* no alpha: as glossy as the factor says */
+    material = &scene->materials[scene->primitives[0].material];
+    image = &scene->images[scene->textures[material->metallic_roughness_texture.texture].image];
+    assert_int_equal(((uint8_t *)image->texels)[0], 0);
+    lsf_scene_destroy(scene);
+
+    lsf_scene_params params = {LSF_SCENE_PARAMS_DEFAULTS};
+    params.diffuse_only = true;
+    scene = load("glossiness.gltf", &params);
+    material = &scene->materials[scene->primitives[0].material];
+    assert_memory_equal(material->base_color, diffuse, sizeof diffuse);
+    assert_true(material->ior == 1.5f && material->roughness == 1.0f);
+    lsf_scene_destroy(scene);
+}
+
 static void test_lenient(void **state)
 {
     (void)state;
@@ -204,6 +248,7 @@ int main(void)
         cmocka_unit_test(test_choices_that_are_not_there),
         cmocka_unit_test(test_description_names_what_there_is),
         cmocka_unit_test(test_instancing),
+        cmocka_unit_test(test_glossiness),
         cmocka_unit_test(test_lenient),
     };
     return cmocka_run_group_tests_name("gltf extensions", tests, make_gltf_folder,
