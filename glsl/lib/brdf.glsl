@@ -1,5 +1,5 @@
 /* The glTF BRDF of a G-buffer surface, split into its two lobes; formulas in shared/brdf.h.
- * Switches LSF_SPECULAR, LSF_SPECULAR_TINT, LSF_ANISOTROPY, LSF_TRANSMISSION; LSF_CLAMP_RADIANCE where samples are sparse. */
+ * Switches LSF_SPECULAR, LSF_SPECULAR_TINT, LSF_COAT, LSF_ANISOTROPY, LSF_TRANSMISSION; LSF_CLAMP_RADIANCE where samples are sparse. */
 #ifndef LSF_LIB_BRDF
 #define LSF_LIB_BRDF
 
@@ -61,6 +61,36 @@ vec3 lift_to_horizon(vec3 view, vec3 normal)
     float nv = dot(normal, view);
     return nv >= LSF_COSINE_MIN ? view : normalize(view + (LSF_COSINE_MIN - nv) * normal);
 }
+
+/* What a clear coat leaves of what is below it; the view and the light's direction are unit. */
+float coat_passes(surface s, vec3 view, vec3 light)
+{
+#if LSF_COAT
+    return lsf_coat_passes(s.coat, dot(s.coat_normal, view)) * lsf_coat_passes(s.coat, dot(s.coat_normal, light));
+#else
+    return 1.0;
+#endif
+}
+
+#if LSF_COAT
+/* What the coat itself reflects, for light that comes at the cosine `nl` to the surface's own normal. `kernel` as
+ * below. */
+float coat_reflects(surface s, vec3 view_direction, vec3 light, float nl, float kernel)
+{
+    vec3 n = s.coat_normal, view = lift_to_horizon(view_direction, n);
+    float coat_nl = dot(n, light);
+    if (s.coat == 0.0 || coat_nl <= 0.0 || nl <= 0.0)
+        return 0.0;
+    float nv = max(dot(n, view), LSF_COSINE_MIN), alpha = lsf_alpha_from_roughness(s.coat_roughness);
+    vec3 h = normalize(view + light);
+    float reflects = s.coat * lsf_fresnel_schlick(LSF_COAT_F0, clamp(dot(view, h), 0.0, 1.0));
+    float sharpest = kernel * reflects * lsf_ggx_v(coat_nl, nv, alpha) * coat_nl / LSF_PI;
+    alpha = max(alpha, min(sqrt(sharpest), 1.0));
+    vec3 nxh = cross(n, h);
+    float d = lsf_ggx_d(clamp(dot(n, h), 0.0, 1.0), dot(nxh, nxh), alpha);
+    return reflects * d * lsf_ggx_v(coat_nl, nv, alpha) * (coat_nl / nl);
+}
+#endif
 
 #if LSF_SPECULAR
 /* The specular lobe by its Fresnel term, with distribution and visibility apart. */
@@ -144,6 +174,11 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
 #endif
         f.specular = d * v * fresnel;
     }
+#if LSF_COAT
+    float passes = coat_passes(s, view_direction, light);
+    f.diffuse *= passes;
+    f.specular = f.specular * passes + coat_reflects(s, view_direction, light, l.nl, kernel);
+#endif
 #else
     f.diffuse = 1.0;
 #endif

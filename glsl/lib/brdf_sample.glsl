@@ -18,6 +18,11 @@ struct brdf_sampler {
     float alpha_t, alpha;
     float specular; /* with which probability this lobe is drawn */
 #endif
+#if LSF_COAT
+    float coat; /* with which probability the coat's lobe is drawn, before all others */
+    vec3 coat_tangent, coat_bitangent, coat_normal, coat_view; /* the view in this frame, above its horizon */
+    float coat_alpha;
+#endif
 #if LSF_TRANSMISSION
     vec2 dielectric, reflecting; /* what the dielectric reflects of light from the front, and from the side;
                                   * luminance of what the lobe does */
@@ -76,6 +81,17 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     p.specular = clamp(specular / max(specular + diffuse, 1e-6), LOBE_LEAST, 1.0 - LOBE_LEAST);
     if (!both && matte <= 0.0)
         p.specular = 1.0;
+#if LSF_COAT
+    p.coat_normal = s.coat_normal;
+    orthonormal_basis(s.coat_normal, p.coat_tangent, p.coat_bitangent);
+    vec3 above = lift_to_horizon(view, s.coat_normal);
+    p.coat_view = vec3(dot(p.coat_tangent, above), dot(p.coat_bitangent, above),
+                       max(dot(p.coat_normal, above), LSF_COSINE_MIN));
+    p.coat_alpha = lsf_alpha_from_roughness(s.coat_roughness);
+    float reflects = 1.0 - lsf_coat_passes(s.coat, p.coat_view.z);
+    float below = (1.0 - reflects) * (specular + diffuse);
+    p.coat = s.coat == 0.0 ? 0.0 : clamp(reflects / (reflects + below), LOBE_LEAST, 1.0 - LOBE_LEAST);
+#endif
 #endif
     return p;
 }
@@ -98,9 +114,9 @@ vec3 brdf_hemisphere(vec2 disc)
 
 #if LSF_SPECULAR
 /* E. Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018. */
-vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
+vec3 visible_normal(vec3 view, float alpha_t, float alpha, vec2 disc)
 {
-    vec3 stretched = normalize(vec3(p.alpha_t, p.alpha, 1.0) * p.view);
+    vec3 stretched = normalize(vec3(alpha_t, alpha, 1.0) * view);
     /* The half of the disc that shrinks lies where the hemisphere ends. */
     float side = length(stretched.xy);
     vec3 across = side > 1e-7 ? vec3(-stretched.y, stretched.x, 0.0) / side : vec3(1.0, 0.0, 0.0);
@@ -108,7 +124,12 @@ vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
     disc.y = mix(sqrt(max(0.0, 1.0 - disc.x * disc.x)), disc.y, share);
     vec3 q = brdf_hemisphere(disc);
     vec3 n = q.x * across + q.y * cross(stretched, across) + q.z * stretched;
-    return normalize(vec3(p.alpha_t * n.x, p.alpha * n.y, max(n.z, 1e-7)));
+    return normalize(vec3(alpha_t * n.x, alpha * n.y, max(n.z, 1e-7)));
+}
+
+vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
+{
+    return visible_normal(p.view, p.alpha_t, p.alpha, disc);
 }
 #endif
 
@@ -120,6 +141,13 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
 {
     weight = vec3(0.0);
     direction = -p.normal;
+    float to_coat = 0.0;
+#if LSF_COAT
+    to_coat = p.coat;
+    if (u.z < p.coat)
+        return false;
+    u.z = (u.z - p.coat) / (1.0 - p.coat);
+#endif
     if (u.z >= p.specular)
         return false;
     vec3 h = brdf_visible_normal(p, brdf_disc(u.xy));
@@ -143,7 +171,11 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
         return true;
     direction = normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
     float passes = s.transmission * (1.0 - s.metallic) * (1.0 - brdf_interface(p, p.dielectric, vh));
-    weight = s.base_color * (passes * gain / (p.specular * (1.0 - share)));
+    weight = s.base_color * (passes * gain / ((1.0 - to_coat) * p.specular * (1.0 - share)));
+#if LSF_COAT
+    weight *= lsf_coat_passes(s.coat, p.coat_view.z) *
+              lsf_coat_passes(s.coat, abs(dot(p.coat_normal, direction)));
+#endif
     return true;
 }
 #endif
@@ -153,6 +185,14 @@ vec3 brdf_draw(brdf_sampler p, vec3 u)
 {
     vec2 disc = brdf_disc(u.xy);
     vec3 local = brdf_hemisphere(disc);
+#if LSF_COAT
+    if (u.z < p.coat) {
+        vec3 h = visible_normal(p.coat_view, p.coat_alpha, p.coat_alpha, disc);
+        local = 2.0 * dot(p.coat_view, h) * h - p.coat_view;
+        return normalize(local.x * p.coat_tangent + local.y * p.coat_bitangent + local.z * p.coat_normal);
+    }
+    u.z = (u.z - p.coat) / (1.0 - p.coat);
+#endif
 #if LSF_SPECULAR
     if (u.z < p.specular) {
         vec3 h = brdf_visible_normal(p, disc);
@@ -175,7 +215,16 @@ float brdf_pdf(brdf_sampler p, vec3 direction)
 #if LSF_TRANSMISSION
     specular *= brdf_reflected_share(p, clamp(dot(p.view, h), 0.0, 1.0));
 #endif
-    return mix(nl / LSF_PI, specular, p.specular);
+    float pdf = mix(nl / LSF_PI, specular, p.specular);
+#if LSF_COAT
+    vec3 l = vec3(dot(p.coat_tangent, direction), dot(p.coat_bitangent, direction),
+                  dot(p.coat_normal, direction));
+    vec3 coat_h = normalize(p.coat_view + l);
+    float coat = 0.5 * lsf_ggx_d_anisotropic(coat_h.z, coat_h.x, coat_h.y, p.coat_alpha, p.coat_alpha) /
+                 (p.coat_view.z + length(vec3(p.coat_alpha, p.coat_alpha, 1.0) * p.coat_view));
+    pdf = mix(pdf, l.z > 0.0 ? coat : 0.0, p.coat);
+#endif
+    return pdf;
 #else
     return nl / LSF_PI;
 #endif

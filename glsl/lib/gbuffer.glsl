@@ -11,10 +11,12 @@
  *      orthonormal_basis, unorm16 of a full turn << 16
  *   z  transmission unorm8 | seen from the front << 8 | surface of a medium << 9 | material << 10
  *   w  tint of f0, weight of the dielectric's reflection, 4 x unorm8 (KHR_materials_specular)
+ *   the first of y, z, w that is free holds a clear coat: factor unorm5 | roughness unorm9 << 5 |
+ *   normal, octahedral 2 x unorm9 << 14 (KHR_materials_clearcoat)
  * gbuffer.tint RGBA16F, only where light goes straight through surfaces: what is left of the light on its way to
  *   the eye, over the probability of seeing this surface (lib/straight.glsl)
  * gbuffer.absorption RGBA32F, only with media: optical depth on that way
- * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SPECULAR_TINT. */
+ * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SPECULAR_TINT, LSF_COAT (the coat's word). */
 #ifndef LSF_LIB_GBUFFER
 #define LSF_LIB_GBUFFER
 
@@ -26,6 +28,9 @@
 #endif
 #ifndef LSF_SPECULAR_TINT
 #define LSF_SPECULAR_TINT 0
+#endif
+#ifndef LSF_COAT
+#define LSF_COAT 0
 #endif
 #ifndef LSF_STRAIGHT
 #define LSF_STRAIGHT 0
@@ -42,6 +47,10 @@ struct surface {
     vec3 f0_tint;          /* dielectrics reflect f0 times this ... */
     float specular_weight; /* ... times this, which is what they reflect at grazing angles */
 #endif
+#if LSF_COAT
+    float coat, coat_roughness;
+    vec3 coat_normal; /* unit, towards the viewer's side */
+#endif
 #if LSF_TRANSMISSION
     float transmission; /* of what the dielectric does not reflect */
     float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
@@ -57,7 +66,28 @@ void lobes_none(inout surface s)
     s.f0_tint = vec3(1.0);
     s.specular_weight = 1.0;
 #endif
+#if LSF_COAT
+    s.coat = s.coat_roughness = 0.0;
+    s.coat_normal = s.normal;
+#endif
 }
+
+#if LSF_COAT
+uint coat_pack(surface s)
+{
+    vec2 place = octahedral_place(s.coat_normal) * 0.5 + 0.5;
+    uvec2 normal = uvec2(clamp(place, 0.0, 1.0) * 511.0 + 0.5);
+    return uint(clamp(s.coat, 0.0, 1.0) * 31.0 + 0.5) |
+           uint(clamp(s.coat_roughness, 0.0, 1.0) * 511.0 + 0.5) << 5 | normal.x << 14 | normal.y << 23;
+}
+
+void coat_unpack(uint bits, inout surface s)
+{
+    s.coat = float(bits & 31u) / 31.0;
+    s.coat_roughness = float((bits >> 5) & 511u) / 511.0;
+    s.coat_normal = octahedral_normal(vec2(uvec2(bits >> 14, bits >> 23) & 511u) / 255.5 - 1.0);
+}
+#endif
 
 /* Of the dielectric. */
 vec3 surface_f0(surface s)
@@ -145,6 +175,9 @@ uvec4 gloss_pack(surface s)
 #if LSF_SPECULAR_TINT
     texel.w = packUnorm4x8(vec4(s.f0_tint, s.specular_weight));
 #endif
+#if LSF_COAT
+    texel[LSF_COAT] = coat_pack(s);
+#endif
     return texel;
 }
 
@@ -184,6 +217,9 @@ void gloss_unpack(uvec4 texel, inout surface s)
     vec4 tint = unpackUnorm4x8(texel.w);
     s.f0_tint = tint.rgb;
     s.specular_weight = tint.a;
+#endif
+#if LSF_COAT
+    coat_unpack(texel[LSF_COAT], s);
 #endif
 #if LSF_TRANSMISSION
     transmission_unpack(texel.z, s);

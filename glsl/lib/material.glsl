@@ -17,7 +17,7 @@ in vec4 vertex_tangent;
 #if LSF_TEXTURED
 in vec2 vertex_uv0;
 #endif
-#if LSF_TEXTURED || LSF_TRANSMISSION || LSF_SPECULAR_TINT
+#if LSF_TEXTURED || LSF_TRANSMISSION || LSF_LOBES
 flat in uint vertex_material;
 #endif
 #if LSF_SECOND_UV
@@ -92,7 +92,7 @@ lsf_material_data fragment_material()
 #if LSF_TRANSMISSION
     material.anisotropy.w = materials[vertex_material].anisotropy.w;
     material.flags.zw = materials[vertex_material].flags.zw;
-#elif LSF_SPECULAR_TINT
+#elif LSF_LOBES
     material.flags.w = float(vertex_material);
 #endif
 #if LSF_TRANSMISSION_TEXTURE

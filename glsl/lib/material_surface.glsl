@@ -18,10 +18,17 @@ layout(binding = LSF_UNIT_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughne
 layout(binding = LSF_UNIT_NORMAL) uniform sampler2D normal_texture;
 layout(binding = LSF_UNIT_EMISSIVE) uniform sampler2D emissive_texture;
 layout(binding = LSF_UNIT_ANISOTROPY) uniform sampler2D anisotropy_texture;
-#if LSF_SPECULAR_TINT
+#if LSF_LOBES
 layout(binding = LSF_UNIT_LOBES) uniform samplerBuffer lobe_table; /* lsf_lobe_data */
+#endif
+#if LSF_SPECULAR_TINT
 layout(binding = LSF_UNIT_SPECULAR) uniform sampler2D specular_texture;
 layout(binding = LSF_UNIT_SPECULAR_COLOR) uniform sampler2D specular_color_texture;
+#endif
+#if LSF_COAT_TEXTURE || LSF_COAT_ROUGHNESS_TEXTURE || LSF_COAT_NORMAL_TEXTURE
+layout(binding = LSF_UNIT_COAT) uniform sampler2D coat_texture;
+layout(binding = LSF_UNIT_COAT_ROUGHNESS) uniform sampler2D coat_roughness_texture;
+layout(binding = LSF_UNIT_COAT_NORMAL) uniform sampler2D coat_normal_texture;
 #endif
 #if LSF_TRANSMISSION_TEXTURE
 layout(binding = LSF_UNIT_TRANSMISSION) uniform sampler2D transmission_texture;
@@ -68,7 +75,7 @@ bool material_emits(lsf_material_data material, bool front)
     return front || material.flags.x != 0.0 || material.flags.y != 0.0;
 }
 
-#if LSF_SPECULAR_TINT
+#if LSF_LOBES
 vec4 lobe_row(lsf_material_data material, int row)
 {
     return texelFetch(lobe_table, int(material.flags.w) * LSF_LOBE_ROWS + row);
@@ -79,18 +86,56 @@ lsf_texture_slot_data lobe_slot(lsf_material_data material, int row)
     return lsf_texture_slot_data(lobe_row(material, row), lobe_row(material, row + 1));
 }
 
+/* KHR_materials_clearcoat. `vertex_frame`: tangent, bitangent and normal of the front. */
+void coat_surface(lsf_material_data material, material_point point, mat3 vertex_frame, inout surface s)
+{
+    vec4 coat = lobe_row(material, 1);
+    if (coat.x == 0.0)
+        return;
+#if LSF_COAT_TEXTURE
+    lsf_texture_slot_data factor_slot = lobe_slot(material, 6);
+    if (slot_used(factor_slot))
+        coat.x *= slot_sample(coat_texture, factor_slot, point.place).r;
+#endif
+#if LSF_LOBES_FOLDED || !LSF_COAT
+    /* What it reflects is as if it were diffuse; the rest passes it twice. */
+    float reflected = coat.x * LSF_COAT_MEAN;
+    s.base_color = mix(s.base_color * (1.0 - reflected), vec3(1.0), reflected);
+#else
+#if LSF_COAT_ROUGHNESS_TEXTURE
+    lsf_texture_slot_data roughness_slot = lobe_slot(material, 8);
+    if (slot_used(roughness_slot))
+        coat.y *= slot_sample(coat_roughness_texture, roughness_slot, point.place).g;
+#endif
+    vec3 n = vertex_frame[2];
+#if LSF_COAT_NORMAL_TEXTURE
+    lsf_texture_slot_data normal_slot = lobe_slot(material, 10);
+    if (slot_used(normal_slot)) {
+        vec3 mapped = slot_sample(coat_normal_texture, normal_slot, point.place).xyz * 2.0 - 1.0;
+        mapped.xy *= coat.z;
+        n = normalize(vertex_frame * mapped);
+    }
+#endif
+    s.coat = coat.x;
+    s.coat_roughness = coat.y;
+    s.coat_normal = point.front ? n : -n;
+#endif
+}
+#endif
+#if LSF_SPECULAR_TINT
+
 /* KHR_materials_specular. What a channel reflects is at most 1; the brightest one's f0 goes to s.f0, but for that
  * of a medium, which tells its index of refraction. */
 void tint_specular(lsf_material_data material, material_point point, inout surface s)
 {
     vec4 factors = lobe_row(material, 0);
 #if LSF_SPECULAR_TEXTURE
-    lsf_texture_slot_data weight_slot = lobe_slot(material, 1);
+    lsf_texture_slot_data weight_slot = lobe_slot(material, 2);
     if (slot_used(weight_slot))
         factors.a *= slot_sample(specular_texture, weight_slot, point.place).a;
 #endif
 #if LSF_SPECULAR_COLOR_TEXTURE
-    lsf_texture_slot_data tint_slot = lobe_slot(material, 3);
+    lsf_texture_slot_data tint_slot = lobe_slot(material, 4);
     if (slot_used(tint_slot))
         factors.rgb *= slot_sample(specular_color_texture, tint_slot, point.place).rgb;
 #endif
@@ -156,6 +201,13 @@ bool material_surface(lsf_material_data material, material_point point, out surf
 #endif
 #if LSF_SPECULAR_TINT
     tint_specular(material, point, s);
+#endif
+#if LSF_LOBES
+#if LSF_TANGENT
+    coat_surface(material, point, mat3(t, b, vertex_n), s);
+#else
+    coat_surface(material, point, mat3(vertex_n, vertex_n, vertex_n), s);
+#endif
 #endif
 #if LSF_ANISOTROPY
     vec2 turn = material.anisotropy.yz;

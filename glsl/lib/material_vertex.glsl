@@ -23,7 +23,7 @@ out vec4 vertex_tangent; /* w: the bitangent's sign */
 layout(location = LSF_ATTRIBUTE_UV0) in vec2 uv0;
 out vec2 vertex_uv0;
 #endif
-#if LSF_TEXTURED || LSF_TRANSMISSION || LSF_SPECULAR_TINT
+#if LSF_TEXTURED || LSF_TRANSMISSION || LSF_LOBES
 flat out uint vertex_material;
 #endif
 #if LSF_SECOND_UV
@@ -62,7 +62,7 @@ void material_vertex(vec3 p)
 #if LSF_TEXTURED
     vertex_uv0 = uv0;
 #endif
-#if LSF_TEXTURED || LSF_TRANSMISSION || LSF_SPECULAR_TINT
+#if LSF_TEXTURED || LSF_TRANSMISSION || LSF_LOBES
     vertex_material = material;
 #endif
 #if LSF_SECOND_UV

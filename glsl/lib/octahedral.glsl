@@ -8,21 +8,30 @@ vec2 octahedral_sign(vec2 v)
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
-uint octahedral_encode(vec3 n)
+vec2 octahedral_place(vec3 n)
 {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     if (n.z < 0.0)
         p = (1.0 - abs(p.yx)) * octahedral_sign(p);
-    return packSnorm2x16(p);
+    return p;
 }
 
-vec3 octahedral_decode(uint bits)
+uint octahedral_encode(vec3 n)
 {
-    vec2 p = unpackSnorm2x16(bits);
+    return packSnorm2x16(octahedral_place(n));
+}
+
+vec3 octahedral_normal(vec2 p)
+{
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0)
         n.xy = (1.0 - abs(n.yx)) * octahedral_sign(n.xy);
     return normalize(n);
+}
+
+vec3 octahedral_decode(uint bits)
+{
+    return octahedral_normal(unpackSnorm2x16(bits));
 }
 
 /* A tangent frame about n without a branch. Duff et al. 2017, "Building an Orthonormal Basis,

@@ -32,10 +32,11 @@ vec3 arriving(cone_light light, vec3 direction, float cosine)
 /* The environment in the specular lobe, by a ray drawn from it, as directions drawn by radiance leave it. */
 vec3 lobe_environment(surface s, vec3 point, vec3 to_viewer)
 {
-    vec2 u = fract(cone_gather.xw + hash_unit(hash(uvec3(gl_FragCoord.xy, 1u))).xy);
+    vec3 number = hash_unit(hash(uvec3(gl_FragCoord.xy, 1u)));
+    vec2 u = fract(cone_gather.xw + number.xy);
     brdf_sampler p = brdf_sampler_of(s, to_viewer, true);
     p.specular = 1.0;
-    vec3 direction = brdf_draw(p, vec3(u, 0.0));
+    vec3 direction = brdf_draw(p, vec3(u, fract(cone_gather.x + number.z)));
     float cosine = dot(s.normal, direction);
     if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
         cone_diffuse(point, s.geometric_normal, direction, 0.0).transmittance == 0.0)
@@ -90,6 +91,7 @@ void main()
 #if LSF_SPECULAR
         vec3 h = normalize(to_viewer + direction);
         reflected -= surface_dielectric_fresnel(s, clamp(dot(to_viewer, h), 0.0, 1.0));
+        reflected *= coat_passes(s, to_viewer, direction);
 #endif
         irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction, local.z),
                                        light.transmittance);
@@ -108,7 +110,7 @@ void main()
 #if LSF_ENVIRONMENT && !LSF_SEALED
         radiance += light.transmittance * environment_radiance(mirrored);
 #endif
-        specular_out.rgb = reflected * radiance;
+        specular_out.rgb = reflected * coat_passes(s, to_viewer, mirrored) * radiance;
     }
 #if LSF_ENVIRONMENT && LSF_SEALED
     specular_out.rgb += lobe_environment(s, point, to_viewer);

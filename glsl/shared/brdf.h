@@ -1,5 +1,6 @@
 /* The glTF 2.0 metallic-roughness BRDF, one definition for the shaders and for the reference.
  * glTF 2.0 specification, appendix B; KHR_materials_ior; KHR_materials_anisotropy; KHR_materials_specular;
+ * KHR_materials_clearcoat;
  * KHR_materials_transmission; KHR_materials_volume.
  *
  *   f = (1 - metallic) (1 - F(f0_dielectric)) ((1 - t) base / pi  +  t base f_t)  +  F(f0) V D
@@ -8,6 +9,10 @@
  * KHR_materials_specular tints and weighs the dielectric's reflection: f0_dielectric = w min(tint ((ior - 1) /
  * (ior + 1))^2, 1), which grows to w at grazing angles; the largest of its channels is what the lobes below do
  * without.
+ * A clear coat (KHR_materials_clearcoat) of weight w reflects w F_c(v.h) V D by a normal and a roughness of its
+ * own; light passes it on its way in and on its way out, so that all below is multiplied by
+ * (1 - w F_c(n.v)) (1 - w F_c(n.l)): the extension's own sum has the first of the two alone, and is not reciprocal.
+ *
  * F: Schlick, D: Trowbridge-Reitz (GGX), V: height-correlated Smith visibility, G / (4 nl nv).
  * t is the material's transmission and f_t the specular lobe on the surface's other side: through a thin
  * wall that of the reflection, mirrored; into a medium, Walter, Marschner, Li and Torrance 2007,
@@ -138,6 +143,18 @@ LSF_SHARED_FUNCTION float lsf_ggx_v_anisotropic(float nl, float nv, float tl, fl
     float v = nl * sqrt(vt * vt + vb * vb + nv * nv);
     float l = nv * sqrt(lt * lt + lb * lb + nl * nl);
     return 0.5f / max(v + l, 1e-12f);
+}
+
+/* A clear coat's reflection from the front: index 1.5. */
+#define LSF_COAT_F0 0.04f
+
+/* Mean of a clear coat's Schlick term over a hemisphere, by the cosine: f0 + (1 - f0) / 21. */
+#define LSF_COAT_MEAN (LSF_COAT_F0 + (1.0f - LSF_COAT_F0) / 21.0f)
+
+/* What a clear coat of that weight lets through under the cosine nv. */
+LSF_SHARED_FUNCTION float lsf_coat_passes(float weight, float nv)
+{
+    return 1.0f - weight * lsf_fresnel_schlick(LSF_COAT_F0, min(max(nv, LSF_COSINE_MIN), 1.0f));
 }
 
 /* Smith's masking of one direction, whose cosine is nl. */

@@ -38,9 +38,10 @@ struct lsf_material_data {
 /* What few materials have beyond that, in a table of its own: one after the other, by the material's number. */
 struct lsf_lobe_data {
     vec4 specular; /* rgb: tint of f0; w: weight */
-    lsf_texture_slot_data specular_slot, specular_color_slot;
+    vec4 coat;     /* factor, roughness, scale of the normal */
+    lsf_texture_slot_data specular_slot, specular_color_slot, coat_slot, coat_roughness_slot, coat_normal_slot;
 };
-#define LSF_LOBE_ROWS 5 /* of four floats */
+#define LSF_LOBE_ROWS 12 /* of four floats */
 
 /* In place of an alpha cutoff. */
 #define LSF_ALPHA_ALL -1.0f     /* nothing is cut out */
@@ -69,6 +70,9 @@ struct lsf_lobe_data {
 #define LSF_UNIT_LOBES 24 /* the table of lsf_lobe_data, and textures of what it holds */
 #define LSF_UNIT_SPECULAR 25
 #define LSF_UNIT_SPECULAR_COLOR 26
+#define LSF_UNIT_COAT 27
+#define LSF_UNIT_COAT_ROUGHNESS 28
+#define LSF_UNIT_COAT_NORMAL 29
 #define LSF_UNIT_SEEN_DEPTH 14 /* depth of what is seen, for surfaces before it */
 
 /* Texture units of the light in turn. */

@@ -112,17 +112,19 @@ static const lsf_material &material_of(const gltf_import &import,
 
 static bool wants_tangents(const lsf_material &material)
 {
-    return material.normal_texture.texture != LSF_NONE || material.anisotropy_strength > 0.0f;
+    return material.normal_texture.texture != LSF_NONE || material.anisotropy_strength > 0.0f ||
+           material.coat_normal_texture.texture != LSF_NONE;
 }
 
 static bool reads_uv(const lsf_material &material, uint32_t set)
 {
     const lsf_texture_slot *slots[] = {
-        &material.base_color_texture,    &material.metallic_roughness_texture,
-        &material.normal_texture,        &material.occlusion_texture,
-        &material.emissive_texture,      &material.anisotropy_texture,
-        &material.transmission_texture,  &material.specular_texture,
-        &material.specular_color_texture};
+        &material.base_color_texture,     &material.metallic_roughness_texture,
+        &material.normal_texture,         &material.occlusion_texture,
+        &material.emissive_texture,       &material.anisotropy_texture,
+        &material.transmission_texture,   &material.specular_texture,
+        &material.specular_color_texture, &material.coat_texture,
+        &material.coat_roughness_texture, &material.coat_normal_texture};
     for (const lsf_texture_slot *slot : slots)
         if (slot->texture != LSF_NONE && slot->uv_set == set)
             return true;
@@ -133,9 +135,10 @@ static bool reads_uv(const lsf_material &material, uint32_t set)
  * any map follows the first set. */
 static uint32_t tangent_uv_set(const lsf_material &material)
 {
-    return material.normal_texture.texture != LSF_NONE       ? material.normal_texture.uv_set
-           : material.anisotropy_texture.texture != LSF_NONE ? material.anisotropy_texture.uv_set
-                                                             : 0;
+    return material.normal_texture.texture != LSF_NONE        ? material.normal_texture.uv_set
+           : material.anisotropy_texture.texture != LSF_NONE  ? material.anisotropy_texture.uv_set
+           : material.coat_normal_texture.texture != LSF_NONE ? material.coat_normal_texture.uv_set
+                                                              : 0;
 }
 
 static stream_choice choose_streams(const gltf_import &import)

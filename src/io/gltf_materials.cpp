@@ -261,13 +261,14 @@ static lsf_material default_material()
     material.alpha_cutoff = 0.5f;
     material.ior = 1.5f;
     material.attenuation_distance = INFINITY;
-    material.specular = 1.0f;
+    material.specular = material.coat_normal_scale = 1.0f;
     for (int c = 0; c < 3; c++)
         material.attenuation_color[c] = material.specular_color[c] = 1.0f;
     material.base_color_texture = material.metallic_roughness_texture = material.normal_texture =
         material.occlusion_texture = material.emissive_texture = material.anisotropy_texture =
             material.transmission_texture = material.specular_texture =
-                material.specular_color_texture = empty_slot;
+                material.specular_color_texture = material.coat_texture =
+                    material.coat_roughness_texture = material.coat_normal_texture = empty_slot;
     return material;
 }
 
@@ -329,6 +330,23 @@ static void read_specular(texture_importer &textures, const Value &extension,
     material.specular_texture = extension_slot(textures, extension, "specularTexture", location);
     material.specular_color_texture =
         extension_slot(textures, extension, "specularColorTexture", location, true);
+}
+
+static void read_coat(texture_importer &textures, const Value &extension,
+                      const std::string &location, lsf_material &material)
+{
+    material.coat = (float)number_in(extension, "clearcoatFactor", 0.0);
+    material.coat_roughness = (float)number_in(extension, "clearcoatRoughnessFactor", 0.0);
+    if (!(material.coat > 0.0f))
+        return;
+    material.coat_texture = extension_slot(textures, extension, "clearcoatTexture", location);
+    material.coat_roughness_texture =
+        extension_slot(textures, extension, "clearcoatRoughnessTexture", location);
+    material.coat_normal_texture =
+        extension_slot(textures, extension, "clearcoatNormalTexture", location);
+    if (extension.Has("clearcoatNormalTexture"))
+        material.coat_normal_scale =
+            (float)number_in(extension.Get("clearcoatNormalTexture"), "scale", 1.0);
 }
 
 /* The mesh says how thick its medium is: the extension's thickness, a stand-in for renderers that
@@ -396,6 +414,8 @@ static void read_surface(texture_importer &textures, const tinygltf::Material &s
             read_volume(extension, material);
         } else if (name == "KHR_materials_specular") {
             read_specular(textures, extension, location, material);
+        } else if (name == "KHR_materials_clearcoat") {
+            read_coat(textures, extension, location, material);
         } else if (name == "KHR_materials_anisotropy") {
             material.anisotropy_strength = (float)number_in(extension, "anisotropyStrength", 0.0);
             material.anisotropy_rotation = (float)number_in(extension, "anisotropyRotation", 0.0);

@@ -218,6 +218,12 @@ static const rule specular_rules[] = {
     number("specularFactor", OPTIONAL, 0, 1), object("specularTexture", OPTIONAL, &texture_info),
     numbers("specularColorFactor", 3, 0), object("specularColorTexture", OPTIONAL, &texture_info)};
 static const schema specular = of(specular_rules);
+static const rule clearcoat_rules[] = {number("clearcoatFactor", OPTIONAL, 0, 1),
+                                       object("clearcoatTexture", OPTIONAL, &texture_info),
+                                       number("clearcoatRoughnessFactor", OPTIONAL, 0, 1),
+                                       object("clearcoatRoughnessTexture", OPTIONAL, &texture_info),
+                                       object("clearcoatNormalTexture", OPTIONAL, &texture_info)};
+static const schema clearcoat = of(clearcoat_rules);
 static const schema nothing = {nullptr, 0};
 static const rule specular_glossiness_rules[] = {
     numbers("diffuseFactor", 4, 0, 1), object("diffuseTexture", OPTIONAL, &texture_info),
@@ -232,6 +238,7 @@ static const rule material_extension_rules[] = {
     object("KHR_materials_volume", OPTIONAL, &volume),
     object("KHR_materials_anisotropy", OPTIONAL, &anisotropy),
     object("KHR_materials_specular", OPTIONAL, &specular),
+    object("KHR_materials_clearcoat", OPTIONAL, &clearcoat),
     object("KHR_materials_unlit", OPTIONAL, &nothing)};
 static const schema material_extensions = of(material_extension_rules);
 

@@ -19,7 +19,7 @@ typedef struct lsf_plan_switch {
     char when[LSF_PLAN_TEXT_SIZE]; /* it is on */
 } lsf_plan_switch;
 
-#define LSF_PLAN_MAX_SWITCHES 32
+#define LSF_PLAN_MAX_SWITCHES 48
 
 typedef struct lsf_plan_pass {
     const char *name;

@@ -23,13 +23,20 @@ static bool any_texture(const lsf_plan *plan)
     const lsf_requirements *r = &plan->requirements;
     return r->base_color_textured || r->metallic_roughness_textured || r->normal_mapped ||
            r->emissive_textured || r->anisotropy_textured || r->specular_textured ||
-           r->specular_color_textured || (plan->transmission && r->transmission_textured);
+           r->specular_color_textured || r->coat_textured || r->coat_roughness_textured ||
+           r->coat_normal_mapped || (plan->transmission && r->transmission_textured);
 }
 
 /* Whether fragments may be missing by their alpha. */
 static bool cuts_out(const lsf_requirements *r)
 {
     return r->masked || r->blended;
+}
+
+/* Whether some material has what struct lsf_lobe_data holds. */
+static bool has_lobes(const lsf_requirements *r)
+{
+    return r->specular_varied || r->coated;
 }
 
 void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
@@ -46,15 +53,17 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
                             "transforms and material of %u instances", scene->instance_count);
         lsf_plan_buffer_add(plan, "scene.materials", scene->material_count * sizeof(material_data),
                             "%u materials", scene->material_count);
-        if (r->specular_varied)
+        if (has_lobes(r))
             lsf_plan_buffer_add(plan, "scene.lobes",
                                 scene->material_count * sizeof(struct lsf_lobe_data),
-                                "some reflection is tinted or weighed");
+                                "some reflection is tinted or weighed, or some material is coated");
         else
-            lsf_plan_omit(plan, "scene.lobes", "no reflection is tinted or weighed");
-        if (r->normal_mapped || r->anisotropic)
+            lsf_plan_omit(plan, "scene.lobes",
+                          "no reflection is tinted or weighed, and nothing is coated");
+        if (r->normal_mapped || r->anisotropic || r->coat_normal_mapped)
             lsf_plan_buffer_add(plan, "scene.tangents", vertices * 16, "%s",
-                                r->normal_mapped ? "normal maps" : "anisotropy");
+                                r->normal_mapped || r->coat_normal_mapped ? "normal maps"
+                                                                          : "anisotropy");
         else
             lsf_plan_omit(plan, "scene.tangents", "no normal map and no anisotropy");
         if (any_texture(plan))
@@ -72,6 +81,22 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
     lsf_texture_upload_plan(plan, scene);
 }
 
+int lsf_scene_gpu_coat_word(const lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    return !r->coated            ? 0
+           : !r->anisotropic     ? 1
+           : !plan->transmission ? 2
+           : !r->specular_varied ? 3
+                                 : 0;
+}
+
+static void add_coat_switch(lsf_plan *plan, bool gloss)
+{
+    lsf_plan_switch_add(plan, "LSF_COAT", gloss ? lsf_scene_gpu_coat_word(plan) : 0,
+                        "some material is coated: the word of the gloss that tells, 0: none");
+}
+
 void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -83,7 +108,8 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         {"LSF_TEXTURED", any_texture(plan), "some material has a texture"},
         {"LSF_SECOND_UV", r->second_uv, "some texture reads TEXCOORD_1"},
         {"LSF_VERTEX_COLOR", r->vertex_colored, "some primitive has colours"},
-        {"LSF_TANGENT", r->normal_mapped || r->anisotropic, "there are normal maps or anisotropy"},
+        {"LSF_TANGENT", r->normal_mapped || r->anisotropic || r->coat_normal_mapped,
+         "there are normal maps or anisotropy"},
         {"LSF_BASE_COLOR_TEXTURE", r->base_color_textured, "some base colour is a texture"},
         {"LSF_NORMAL_TEXTURE", r->normal_mapped, "some material has a normal map"},
         {"LSF_MASK", cuts_out(r), "some material is alpha-masked or blended"},
@@ -97,6 +123,11 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         {"LSF_SPECULAR_TEXTURE", gloss && r->specular_textured, "some weight is a texture"},
         {"LSF_SPECULAR_COLOR_TEXTURE", gloss && r->specular_color_textured,
          "some tint is a texture"},
+        {"LSF_LOBES", gloss && has_lobes(r), "some material has a lobe that few have"},
+        {"LSF_COAT_TEXTURE", gloss && r->coat_textured, "some coat is a texture"},
+        {"LSF_COAT_ROUGHNESS_TEXTURE", gloss && r->coat_roughness_textured,
+         "some coat's roughness is a texture"},
+        {"LSF_COAT_NORMAL_TEXTURE", gloss && r->coat_normal_mapped, "some coat has a normal map"},
         {"LSF_TRANSMISSION", plan->transmission, "light passes materials that transmit"},
         {"LSF_STRAIGHT", plan->straight, "it goes straight on"},
         {"LSF_TRANSMISSION_TEXTURE", plan->transmission && r->transmission_textured,
@@ -106,11 +137,12 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
     };
     for (size_t i = 0; i < LSF_COUNT(switches); i++)
         lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
+    add_coat_switch(plan, gloss);
 }
 
 void lsf_scene_gpu_fold_lobes(lsf_plan *plan)
 {
-    lsf_plan_switch_add(plan, "LSF_LOBES_FOLDED", plan->requirements.specular_varied,
+    lsf_plan_switch_add(plan, "LSF_LOBES_FOLDED", has_lobes(&plan->requirements),
                         "only the G-buffer keeps lobes apart");
 }
 
@@ -118,6 +150,7 @@ void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss)
 {
     lsf_plan_switch_add(plan, "LSF_SPECULAR_TINT", gloss && plan->requirements.specular_varied,
                         "some reflection is tinted or weighed");
+    add_coat_switch(plan, gloss);
 }
 
 void lsf_scene_gpu_mask_switches(lsf_plan *plan)
@@ -206,6 +239,10 @@ static struct lsf_lobe_data lobe_data(const lsf_material *m)
 {
     const float *tint = m->specular_color;
     return (struct lsf_lobe_data){.specular = {tint[0], tint[1], tint[2], m->specular},
+                                  .coat = {m->coat, m->coat_roughness, m->coat_normal_scale, 0.0f},
+                                  .coat_slot = slot_data(&m->coat_texture),
+                                  .coat_roughness_slot = slot_data(&m->coat_roughness_texture),
+                                  .coat_normal_slot = slot_data(&m->coat_normal_texture),
                                   .specular_slot = slot_data(&m->specular_texture),
                                   .specular_color_slot = slot_data(&m->specular_color_texture)};
 }
@@ -465,6 +502,9 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
     lsf_bind_texture(LSF_UNIT_LOBES, gpu->lobe_table);
     bind_slot(gpu, LSF_UNIT_SPECULAR, &material->specular_texture, point);
     bind_slot(gpu, LSF_UNIT_SPECULAR_COLOR, &material->specular_color_texture, point);
+    bind_slot(gpu, LSF_UNIT_COAT, &material->coat_texture, point);
+    bind_slot(gpu, LSF_UNIT_COAT_ROUGHNESS, &material->coat_roughness_texture, point);
+    bind_slot(gpu, LSF_UNIT_COAT_NORMAL, &material->coat_normal_texture, point);
 }
 
 static bool takes_part(const lsf_scene_gpu *gpu, const lsf_material *material, lsf_draw_mode mode)

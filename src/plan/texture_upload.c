@@ -56,9 +56,12 @@ static uint32_t number_textures(const lsf_scene *scene, const lsf_plan *plan, ui
         const lsf_material *m =
             &scene->materials[scene->primitives[scene->instances[i].primitive].material];
         const lsf_texture_slot *slots[] = {
-            &m->base_color_texture,     &m->metallic_roughness_texture, &m->normal_texture,
-            &m->emissive_texture,       &m->anisotropy_texture,         &m->specular_texture,
-            &m->specular_color_texture, &m->transmission_texture};
+            &m->base_color_texture,     &m->metallic_roughness_texture,
+            &m->normal_texture,         &m->emissive_texture,
+            &m->anisotropy_texture,     &m->specular_texture,
+            &m->specular_color_texture, &m->coat_texture,
+            &m->coat_roughness_texture, &m->coat_normal_texture,
+            &m->transmission_texture};
         size_t count_read = LSF_COUNT(slots) - !plan->transmission;
         for (size_t s = 0; s < count_read; s++)
             if (slots[s]->texture != LSF_NONE)

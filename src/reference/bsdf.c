@@ -53,6 +53,24 @@ static float choose_specular_probability(const lsf_reference_surface *s, float n
     return fminf(fmaxf(specular / (specular + diffuse), 0.1f), 0.9f);
 }
 
+/* By the share of the light that it would reflect if it were smooth. */
+static void init_coat(lsf_reference_bsdf *bsdf)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    bsdf->coat_probability = 0.0f;
+    if (s->coat == 0.0f || bsdf->specular_probability < 0.0f)
+        return;
+    bsdf->coat_frame = lsf_basis_about(s->coat_normal);
+    lsf_float3 view = lsf_basis_to_local(&bsdf->coat_frame, s->view);
+    view.z = fmaxf(view.z, LSF_COSINE_MIN);
+    bsdf->coat_view = lsf_f3_normalize(view);
+    float reflects = 1.0f - lsf_coat_passes(s->coat, bsdf->coat_view.z);
+    float below = fmaxf(lsf_f3_luminance(s->base_color),
+                        lsf_f3_luminance(fresnel(s, fminf(bsdf->view.z, 1.0f))));
+    below *= 1.0f - reflects;
+    bsdf->coat_probability = fminf(fmaxf(reflects / (reflects + below), 0.1f), 0.9f);
+}
+
 /* An interpolated or mapped normal may look away from a viewer who sees the surface. The view is
  * then lifted to the horizon for all purposes: with the true one, the half vector could meet the
  * normal in directions that reflect nothing, and the value would have no bound. */
@@ -64,6 +82,42 @@ void lsf_reference_bsdf_init(lsf_reference_bsdf *bsdf, const lsf_reference_surfa
     bsdf->view = lsf_f3_normalize(view);
     bsdf->specular_probability =
         surface->reflects ? choose_specular_probability(surface, bsdf->view.z) : -1.0f;
+    init_coat(bsdf);
+}
+
+/* What a clear coat leaves of what is below it. */
+static float passes_coat(const lsf_reference_bsdf *bsdf, lsf_float3 light)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    float nl = fabsf(lsf_f3_dot(bsdf->coat_frame.n, light));
+    return lsf_coat_passes(s->coat, bsdf->coat_view.z) * lsf_coat_passes(s->coat, nl);
+}
+
+/* Puts the coat over what the surface below it does with light from the direction `light`;
+ * `reflects`: which is on the viewer's side. */
+static lsf_reference_reflection add_coat(const lsf_reference_bsdf *bsdf, lsf_float3 light,
+                                         bool reflects, lsf_reference_reflection below)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    if (s->coat == 0.0f)
+        return below;
+    float passes = passes_coat(bsdf, light);
+    below.diffuse = lsf_f3_scale(below.diffuse, passes);
+    below.specular = lsf_f3_scale(below.specular, passes);
+    below.pdf *= 1.0f - bsdf->coat_probability;
+    lsf_float3 l = lsf_basis_to_local(&bsdf->coat_frame, light), v = bsdf->coat_view;
+    if (!reflects || l.z <= 0.0f)
+        return below;
+    lsf_float3 sum = lsf_f3_add(v, l);
+    lsf_float3 half = lsf_f3_normalize_or(sum, lsf_f3(0.0f, 0.0f, 1.0f));
+    float vh = fminf(0.5f * lsf_f3_length(sum), 1.0f), nl = fminf(l.z, 1.0f);
+    float lobe = s->coat * lsf_fresnel_schlick(LSF_COAT_F0, vh) * nl *
+                 lsf_ggx_d(half.z, half.x * half.x + half.y * half.y, s->coat_alpha) *
+                 lsf_ggx_v(nl, fminf(v.z, 1.0f), s->coat_alpha);
+    below.specular = lsf_f3_add(below.specular, lsf_f3(lobe, lobe, lobe));
+    below.pdf +=
+        bsdf->coat_probability * lsf_pdf_ggx_reflection(v, half, s->coat_alpha, s->coat_alpha);
+    return below;
 }
 
 static float ggx(const lsf_reference_surface *s, lsf_float3 view, float nv, lsf_float3 light,
@@ -167,9 +221,9 @@ lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *b
     lsf_float3 l = lsf_basis_to_local(&s->frame, light);
     float side = lsf_f3_dot(s->geometric_normal, light);
     if (bsdf->specular_probability >= 0.0f && l.z > 0.0f && side > 0.0f)
-        return reflect(bsdf, l);
+        return add_coat(bsdf, light, true, reflect(bsdf, l));
     if (bsdf->specular_probability > 0.0f && s->transmission > 0.0f && l.z < 0.0f && side < 0.0f)
-        return s->eta == 1.0f ? pass_wall(bsdf, l) : refract(bsdf, l);
+        return add_coat(bsdf, light, false, s->eta == 1.0f ? pass_wall(bsdf, l) : refract(bsdf, l));
     return (lsf_reference_reflection){.pdf = 0.0f};
 }
 
@@ -195,6 +249,14 @@ lsf_float3 lsf_reference_bsdf_sample(const lsf_reference_bsdf *bsdf, float lobe,
 {
     const lsf_reference_surface *s = bsdf->surface;
     lsf_float3 light;
+    if (lobe < bsdf->coat_probability) {
+        lsf_float3 v = bsdf->coat_view;
+        lsf_float3 half =
+            lsf_sample_ggx_visible_normal(v, s->coat_alpha, s->coat_alpha, u[0], u[1]);
+        light = lsf_f3_sub(lsf_f3_scale(half, 2.0f * lsf_f3_dot(v, half)), v);
+        return lsf_f3_normalize_or(lsf_basis_to_world(&bsdf->coat_frame, light), light);
+    }
+    lobe = (lobe - bsdf->coat_probability) / (1.0f - bsdf->coat_probability);
     if (lobe < bsdf->specular_probability) {
         lsf_float3 half =
             lsf_sample_ggx_visible_normal(bsdf->view, s->alpha_t, s->alpha_b, u[0], u[1]);

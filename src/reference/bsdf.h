@@ -8,6 +8,9 @@
 typedef struct lsf_reference_bsdf {
     const lsf_reference_surface *surface;
     lsf_float3 view;            /* local to surface->frame, lifted above the shading horizon */
+    lsf_basis coat_frame;
+    lsf_float3 coat_view;       /* local to it, lifted likewise */
+    float coat_probability;     /* of the clear coat's lobe, which is drawn before all others */
     float specular_probability; /* of a microfacet, which reflects or transmits, and not of the
                                  * diffuse lobe; negative: the surface is black */
 } lsf_reference_bsdf;

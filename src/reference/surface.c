@@ -158,12 +158,12 @@ static lsf_basis vertex_frame(const lsf_reference_geometry *geometry,
     return frame;
 }
 
-static lsf_basis map_normal(const lsf_scene *scene, const lsf_material *material,
+static lsf_basis map_normal(const lsf_scene *scene, const lsf_texture_slot *slot, float scale,
                             const corner_weights *at, lsf_basis frame)
 {
-    lsf_texel t = sample_slot(scene, &material->normal_texture, at);
-    lsf_float3 local = lsf_f3((2.0f * t.r - 1.0f) * material->normal_scale,
-                              (2.0f * t.g - 1.0f) * material->normal_scale, 2.0f * t.b - 1.0f);
+    lsf_texel t = sample_slot(scene, slot, at);
+    lsf_float3 local =
+        lsf_f3((2.0f * t.r - 1.0f) * scale, (2.0f * t.g - 1.0f) * scale, 2.0f * t.b - 1.0f);
     lsf_float3 n = lsf_f3_normalize_or(lsf_basis_to_world(&frame, local), frame.n);
     float sign = lsf_f3_dot(lsf_f3_cross(frame.n, frame.t), frame.b) < 0.0f ? -1.0f : 1.0f;
     frame.n = n;
@@ -209,6 +209,24 @@ static void read_transmission(lsf_reference_surface *surface, const lsf_scene *s
     /* Without a change of index nothing is scattered, however rough. */
     if (surface->eta == 1.0f)
         surface->alpha_t = surface->alpha_b = LSF_ALPHA_MIN;
+}
+
+/* KHR_materials_clearcoat; over the frame of the vertices, which no map has bent yet. */
+static void read_coat(lsf_reference_surface *surface, const lsf_scene *scene,
+                      const lsf_material *material, const corner_weights *at)
+{
+    float roughness = material->coat_roughness;
+    surface->coat = material->coat;
+    surface->coat_normal = surface->frame.n;
+    if (material->coat_texture.texture != LSF_NONE)
+        surface->coat *= sample_slot(scene, &material->coat_texture, at).r;
+    if (material->coat_roughness_texture.texture != LSF_NONE)
+        roughness *= sample_slot(scene, &material->coat_roughness_texture, at).g;
+    if (material->coat_normal_texture.texture != LSF_NONE)
+        surface->coat_normal = map_normal(scene, &material->coat_normal_texture,
+                                          material->coat_normal_scale, at, surface->frame)
+                                   .n;
+    surface->coat_alpha = lsf_alpha_from_roughness(saturate(roughness));
 }
 
 /* KHR_materials_specular. */
@@ -287,11 +305,14 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
     surface->base_color = lsf_f3(color.r, color.g, color.b);
     surface->frame = vertex_frame(geometry, instance, &at, normal);
     if (surface->specular) {
+        read_coat(surface, scene, material, &at);
         if (material->normal_texture.texture != LSF_NONE)
-            surface->frame = map_normal(scene, material, &at, surface->frame);
+            surface->frame = map_normal(scene, &material->normal_texture, material->normal_scale,
+                                        &at, surface->frame);
         read_lobes(surface, scene, material, &at);
     }
     if (!front) {
+        surface->coat_normal = lsf_f3_scale(surface->coat_normal, -1.0f);
         surface->frame.n = lsf_f3_scale(surface->frame.n, -1.0f);
         surface->frame.b = lsf_f3_scale(surface->frame.b, -1.0f);
     }

@@ -40,7 +40,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 28 };
+enum { FLAG_COUNT = 32 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -58,6 +58,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"thin_walls", r->thin_walls},
         {"variable_ior", r->variable_ior},
         {"specular_varied", r->specular_varied},
+        {"coated", r->coated},
         {"masked", r->masked},
         {"blended", r->blended},
         {"normal_mapped", r->normal_mapped},
@@ -68,6 +69,9 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"transmission_textured", r->transmission_textured},
         {"specular_textured", r->specular_textured},
         {"specular_color_textured", r->specular_color_textured},
+        {"coat_textured", r->coat_textured},
+        {"coat_roughness_textured", r->coat_roughness_textured},
+        {"coat_normal_mapped", r->coat_normal_mapped},
         {"texture_transformed", r->texture_transformed},
         {"second_uv", r->second_uv},
         {"vertex_colored", r->vertex_colored},

@@ -55,6 +55,12 @@ static void add_material(lsf_requirements *r, const lsf_material *material, bool
     r->specular_color_textured |= tinted;
     r->variable_ior |= material->ior != 1.5f || varied;
     r->normal_mapped |= in_use(r, &material->normal_texture);
+    if (material->coat > 0.0f) {
+        r->coated = r->glossy = true;
+        r->coat_textured |= in_use(r, &material->coat_texture);
+        r->coat_roughness_textured |= in_use(r, &material->coat_roughness_texture);
+        r->coat_normal_mapped |= in_use(r, &material->coat_normal_texture);
+    }
     if (material->anisotropy_strength > 0.0f) {
         r->anisotropic = true;
         r->anisotropy_textured |= in_use(r, &material->anisotropy_texture);

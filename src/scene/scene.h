@@ -102,6 +102,7 @@ typedef struct lsf_material {
     bool unlit;                /* shown as emission of its base colour */
     float ior;
     float specular, specular_color[3]; /* of the dielectric's reflection: weight; tint of f0 */
+    float coat, coat_roughness, coat_normal_scale; /* of a clear coat; factors */
     float transmission;        /* of what is not reflected [1] */
     bool volume;               /* bounds a medium that light is refracted into; else a thin wall */
     float attenuation_distance; /* after which white light has attenuation_color; scene units */
@@ -109,7 +110,8 @@ typedef struct lsf_material {
     float anisotropy_strength, anisotropy_rotation; /* 0..1, radians from the tangent */
     lsf_texture_slot base_color_texture, metallic_roughness_texture, normal_texture,
         occlusion_texture, emissive_texture, anisotropy_texture, transmission_texture,
-        specular_texture, specular_color_texture;
+        specular_texture, specular_color_texture, coat_texture, coat_roughness_texture,
+        coat_normal_texture;
 } lsf_material;
 
 typedef enum lsf_light_type { LSF_LIGHT_POINT, LSF_LIGHT_SPOT, LSF_LIGHT_DIRECTIONAL } lsf_light_type;

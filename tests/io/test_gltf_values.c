@@ -233,6 +233,8 @@ static void test_materials(void **state)
     assert_floats(material->emission, (const float[]){10, 5, 0}, 3, 0.0f);
     assert_true(material->ior == 1.33f && material->transmission == 1.0f);
     assert_true(material->specular == 0.5f && scene->requirements.specular_varied);
+    assert_true(material->coat == 0.5f && material->coat_roughness == 0.25f);
+    assert_true(scene->requirements.coated);
     assert_floats(material->specular_color, (const float[]){1, 2, 0.25f}, 3, 0.0f);
     assert_true(material->volume && material->attenuation_distance == 0.5f);
     assert_floats(material->attenuation_color, (const float[]){1, 0.5f, 0.25f}, 3, 0.0f);

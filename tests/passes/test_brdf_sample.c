@@ -15,16 +15,18 @@ typedef struct material {
     const char *name;
     float roughness, metallic, anisotropy, turn;
     float view[3];
+    float coat, coat_roughness;
     float weight; /* of the dielectric's reflection, which is tinted then; 0: 1, without a tint */
 } material;
 
 static const material materials[] = {
-    {"plastic", 1.0f, 0.0f, 0.0f, 0.0f, {0.3f, 0.2f, 0.8f}, 0.0f},
-    {"rough metal", 0.7f, 1.0f, 0.0f, 0.0f, {-0.5f, 0.3f, 0.6f}, 0.0f},
-    {"mixed", 0.5f, 0.5f, 0.0f, 0.0f, {0.7f, -0.1f, 0.5f}, 0.0f},
-    {"brushed", 0.5f, 0.8f, 0.7f, 0.15f, {0.4f, 0.4f, 0.7f}, 0.0f},
-    {"grazing", 0.8f, 0.3f, 0.4f, 0.6f, {0.9f, 0.1f, 0.12f}, 0.0f},
-    {"tinted", 0.8f, 0.2f, 0.0f, 0.0f, {0.3f, 0.3f, 0.7f}, 0.6f},
+    {"plastic", 1.0f, 0.0f, 0.0f, 0.0f, {0.3f, 0.2f, 0.8f}, 0.0f, 0.0f, 0.0f},
+    {"rough metal", 0.7f, 1.0f, 0.0f, 0.0f, {-0.5f, 0.3f, 0.6f}, 0.0f, 0.0f, 0.0f},
+    {"mixed", 0.5f, 0.5f, 0.0f, 0.0f, {0.7f, -0.1f, 0.5f}, 0.0f, 0.0f, 0.0f},
+    {"brushed", 0.5f, 0.8f, 0.7f, 0.15f, {0.4f, 0.4f, 0.7f}, 0.0f, 0.0f, 0.0f},
+    {"grazing", 0.8f, 0.3f, 0.4f, 0.6f, {0.9f, 0.1f, 0.12f}, 0.0f, 0.0f, 0.0f},
+    {"tinted", 0.8f, 0.2f, 0.0f, 0.0f, {0.3f, 0.3f, 0.7f}, 0.0f, 0.0f, 0.6f},
+    {"coated", 0.8f, 0.4f, 0.0f, 0.0f, {0.3f, 0.4f, 0.6f}, 0.8f, 0.5f, 0.0f},
 };
 
 /* Of each draw the cell, -1 below the horizon, and the weights of both lobes; or of each point the
@@ -33,6 +35,7 @@ static const char shader[] =
     "#define LSF_SPECULAR 1\n"
     "#define LSF_ANISOTROPY 1\n"
     "#define LSF_SPECULAR_TINT 1\n"
+    "#define LSF_COAT 1\n"
     "#include \"lib/brdf_sample.glsl\"\n"
     "#include \"lib/path_random.glsl\"\n"
     "layout(local_size_x = 64) in;\n"
@@ -41,6 +44,7 @@ static const char shader[] =
     "layout(location = 2) uniform ivec2 counts; /* rings, sectors */\n"
     "layout(location = 3) uniform bool density;\n"
     "layout(location = 4) uniform float weight;\n"
+    "layout(location = 5) uniform vec2 coat;\n"
     "layout(std430, binding = 0) writeonly buffer block { vec4 result[]; };\n"
     "void main()\n"
     "{\n"
@@ -49,6 +53,9 @@ static const char shader[] =
     "    s.base_color = vec3(0.6);\n"
     "    s.f0 = 0.04;\n"
     "    lobes_none(s);\n"
+    "    s.coat = coat.x;\n"
+    "    s.coat_roughness = coat.y;\n"
+    "    s.coat_normal = normalize(vec3(0.4, -0.5, 0.7));\n"
     "    if (weight > 0.0) {\n"
     "        s.f0 = 0.4;\n"
     "        s.f0_tint = vec3(1.0, 0.2, 0.4);\n"
@@ -129,6 +136,7 @@ static void ask(rig *r, const material *m, int rings, int sectors, bool density,
     glUniform2i(2, rings, sectors);
     glUniform1i(3, density);
     glUniform1f(4, m->weight);
+    glUniform2f(5, m->coat, m->coat_roughness);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, r->buffer);
     glDispatchCompute(count / 64, 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);

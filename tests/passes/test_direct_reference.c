@@ -364,6 +364,35 @@ static void specular(void **unused)
     check_view("specular", scene, (const float[3]){0, 1.5f, 5}, INFINITY);
 }
 
+/* KHR_materials_clearcoat: by factors and textures, over bent normals, and with bent ones of its
+ * own. */
+static void clear_coat(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    put_ground(scene);
+    uint32_t noise = build_noise(scene, 3, 4, 3, false), bumps = build_bumps(scene);
+    for (int i = 0; i < 6; i++) {
+        lsf_material *material = build_material(scene, 0.4f, 0.15f, 0.1f);
+        material->roughness = 0.8f;
+        material->metallic = i == 4 ? 1.0f : 0.0f;
+        material->coat = i == 1 ? 0.5f : 1.0f;
+        material->coat_roughness = i == 0 ? 0.3f : 0.6f;
+        if (i == 2)
+            material->coat_texture.texture = noise;
+        if (i == 2 || i == 5)
+            material->coat_roughness_texture.texture = noise;
+        if (i == 3)
+            material->normal_texture.texture = bumps;
+        if (i == 4)
+            material->coat_normal_texture.texture = bumps;
+        move(build_sphere(scene, 3, false), 1.4 * (i % 3 - 1), i / 3 ? 0.7 : -0.4, i / 3 ? -1 : 0.5,
+             0.6);
+    }
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(-2, 3, 4), lsf_f3(0, -1, 0), 60.0f);
+    check_view("clear_coat", scene, (const float[3]){0, 1.5f, 5}, INFINITY);
+}
+
 /* Alone, for to the path tracer it is a lamp. */
 static void unlit(void **unused)
 {
@@ -387,7 +416,7 @@ int main(void)
         cmocka_unit_test(mirrors),        cmocka_unit_test(orthographic),
         cmocka_unit_test(anisotropy),     cmocka_unit_test(normal_maps),
         cmocka_unit_test(textures),       cmocka_unit_test(specular),
-        cmocka_unit_test(unlit),
+        cmocka_unit_test(clear_coat),     cmocka_unit_test(unlit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,6 +85,7 @@ lsf_material *build_material(lsf_scene *scene, float r, float g, float b)
         .ior = 1.5f,
         .attenuation_distance = INFINITY,
         .specular = 1.0f,
+        .coat_normal_scale = 1.0f,
         .specular_color = {1.0f, 1.0f, 1.0f},
         .attenuation_color = {1.0f, 1.0f, 1.0f},
         .base_color_texture = none,
@@ -96,6 +97,9 @@ lsf_material *build_material(lsf_scene *scene, float r, float g, float b)
         .transmission_texture = none,
         .specular_texture = none,
         .specular_color_texture = none,
+        .coat_texture = none,
+        .coat_roughness_texture = none,
+        .coat_normal_texture = none,
     };
     return material;
 }
