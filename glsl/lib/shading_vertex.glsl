@@ -33,9 +33,11 @@ struct light_parts {
     vec3 irradiance, specular;
 };
 
-/* Six numbers as half floats. */
+/* Six numbers as half floats, and none of them infinite. */
 uvec3 throughput_pack(light_parts t)
 {
+    t.irradiance = min(t.irradiance, 65504.0);
+    t.specular = min(t.specular, 65504.0);
     return uvec3(packHalf2x16(t.irradiance.rg), packHalf2x16(vec2(t.irradiance.b, t.specular.r)),
                  packHalf2x16(t.specular.gb));
 }

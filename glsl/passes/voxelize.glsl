@@ -114,7 +114,7 @@ vec3 closest_weights(voxel_triangle t, vec3 p)
  * back. Plane and cubes lie elsewhere in each iteration. */
 uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
 {
-#if LSF_BLEND
+#if LSF_BLEND || LSF_STRAIGHT
     uvec3 bits = hash(uvec3(chance, 0u));
     uvec3 cube = (uvec3(cell) + bits % BLEND_CUBE) / BLEND_CUBE;
     vec3 n = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;
@@ -125,13 +125,29 @@ uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
 #endif
 }
 
+#if LSF_STRAIGHT
+/* With which probability a surface that transmits is not there: its transmittance to diffuse light, of which
+ * Schlick's term takes f0 + (1 - f0) / 21, without its colour. */
+float voxel_passes(surface s)
+{
+    float passes = s.unlit ? 0.0 : s.transmission * (1.0 - s.metallic) * (1.0 - s.f0) * (20.0 / 21.0);
+    return passes * dot(s.base_color, vec3(0.2126, 0.7152, 0.0722));
+}
+#endif
+
 /* The surface about the voxel's centre; false where an alpha mask cuts it out, or a blended one is not there. */
 bool surface_in(voxel_triangle t, ivec3 cell, vec3 weights, out surface s, out vec3 emission)
 {
     /* A voxel's face has the area 1, the triangle half of its normal's length. */
     material_point point = triangle_point(t.corners, weights, 2.0 / length(t.normal));
     point.key = voxel_layer_key(t, cell);
-    return material_surface(triangle_material(), point, s, emission);
+    if (!material_surface(triangle_material(), point, s, emission))
+        return false;
+#if LSF_STRAIGHT && !defined(VOXEL_WON)
+    return chance_number(point.key) >= voxel_passes(s);
+#else
+    return true;
+#endif
 }
 
 #endif

@@ -4,6 +4,7 @@
 #undef LSF_BLEND
 #define LSF_MASK 0
 #define LSF_BLEND 0
+#define VOXEL_WON
 #include "passes/voxelize.glsl"
 #include "passes/voxelize_list.glsl"
 
@@ -36,6 +37,10 @@ void write_surface(voxel_triangle t, ivec3 cell)
     vec3 emission;
     if (!surface_in(t, cell, weights, s, emission))
         return;
+#if LSF_STRAIGHT
+    /* What it reflects counts for all the iterations in which it is not there. */
+    s.transmission = 1.0 - (1.0 - s.transmission) / (1.0 - voxel_passes(s));
+#endif
     lsf_material_data material = triangle_material();
     vec3 face = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;
     if (range.w != 0u)

@@ -350,7 +350,9 @@ static void use_program(GLuint program, const instance_turn *turn)
 static void use_mark_program(GLuint program, const instance_turn *turn)
 {
     use_program(program, turn);
-    lsf_iteration_set_blend_chance(turn->iteration, LSF_PURPOSE_BLEND_VOXEL, 0);
+    const lsf_plan *plan = turn->iteration->plan;
+    if (plan->requirements.blended || plan->straight)
+        lsf_iteration_set_chance(turn->iteration, LSF_PURPOSE_BLEND_VOXEL, 0);
 }
 
 static void mark_by_compute(lsf_voxelize *pass, const instance_turn *turn)

@@ -16,7 +16,7 @@ static void still_name(char name[64], const char *of)
 
 bool lsf_voxelize_always_anew(const lsf_plan *plan, bool jitter)
 {
-    return jitter || plan->requirements.blended;
+    return jitter || plan->requirements.blended || plan->straight;
 }
 
 bool lsf_voxelize_keeps_still(const lsf_plan *plan, bool jitter)
@@ -31,9 +31,10 @@ void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid)
     char name[64];
     if (!lsf_voxelize_keeps_still(plan, grid->jitter)) {
         lsf_plan_omit(plan, "voxelize.still", "%s",
-                      grid->jitter                 ? "the grid moves every iteration"
-                      : plan->requirements.blended ? "blended surfaces change every iteration"
-                                                   : "nothing moves");
+                      grid->jitter ? "the grid moves every iteration"
+                      : lsf_voxelize_always_anew(plan, false)
+                          ? "surfaces that are there by chance change"
+                          : "nothing moves");
         return;
     }
     lsf_voxelize_textures(&none, textures);
