@@ -127,10 +127,12 @@ uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
 
 #if LSF_STRAIGHT
 /* With which probability a surface that transmits is not there: its transmittance to diffuse light, of which
- * Schlick's term takes f0 + (1 - f0) / 21, without its colour. */
+ * Schlick's term takes f0 + (f90 - f0) / 21, without its colour. */
 float voxel_passes(surface s)
 {
-    float passes = s.unlit ? 0.0 : s.transmission * (1.0 - s.metallic) * (1.0 - s.f0) * (20.0 / 21.0);
+    float f0 = largest(surface_f0(s));
+    float passes = s.unlit ? 0.0 : s.transmission * (1.0 - s.metallic);
+    passes *= 1.0 - f0 - (surface_f90(s) - f0) / 21.0;
     return passes * dot(s.base_color, vec3(0.2126, 0.7152, 0.0722));
 }
 #endif
