@@ -1,8 +1,9 @@
-/* Radiance to 8-bit sRGB, by the curve of shared/tonemap.h. Rows run from the top. */
+/* Radiance to 8-bit sRGB, by a curve of shared/tonemap.h. Rows run from the top. */
 #include "shared/tonemap.h"
 
 layout(binding = 0) uniform sampler2D radiance_texture;
 layout(location = 0) uniform float exposure_scale; /* 2^EV */
+layout(location = 1) uniform int curve;
 layout(location = 0) out vec4 display_out;
 
 void main()
@@ -12,8 +13,7 @@ void main()
     vec3 x = texelFetch(radiance_texture, pixel, 0).rgb;
     x = vec3(lsf_tonemap_expose(x.r, exposure_scale), lsf_tonemap_expose(x.g, exposure_scale),
              lsf_tonemap_expose(x.b, exposure_scale));
-    float smallest = min(x.r, min(x.g, x.b)), largest = max(x.r, max(x.g, x.b));
-    display_out = vec4(lsf_tonemap_display(x.r, smallest, largest),
-                       lsf_tonemap_display(x.g, smallest, largest),
-                       lsf_tonemap_display(x.b, smallest, largest), 1.0);
+    display_out =
+        vec4(lsf_tonemap_code(curve, 0, x.r, x.g, x.b), lsf_tonemap_code(curve, 1, x.r, x.g, x.b),
+             lsf_tonemap_code(curve, 2, x.r, x.g, x.b), 1.0);
 }

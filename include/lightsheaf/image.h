@@ -51,12 +51,28 @@ typedef enum lsf_image_format {
                             * multiplied into them, where there is a channel A */
 } lsf_image_format;
 
+/* From exposed radiance to what a display shows; tonemap.h has the formulas. */
+typedef enum lsf_tone_curve {
+    LSF_TONE_CURVE_NEUTRAL, /* Khronos PBR Neutral: keeps base colours, compresses highlights */
+    LSF_TONE_CURVE_NONE,    /* sRGB, cut off at 1 */
+    LSF_TONE_CURVE_ACES,    /* like film, with contrast, as ACES for sRGB */
+    LSF_TONE_CURVE_AGX,     /* like film, with bright colours that fade to white */
+} lsf_tone_curve;
+
 typedef struct lsf_image_save_params {
     lsf_image_format format;
     float exposure; /* EV: radiance is multiplied by 2^exposure before tone mapping; PNG only */
+    lsf_tone_curve curve; /* PNG only */
 } lsf_image_save_params;
 
-#define LSF_IMAGE_SAVE_PARAMS_DEFAULTS .format = LSF_IMAGE_FORMAT_AUTO, .exposure = 0.0f
+#define LSF_IMAGE_SAVE_PARAMS_DEFAULTS                                                             \
+    .format = LSF_IMAGE_FORMAT_AUTO, .exposure = 0.0f, .curve = LSF_TONE_CURVE_NEUTRAL
+
+/* The exposure [EV] that brings the log-average luminance of R, G and B to middle grey, 0.18
+ * (Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002). Pixels count by
+ * their channel A, if there is one. What would be displayed as black if the arithmetic mean were
+ * middle grey counts as the darkest that is not. 0 for a black picture. */
+float lsf_image_auto_exposure(const lsf_image *image);
 
 /* Writes aside and renames, so that a failure or an interrupt leaves neither a torn file nor
  * harms an existing one. Path "-" is standard output (format must be given; AUTO means EXR).

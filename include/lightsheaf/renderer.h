@@ -130,8 +130,8 @@ bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error);
 lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error);
 /* Reads R, G, B tone-mapped on the GPU to 8-bit sRGB: width * height * 3 bytes into `rgb`,
  * rows from the top. `exposure` in EV. LSF_ERROR_USAGE unless params->rgb8 was set. */
-bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb,
-                            lsf_error *error);
+bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_curve curve,
+                            uint8_t *rgb, lsf_error *error);
 
 typedef struct lsf_pass_stats {
     const char *name;

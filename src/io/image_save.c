@@ -8,6 +8,12 @@
 #include <string.h>
 #include <strings.h>
 
+_Static_assert((int)LSF_TONE_CURVE_NEUTRAL == LSF_CURVE_NEUTRAL &&
+                   (int)LSF_TONE_CURVE_NONE == LSF_CURVE_NONE &&
+                   (int)LSF_TONE_CURVE_ACES == LSF_CURVE_ACES &&
+                   (int)LSF_TONE_CURVE_AGX == LSF_CURVE_AGX,
+               "shaders number tone curves as the interface does");
+
 static const char *shown_path(const char *path)
 {
     return strcmp(path, "-") == 0 ? "standard output" : path;
@@ -116,30 +122,31 @@ static bool save_hdr(const float *rgb, uint32_t width, uint32_t height, const ch
 
 /* Tone mapping is of light, not of pixels: a pixel that surfaces cover in part shows their light,
  * divided by that part. */
-static void encode_pixel(const float *rgb, float alpha, float scale, uint8_t *codes)
+static void encode_pixel(const float *rgb, float alpha, float scale, lsf_tone_curve curve,
+                         uint8_t *codes)
 {
     float exposed[3];
     for (int c = 0; c < 3; c++)
         exposed[c] = lsf_tonemap_expose(alpha > 0.0f ? rgb[c] / alpha : 0.0f, scale);
-    float smallest = fminf(exposed[0], fminf(exposed[1], exposed[2]));
-    float largest = fmaxf(exposed[0], fmaxf(exposed[1], exposed[2]));
-    for (int c = 0; c < 3; c++)
-        codes[c] = (uint8_t)(lsf_tonemap_display(exposed[c], smallest, largest) * 255.0f + 0.5f);
+    for (int c = 0; c < 3; c++) {
+        float code = lsf_tonemap_code((int)curve, c, exposed[0], exposed[1], exposed[2]);
+        codes[c] = (uint8_t)(code * 255.0f + 0.5f);
+    }
 }
 
 /* `alpha`: one for each pixel, or NULL. */
 static bool save_png(const float *rgb, const float *alpha, uint32_t width, uint32_t height,
-                     float exposure, const char *path, lsf_error *error)
+                     const lsf_image_save_params *params, const char *path, lsf_error *error)
 {
     uint64_t count = (uint64_t)width * height;
     uint32_t channels = alpha ? 4 : 3;
     uint8_t *codes = lsf_alloc(count, channels);
     if (!codes)
         return lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", shown_path(path));
-    float scale = exp2f(exposure);
+    float scale = exp2f(params->exposure);
     for (uint64_t i = 0; i < count; i++) {
         float a = alpha ? fminf(fmaxf(alpha[i], 0.0f), 1.0f) : 1.0f; /* NaN becomes 0 */
-        encode_pixel(rgb + 3 * i, a, scale, codes + channels * i);
+        encode_pixel(rgb + 3 * i, a, scale, params->curve, codes + channels * i);
         if (alpha)
             codes[channels * i + 3] = (uint8_t)(a * 255.0f + 0.5f);
     }
@@ -190,13 +197,13 @@ static float *pack_rgb(const lsf_image *image, const char *path, lsf_error *erro
     return pack(image, channels, 3, path, error);
 }
 
-static bool save_display(const lsf_image *image, const float *rgb, float exposure, const char *path,
-                         lsf_error *error)
+static bool save_display(const lsf_image *image, const float *rgb,
+                         const lsf_image_save_params *params, const char *path, lsf_error *error)
 {
     int channel = lsf_image_channel(image, "A");
     float *alpha = channel >= 0 ? pack(image, &channel, 1, path, error) : NULL;
     bool saved = (alpha || channel < 0) &&
-                 save_png(rgb, alpha, image->width, image->height, exposure, path, error);
+                 save_png(rgb, alpha, image->width, image->height, params, path, error);
     free(alpha);
     return saved;
 }
@@ -254,7 +261,7 @@ bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_sa
         return false;
     bool saved = format == LSF_IMAGE_FORMAT_HDR
                      ? save_hdr(rgb, image->width, image->height, path, error)
-                     : save_display(image, rgb, params->exposure, path, error);
+                     : save_display(image, rgb, params, path, error);
     free(rgb);
     return saved;
 }

@@ -25,11 +25,12 @@ bool lsf_tonemap_create(lsf_tonemap *pass, lsf_context *context, const lsf_plan 
     return pass->framebuffer && pass->program && pass->timer;
 }
 
-void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure)
+void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure, lsf_tone_curve curve)
 {
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, pass->width, pass->height, pass->program);
     glUniform1f(0, exp2f(exposure));
+    glUniform1i(1, (GLint)curve);
     lsf_bind_texture(0, radiance);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);

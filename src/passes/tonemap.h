@@ -16,7 +16,7 @@ void lsf_tonemap_plan(lsf_plan *plan);
 bool lsf_tonemap_create(lsf_tonemap *pass, lsf_context *context, const lsf_plan *plan,
                         lsf_error *error);
 /* `exposure` in EV; `radiance` is a float texture of the plan's size. */
-void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure);
+void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure, lsf_tone_curve curve);
 void lsf_tonemap_destroy(lsf_tonemap *pass);
 
 #endif

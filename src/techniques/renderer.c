@@ -317,7 +317,8 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
     return image;
 }
 
-bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb, lsf_error *error)
+bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_curve curve,
+                            uint8_t *rgb, lsf_error *error)
 {
     if (!renderer->tonemap.display)
         return lsf_error_set(error, LSF_ERROR_USAGE,
@@ -325,7 +326,7 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, uint8_t *rgb
     const lsf_plan *plan = renderer->setup.plan;
     if (!catch_up(renderer, true, error))
         return false;
-    lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure);
+    lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure, curve);
     uint32_t most = strip_rows(plan->width, 3);
     for (uint32_t y = 0; y < plan->height; y += most) {
         uint32_t rows = plan->height - y < most ? plan->height - y : most;

@@ -45,8 +45,8 @@ static double sum_of(const lsf_bench_table *t)
 bool lsf_bench_table_measure(lsf_bench_table *t, lsf_renderer *renderer, uint8_t *rgb,
                              uint32_t warm_up, uint32_t frames, lsf_error *error)
 {
-    bool good =
-        iterate(renderer, warm_up, error) && lsf_renderer_read_rgb8(renderer, 0.0f, rgb, error);
+    bool good = iterate(renderer, warm_up, error) &&
+                lsf_renderer_read_rgb8(renderer, 0.0f, LSF_TONE_CURVE_NEUTRAL, rgb, error);
     add_passes(t, renderer, -1.0); /* which waits until all is done */
     lsf_bench_table before = *t;
     double start = lsf_now();
@@ -55,7 +55,7 @@ bool lsf_bench_table_measure(lsf_bench_table *t, lsf_renderer *renderer, uint8_t
     double milliseconds = 1e3 * (lsf_now() - start);
     lsf_bench_table drawn = *t;
     for (uint32_t i = 0; good && i < frames; i++)
-        good = lsf_renderer_read_rgb8(renderer, 0.0f, rgb, error);
+        good = lsf_renderer_read_rgb8(renderer, 0.0f, LSF_TONE_CURVE_NEUTRAL, rgb, error);
     *t = before;
     add_passes(t, renderer, 1.0);
     milliseconds += sum_of(t) - sum_of(&drawn);

@@ -84,7 +84,7 @@ static bool measure(session *s, const lsf_settings *settings, lsf_error *error)
     lsf_compare_params params = {.reference_b = s->reference_b,
                                  .mask = s->mask,
                                  .relmse_epsilon = (float)settings->epsilon,
-                                 .exposure = settings->exposure};
+                                 .exposure = settings->exposure.ev};
     lsf_error cause;
     if (!lsf_compare(s->test, s->reference, &params, &s->result, &cause))
         return lsf_error_set(error, cause.code, "%s against %s: %s", settings->operands.items[0],
@@ -105,7 +105,7 @@ static bool write_difference(const session *s, const lsf_settings *settings, lsf
     lsf_image *difference =
         lsf_compare_difference(s->test, s->reference, settings->difference_gain, error);
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
-    params.exposure = settings->exposure;
+    params.exposure = settings->exposure.ev;
     bool good = difference && lsf_image_save(difference, settings->difference, &params, error);
     lsf_image_destroy(difference);
     if (good)
@@ -137,7 +137,7 @@ static void add_text(lsf_string *text, const session *s, const lsf_settings *set
     lsf_string_add(text, "%-16s %.6g (epsilon %.4g)%s\n", "relMSE", r->relmse, r->relmse_epsilon,
                    r->noise_corrected ? ", reference noise removed" : "");
     lsf_string_add(text, "%-16s %.6f (tone-mapped luminance, exposure %+g EV)\n", "SSIM", r->ssim,
-                   (double)settings->exposure);
+                   (double)settings->exposure.ev);
     lsf_string_add(text, "%-16s %.2f dB (tone-mapped R, G, B)\n", "PSNR", r->psnr);
     for (uint32_t i = 0; i < s->threshold_count; i++) {
         const threshold *t = &s->thresholds[i];
@@ -177,7 +177,7 @@ static void add_json(lsf_json *json, const session *s, const lsf_settings *setti
     lsf_json_number(json, "relmse_epsilon", r->relmse_epsilon);
     lsf_json_number(json, "ssim", r->ssim);
     lsf_json_number(json, "psnr", r->psnr);
-    lsf_json_number(json, "exposure", (double)settings->exposure);
+    lsf_json_number(json, "exposure", (double)settings->exposure.ev);
     lsf_json_bool(json, "noise_corrected", r->noise_corrected);
     lsf_json_begin(json, "thresholds", '[');
     for (uint32_t i = 0; i < s->threshold_count; i++) {

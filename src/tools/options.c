@@ -7,7 +7,6 @@
 #define RENDERING (LSF_COMMAND_RENDER | LSF_COMMAND_REFERENCE)
 #define PLANNING (RENDERING | LSF_COMMAND_PLAN)
 #define LOADING (PLANNING | LSF_COMMAND_INFO)
-#define PICTURES (RENDERING | LSF_COMMAND_COMPARE)
 #define STAGING (PLANNING | LSF_COMMAND_BENCH)
 #define DRAWING (RENDERING | LSF_COMMAND_BENCH)
 #define PRINTING (LSF_COMMAND_INFO | LSF_COMMAND_PLAN | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH)
@@ -67,8 +66,16 @@ static const lsf_command_option options[] = {
     {"format", 0, "FORMAT", RENDERING, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
      0, "exr|hdr|png", NULL,
      "the format, whatever the ending of OUT; standard output is exr without it"},
-    {"exposure", 0, "EV", PICTURES, "Output", LSF_VALUE_FLOAT, AT(exposure), -100, 100, NULL, "0",
-     "radiance is multiplied by 2^EV before tone mapping; float formats hold radiance as it is"},
+    {"exposure", 0, "EV|auto", RENDERING, "Output", LSF_VALUE_EXPOSURE, AT(exposure), -100, 100,
+     NULL, "0",
+     "radiance is multiplied by 2^EV before tone mapping; auto brings the picture's log-average "
+     "luminance to middle grey, 0.18; float formats hold radiance as it is"},
+    {"exposure", 0, "EV", LSF_COMMAND_COMPARE, "Output", LSF_VALUE_FLOAT, AT(exposure.ev), -100,
+     100, NULL, "0", "radiance is multiplied by 2^EV before tone mapping"},
+    {"tonemap", 0, "CURVE", RENDERING, "Output", LSF_VALUE_CHOICE, AT(tonemap),
+     LSF_TONE_CURVE_NEUTRAL, 0, "neutral|none|aces|agx", "neutral",
+     "from radiance to .png: neutral is Khronos PBR Neutral, which keeps base colours; none is "
+     "sRGB, cut off at 1; aces and agx are like film"},
     {"aov", 0, "LIST", PLANNING, "Output", LSF_VALUE_AOVS, AT(aovs), 0, 0, NULL, NULL,
      "layers beside the picture, separated by commas: albedo, normal, depth, emission, direct, "
      "indirect_diffuse, indirect_specular, motion, or all of these; of voxels: voxel_albedo, "
@@ -236,6 +243,8 @@ char *lsf_command_option_range(const lsf_command_option *option)
     case LSF_VALUE_ENVIRONMENT:
         return lsf_format("a file, or three numbers from 0 separated by commas, such as "
                           "1,1,1");
+    case LSF_VALUE_EXPOSURE:
+        return lsf_format("auto or a number in %.9g..%.9g", low, high);
     case LSF_VALUE_BACKGROUND:
         return lsf_format("environment, transparent, or three numbers from 0 separated by commas, "
                           "such as 1,1,1");

@@ -47,6 +47,7 @@ typedef enum lsf_value_type {
     LSF_VALUE_AOVS,        /* uint32_t, lsf_aov bits */
     LSF_VALUE_DEFINE,      /* lsf_list_setting of "pass.key=value", the key known */
     LSF_VALUE_ENVIRONMENT, /* lsf_environment_setting */
+    LSF_VALUE_EXPOSURE,    /* lsf_exposure_setting */
     LSF_VALUE_BACKGROUND,  /* lsf_background_setting */
     LSF_VALUE_THRESHOLD,   /* lsf_list_setting of "metric=x" */
 } lsf_value_type;
@@ -89,6 +90,11 @@ typedef struct lsf_environment_setting {
     lsf_vector_setting uniform; /* radiance */
 } lsf_environment_setting;
 
+typedef struct lsf_exposure_setting {
+    bool automatic;
+    float ev;
+} lsf_exposure_setting;
+
 typedef struct lsf_background_setting {
     lsf_background kind;
     float radiance[3];
@@ -104,7 +110,8 @@ typedef struct lsf_settings {
 
     const char *output; /* NULL: not given */
     int format;         /* lsf_image_format */
-    float exposure;     /* EV */
+    lsf_exposure_setting exposure;
+    int tonemap; /* lsf_tone_curve */
     bool keep_partial, halves;
 
     const char *technique;

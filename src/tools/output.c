@@ -1,7 +1,9 @@
 #include "tools/output.h"
 
 #include "base/base.h"
+#include "tools/report.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -65,6 +67,8 @@ static bool check_format(lsf_destination *destination, const lsf_settings *setti
         destination->format == LSF_IMAGE_FORMAT_HDR)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--background transparent: .hdr holds no alpha; write .exr or .png");
+    if (destination->format != LSF_IMAGE_FORMAT_PNG)
+        destination->exposure = NAN;
     if (standard && isatty(STDOUT_FILENO))
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--output -: standard output is a terminal; redirect it into a file "
@@ -106,7 +110,10 @@ static bool check_json(const lsf_destination *destination, const char *json, lsf
 bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *settings,
                              lsf_error *error)
 {
-    *destination = (lsf_destination){.path = settings->output, .exposure = settings->exposure};
+    *destination =
+        (lsf_destination){.path = settings->output,
+                          .exposure = settings->exposure.automatic ? NAN : settings->exposure.ev,
+                          .curve = (lsf_tone_curve)settings->tonemap};
     if (!settings->output)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--output: missing; say where the picture goes: -o picture.exr, .hdr, "
@@ -132,12 +139,22 @@ void lsf_destination_finish(lsf_destination *destination)
     *destination = (lsf_destination){0};
 }
 
+void lsf_destination_expose(lsf_destination *destination, const lsf_image *image)
+{
+    if (destination->format != LSF_IMAGE_FORMAT_PNG || !isnan(destination->exposure))
+        return;
+    destination->exposure = lsf_image_auto_exposure(image);
+    lsf_report_line("%s: exposure %+.2f EV, by which the log-average luminance is 0.18",
+                    destination->path, (double)destination->exposure);
+}
+
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
                           lsf_error *error)
 {
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     params.format = destination->format;
     params.exposure = destination->exposure;
+    params.curve = destination->curve;
     return lsf_image_save(image, half < 0 ? destination->path : destination->half_paths[half],
                           &params, error);
 }

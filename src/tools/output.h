@@ -8,7 +8,8 @@ typedef struct lsf_destination {
     const char *path;        /* "-": standard output; borrowed from the settings */
     lsf_image_format format; /* never AUTO */
     char *half_paths[2];     /* --halves: OUT_a and OUT_b; else NULL */
-    float exposure;          /* EV */
+    float exposure;          /* EV; NAN: chosen by lsf_destination_expose, or none is used */
+    lsf_tone_curve curve;
 } lsf_destination;
 
 /* Checks that the picture and the JSON can be written where the settings want them.
@@ -16,6 +17,10 @@ typedef struct lsf_destination {
 bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *settings,
                              lsf_error *error);
 void lsf_destination_finish(lsf_destination *destination);
+
+/* Where --exposure auto asks for it, chooses the exposure that suits the picture, and says which.
+ */
+void lsf_destination_expose(lsf_destination *destination, const lsf_image *image);
 
 /* `half` -1: the picture itself; 0 and 1: its halves. */
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,

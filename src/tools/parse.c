@@ -248,6 +248,15 @@ static bool set_value(lsf_settings *settings, const lsf_command_option *option, 
     case LSF_VALUE_ENVIRONMENT:
         return *text ? set_environment(place, option, text, error)
                      : bad_value(option, text, NULL, error);
+    case LSF_VALUE_EXPOSURE: {
+        lsf_exposure_setting exposure = {.automatic = strcmp(text, "auto") == 0};
+        good =
+            exposure.automatic || lsf_parse_number(text, option->minimum, option->maximum, &number);
+        exposure.ev = good && !exposure.automatic ? (float)number : 0.0f;
+        if (good)
+            *(lsf_exposure_setting *)place = exposure;
+        break;
+    }
     case LSF_VALUE_BACKGROUND:
         good = set_background(place, option, text);
         break;

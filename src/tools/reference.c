@@ -91,8 +91,10 @@ static bool save(reference_job *job, lsf_error *error)
     double start = lsf_now();
     bool good;
     if (job->half_count == 2 && job->results[1].samples > 0) {
-        good = take_mean(job, error) &&
-               lsf_destination_save(&job->destination, 0, job->halves[0], error) &&
+        good = take_mean(job, error);
+        if (good)
+            lsf_destination_expose(&job->destination, job->mean);
+        good = good && lsf_destination_save(&job->destination, 0, job->halves[0], error) &&
                lsf_destination_save(&job->destination, 1, job->halves[1], error) &&
                lsf_destination_save(&job->destination, -1, job->mean, error);
     } else {
@@ -101,6 +103,7 @@ static bool save(reference_job *job, lsf_error *error)
                     "interrupted before the second half: %s holds the first, and "
                     "no halves were written",
                     job->destination.path);
+        lsf_destination_expose(&job->destination, job->halves[0]);
         good = lsf_destination_save(&job->destination, -1, job->halves[0], error);
     }
     job->save_seconds = lsf_now() - start;
@@ -135,6 +138,7 @@ static bool report(reference_job *job, lsf_error *error)
         .technique = "path tracing",
         .samples = samples,
         .interrupted = lsf_interrupted(),
+        .exposure = job->destination.exposure,
         .seconds = seconds,
         .seconds_count = LSF_COUNT(seconds),
         .rays = a->rays + b->rays,

@@ -15,7 +15,7 @@ typedef struct render_job {
     lsf_scene *scene;
     lsf_context *context;
     lsf_renderer *renderer;
-    bool maps_on_gpu; /* tones, for 8-bit output without alpha */
+    bool maps_on_gpu; /* tones, for 8-bit output without alpha whose exposure is given */
     lsf_progress_bar bar;
     lsf_renderer_stats stats;
     double start;
@@ -41,7 +41,8 @@ static bool converge(render_job *job, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(&job->settings);
     job->maps_on_gpu = job->destination.format == LSF_IMAGE_FORMAT_PNG &&
-                       params.background != LSF_BACKGROUND_TRANSPARENT;
+                       params.background != LSF_BACKGROUND_TRANSPARENT &&
+                       !job->settings.exposure.automatic;
     params.rgb8 = job->maps_on_gpu;
     params.progress = lsf_interrupt_progress;
     params.progress_user = &job->bar;
@@ -60,6 +61,8 @@ static bool converge(render_job *job, lsf_error *error)
 static bool save_float(render_job *job, lsf_error *error)
 {
     lsf_image *image = lsf_renderer_read(job->renderer, error);
+    if (image)
+        lsf_destination_expose(&job->destination, image);
     bool good = image && lsf_destination_save(&job->destination, -1, image, error);
     lsf_image_destroy(image);
     return good;
@@ -72,7 +75,9 @@ static bool save_rgb8(render_job *job, lsf_error *error)
     uint8_t *rgb = lsf_alloc((uint64_t)width * height, 3);
     bool good =
         rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination.path);
-    good = good && lsf_renderer_read_rgb8(job->renderer, job->settings.exposure, rgb, error) &&
+    good = good &&
+           lsf_renderer_read_rgb8(job->renderer, job->destination.exposure, job->destination.curve,
+                                  rgb, error) &&
            lsf_image_save_rgb8(rgb, width, height, job->destination.path, error);
     if (good && job->stats.lost_pixels > 0) /* lsf_image_save says so by itself */
         lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination.path,
@@ -123,6 +128,7 @@ static bool report(render_job *job, lsf_error *error)
         .technique = job->settings.technique,
         .samples = job->stats.samples,
         .interrupted = lsf_interrupted(),
+        .exposure = job->destination.exposure,
         .seconds = seconds,
         .seconds_count = LSF_COUNT(seconds),
         .device = &device,

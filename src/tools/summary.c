@@ -55,6 +55,7 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
         [LSF_BACKGROUND_ENVIRONMENT] = "environment",
         [LSF_BACKGROUND_TRANSPARENT] = "transparent",
     };
+    static const char *const curves[] = {"neutral", "none", "aces", "agx"};
     static const char *const default_lights[] = {"auto", "always", "never"};
     const lsf_vector_setting *position = &settings->camera_position;
     const lsf_vector_setting *target = &settings->camera_target;
@@ -71,7 +72,11 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
     lsf_json_vector(json, "camera_target", target->given ? target->value : NULL, 3);
     lsf_json_number(json, "fov_y", settings->fov_y);
     lsf_json_number(json, "time", settings->time);
-    lsf_json_number(json, "exposure", settings->exposure);
+    if (settings->exposure.automatic)
+        lsf_json_string(json, "exposure", "auto");
+    else
+        lsf_json_number(json, "exposure", (double)settings->exposure.ev);
+    lsf_json_string(json, "tonemap", curves[settings->tonemap]);
     add_aovs(json, settings->aovs);
     if (settings->environment.uniform.given)
         lsf_json_vector(json, "environment", settings->environment.uniform.value, 3);
@@ -160,6 +165,7 @@ static void add_summary(lsf_json *json, const lsf_summary *summary)
                     (float[]){(float)settings->resolution[0], (float)settings->resolution[1]}, 2);
     lsf_json_integer(json, "samples", summary->samples);
     lsf_json_bool(json, "interrupted", summary->interrupted);
+    lsf_json_number(json, "exposure", (double)summary->exposure);
     if (summary->stats)
         lsf_json_number(json, "lost_share", summary->stats->lost_share);
     add_options(json, settings);

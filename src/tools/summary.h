@@ -19,6 +19,7 @@ typedef struct lsf_summary {
     const char *technique;         /* "path tracing" for the reference */
     uint32_t samples;              /* taken */
     bool interrupted;
+    float exposure; /* EV; NAN: none, in a float format */
     const lsf_summary_seconds *seconds;
     uint32_t seconds_count;
     const lsf_context_info *device;  /* NULL: the reference */

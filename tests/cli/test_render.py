@@ -81,19 +81,48 @@ class Pictures(CommandTest):
     def test_default_light(self):
         """A dial that glows does not keep the rest of the picture dark."""
         scene = self.scene(emissive=True, light=False)
-        done = self.run_command("render", scene, "-o", "a.exr", *SMALL[:4])
+        words = ("-t", "direct", *SMALL)
+        done = self.run_command("render", scene, "-o", "a.exr", *words[:6])
         self.assertIn("a default sky and key light show it", done.text)
-        self.run_command("render", scene, "-o", "b.exr", "--default-light", "never", *SMALL)
+        self.run_command("render", scene, "-o", "b.exr", "--default-light", "never", *words)
         done = self.run_command("compare", "a.exr", "b.exr", "--json")
         measured = json.loads(done.stdout)
         self.assertGreater(min(a - b for a, b in zip(measured["mean_test"],
                                                      measured["mean_reference"])), 0.05)
         lit = self.scene("lit.gltf")
-        self.run_command("render", lit, "-o", "c.exr", *SMALL)
-        self.run_command("render", lit, "-o", "d.exr", "--default-light", "never", *SMALL)
-        self.run_command("render", lit, "-o", "e.exr", "--default-light", "always", *SMALL)
+        self.run_command("render", lit, "-o", "c.exr", *words)
+        self.run_command("render", lit, "-o", "d.exr", "--default-light", "never", *words)
+        self.run_command("render", lit, "-o", "e.exr", "--default-light", "always", *words)
         self.assertEqual(self.read("c.exr"), self.read("d.exr"))
         self.assertNotEqual(self.read("c.exr"), self.read("e.exr"))
+
+    def test_tone_curves(self):
+        scene = self.scene()
+        words = ("render", scene, "-t", "direct", *SMALL)
+        curves = ("neutral", "none", "aces", "agx")
+        for curve in curves:
+            self.run_command(*words, "-o", f"{curve}.png", "--tonemap", curve)
+        self.run_command(*words, "-o", "default.png")
+        self.assertEqual(self.read("default.png"), self.read("neutral.png"))
+        self.assertEqual(len({self.read(f"{curve}.png") for curve in curves}), 4)
+        self.refuse(*words, "-o", "a.png", "--tonemap", "filmic", says=["neutral|none|aces|agx"])
+
+    def test_auto_exposure(self):
+        """By what it says, the same picture comes out; other light gives the same picture."""
+        scene = self.scene()
+        words = ("render", scene, "-t", "direct", *SMALL[:4])
+        done = self.run_command(*words, "-o", "a.png", "--exposure", "auto", "--json", "a.json")
+        self.assertRegex(done.text, r"a\.png: exposure [+-]\d+\.\d\d EV")
+        report = self.read_json("a.json")
+        self.assertEqual(report["options"]["exposure"], "auto")
+        self.run_command(*words, "-o", "b.png", "--exposure", repr(report["exposure"]), "--json",
+                         "b.json")
+        self.assertEqual(self.read_json("b.json")["exposure"], report["exposure"])
+        difference = json.loads(self.run_command("compare", "a.png", "b.png", "--json").stdout)
+        self.assertGreater(difference["psnr"] or 99, 45)  # GPU and CPU round differently
+        self.run_command(*words, "-o", "c.exr", "--exposure", "auto", "--json", "c.json")
+        self.assertIsNone(self.read_json("c.json")["exposure"])
+        self.refuse(*words, "-o", "a.png", "--exposure", "bright", says=["auto or a number"])
 
     def test_background(self):
         scene = self.scene()
@@ -190,7 +219,7 @@ class Json(CommandTest):
         report = self.read_json("a.json")
         self.assertEqual(set(report), {
             "lightsheaf", "command", "scene", "output", "technique", "seed", "bounces", "resolution",
-            "lost_share",
+            "lost_share", "exposure",
             "samples", "interrupted", "options", "device", "seconds", "passes", "gl_bytes", "notes"})
         self.assertEqual(report["command"], "render")
         self.assertEqual(report["technique"], "bidirectional")
@@ -201,7 +230,8 @@ class Json(CommandTest):
         options = report["options"]
         self.assertEqual(set(options), {
             "samples", "time_limit", "camera", "camera_position", "camera_target", "fov_y", "time",
-            "exposure", "aovs", "environment", "environment_rotation", "environment_strength", "background", "default_light", "diffuse_only", "lenient", "scene",
+            "exposure", "tonemap", "aovs", "environment", "environment_rotation",
+            "environment_strength", "background", "default_light", "diffuse_only", "lenient", "scene",
             "animations", "variant", "keep_partial", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])

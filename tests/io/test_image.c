@@ -396,12 +396,48 @@ static void test_what_cannot_be_saved_is_known_before(void **state)
     assert_int_equal(error.code, LSF_ERROR_FILE);
 }
 
+static float exposure_of(const float (*rgba)[4], uint32_t count, bool alpha)
+{
+    static const char *const names[] = {"R", "G", "B", "A"};
+    lsf_image *image = lsf_image_create(count, 1, alpha ? 4 : 3, names, NULL);
+    for (uint32_t i = 0; i < count; i++)
+        memcpy(image->pixels + i * image->channel_count, rgba[i],
+               image->channel_count * sizeof(float));
+    float exposure = lsf_image_auto_exposure(image);
+    lsf_image_destroy(image);
+    return exposure;
+}
+
+static void test_auto_exposure(void **state)
+{
+    (void)state;
+    const float grey[2][4] = {{0.18f, 0.18f, 0.18f, 1}, {0.18f, 0.18f, 0.18f, 1}};
+    assert_true(fabsf(exposure_of(grey, 2, false)) < 1e-6f);
+    /* The geometric mean of 0.09 and 1.44 is 0.36: one stop too bright. */
+    const float two[2][4] = {{0.09f, 0.09f, 0.09f, 1}, {1.44f, 1.44f, 1.44f, 1}};
+    assert_true(fabsf(exposure_of(two, 2, false) + 1) < 1e-5f);
+    /* Green alone has 0.7152 of the luminance. */
+    const float green[1][4] = {{0, 1, 0, 1}};
+    assert_true(fabsf(exposure_of(green, 1, false) - log2f(0.18f / 0.7152f)) < 1e-5f);
+    /* Half a pixel of 0.36 is a pixel of 0.36, nothing is nothing, and what is lost is not there.
+     */
+    const float half[3][4] = {{0.18f, 0.18f, 0.18f, 0.5f}, {0, 0, 0, 0}, {NAN, 1, 1, 1}};
+    assert_true(fabsf(exposure_of(half, 3, true) + 1) < 1e-5f);
+    /* Black beside 0.36 counts as code value 1 at the mean's exposure, 0. */
+    const float black[2][4] = {{0, 0, 0, 1}, {0.36f, 0.36f, 0.36f, 1}};
+    float expected = log2f(0.18f) - 0.5f * log2f(0.36f * lsf_srgb_decode(1.0f / 255));
+    assert_true(fabsf(exposure_of(black, 2, false) - expected) < 1e-4f);
+    assert_true(exposure_of((const float[1][4]){{0, 0, 0, 0}}, 1, false) == 0.0f);
+    assert_true(exposure_of((const float[1][4]){{-1, -1, -1, 1}}, 1, false) == 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exr_keeps_every_bit_and_layer),
         cmocka_unit_test(test_hdr_is_rounded_to_its_precision),
         cmocka_unit_test(test_png_is_tone_mapped),
+        cmocka_unit_test(test_auto_exposure),
         cmocka_unit_test(test_lost_pixels_are_counted),
         cmocka_unit_test(test_png_has_alpha_of_its_own),
         cmocka_unit_test(test_integers_are_decoded_from_srgb),

@@ -81,6 +81,75 @@ static void test_srgb(void **state)
         assert_near(lsf_srgb_encode(lsf_srgb_decode((float)i / 255.0f)), i / 255.0, 1e-6);
 }
 
+static void test_none_cuts_off(void **state)
+{
+    (void)state;
+    assert_near(lsf_tonemap_code(LSF_CURVE_NONE, 1, 3, 0.5f, 0), 0.735356983, 1e-6);
+    assert_near(lsf_tonemap_code(LSF_CURVE_NONE, 0, 3, 0.5f, 0), 1.0, 0.0);
+    assert_near(lsf_tonemap_code(LSF_CURVE_NEUTRAL, 0, 0.5f, 0.3f, 0.2f), lsf_srgb_encode(0.46f),
+                1e-6);
+}
+
+/* Greys stay grey, so that the fit alone is left; worked out by hand for middle grey. */
+static void test_aces(void **state)
+{
+    (void)state;
+    for (int c = 0; c < 3; c++) {
+        assert_near(lsf_tonemap_aces(c, 0.18f, 0.18f, 0.18f), 0.036733611 / 0.347885021, 2e-5);
+        assert_near(lsf_tonemap_aces(c, 1e6f, 1e6f, 1e6f), 1 / 0.983729, 1e-4);
+    }
+    /* Saturated light bleaches: red of 16 is far from (1, 0, 0). */
+    assert_true(lsf_tonemap_aces(1, 16, 0, 0) > 0.2f);
+}
+
+/* Fit of the same curve by B. Wrensch, "Minimal AgX Implementation", 2023; half a percent of the
+ * range is what it leaves. */
+static double agx_polynomial(double v)
+{
+    return ((((((15.5 * v - 40.14) * v + 31.96) * v - 6.868) * v + 0.4298) * v) + 0.1191) * v -
+           0.00232;
+}
+
+static void test_agx(void **state)
+{
+    (void)state;
+    assert_near(lsf_tonemap_agx_curve(0.18f), 0.5, 1e-6);
+    assert_near(lsf_tonemap_agx_curve(0.18f * exp2f(-10)), 0.0, 1e-6);
+    assert_near(lsf_tonemap_agx_curve(0.18f * exp2f(6.5f)), 1.0, 1e-6);
+    assert_near(lsf_tonemap_agx_curve(0), 0.0, 1e-6);
+    double squares = 0;
+    for (int i = 0; i <= 1000; i++) {
+        double v = i / 1000.0, linear = 0.18 * exp2(16.5 * v - 10);
+        double difference = (double)lsf_tonemap_agx_curve((float)linear) - agx_polynomial(v);
+        squares += difference * difference / 1001;
+    }
+    assert_near(sqrt(squares), 0.0, 0.005);
+    /* The outset undoes the inset; greys stay grey but for the matrices' rounding. */
+    for (int c = 0; c < 3; c++)
+        assert_near(lsf_tonemap_code(LSF_CURVE_AGX, c, 0.18f, 0.18f, 0.18f), 0.5, 1e-3);
+    /* Bright red fades towards white. */
+    assert_true(lsf_tonemap_code(LSF_CURVE_AGX, 1, 100, 0, 0) > 0.5f);
+}
+
+static void test_every_curve_is_monotone_and_bounded(void **state)
+{
+    (void)state;
+    for (int curve = 0; curve < 4; curve++) {
+        float before = 0;
+        for (int i = 0; i < 16000; i++) {
+            float x = lsf_tonemap_expose(powf(10.0f, (float)i / 1000.0f - 8.0f), 1.0f);
+            for (int c = 0; c < 3; c++) {
+                float code = lsf_tonemap_code(curve, c, x, 0.3f * x, 0.01f * x);
+                assert_true(code >= 0.0f && code <= 1.0f);
+            }
+            float grey = lsf_tonemap_code(curve, 0, x, x, x);
+            assert_true(grey >= before - 1e-6f && grey - before < 0.02f);
+            before = grey;
+        }
+        assert_true(before > 0.999f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -88,6 +157,10 @@ int main(void)
         cmocka_unit_test(test_monotone_bounded_and_continuous),
         cmocka_unit_test(test_exposure_and_odd_values),
         cmocka_unit_test(test_srgb),
+        cmocka_unit_test(test_none_cuts_off),
+        cmocka_unit_test(test_aces),
+        cmocka_unit_test(test_agx),
+        cmocka_unit_test(test_every_curve_is_monotone_and_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

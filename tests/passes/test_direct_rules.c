@@ -195,7 +195,10 @@ static lsf_scene *bright_environment(void)
 static void tone_curve(void **unused)
 {
     (void)unused;
-    static const float exposures[] = {0.0f, -6.0f, 1.5f};
+    static const float exposures[] = {0.0f, -6.0f, 1.5f, -6.0f, -6.0f, -6.0f};
+    static const lsf_tone_curve curves[] = {LSF_TONE_CURVE_NEUTRAL, LSF_TONE_CURVE_NEUTRAL,
+                                            LSF_TONE_CURVE_NEUTRAL, LSF_TONE_CURVE_NONE,
+                                            LSF_TONE_CURVE_ACES,    LSF_TONE_CURVE_AGX};
     static uint8_t rgb[SIDE * SIDE * 3];
     lsf_scene *scene = bright_environment();
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
@@ -211,17 +214,16 @@ static void tone_curve(void **unused)
         fail_msg("%s", error.message);
     lsf_image *image = lsf_renderer_read(renderer, &error);
     assert_non_null(image);
-    for (size_t e = 0; e < 3; e++) {
-        assert_true(lsf_renderer_read_rgb8(renderer, exposures[e], rgb, &error));
+    for (size_t e = 0; e < 6; e++) {
+        lsf_tone_curve curve = curves[e];
+        assert_true(lsf_renderer_read_rgb8(renderer, exposures[e], curve, rgb, &error));
         bool seen[256] = {false};
         for (int i = 0; i < SIDE * SIDE; i++) {
             float x[3];
             for (int c = 0; c < 3; c++)
                 x[c] = lsf_tonemap_expose(image->pixels[3 * i + c], exp2f(exposures[e]));
-            float smallest = fminf(x[0], fminf(x[1], x[2]));
-            float largest = fmaxf(x[0], fmaxf(x[1], x[2]));
             for (int c = 0; c < 3; c++) {
-                float expected = 255.0f * lsf_tonemap_display(x[c], smallest, largest);
+                float expected = 255.0f * lsf_tonemap_code((int)curve, c, x[0], x[1], x[2]);
                 assert_true(fabsf((float)rgb[3 * i + c] - roundf(expected)) <= 1.0f);
                 seen[rgb[3 * i + c]] = true;
             }
@@ -229,7 +231,8 @@ static void tone_curve(void **unused)
         int codes = 0;
         for (int i = 0; i < 256; i++)
             codes += seen[i];
-        print_message("exposure %g: %d code values\n", (double)exposures[e], codes);
+        print_message("exposure %g, curve %d: %d code values\n", (double)exposures[e], (int)curve,
+                      codes);
         assert_true(codes > 64);
     }
     lsf_image_destroy(image);

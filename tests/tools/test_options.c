@@ -155,7 +155,7 @@ static void check_everything(void)
     assert_true(params.camera_target[0] == 0 && params.camera_target[1] == -0.5f);
     assert_true(params.fov_y == 30);
     assert_true(params.time == -1.5);
-    assert_true(settings.exposure == -2);
+    assert_true(settings.exposure.ev == -2);
     assert_int_equal(params.aovs, LSF_AOV_ALBEDO | LSF_AOV_DEPTH);
     assert_string_equal(settings.json_path, "-");
     assert_true(settings.diffuse_only && settings.keep_partial && settings.gl_debug);
