@@ -40,7 +40,7 @@ static bool format_is_allowed(const tinygltf::Accessor &accessor,
 /* Empty where the node does not have the attribute. */
 static std::vector<float> read_attribute(gltf_import &import, const tinygltf::Value &attributes,
                                          const instance_attribute &attribute, uint64_t count,
-                                         const std::string &location)
+                                         const std::string &location, memory_loan &loan)
 {
     std::vector<float> values;
     int index = accessor_of(attributes, attribute.name);
@@ -56,7 +56,7 @@ static std::vector<float> read_attribute(gltf_import &import, const tinygltf::Va
         fail("MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", where,
              "accessor %d has %zu elements, the other attributes have %" PRIu64, index,
              accessor.count, count);
-    import.budget.take(count, attribute.width * sizeof(float), where);
+    loan.take(count, attribute.width * sizeof(float));
     accessor_read_floats(import, index, values);
     return values;
 }
@@ -88,12 +88,13 @@ static void add_instances(gltf_import &import, uint32_t parent, const tinygltf::
     if (count == 0)
         return;
     import.budget.take(count, node_bytes(scene->nodes[parent].name), location);
+    memory_loan loan(import.budget, location);
     std::vector<float> translations =
-        read_attribute(import, attributes, translation_attribute, count, location);
+        read_attribute(import, attributes, translation_attribute, count, location, loan);
     std::vector<float> rotations =
-        read_attribute(import, attributes, rotation_attribute, count, location);
+        read_attribute(import, attributes, rotation_attribute, count, location, loan);
     std::vector<float> scales =
-        read_attribute(import, attributes, scale_attribute, count, location);
+        read_attribute(import, attributes, scale_attribute, count, location, loan);
     if (count >= LSF_NONE - scene->node_count)
         fail("MEMORY_LIMIT", location, "%" PRIu64 " instances are too many", count);
 
