@@ -55,13 +55,15 @@ typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 
 /* As many bounces as the scene's materials need: lsf_requirements.bounces. */
 #define LSF_BOUNCES_AUTO UINT32_MAX
+#define LSF_BOUNCES_MAX 1000u
 
 typedef struct lsf_render_params {
     const char *technique;   /* see lsf_technique_name */
     uint32_t width, height;  /* pixels */
     uint32_t samples;        /* iterations; UINT32_MAX: as many as the time limit allows */
     double time_limit;       /* seconds of rendering; infinity: none */
-    uint32_t bounces;        /* indirect bounces; 0: direct light only; LSF_BOUNCES_AUTO */
+    uint32_t bounces;        /* indirect bounces; 0: direct light only; at most LSF_BOUNCES_MAX,
+                              * or LSF_BOUNCES_AUTO */
     uint64_t seed;
     const char *camera;      /* name or index; NULL: the first */
     const float *camera_position; /* three floats in scene units; NULL: the camera's own */

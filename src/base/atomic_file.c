@@ -52,6 +52,8 @@ static bool write_error(lsf_error *error, const char *path, int cause)
     const char *remedy = "";
     if (cause == ENOSPC || cause == EDQUOT)
         remedy = "; free some space or write elsewhere";
+    else if (cause == EFBIG)
+        remedy = "; raise the limit on file sizes (ulimit -f)";
     else if (cause == EACCES || cause == EPERM || cause == EROFS)
         remedy = "; choose a folder that you may write to";
     else if (cause == ENOENT || cause == ENOTDIR)

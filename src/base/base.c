@@ -30,13 +30,23 @@ bool lsf_grow(void **array, uint64_t *capacity, uint64_t needed, uint64_t size)
     return true;
 }
 
+char *lsf_format_arguments(const char *format, va_list arguments)
+{
+    va_list again;
+    va_copy(again, arguments);
+    int length = lsf_format_plain(NULL, 0, format, arguments);
+    char *text = length < 0 ? NULL : malloc((size_t)length + 1);
+    if (text)
+        lsf_format_plain(text, (size_t)length + 1, format, again);
+    va_end(again);
+    return text;
+}
+
 char *lsf_format(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    char *text = NULL;
-    if (vasprintf(&text, format, arguments) < 0)
-        text = NULL;
+    char *text = lsf_format_arguments(format, arguments);
     va_end(arguments);
     return text;
 }

@@ -22,8 +22,21 @@ void *lsf_alloc(uint64_t count, uint64_t size);
 /* Grows `*array` (capacity in elements) to hold at least `needed`; keeps the content. */
 bool lsf_grow(void **array, uint64_t *capacity, uint64_t needed, uint64_t size);
 
+/* The program may have set a locale with a decimal comma: what is formatted or read here has a
+ * point, as JSON, GLSL and options do. */
+double lsf_read_number(const char *text, char **end);
+int lsf_format_plain(char *buffer, size_t size, const char *format, va_list arguments)
+    __attribute__((format(printf, 3, 0)));
+int lsf_print(char *buffer, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Makes control characters question marks: names in files could steer a terminal. */
+void lsf_make_printable(char *text);
+
 /* malloc'ed formatted text; NULL without memory. */
 char *lsf_format(const char *format, ...) __attribute__((format(printf, 1, 2)));
+char *lsf_format_arguments(const char *format, va_list arguments)
+    __attribute__((format(printf, 1, 0)));
 
 /* Text that grows; `text` is always NUL-terminated once something was added. */
 typedef struct lsf_string {

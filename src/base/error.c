@@ -1,4 +1,4 @@
-#include <lightsheaf/error.h>
+#include "base/base.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@ bool lsf_error_set(lsf_error *error, lsf_error_code code, const char *format, ..
         error->code = code;
         va_list arguments;
         va_start(arguments, format);
-        vsnprintf(error->message, sizeof error->message, format, arguments);
+        lsf_format_plain(error->message, sizeof error->message, format, arguments);
         va_end(arguments);
     }
     return false;

@@ -1,4 +1,4 @@
-#include <lightsheaf/log.h>
+#include "base/base.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ void lsf_log(lsf_log_level level, const char *format, ...)
     char message[4096];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
+    lsf_format_plain(message, sizeof message, format, arguments);
     va_end(arguments);
     current_handler(level, message, current_user);
 }

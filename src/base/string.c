@@ -1,6 +1,8 @@
 #include "base/base.h"
 
+#include <locale.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,19 +22,69 @@ void lsf_string_add_bytes(lsf_string *string, const char *bytes, size_t length)
     string->text[string->length] = '\0';
 }
 
+static locale_t plain_locale;
+
+static void make_plain_locale(void)
+{
+    plain_locale = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+}
+
+/* 0 without memory: the locale stays what it is. */
+static locale_t get_plain_locale(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, make_plain_locale);
+    return plain_locale;
+}
+
+double lsf_read_number(const char *text, char **end)
+{
+    locale_t plain = get_plain_locale();
+    return plain ? strtod_l(text, end, plain) : strtod(text, end);
+}
+
+int lsf_format_plain(char *buffer, size_t size, const char *format, va_list arguments)
+{
+    locale_t plain = get_plain_locale();
+    locale_t before = plain ? uselocale(plain) : (locale_t)0;
+    int length = vsnprintf(buffer, size, format, arguments);
+    if (plain)
+        uselocale(before);
+    return length;
+}
+
 void lsf_string_add(lsf_string *string, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    char *text = NULL;
-    int length = vasprintf(&text, format, arguments);
+    char *text = lsf_format_arguments(format, arguments);
     va_end(arguments);
-    if (length < 0) {
+    if (!text) {
         string->failed = true;
         return;
     }
-    lsf_string_add_bytes(string, text, (size_t)length);
+    lsf_string_add_bytes(string, text, strlen(text));
     free(text);
+}
+
+int lsf_print(char *buffer, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int length = lsf_format_plain(buffer, size, format, arguments);
+    va_end(arguments);
+    return length;
+}
+
+void lsf_make_printable(char *text)
+{
+    for (unsigned char *s = (unsigned char *)text; *s; s++) {
+        bool second = s[0] == 0xc2 && s[1] >= 0x80 && s[1] < 0xa0; /* U+0080 to U+009F */
+        if (*s < 0x20 || *s == 0x7f || second)
+            *s = '?';
+        if (second)
+            *++s = '?';
+    }
 }
 
 /* Length of the valid UTF-8 sequence at `s`, or 0. */

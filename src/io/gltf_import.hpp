@@ -157,7 +157,7 @@ struct gltf_repairs {
     uint64_t trailing_indices = 0, no_position = 0, morph_targets = 0;
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
-    uint64_t textures_without_image = 0;
+    uint64_t textures_without_image = 0, negative_colors = 0;
 };
 
 struct gltf_import {

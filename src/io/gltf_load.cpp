@@ -55,6 +55,7 @@ char *copy_text(const std::string &text)
     char *copy = strdup(text.c_str());
     if (!copy)
         throw std::bad_alloc();
+    lsf_make_printable(copy);
     return copy;
 }
 
@@ -101,7 +102,9 @@ bool lsf_gltf_load(lsf_scene *scene, const char *path, const lsf_scene_params *p
         return lsf_error_set(error, LSF_ERROR_USAGE, "%s: %s", path, choice.what());
     } catch (const std::exception &exception) {
         /* Failures of the file itself begin with its path. */
-        const char *text = exception.what();
+        std::string shown = exception.what();
+        lsf_make_printable(shown.data());
+        const char *text = shown.c_str();
         size_t length = strlen(path);
         if (strncmp(text, path, length) == 0 && text[length] == ':')
             return lsf_error_set(error, LSF_ERROR_FILE, "%s", text);

@@ -51,6 +51,8 @@ void gltf_notes_add(gltf_import &import)
         skinned += import.model.nodes[i].skin >= 0 && import.node_of[i] != LSF_NONE;
     note_count(import, skinned,
                "skinned nodes: skins are ignored, the meshes are shown undeformed");
+    note_count(import, repairs.negative_colors,
+               "components of vertex colours were negative and set to 0");
     note_count(
         import, repairs.textures_without_image,
         "textures have no PNG, JPEG or WebP image: the materials that use them are shown without");

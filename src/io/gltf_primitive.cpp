@@ -176,6 +176,10 @@ vertex_arrays read_vertices(gltf_import &import, const tinygltf::Primitive &prim
     if (streams.color &&
         read_attribute(import, primitive, color_attribute, arrays.count, location, arrays.color))
         widen_colors(arrays.color, arrays.count);
+    for (float &color : arrays.color) {
+        import.repairs.negative_colors += color < 0.0f;
+        color = std::max(color, 0.0f);
+    }
     return arrays;
 }
 

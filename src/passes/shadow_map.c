@@ -75,7 +75,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                         "shadow.filter is none: planes are compared");
     lsf_scene_gpu_mask_switches(plan);
     char why[64];
-    snprintf(why, sizeof why, "%g texels a pixel", (double)params->texels_per_pixel);
+    lsf_print(why, sizeof why, "%g texels a pixel", (double)params->texels_per_pixel);
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "shadow_map.%s", kinds[kind].name);

@@ -41,7 +41,7 @@ static void print_range(char *out, size_t size, const lsf_option_row *row)
     switch (row->type) {
     case LSF_OPTION_INT:
     case LSF_OPTION_FLOAT:
-        snprintf(out, size, "%.9g..%.9g", row->minimum, row->maximum);
+        lsf_print(out, size, "%.9g..%.9g", row->minimum, row->maximum);
         break;
     case LSF_OPTION_BOOL:
         snprintf(out, size, "on|off");
@@ -68,7 +68,7 @@ static bool set_value(const lsf_option_row *row, void *value, const char *text)
         return choice >= 0;
     }
     double number =
-        row->type == LSF_OPTION_INT ? (double)strtoll(text, &end, 10) : strtod(text, &end);
+        row->type == LSF_OPTION_INT ? (double)strtoll(text, &end, 10) : lsf_read_number(text, &end);
     if (end == text || *end || !isfinite(number) || number < row->minimum || number > row->maximum)
         return false;
     if (row->type == LSF_OPTION_INT)
@@ -113,7 +113,7 @@ bool lsf_option_at(const lsf_option_table *tables, uint32_t table_count, uint32_
         if (row->type == LSF_OPTION_INT)
             snprintf(value, sizeof value, "%d", *(const int32_t *)at);
         else if (row->type == LSF_OPTION_FLOAT)
-            snprintf(value, sizeof value, "%g", (double)*(const float *)at);
+            lsf_print(value, sizeof value, "%g", (double)*(const float *)at);
         else if (row->type == LSF_OPTION_BOOL)
             snprintf(value, sizeof value, "%s", *(const bool *)at ? "on" : "off");
         else {

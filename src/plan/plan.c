@@ -10,7 +10,7 @@
     do {                                                                                           \
         va_list arguments;                                                                         \
         va_start(arguments, format);                                                               \
-        vsnprintf(buffer, sizeof(buffer), format, arguments);                                      \
+        lsf_format_plain(buffer, sizeof(buffer), format, arguments);                               \
         va_end(arguments);                                                                         \
     } while (0)
 
@@ -111,10 +111,9 @@ void lsf_plan_remark(lsf_plan *plan, const char *format, ...)
         return;
     va_list arguments;
     va_start(arguments, format);
-    if (vasprintf(remark, format, arguments) < 0) {
-        *remark = NULL;
+    *remark = lsf_format_arguments(format, arguments);
+    if (!*remark)
         plan->failed = true;
-    }
     va_end(arguments);
 }
 

@@ -31,12 +31,14 @@ static void fit(lsf_voxel_grid *grid, const lsf_state *state, uint32_t resolutio
         longest = fmaxf(longest, state->bounds_max[axis] - state->bounds_min[axis]);
     grid->resolution = resolution;
     grid->side = longest > 0.0f ? longest / (float)(resolution > 3 ? resolution - 2 : 1) : 1.0f;
+    bool empty = state->bounds_min[0] > state->bounds_max[0];
     for (int axis = 0; axis < 3; axis++) {
-        float extent = state->bounds_max[axis] - state->bounds_min[axis];
+        float low = empty ? 0.0f : state->bounds_min[axis];
+        float high = empty ? 0.0f : state->bounds_max[axis];
+        float extent = high - low;
         uint32_t voxels = (uint32_t)ceilf(extent / grid->side - 1e-3f) + 2;
         grid->size[axis] = (voxels + BLOCK - 1) / BLOCK * BLOCK;
-        grid->origin[axis] = 0.5f * (state->bounds_min[axis] + state->bounds_max[axis]) -
-                             0.5f * (float)grid->size[axis] * grid->side;
+        grid->origin[axis] = 0.5f * (low + high) - 0.5f * (float)grid->size[axis] * grid->side;
     }
 }
 

@@ -45,6 +45,9 @@ static bool check_params(const lsf_render_params *params, uint32_t half, lsf_err
                              params->width, params->height);
     if (params->samples == 0)
         return lsf_error_set(error, LSF_ERROR_USAGE, "--samples 0: at least 1 is needed");
+    if (params->bounces > LSF_BOUNCES_MAX && params->bounces != LSF_BOUNCES_AUTO)
+        return lsf_error_set(error, LSF_ERROR_USAGE, "--bounces %u: at most %u", params->bounces,
+                             LSF_BOUNCES_MAX);
     if (half > 1)
         return lsf_error_set(error, LSF_ERROR_USAGE, "there is no half %u, only 0 and 1", half);
     return true;

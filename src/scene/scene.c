@@ -18,11 +18,11 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
         return;
     va_list arguments;
     va_start(arguments, format);
-    char *note = NULL;
-    int length = vasprintf(&note, format, arguments);
+    char *note = lsf_format_arguments(format, arguments);
     va_end(arguments);
-    if (length < 0)
+    if (!note)
         return;
+    lsf_make_printable(note);
     for (uint32_t i = 0; i < scene->note_count; i++)
         if (strcmp(scene->notes[i], note) == 0) {
             free(note);

@@ -326,9 +326,29 @@ static bool update_camera(lsf_state *state, const lsf_camera *camera, const doub
     return true;
 }
 
+static bool is_point(const float *point)
+{
+    return !point || (isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2]));
+}
+
+static bool check_view(const lsf_view_params *params, lsf_error *error)
+{
+    if (!is_point(params->position) || !is_point(params->target))
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "the camera's position and target must be finite numbers");
+    if (!isfinite(params->time))
+        return lsf_error_set(error, LSF_ERROR_USAGE, "time %g: must be finite", params->time);
+    if (!isnan(params->fov_y) && !(params->fov_y > 0.0f && params->fov_y < 180.0f))
+        return lsf_error_set(error, LSF_ERROR_USAGE, "fov_y %g: must lie between 0 and 180 degrees",
+                             (double)params->fov_y);
+    return true;
+}
+
 bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_params *params,
                       lsf_error *error)
 {
+    if (!check_view(params, error))
+        return false;
     int camera_index = find_camera(scene, params->camera);
     if (camera_index < 0)
         return lsf_error_set(

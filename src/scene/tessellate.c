@@ -118,9 +118,9 @@ static void add_bend(const tessellation *t, edge_bend *bend, uint32_t a, uint32_
 
 static bool bend_edges(tessellation *t, const lsf_primitive *primitive)
 {
-    const uint32_t *indices = t->source->indices + primitive->first_index;
     for (uint32_t i = 0; i < primitive->index_count; i++) {
-        uint32_t a = indices[i], b = indices[i % 3 == 2 ? i - 2 : i + 1];
+        const uint32_t *index = t->source->indices + primitive->first_index + i;
+        uint32_t a = index[0], b = i % 3 == 2 ? index[-2] : index[1];
         edge_bend *bend;
         if (!find_bend(t, a, b, &bend))
             return false;

@@ -52,9 +52,9 @@ static bool check_params(const lsf_render_params *params, lsf_error *error)
     if (!(params->time_limit > 0.0))
         return lsf_error_set(error, LSF_ERROR_USAGE, "time limit %g s: must be above 0",
                              params->time_limit);
-    if (!isnan(params->fov_y) && !(params->fov_y > 0.0f && params->fov_y < 180.0f))
-        return lsf_error_set(error, LSF_ERROR_USAGE, "fov_y %g: must lie between 0 and 180 degrees",
-                             (double)params->fov_y);
+    if (params->bounces > LSF_BOUNCES_MAX && params->bounces != LSF_BOUNCES_AUTO)
+        return lsf_error_set(error, LSF_ERROR_USAGE, "bounces %u: at most %u", params->bounces,
+                             LSF_BOUNCES_MAX);
     if (params->camera_position && params->camera_target &&
         memcmp(params->camera_position, params->camera_target, 3 * sizeof(float)) == 0)
         return lsf_error_set(error, LSF_ERROR_USAGE,

@@ -25,6 +25,8 @@ static void on_signal(int number)
 
 void lsf_interrupt_install(void)
 {
+    /* Writing beyond the limit on file sizes then fails with a cause. */
+    signal(SIGXFSZ, SIG_IGN);
     static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     for (size_t i = 0; i < LSF_COUNT(numbers); i++) {

@@ -1,7 +1,8 @@
 #include "tools/number.h"
 
+#include "base/base.h"
+
 #include <ctype.h>
-#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,11 +57,7 @@ bool lsf_parse_number(const char *text, double minimum, double maximum, double *
 {
     if (!is_decimal(text))
         return false;
-    locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    if (!plain)
-        return false;
-    *value = strtod_l(text, NULL, plain);
-    freelocale(plain);
+    *value = lsf_read_number(text, NULL);
     return isfinite(*value) && *value >= minimum && *value <= maximum;
 }
 

@@ -109,7 +109,8 @@ static const lsf_command_option options[] = {
      NULL, "iterations; 64, or with --time-limit as many as fit"},
     {"time-limit", 0, "S", PLANNING, "Picture", LSF_VALUE_DOUBLE, AT(time_limit), 0.001, 1e9, NULL,
      NULL, "seconds of rendering after which no further iteration starts"},
-    {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, 1000, NULL, NULL,
+    {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, LSF_BOUNCES_MAX,
+     NULL, NULL,
      "indirect bounces of light; 0 is direct light only; without it 1, and 5 where materials "
      "transmit light, for each side of a wall of glass takes one"},
     {"seed", 0, "N", STAGING, "Picture", LSF_VALUE_SEED, AT(seed), 0, 0, NULL, "0",

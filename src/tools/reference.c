@@ -98,13 +98,13 @@ static bool save(reference_job *job, lsf_error *error)
                lsf_destination_save(&job->destination, 1, job->halves[1], error) &&
                lsf_destination_save(&job->destination, -1, job->mean, error);
     } else {
-        if (job->half_count == 2)
-            lsf_log(LSF_LOG_WARNING,
-                    "interrupted before the second half: %s holds the first, and "
-                    "no halves were written",
-                    job->destination.path);
         lsf_destination_expose(&job->destination, job->halves[0]);
         good = lsf_destination_save(&job->destination, -1, job->halves[0], error);
+        if (good && job->half_count == 2)
+            good = lsf_error_set(error, LSF_ERROR_RENDER,
+                                 "interrupted before the second half: %s holds the first, and no "
+                                 "halves were written",
+                                 job->destination.path);
     }
     job->save_seconds = lsf_now() - start;
     return good;

@@ -1,5 +1,6 @@
 """What happens to files: nothing is torn, nothing good is lost, nothing is left behind."""
 import os
+import resource
 import unittest
 
 from command import FILE, CommandTest, main
@@ -45,6 +46,14 @@ class Outputs(CommandTest):
             self.assertNotEqual(done.returncode, 0, words)
             self.assertEqual(self.read("a.exr"), b"precious")
         self.assertEqual(self.files(), ["a.exr", "bad.gltf", "scene.gltf"])
+
+    def test_limit_on_file_sizes(self):
+        """What is written aside is removed, and the cause is named."""
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
+        done = self.run_command("render", self.scene(), "-o", "a.exr", *SMALL, status=FILE,
+                                preexec_fn=limit, env=dict(os.environ, MESA_SHADER_CACHE_DISABLE="1"))
+        self.assertIn("ulimit -f", done.text)
+        self.assertEqual(self.files(), ["scene.gltf"])
 
     def run_failing(self, *words):
         import subprocess

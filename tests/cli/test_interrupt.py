@@ -86,7 +86,7 @@ class Interrupt(CommandTest):
     def test_reference_half(self):
         """Interrupted in the first half, there is one picture and no pair."""
         status, seen = self.start_and_interrupt("reference", "--keep-partial", "--halves")
-        self.assertEqual(status, DONE, seen)
+        self.assertEqual(status, RENDERING, seen)
         self.assertIn("before the second half", seen)
         self.assertEqual(self.files(), ["a.exr", "scene.gltf"])
 

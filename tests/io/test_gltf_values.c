@@ -283,6 +283,49 @@ static void test_defaults(void **state)
     lsf_scene_destroy(scene);
 }
 
+static lsf_scene *load_text(const char *text)
+{
+    char *path = lsf_format("%s/text.gltf", gltf_folder);
+    assert_true(lsf_file_write(path, text, strlen(text), NULL));
+    free(path);
+    return load("text.gltf");
+}
+
+static void test_names_do_not_steer_a_terminal(void **state)
+{
+    (void)state;
+    lsf_scene *scene =
+        load_text("{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"\\u001b[31mX\"],"
+                  "\"nodes\":[{\"camera\":0}],\"cameras\":[{\"name\":\"\\u001b[2J\\n\\rerror: "
+                  "\\u009b1m\\u00e9\","
+                  "\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":0.1}}]}");
+    assert_string_equal(lsf_scene_camera_name(scene, 0), "?[2J??error: ??1m\xc3\xa9");
+    assert_true(lsf_scene_note_count(scene) > 0);
+    assert_non_null(strstr(lsf_scene_note(scene, 0), "?[31mX"));
+    char *shown = lsf_scene_describe(scene, false);
+    for (const char *c = shown; *c; c++)
+        assert_true(*c == '\n' || (unsigned char)*c >= 0x20);
+    free(shown);
+    lsf_scene_destroy(scene);
+}
+
+static void test_negative_colours_are_set_to_0(void **state)
+{
+    (void)state;
+    lsf_scene *scene = load_text(
+        "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AACAvwAAgD8AAAC/AACAvwAAgD8AAAC/AACAvwAAgD8AAAC/\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":0,\"COLOR_0\":0}}]"
+        "}]}");
+    const float expected[4] = {0.0f, 1.0f, 0.0f, 1.0f};
+    assert_floats(scene->vertices.color, expected, 4, 0.0f);
+    assert_non_null(strstr(lsf_scene_note(scene, 0), "6 components of vertex colours"));
+    lsf_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -296,6 +339,8 @@ int main(void)
         cmocka_unit_test(test_instances_are_stored_once),
         cmocka_unit_test(test_materials),
         cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_names_do_not_steer_a_terminal),
+        cmocka_unit_test(test_negative_colours_are_set_to_0),
     };
     return cmocka_run_group_tests_name("gltf values", tests, make_gltf_folder, remove_gltf_folder);
 }

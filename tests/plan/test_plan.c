@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "../scene/build_scene.h"
+#include "base/base.h"
 #include "plan/plan.h"
 
 enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
@@ -232,6 +233,21 @@ static void bad_params(void **unused)
     params.camera = "nowhere";
     assert_null(lsf_plan_create(scene, &params, &error));
     assert_int_equal(error.code, LSF_ERROR_USAGE);
+    params.camera = NULL;
+    static const uint32_t bounces[] = {1001, 1u << 31, UINT32_MAX - 1};
+    for (size_t i = 0; i < LSF_COUNT(bounces); i++) {
+        params.bounces = bounces[i];
+        assert_null(lsf_plan_create(scene, &params, &error));
+        assert_non_null(strstr(error.message, "bounces"));
+    }
+    params.bounces = 1;
+    params.camera_target = (const float[]){0.0f, NAN, 0.0f};
+    assert_null(lsf_plan_create(scene, &params, &error));
+    assert_non_null(strstr(error.message, "finite"));
+    params.camera_target = NULL;
+    params.time = NAN;
+    assert_null(lsf_plan_create(scene, &params, &error));
+    assert_non_null(strstr(error.message, "time"));
     destroy_scene(scene);
 }
 

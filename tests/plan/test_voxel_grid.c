@@ -76,12 +76,27 @@ static void unit_follows_light(void **unused)
     assert_true(grid.unit == 1.0f);
 }
 
+static void an_empty_scene_has_a_grid(void **unused)
+{
+    (void)unused;
+    const lsf_state state = {.bounds_min = {INFINITY, INFINITY, INFINITY},
+                             .bounds_max = {-INFINITY, -INFINITY, -INFINITY}};
+    const lsf_voxel_grid_use use = {.bytes = 32, .sides = 1};
+    const lsf_voxel_grid_params params = {.resolution = 64, .memory = 1e6f};
+    const lsf_voxel_grid grid = lsf_voxel_grid_fit(&params, &state, &use);
+    for (int axis = 0; axis < 3; axis++) {
+        assert_int_equal(grid.size[axis], 16);
+        assert_true(isfinite(grid.origin[axis]));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(holds_the_scene),
         cmocka_unit_test(halves_what_does_not_fit),
         cmocka_unit_test(unit_follows_light),
+        cmocka_unit_test(an_empty_scene_has_a_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
