@@ -68,6 +68,20 @@ static bool save_float(render_job *job, lsf_error *error)
     return good;
 }
 
+/* A picture of which less than one pixel in a hundred shows more than 1 % of white, code value 25,
+ * looks as if something had gone wrong. */
+static void warn_of_darkness(const char *path, const uint8_t *rgb, uint64_t pixels)
+{
+    uint64_t seen = 0;
+    for (const uint8_t *p = rgb; p < rgb + 3 * pixels; p += 3)
+        seen += p[0] > 25 || p[1] > 25 || p[2] > 25;
+    if (100 * seen < pixels)
+        lsf_log(LSF_LOG_WARNING,
+                "%s: nearly black: less than 1 in 100 pixels shows more than 1 %% of white; "
+                "--exposure auto brightens what is lit, --default-light always lights the rest",
+                path);
+}
+
 /* Tone-mapped on the GPU: only the bytes of the file come back. */
 static bool save_rgb8(render_job *job, lsf_error *error)
 {
@@ -79,6 +93,8 @@ static bool save_rgb8(render_job *job, lsf_error *error)
            lsf_renderer_read_rgb8(job->renderer, job->destination.exposure, job->destination.curve,
                                   rgb, error) &&
            lsf_image_save_rgb8(rgb, width, height, job->destination.path, error);
+    if (good)
+        warn_of_darkness(job->destination.path, rgb, (uint64_t)width * height);
     if (good && job->stats.lost_pixels > 0) /* lsf_image_save says so by itself */
         lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination.path,
                 (unsigned long long)job->stats.lost_pixels, (unsigned long long)width * height);

@@ -96,6 +96,13 @@ class Pictures(CommandTest):
         self.assertEqual(self.read("c.exr"), self.read("d.exr"))
         self.assertNotEqual(self.read("c.exr"), self.read("e.exr"))
 
+    def test_darkness_is_not_silent(self):
+        scene = self.scene(light=False)
+        words = ("render", scene, "-t", "direct", *SMALL[:4], "-o", "a.png")
+        self.assertNotIn("nearly black", self.run_command(*words).text)
+        self.assertIn("a.png: nearly black",
+                      self.run_command(*words, "--default-light", "never").text)
+
     def test_tone_curves(self):
         scene = self.scene()
         words = ("render", scene, "-t", "direct", *SMALL)
