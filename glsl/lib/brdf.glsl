@@ -1,9 +1,13 @@
 /* The glTF BRDF of a G-buffer surface, split into its two lobes; formulas in shared/brdf.h.
- * Switches LSF_SPECULAR, LSF_SPECULAR_TINT, LSF_COAT, LSF_ANISOTROPY, LSF_TRANSMISSION; LSF_CLAMP_RADIANCE where samples are sparse. */
+ * Switches LSF_SPECULAR, LSF_SPECULAR_TINT, LSF_COAT, LSF_SHEEN,
+ * LSF_ANISOTROPY, LSF_TRANSMISSION; LSF_CLAMP_RADIANCE where samples are sparse. */
 #ifndef LSF_LIB_BRDF
 #define LSF_LIB_BRDF
 
 #include "lib/gbuffer.glsl"
+#if LSF_SHEEN
+#include "shared/sheen.h"
+#endif
 
 struct brdf_value {
     float diffuse; /* the diffuse lobe is surface_diffuse(s) / pi times this [1] */
@@ -61,6 +65,27 @@ vec3 lift_to_horizon(vec3 view, vec3 normal)
     float nv = dot(normal, view);
     return nv >= LSF_COSINE_MIN ? view : normalize(view + (LSF_COSINE_MIN - nv) * normal);
 }
+
+/* What a sheen leaves of what is below it, by the cosines of both directions. */
+float sheen_leaves(surface s, float nv, float nl)
+{
+#if LSF_SHEEN
+    return lsf_sheen_leaves(largest(s.sheen.rgb), lsf_sheen_albedo(nv, s.sheen.a),
+                            lsf_sheen_albedo(nl, s.sheen.a));
+#else
+    return 1.0;
+#endif
+}
+
+#if LSF_SHEEN
+vec3 sheen_reflects(surface s, vec3 view, vec3 light)
+{
+    float nv = clamp(dot(s.normal, view), LSF_COSINE_MIN, 1.0), nl = clamp(dot(s.normal, light), LSF_COSINE_MIN, 1.0);
+    vec3 nxh = cross(s.normal, normalize(view + light));
+    float most = max(lsf_sheen_albedo(nv, s.sheen.a), lsf_sheen_albedo(nl, s.sheen.a));
+    return s.sheen.rgb * (lsf_sheen_lobe(nv, nl, dot(nxh, nxh), s.sheen.a) / max(most, 1.0));
+}
+#endif
 
 /* What a clear coat leaves of what is below it; the view and the light's direction are unit. */
 float coat_passes(surface s, vec3 view, vec3 light)
@@ -174,6 +199,13 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
 #endif
         f.specular = d * v * fresnel;
     }
+#if LSF_SHEEN
+    if (l.nl > 0.0 && s.sheen.rgb != vec3(0.0)) {
+        float leaves = sheen_leaves(s, l.nv, l.nl);
+        f.diffuse *= leaves;
+        f.specular = f.specular * leaves + sheen_reflects(s, l.view, light);
+    }
+#endif
 #if LSF_COAT
     float passes = coat_passes(s, view_direction, light);
     f.diffuse *= passes;

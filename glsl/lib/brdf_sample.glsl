@@ -71,6 +71,12 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     float specular = surface_fresnel(s, f0, f90, nv);
     float matte = dot(surface_diffuse(s), luminance) * (1.0 - largest(surface_f0(s)));
     float diffuse = matte > 0.0 ? dot(surface_diffuse(s), luminance) * through : 0.0;
+#if LSF_SHEEN
+    /* It is broad: the diffuse lobe's directions serve it. */
+    float sheen = dot(s.sheen.rgb, luminance);
+    matte += sheen;
+    diffuse += sheen * min(lsf_sheen_albedo(nv, s.sheen.a), 1.0);
+#endif
 #if LSF_TRANSMISSION
     p.dielectric = vec2(largest(surface_f0(s)), surface_f90(s));
     p.reflecting = vec2(f0, f90);
@@ -172,6 +178,7 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
     direction = normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
     float passes = s.transmission * (1.0 - s.metallic) * (1.0 - brdf_interface(p, p.dielectric, vh));
     weight = s.base_color * (passes * gain / ((1.0 - to_coat) * p.specular * (1.0 - share)));
+    weight *= sheen_leaves(s, p.view.z, abs(dot(p.normal, direction)));
 #if LSF_COAT
     weight *= lsf_coat_passes(s.coat, p.coat_view.z) *
               lsf_coat_passes(s.coat, abs(dot(p.coat_normal, direction)));

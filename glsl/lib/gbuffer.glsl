@@ -13,10 +13,12 @@
  *   w  tint of f0, weight of the dielectric's reflection, 4 x unorm8 (KHR_materials_specular)
  *   the first of y, z, w that is free holds a clear coat: factor unorm5 | roughness unorm9 << 5 |
  *   normal, octahedral 2 x unorm9 << 14 (KHR_materials_clearcoat)
+ *   the next one that is free a sheen: roots of the color 3 x unorm8 | roughness unorm8 (KHR_materials_sheen)
  * gbuffer.tint RGBA16F, only where light goes straight through surfaces: what is left of the light on its way to
  *   the eye, over the probability of seeing this surface (lib/straight.glsl)
  * gbuffer.absorption RGBA32F, only with media: optical depth on that way
- * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SPECULAR_TINT, LSF_COAT (the coat's word). */
+ * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SPECULAR_TINT, LSF_COAT and LSF_SHEEN (the
+ * words of these). */
 #ifndef LSF_LIB_GBUFFER
 #define LSF_LIB_GBUFFER
 
@@ -32,6 +34,9 @@
 #ifndef LSF_COAT
 #define LSF_COAT 0
 #endif
+#ifndef LSF_SHEEN
+#define LSF_SHEEN 0
+#endif
 #ifndef LSF_STRAIGHT
 #define LSF_STRAIGHT 0
 #endif
@@ -46,6 +51,9 @@ struct surface {
 #if LSF_SPECULAR_TINT
     vec3 f0_tint;          /* dielectrics reflect f0 times this ... */
     float specular_weight; /* ... times this, which is what they reflect at grazing angles */
+#endif
+#if LSF_SHEEN
+    vec4 sheen; /* color, roughness */
 #endif
 #if LSF_COAT
     float coat, coat_roughness;
@@ -65,6 +73,9 @@ void lobes_none(inout surface s)
 #if LSF_SPECULAR_TINT
     s.f0_tint = vec3(1.0);
     s.specular_weight = 1.0;
+#endif
+#if LSF_SHEEN
+    s.sheen = vec4(0.0);
 #endif
 #if LSF_COAT
     s.coat = s.coat_roughness = 0.0;
@@ -178,6 +189,9 @@ uvec4 gloss_pack(surface s)
 #if LSF_COAT
     texel[LSF_COAT] = coat_pack(s);
 #endif
+#if LSF_SHEEN
+    texel[LSF_SHEEN] = packUnorm4x8(vec4(sqrt(s.sheen.rgb), s.sheen.a));
+#endif
     return texel;
 }
 
@@ -220,6 +234,10 @@ void gloss_unpack(uvec4 texel, inout surface s)
 #endif
 #if LSF_COAT
     coat_unpack(texel[LSF_COAT], s);
+#endif
+#if LSF_SHEEN
+    s.sheen = unpackUnorm4x8(texel[LSF_SHEEN]);
+    s.sheen.rgb *= s.sheen.rgb;
 #endif
 #if LSF_TRANSMISSION
     transmission_unpack(texel.z, s);

@@ -25,6 +25,10 @@ layout(binding = LSF_UNIT_LOBES) uniform samplerBuffer lobe_table; /* lsf_lobe_d
 layout(binding = LSF_UNIT_SPECULAR) uniform sampler2D specular_texture;
 layout(binding = LSF_UNIT_SPECULAR_COLOR) uniform sampler2D specular_color_texture;
 #endif
+#if LSF_SHEEN_COLOR_TEXTURE || LSF_SHEEN_ROUGHNESS_TEXTURE
+layout(binding = LSF_UNIT_SHEEN_COLOR) uniform sampler2D sheen_color_texture;
+layout(binding = LSF_UNIT_SHEEN_ROUGHNESS) uniform sampler2D sheen_roughness_texture;
+#endif
 #if LSF_COAT_TEXTURE || LSF_COAT_ROUGHNESS_TEXTURE || LSF_COAT_NORMAL_TEXTURE
 layout(binding = LSF_UNIT_COAT) uniform sampler2D coat_texture;
 layout(binding = LSF_UNIT_COAT_ROUGHNESS) uniform sampler2D coat_roughness_texture;
@@ -86,6 +90,32 @@ lsf_texture_slot_data lobe_slot(lsf_material_data material, int row)
     return lsf_texture_slot_data(lobe_row(material, row), lobe_row(material, row + 1));
 }
 
+/* KHR_materials_sheen. */
+void sheen_surface(lsf_material_data material, material_point point, inout surface s)
+{
+    vec4 sheen = lobe_row(material, 2);
+    if (sheen.rgb == vec3(0.0))
+        return;
+#if LSF_SHEEN_COLOR_TEXTURE
+    lsf_texture_slot_data color_slot = lobe_slot(material, 13);
+    if (slot_used(color_slot))
+        sheen.rgb *= slot_sample(sheen_color_texture, color_slot, point.place).rgb;
+#endif
+#if LSF_SHEEN_ROUGHNESS_TEXTURE
+    lsf_texture_slot_data roughness_slot = lobe_slot(material, 15);
+    if (slot_used(roughness_slot))
+        sheen.a *= slot_sample(sheen_roughness_texture, roughness_slot, point.place).a;
+#endif
+#if LSF_LOBES_FOLDED || !LSF_SHEEN
+    /* What it reflects is as if it were diffuse; its mean over the hemisphere grows from 0.015 to 0.3 with the
+     * roughness. */
+    float mean = mix(0.015, 0.3, clamp((sheen.a - 0.07) / 0.93, 0.0, 1.0));
+    s.base_color = s.base_color * (1.0 - largest(sheen.rgb) * mean) + sheen.rgb * mean;
+#else
+    s.sheen = clamp(sheen, 0.0, 1.0);
+#endif
+}
+
 /* KHR_materials_clearcoat. `vertex_frame`: tangent, bitangent and normal of the front. */
 void coat_surface(lsf_material_data material, material_point point, mat3 vertex_frame, inout surface s)
 {
@@ -93,7 +123,7 @@ void coat_surface(lsf_material_data material, material_point point, mat3 vertex_
     if (coat.x == 0.0)
         return;
 #if LSF_COAT_TEXTURE
-    lsf_texture_slot_data factor_slot = lobe_slot(material, 6);
+    lsf_texture_slot_data factor_slot = lobe_slot(material, 7);
     if (slot_used(factor_slot))
         coat.x *= slot_sample(coat_texture, factor_slot, point.place).r;
 #endif
@@ -103,13 +133,13 @@ void coat_surface(lsf_material_data material, material_point point, mat3 vertex_
     s.base_color = mix(s.base_color * (1.0 - reflected), vec3(1.0), reflected);
 #else
 #if LSF_COAT_ROUGHNESS_TEXTURE
-    lsf_texture_slot_data roughness_slot = lobe_slot(material, 8);
+    lsf_texture_slot_data roughness_slot = lobe_slot(material, 9);
     if (slot_used(roughness_slot))
         coat.y *= slot_sample(coat_roughness_texture, roughness_slot, point.place).g;
 #endif
     vec3 n = vertex_frame[2];
 #if LSF_COAT_NORMAL_TEXTURE
-    lsf_texture_slot_data normal_slot = lobe_slot(material, 10);
+    lsf_texture_slot_data normal_slot = lobe_slot(material, 11);
     if (slot_used(normal_slot)) {
         vec3 mapped = slot_sample(coat_normal_texture, normal_slot, point.place).xyz * 2.0 - 1.0;
         mapped.xy *= coat.z;
@@ -130,12 +160,12 @@ void tint_specular(lsf_material_data material, material_point point, inout surfa
 {
     vec4 factors = lobe_row(material, 0);
 #if LSF_SPECULAR_TEXTURE
-    lsf_texture_slot_data weight_slot = lobe_slot(material, 2);
+    lsf_texture_slot_data weight_slot = lobe_slot(material, 3);
     if (slot_used(weight_slot))
         factors.a *= slot_sample(specular_texture, weight_slot, point.place).a;
 #endif
 #if LSF_SPECULAR_COLOR_TEXTURE
-    lsf_texture_slot_data tint_slot = lobe_slot(material, 4);
+    lsf_texture_slot_data tint_slot = lobe_slot(material, 5);
     if (slot_used(tint_slot))
         factors.rgb *= slot_sample(specular_color_texture, tint_slot, point.place).rgb;
 #endif
@@ -203,6 +233,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     tint_specular(material, point, s);
 #endif
 #if LSF_LOBES
+    sheen_surface(material, point, s);
 #if LSF_TANGENT
     coat_surface(material, point, mat3(t, b, vertex_n), s);
 #else

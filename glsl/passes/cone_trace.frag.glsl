@@ -91,7 +91,13 @@ void main()
 #if LSF_SPECULAR
         vec3 h = normalize(to_viewer + direction);
         reflected -= surface_dielectric_fresnel(s, clamp(dot(to_viewer, h), 0.0, 1.0));
-        reflected *= coat_passes(s, to_viewer, direction);
+        float nv = max(dot(s.normal, to_viewer), LSF_COSINE_MIN), passes = coat_passes(s, to_viewer, direction);
+        reflected *= sheen_leaves(s, nv, local.z) * passes;
+#if LSF_SHEEN
+        if (s.sheen.rgb != vec3(0.0))
+            specular_out.rgb += share * LSF_PI * passes * sheen_reflects(s, lift_to_horizon(to_viewer, s.normal), direction) *
+                                arriving(light, direction, local.z);
+#endif
 #endif
         irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction, local.z),
                                        light.transmittance);
@@ -110,7 +116,8 @@ void main()
 #if LSF_ENVIRONMENT && !LSF_SEALED
         radiance += light.transmittance * environment_radiance(mirrored);
 #endif
-        specular_out.rgb = reflected * coat_passes(s, to_viewer, mirrored) * radiance;
+        float nv = dot(s.normal, view_direction);
+        specular_out.rgb += reflected * sheen_leaves(s, nv, nv) * coat_passes(s, to_viewer, mirrored) * radiance;
     }
 #if LSF_ENVIRONMENT && LSF_SEALED
     specular_out.rgb += lobe_environment(s, point, to_viewer);

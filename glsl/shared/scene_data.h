@@ -39,9 +39,11 @@ struct lsf_material_data {
 struct lsf_lobe_data {
     vec4 specular; /* rgb: tint of f0; w: weight */
     vec4 coat;     /* factor, roughness, scale of the normal */
-    lsf_texture_slot_data specular_slot, specular_color_slot, coat_slot, coat_roughness_slot, coat_normal_slot;
+    vec4 sheen;    /* rgb: color; w: roughness */
+    lsf_texture_slot_data specular_slot, specular_color_slot, coat_slot, coat_roughness_slot, coat_normal_slot,
+        sheen_color_slot, sheen_roughness_slot;
 };
-#define LSF_LOBE_ROWS 12 /* of four floats */
+#define LSF_LOBE_ROWS 17 /* of four floats */
 
 /* In place of an alpha cutoff. */
 #define LSF_ALPHA_ALL -1.0f     /* nothing is cut out */
@@ -73,6 +75,8 @@ struct lsf_lobe_data {
 #define LSF_UNIT_COAT 27
 #define LSF_UNIT_COAT_ROUGHNESS 28
 #define LSF_UNIT_COAT_NORMAL 29
+#define LSF_UNIT_SHEEN_COLOR 30
+#define LSF_UNIT_SHEEN_ROUGHNESS 31
 #define LSF_UNIT_SEEN_DEPTH 14 /* depth of what is seen, for surfaces before it */
 
 /* Texture units of the light in turn. */

@@ -4,6 +4,9 @@
  * come at multiples of 16); functions use scalars only, and literals end in f. */
 #ifdef GL_core_profile
 #define LSF_SHARED_FUNCTION
+#define LSF_SHARED_CONSTANT const
+#define LSF_SHARED_INT(x) int(x)
+#define LSF_SHARED_FLOAT(x) float(x)
 #define LSF_SHARED_STRUCT(name) name
 #else
 #ifndef LSF_SHARED_TYPES
@@ -11,6 +14,9 @@
 #include <math.h>
 #include <stdbool.h>
 #define LSF_SHARED_FUNCTION static inline
+#define LSF_SHARED_CONSTANT static const
+#define LSF_SHARED_INT(x) ((int)(x))
+#define LSF_SHARED_FLOAT(x) ((float)(x))
 #define LSF_SHARED_STRUCT(name) struct name
 typedef unsigned int lsf_uint;
 typedef struct lsf_vec2 {

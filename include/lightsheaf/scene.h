@@ -73,6 +73,7 @@ typedef struct lsf_requirements {
     uint32_t bounces;            /* of light that show what its materials do: 1, and 4 more where they
                                   * transmit, for a hollow vessel's walls: two walls, two sides each */
     bool variable_ior;           /* some dielectric reflects other than one of index 1.5 */
+    bool sheened;                /* KHR_materials_sheen with a color above 0 */
     bool coated;                 /* KHR_materials_clearcoat with factor > 0 */
     bool specular_varied;        /* KHR_materials_specular with factors or textures that matter */
     bool masked;                 /* alphaMode MASK */
@@ -82,6 +83,7 @@ typedef struct lsf_requirements {
     bool base_color_textured, metallic_roughness_textured, emissive_textured;
     bool anisotropy_textured, transmission_textured;
     bool specular_textured, specular_color_textured;
+    bool sheen_color_textured, sheen_roughness_textured;
     bool coat_textured, coat_roughness_textured, coat_normal_mapped;
     bool texture_transformed;    /* KHR_texture_transform other than identity */
     bool second_uv;              /* some texture in use reads TEXCOORD_1 */

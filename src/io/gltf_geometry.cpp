@@ -124,7 +124,8 @@ static bool reads_uv(const lsf_material &material, uint32_t set)
         &material.emissive_texture,       &material.anisotropy_texture,
         &material.transmission_texture,   &material.specular_texture,
         &material.specular_color_texture, &material.coat_texture,
-        &material.coat_roughness_texture, &material.coat_normal_texture};
+        &material.coat_roughness_texture, &material.coat_normal_texture,
+        &material.sheen_color_texture,    &material.sheen_roughness_texture};
     for (const lsf_texture_slot *slot : slots)
         if (slot->texture != LSF_NONE && slot->uv_set == set)
             return true;

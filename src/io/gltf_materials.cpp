@@ -268,7 +268,9 @@ static lsf_material default_material()
         material.occlusion_texture = material.emissive_texture = material.anisotropy_texture =
             material.transmission_texture = material.specular_texture =
                 material.specular_color_texture = material.coat_texture =
-                    material.coat_roughness_texture = material.coat_normal_texture = empty_slot;
+                    material.coat_roughness_texture = material.coat_normal_texture =
+                        material.sheen_color_texture = material.sheen_roughness_texture =
+                            empty_slot;
     return material;
 }
 
@@ -330,6 +332,20 @@ static void read_specular(texture_importer &textures, const Value &extension,
     material.specular_texture = extension_slot(textures, extension, "specularTexture", location);
     material.specular_color_texture =
         extension_slot(textures, extension, "specularColorTexture", location, true);
+}
+
+static void read_sheen(texture_importer &textures, const Value &extension,
+                       const std::string &location, lsf_material &material)
+{
+    read_color(extension, "sheenColorFactor", material.sheen_color);
+    material.sheen_roughness = (float)number_in(extension, "sheenRoughnessFactor", 0.0);
+    const float *color = material.sheen_color;
+    if (!(color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f))
+        return;
+    material.sheen_color_texture =
+        extension_slot(textures, extension, "sheenColorTexture", location, true);
+    material.sheen_roughness_texture =
+        extension_slot(textures, extension, "sheenRoughnessTexture", location);
 }
 
 static void read_coat(texture_importer &textures, const Value &extension,
@@ -414,6 +430,8 @@ static void read_surface(texture_importer &textures, const tinygltf::Material &s
             read_volume(extension, material);
         } else if (name == "KHR_materials_specular") {
             read_specular(textures, extension, location, material);
+        } else if (name == "KHR_materials_sheen") {
+            read_sheen(textures, extension, location, material);
         } else if (name == "KHR_materials_clearcoat") {
             read_coat(textures, extension, location, material);
         } else if (name == "KHR_materials_anisotropy") {

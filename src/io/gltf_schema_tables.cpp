@@ -224,6 +224,11 @@ static const rule clearcoat_rules[] = {number("clearcoatFactor", OPTIONAL, 0, 1)
                                        object("clearcoatRoughnessTexture", OPTIONAL, &texture_info),
                                        object("clearcoatNormalTexture", OPTIONAL, &texture_info)};
 static const schema clearcoat = of(clearcoat_rules);
+static const rule sheen_rules[] = {numbers("sheenColorFactor", 3, 0, 1),
+                                   object("sheenColorTexture", OPTIONAL, &texture_info),
+                                   number("sheenRoughnessFactor", OPTIONAL, 0, 1),
+                                   object("sheenRoughnessTexture", OPTIONAL, &texture_info)};
+static const schema sheen = of(sheen_rules);
 static const schema nothing = {nullptr, 0};
 static const rule specular_glossiness_rules[] = {
     numbers("diffuseFactor", 4, 0, 1), object("diffuseTexture", OPTIONAL, &texture_info),
@@ -237,6 +242,7 @@ static const rule material_extension_rules[] = {
     object("KHR_materials_transmission", OPTIONAL, &transmission),
     object("KHR_materials_volume", OPTIONAL, &volume),
     object("KHR_materials_anisotropy", OPTIONAL, &anisotropy),
+    object("KHR_materials_sheen", OPTIONAL, &sheen),
     object("KHR_materials_specular", OPTIONAL, &specular),
     object("KHR_materials_clearcoat", OPTIONAL, &clearcoat),
     object("KHR_materials_unlit", OPTIONAL, &nothing)};

@@ -64,9 +64,9 @@ void lsf_gbuffer_plan(lsf_plan *plan)
                          "reverse-Z; positions are made from it");
     lsf_plan_texture_add(plan, "gbuffer.surface", GL_RGBA32UI, w, h,
                          "normals, base colour, metallic");
-    if (plan->transmission || (r->specular && (r->specular_varied || r->coated)))
+    if (plan->transmission || (r->specular && (r->specular_varied || r->coated || r->sheened)))
         lsf_plan_texture_add(plan, "gbuffer.gloss", GL_RGBA32UI, w, h,
-                             "roughness, f0, anisotropy, transmission, tint of f0, coat");
+                             "roughness, f0, anisotropy, transmission, tint of f0, coat, sheen");
     else if (r->specular && r->anisotropic)
         lsf_plan_texture_add(plan, "gbuffer.gloss", GL_RG32UI, w, h,
                              "roughness, f0 and anisotropy");

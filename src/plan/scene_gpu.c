@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "plan/lobes.h"
 #include "plan/texture_upload.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
@@ -24,19 +25,14 @@ static bool any_texture(const lsf_plan *plan)
     return r->base_color_textured || r->metallic_roughness_textured || r->normal_mapped ||
            r->emissive_textured || r->anisotropy_textured || r->specular_textured ||
            r->specular_color_textured || r->coat_textured || r->coat_roughness_textured ||
-           r->coat_normal_mapped || (plan->transmission && r->transmission_textured);
+           r->coat_normal_mapped || r->sheen_color_textured || r->sheen_roughness_textured ||
+           (plan->transmission && r->transmission_textured);
 }
 
 /* Whether fragments may be missing by their alpha. */
 static bool cuts_out(const lsf_requirements *r)
 {
     return r->masked || r->blended;
-}
-
-/* Whether some material has what struct lsf_lobe_data holds. */
-static bool has_lobes(const lsf_requirements *r)
-{
-    return r->specular_varied || r->coated;
 }
 
 void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
@@ -53,10 +49,10 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
                             "transforms and material of %u instances", scene->instance_count);
         lsf_plan_buffer_add(plan, "scene.materials", scene->material_count * sizeof(material_data),
                             "%u materials", scene->material_count);
-        if (has_lobes(r))
-            lsf_plan_buffer_add(plan, "scene.lobes",
-                                scene->material_count * sizeof(struct lsf_lobe_data),
-                                "some reflection is tinted or weighed, or some material is coated");
+        if (lsf_scene_gpu_has_lobes(r))
+            lsf_plan_buffer_add(
+                plan, "scene.lobes", scene->material_count * sizeof(struct lsf_lobe_data),
+                "some reflection is tinted or weighed, or some material is coated or has a sheen");
         else
             lsf_plan_omit(plan, "scene.lobes",
                           "no reflection is tinted or weighed, and nothing is coated");
@@ -79,22 +75,6 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
                                 (uint64_t)scene->instance_count * 48, "motion is asked for");
     }
     lsf_texture_upload_plan(plan, scene);
-}
-
-int lsf_scene_gpu_coat_word(const lsf_plan *plan)
-{
-    const lsf_requirements *r = &plan->requirements;
-    return !r->coated            ? 0
-           : !r->anisotropic     ? 1
-           : !plan->transmission ? 2
-           : !r->specular_varied ? 3
-                                 : 0;
-}
-
-static void add_coat_switch(lsf_plan *plan, bool gloss)
-{
-    lsf_plan_switch_add(plan, "LSF_COAT", gloss ? lsf_scene_gpu_coat_word(plan) : 0,
-                        "some material is coated: the word of the gloss that tells, 0: none");
 }
 
 void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
@@ -123,7 +103,11 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         {"LSF_SPECULAR_TEXTURE", gloss && r->specular_textured, "some weight is a texture"},
         {"LSF_SPECULAR_COLOR_TEXTURE", gloss && r->specular_color_textured,
          "some tint is a texture"},
-        {"LSF_LOBES", gloss && has_lobes(r), "some material has a lobe that few have"},
+        {"LSF_LOBES", gloss && lsf_scene_gpu_has_lobes(r),
+         "some material has a lobe that few have"},
+        {"LSF_SHEEN_COLOR_TEXTURE", gloss && r->sheen_color_textured, "some sheen is a texture"},
+        {"LSF_SHEEN_ROUGHNESS_TEXTURE", gloss && r->sheen_roughness_textured,
+         "some sheen's roughness is a texture"},
         {"LSF_COAT_TEXTURE", gloss && r->coat_textured, "some coat is a texture"},
         {"LSF_COAT_ROUGHNESS_TEXTURE", gloss && r->coat_roughness_textured,
          "some coat's roughness is a texture"},
@@ -137,20 +121,7 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
     };
     for (size_t i = 0; i < LSF_COUNT(switches); i++)
         lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
-    add_coat_switch(plan, gloss);
-}
-
-void lsf_scene_gpu_fold_lobes(lsf_plan *plan)
-{
-    lsf_plan_switch_add(plan, "LSF_LOBES_FOLDED", has_lobes(&plan->requirements),
-                        "only the G-buffer keeps lobes apart");
-}
-
-void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss)
-{
-    lsf_plan_switch_add(plan, "LSF_SPECULAR_TINT", gloss && plan->requirements.specular_varied,
-                        "some reflection is tinted or weighed");
-    add_coat_switch(plan, gloss);
+    lsf_scene_gpu_word_switches(plan, gloss);
 }
 
 void lsf_scene_gpu_mask_switches(lsf_plan *plan)
@@ -187,7 +158,7 @@ void lsf_scene_gpu_plan_triangles(lsf_plan *plan)
         lsf_plan_buffer_add(plan, "scene.triangles", bytes, "corners in normalised space");
 }
 
-static struct lsf_texture_slot_data slot_data(const lsf_texture_slot *slot)
+struct lsf_texture_slot_data lsf_scene_gpu_slot(const lsf_texture_slot *slot)
 {
     const float *t = slot->transform;
     return (struct lsf_texture_slot_data){
@@ -211,12 +182,12 @@ struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t
                        sinf(m->anisotropy_rotation), m->transmission},
         .flags = {m->double_sided, m->unlit, m->volume && m->transmission > 0.0f, (float)material},
         .absorption = {absorption[0], absorption[1], absorption[2], 0.0f},
-        .base_color_slot = slot_data(&m->base_color_texture),
-        .metallic_roughness_slot = slot_data(&m->metallic_roughness_texture),
-        .normal_slot = slot_data(&m->normal_texture),
-        .emissive_slot = slot_data(&m->emissive_texture),
-        .anisotropy_slot = slot_data(&m->anisotropy_texture),
-        .transmission_slot = slot_data(&m->transmission_texture)};
+        .base_color_slot = lsf_scene_gpu_slot(&m->base_color_texture),
+        .metallic_roughness_slot = lsf_scene_gpu_slot(&m->metallic_roughness_texture),
+        .normal_slot = lsf_scene_gpu_slot(&m->normal_texture),
+        .emissive_slot = lsf_scene_gpu_slot(&m->emissive_texture),
+        .anisotropy_slot = lsf_scene_gpu_slot(&m->anisotropy_texture),
+        .transmission_slot = lsf_scene_gpu_slot(&m->transmission_texture)};
 }
 
 static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
@@ -233,39 +204,6 @@ static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error
                                      &gpu->materials, error);
     free(data);
     return ok;
-}
-
-static struct lsf_lobe_data lobe_data(const lsf_material *m)
-{
-    const float *tint = m->specular_color;
-    return (struct lsf_lobe_data){.specular = {tint[0], tint[1], tint[2], m->specular},
-                                  .coat = {m->coat, m->coat_roughness, m->coat_normal_scale, 0.0f},
-                                  .coat_slot = slot_data(&m->coat_texture),
-                                  .coat_roughness_slot = slot_data(&m->coat_roughness_texture),
-                                  .coat_normal_slot = slot_data(&m->coat_normal_texture),
-                                  .specular_slot = slot_data(&m->specular_texture),
-                                  .specular_color_slot = slot_data(&m->specular_color_texture)};
-}
-
-static bool upload_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
-{
-    const lsf_scene *scene = gpu->scene;
-    if (!lsf_plan_find(plan, "scene.lobes"))
-        return true;
-    struct lsf_lobe_data *data = lsf_alloc(scene->material_count, sizeof *data);
-    if (!data)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u materials",
-                             scene->material_count);
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        data[i] = lobe_data(&scene->materials[i]);
-    bool ok =
-        lsf_plan_create_buffer(plan, gpu->context, "scene.lobes", data, 0, &gpu->lobes, error);
-    free(data);
-    if (!ok)
-        return false;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &gpu->lobe_table);
-    glTextureBuffer(gpu->lobe_table, GL_RGBA32F, gpu->lobes);
-    return true;
 }
 
 static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
@@ -438,7 +376,7 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
                                     streams[i].buffer, error))
             return false;
     if (!upload_instances(gpu, plan, state, previous, error) ||
-        !upload_materials(gpu, plan, error) || !upload_lobes(gpu, plan, error) ||
+        !upload_materials(gpu, plan, error) || !lsf_scene_gpu_upload_lobes(gpu, plan, error) ||
         !upload_triangles(gpu, plan, state, error) || !order_draws(gpu, state, error))
         return false;
     if (!lsf_clusters_init(&gpu->clusters, scene))
@@ -503,6 +441,8 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
     bind_slot(gpu, LSF_UNIT_SPECULAR, &material->specular_texture, point);
     bind_slot(gpu, LSF_UNIT_SPECULAR_COLOR, &material->specular_color_texture, point);
     bind_slot(gpu, LSF_UNIT_COAT, &material->coat_texture, point);
+    bind_slot(gpu, LSF_UNIT_SHEEN_COLOR, &material->sheen_color_texture, point);
+    bind_slot(gpu, LSF_UNIT_SHEEN_ROUGHNESS, &material->sheen_roughness_texture, point);
     bind_slot(gpu, LSF_UNIT_COAT_ROUGHNESS, &material->coat_roughness_texture, point);
     bind_slot(gpu, LSF_UNIT_COAT_NORMAL, &material->coat_normal_texture, point);
 }

@@ -47,6 +47,8 @@ void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss);
 /* The word of a texel of the G-buffer's gloss that holds the clear coat, 1 to 3; 0 where nothing is
  * coated, or anisotropy, transmission and tints leave no word: coats are then folded, there too. */
 int lsf_scene_gpu_coat_word(const lsf_plan *plan);
+/* The same for the sheen, of what the coat leaves. */
+int lsf_scene_gpu_sheen_word(const lsf_plan *plan);
 
 /* Adds those of lib/mask.glsl. */
 void lsf_scene_gpu_mask_switches(lsf_plan *plan);

@@ -61,6 +61,7 @@ static uint32_t number_textures(const lsf_scene *scene, const lsf_plan *plan, ui
             &m->anisotropy_texture,     &m->specular_texture,
             &m->specular_color_texture, &m->coat_texture,
             &m->coat_roughness_texture, &m->coat_normal_texture,
+            &m->sheen_color_texture,    &m->sheen_roughness_texture,
             &m->transmission_texture};
         size_t count_read = LSF_COUNT(slots) - !plan->transmission;
         for (size_t s = 0; s < count_read; s++)

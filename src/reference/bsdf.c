@@ -2,6 +2,7 @@
 
 #include "math/sampling.h"
 #include "shared/brdf.h"
+#include "shared/sheen.h"
 
 /* What is reflected of light that meets a microfacet under the cosine vh. */
 static lsf_float3 fresnel(const lsf_reference_surface *s, float vh)
@@ -45,9 +46,12 @@ static float choose_specular_probability(const lsf_reference_surface *s, float n
         lsf_f3_luminance(s->base_color) * (1.0f - s->metallic) * (1.0f - s->transmission);
     if (!s->specular)
         return diffuse > 0.0f ? 0.0f : -1.0f;
-    if (!(diffuse * (1.0f - lsf_f3_max(s->f0_dielectric)) > 0.0f))
+    float sheen = lsf_f3_luminance(s->sheen_color);
+    if (!(diffuse * (1.0f - lsf_f3_max(s->f0_dielectric)) + sheen > 0.0f))
         return 1.0f;
-    diffuse *= below_dielectric(s, nv);
+    /* The sheen is broad: the diffuse lobe's directions serve it. */
+    diffuse = diffuse * below_dielectric(s, nv) +
+              sheen * fminf(lsf_sheen_albedo(nv, s->sheen_roughness), 1.0f);
     float specular = lsf_f3_luminance(lsf_f3_add(fresnel(s, nv), transmittance(s, nv)));
     /* Both lobes stay likely enough for either to carry what the other cannot. */
     return fminf(fmaxf(specular / (specular + diffuse), 0.1f), 0.9f);
@@ -91,6 +95,28 @@ static float passes_coat(const lsf_reference_bsdf *bsdf, lsf_float3 light)
     const lsf_reference_surface *s = bsdf->surface;
     float nl = fabsf(lsf_f3_dot(bsdf->coat_frame.n, light));
     return lsf_coat_passes(s->coat, bsdf->coat_view.z) * lsf_coat_passes(s->coat, nl);
+}
+
+/* Puts the sheen over what the surface below it does with light from the local direction l. */
+static lsf_reference_reflection add_sheen(const lsf_reference_bsdf *bsdf, lsf_float3 l,
+                                          lsf_reference_reflection below)
+{
+    const lsf_reference_surface *s = bsdf->surface;
+    float color = lsf_f3_max(s->sheen_color), roughness = s->sheen_roughness;
+    if (color == 0.0f)
+        return below;
+    float nv = fminf(bsdf->view.z, 1.0f), nl = fminf(fmaxf(fabsf(l.z), LSF_COSINE_MIN), 1.0f);
+    float albedo_v = lsf_sheen_albedo(nv, roughness), albedo_l = lsf_sheen_albedo(nl, roughness);
+    float leaves = lsf_sheen_leaves(color, albedo_v, albedo_l);
+    below.diffuse = lsf_f3_scale(below.diffuse, leaves);
+    below.specular = lsf_f3_scale(below.specular, leaves);
+    if (l.z <= 0.0f)
+        return below;
+    lsf_float3 half = lsf_f3_normalize_or(lsf_f3_add(bsdf->view, l), lsf_f3(0.0f, 0.0f, 1.0f));
+    float lobe = lsf_sheen_lobe(nv, nl, half.x * half.x + half.y * half.y, roughness) /
+                 fmaxf(fmaxf(albedo_v, albedo_l), 1.0f);
+    below.specular = lsf_f3_mad(below.specular, s->sheen_color, lobe * l.z);
+    return below;
 }
 
 /* Puts the coat over what the surface below it does with light from the direction `light`;
@@ -221,9 +247,10 @@ lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *b
     lsf_float3 l = lsf_basis_to_local(&s->frame, light);
     float side = lsf_f3_dot(s->geometric_normal, light);
     if (bsdf->specular_probability >= 0.0f && l.z > 0.0f && side > 0.0f)
-        return add_coat(bsdf, light, true, reflect(bsdf, l));
+        return add_coat(bsdf, light, true, add_sheen(bsdf, l, reflect(bsdf, l)));
     if (bsdf->specular_probability > 0.0f && s->transmission > 0.0f && l.z < 0.0f && side < 0.0f)
-        return add_coat(bsdf, light, false, s->eta == 1.0f ? pass_wall(bsdf, l) : refract(bsdf, l));
+        return add_coat(bsdf, light, false,
+                        add_sheen(bsdf, l, s->eta == 1.0f ? pass_wall(bsdf, l) : refract(bsdf, l)));
     return (lsf_reference_reflection){.pdf = 0.0f};
 }
 

@@ -211,6 +211,22 @@ static void read_transmission(lsf_reference_surface *surface, const lsf_scene *s
         surface->alpha_t = surface->alpha_b = LSF_ALPHA_MIN;
 }
 
+/* KHR_materials_sheen. */
+static void read_sheen(lsf_reference_surface *surface, const lsf_scene *scene,
+                       const lsf_material *material, const corner_weights *at)
+{
+    lsf_float3 color = lsf_f3_load(material->sheen_color);
+    float roughness = material->sheen_roughness;
+    if (material->sheen_color_texture.texture != LSF_NONE) {
+        lsf_texel t = sample_slot(scene, &material->sheen_color_texture, at);
+        color = lsf_f3_mul(color, lsf_f3(t.r, t.g, t.b));
+    }
+    if (material->sheen_roughness_texture.texture != LSF_NONE)
+        roughness *= sample_slot(scene, &material->sheen_roughness_texture, at).a;
+    surface->sheen_color = lsf_f3(saturate(color.x), saturate(color.y), saturate(color.z));
+    surface->sheen_roughness = saturate(roughness);
+}
+
 /* KHR_materials_clearcoat; over the frame of the vertices, which no map has bent yet. */
 static void read_coat(lsf_reference_surface *surface, const lsf_scene *scene,
                       const lsf_material *material, const corner_weights *at)
@@ -305,6 +321,7 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
     surface->base_color = lsf_f3(color.r, color.g, color.b);
     surface->frame = vertex_frame(geometry, instance, &at, normal);
     if (surface->specular) {
+        read_sheen(surface, scene, material, &at);
         read_coat(surface, scene, material, &at);
         if (material->normal_texture.texture != LSF_NONE)
             surface->frame = map_normal(scene, &material->normal_texture, material->normal_scale,

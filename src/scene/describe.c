@@ -40,7 +40,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 32 };
+enum { FLAG_COUNT = 35 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -59,6 +59,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"variable_ior", r->variable_ior},
         {"specular_varied", r->specular_varied},
         {"coated", r->coated},
+        {"sheened", r->sheened},
         {"masked", r->masked},
         {"blended", r->blended},
         {"normal_mapped", r->normal_mapped},
@@ -69,6 +70,8 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"transmission_textured", r->transmission_textured},
         {"specular_textured", r->specular_textured},
         {"specular_color_textured", r->specular_color_textured},
+        {"sheen_color_textured", r->sheen_color_textured},
+        {"sheen_roughness_textured", r->sheen_roughness_textured},
         {"coat_textured", r->coat_textured},
         {"coat_roughness_textured", r->coat_roughness_textured},
         {"coat_normal_mapped", r->coat_normal_mapped},

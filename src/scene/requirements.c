@@ -55,6 +55,12 @@ static void add_material(lsf_requirements *r, const lsf_material *material, bool
     r->specular_color_textured |= tinted;
     r->variable_ior |= material->ior != 1.5f || varied;
     r->normal_mapped |= in_use(r, &material->normal_texture);
+    if (material->sheen_color[0] > 0.0f || material->sheen_color[1] > 0.0f ||
+        material->sheen_color[2] > 0.0f) {
+        r->sheened = r->glossy = true;
+        r->sheen_color_textured |= in_use(r, &material->sheen_color_texture);
+        r->sheen_roughness_textured |= in_use(r, &material->sheen_roughness_texture);
+    }
     if (material->coat > 0.0f) {
         r->coated = r->glossy = true;
         r->coat_textured |= in_use(r, &material->coat_texture);

@@ -102,6 +102,7 @@ typedef struct lsf_material {
     bool unlit;                /* shown as emission of its base colour */
     float ior;
     float specular, specular_color[3]; /* of the dielectric's reflection: weight; tint of f0 */
+    float sheen_color[3], sheen_roughness;         /* factors */
     float coat, coat_roughness, coat_normal_scale; /* of a clear coat; factors */
     float transmission;        /* of what is not reflected [1] */
     bool volume;               /* bounds a medium that light is refracted into; else a thin wall */
@@ -111,7 +112,7 @@ typedef struct lsf_material {
     lsf_texture_slot base_color_texture, metallic_roughness_texture, normal_texture,
         occlusion_texture, emissive_texture, anisotropy_texture, transmission_texture,
         specular_texture, specular_color_texture, coat_texture, coat_roughness_texture,
-        coat_normal_texture;
+        coat_normal_texture, sheen_color_texture, sheen_roughness_texture;
 } lsf_material;
 
 typedef enum lsf_light_type { LSF_LIGHT_POINT, LSF_LIGHT_SPOT, LSF_LIGHT_DIRECTIONAL } lsf_light_type;

@@ -234,7 +234,9 @@ static void test_materials(void **state)
     assert_true(material->ior == 1.33f && material->transmission == 1.0f);
     assert_true(material->specular == 0.5f && scene->requirements.specular_varied);
     assert_true(material->coat == 0.5f && material->coat_roughness == 0.25f);
-    assert_true(scene->requirements.coated);
+    assert_true(scene->requirements.coated && scene->requirements.sheened);
+    assert_floats(material->sheen_color, (const float[]){0.5f, 0.25f, 1}, 3, 0.0f);
+    assert_true(material->sheen_roughness == 0.75f);
     assert_floats(material->specular_color, (const float[]){1, 2, 0.25f}, 3, 0.0f);
     assert_true(material->volume && material->attenuation_distance == 0.5f);
     assert_floats(material->attenuation_color, (const float[]){1, 0.5f, 0.25f}, 3, 0.0f);

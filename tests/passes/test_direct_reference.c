@@ -393,6 +393,33 @@ static void clear_coat(void **unused)
     check_view("clear_coat", scene, (const float[3]){0, 1.5f, 5}, INFINITY);
 }
 
+/* KHR_materials_sheen: by factors and textures, over metal, and under a coat. */
+static void sheen(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    put_ground(scene);
+    uint32_t colors = build_noise(scene, 3, 4, 3, true),
+             alphas = build_noise(scene, 3, 4, 4, false);
+    for (int i = 0; i < 6; i++) {
+        lsf_material *material = build_material(scene, 0.3f, 0.15f, 0.1f);
+        material->roughness = 0.8f;
+        material->metallic = i == 4 ? 1.0f : 0.0f;
+        memcpy(material->sheen_color, (const float[3]){0.9f, 0.5f, 0.2f}, 3 * sizeof(float));
+        material->sheen_roughness = i == 0 ? 0.3f : i == 1 ? 1.0f : 0.6f;
+        if (i == 2)
+            material->sheen_color_texture.texture = colors;
+        if (i == 2 || i == 5)
+            material->sheen_roughness_texture.texture = alphas;
+        material->coat = i == 3 ? 1.0f : 0.0f;
+        material->coat_roughness = 0.5f;
+        move(build_sphere(scene, 3, false), 1.4 * (i % 3 - 1), i / 3 ? 0.7 : -0.4, i / 3 ? -1 : 0.5,
+             0.6);
+    }
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(-2, 3, 4), lsf_f3(0, -1, 0), 60.0f);
+    check_view("sheen", scene, (const float[3]){0, 1.5f, 5}, INFINITY);
+}
+
 /* Alone, for to the path tracer it is a lamp. */
 static void unlit(void **unused)
 {
@@ -416,7 +443,8 @@ int main(void)
         cmocka_unit_test(mirrors),        cmocka_unit_test(orthographic),
         cmocka_unit_test(anisotropy),     cmocka_unit_test(normal_maps),
         cmocka_unit_test(textures),       cmocka_unit_test(specular),
-        cmocka_unit_test(clear_coat),     cmocka_unit_test(unlit),
+        cmocka_unit_test(clear_coat),     cmocka_unit_test(sheen),
+        cmocka_unit_test(unlit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,12 +14,14 @@
 #include "reference/bsdf.h"
 #include "render_scene.h"
 #include "shared/brdf.h"
+#include "shared/sheen.h"
 
 typedef struct material_case {
     float roughness, metallic, anisotropy, cosine, azimuth;
     float dim;     /* KHR_materials_specular: 1 less the weight */
     float tint[3]; /* ... and the tint of f0; 0: none */
     float coat, coat_roughness;
+    float sheen, sheen_roughness; /* of all channels alike */
 } material_case;
 
 static const material_case cases[] = {
@@ -35,6 +37,13 @@ static const material_case cases[] = {
     {.roughness = 0.6f, .metallic = 0.3f, .cosine = 0.7f, .dim = 0.2f, .tint = {0.5f, 1.0f, 3.0f}},
     {.roughness = 0.8f, .cosine = 0.7f, .coat = 1.0f, .coat_roughness = 0.3f},
     {.roughness = 0.5f, .metallic = 1.0f, .cosine = 0.3f, .coat = 0.6f, .coat_roughness = 0.7f},
+    {.roughness = 0.8f, .cosine = 0.3f, .sheen = 1.0f, .sheen_roughness = 0.5f},
+    {.roughness = 0.9f,
+     .cosine = 0.6f,
+     .sheen = 0.7f,
+     .sheen_roughness = 0.8f,
+     .coat = 0.5f,
+     .coat_roughness = 0.5f},
     {.roughness = 0.3f, .cosine = 0.8f, .tint = {40.0f, 0.5f, 0.1f}},
 };
 
@@ -61,6 +70,8 @@ static lsf_reference_surface make_surface(const material_case *c)
         .f0_dielectric = {weight * tinted_f0(c, 0), weight * tinted_f0(c, 1),
                           weight * tinted_f0(c, 2)},
         .f90_dielectric = weight,
+        .sheen_color = {c->sheen, c->sheen, c->sheen},
+        .sheen_roughness = c->sheen_roughness,
         .coat = c->coat,
         .coat_alpha = lsf_alpha_from_roughness(c->coat_roughness),
         .coat_normal = {0, 0, 1},
@@ -163,6 +174,23 @@ static void extremes_are_finite(void **unused)
     }
 }
 
+/* Dims what is below. */
+static double sheen_value(const material_case *c, double nh, double nv, double nl, double *specular,
+                          double *diffuse)
+{
+    if (c->sheen == 0.0f)
+        return 0.0;
+    double at_v = (double)lsf_sheen_albedo((float)nv, c->sheen_roughness);
+    double at_l = (double)lsf_sheen_albedo((float)nl, c->sheen_roughness);
+    double leaves = 1.0 - (double)c->sheen * fmin(fmax(at_v, at_l), 1.0);
+    *specular *= leaves;
+    *diffuse *= leaves;
+    return (double)c->sheen *
+           (double)lsf_sheen_lobe((float)nv, (float)nl, (float)(1.0 - nh * nh),
+                                  c->sheen_roughness) /
+           fmax(fmax(at_v, at_l), 1.0);
+}
+
 static double coat_fresnel(const material_case *c, double cosine)
 {
     return (double)c->coat * (0.04 + 0.96 * pow(1.0 - cosine, 5.0));
@@ -180,6 +208,49 @@ static double coat_value(const material_case *c, double vh, double nh, double nv
     double e = nh * nh * (a2 - 1.0) + 1.0;
     double lambdas = nv * sqrt(a2 + (1.0 - a2) * nl * nl) + nl * sqrt(a2 + (1.0 - a2) * nv * nv);
     return coat_fresnel(c, vh) * a2 / (M_PI * e * e) * 0.5 / lambdas;
+}
+
+/* The table of the sheen's albedo, at its nodes and between them, by the formulas of the paper in
+ * double precision. */
+static double sheen_lambda(double x, double a)
+{
+    static const double at_1[5] = {21.5473, 3.82987, 0.19823, -1.97760, -4.32054},
+                        at_0[5] = {25.3245, 3.32435, 0.16801, -1.27393, -4.85967};
+    double t = (1.0 - a) * (1.0 - a), p[5], sum = 0.0;
+    for (int i = 0; i < 5; i++)
+        p[i] = at_1[i] + (at_0[i] - at_1[i]) * t;
+    double places[2] = {x < 0.5 ? x : 0.5, 1.0 - x};
+    for (int i = 0; i < (x < 0.5 ? 1 : 2); i++) {
+        double value = p[0] / (1.0 + p[1] * pow(places[i], p[2])) + p[3] * places[i] + p[4];
+        sum = i == 0 ? (x < 0.5 ? value : 2.0 * value) : sum - value;
+    }
+    return exp(sum);
+}
+
+static void sheen_albedo(void **unused)
+{
+    (void)unused;
+    enum { ROWS = 400, COLUMNS = 180 };
+    static const float cosines[] = {0.04f, 0.2f, 0.5f, 0.9f}, roughnesses[] = {0.3f, 0.535f, 1.0f};
+    for (int k = 0; k < 12; k++) {
+        double nv = (double)cosines[k % 4], a = pow((double)roughnesses[k / 4], 2.0), sum = 0.0;
+        double sine = sqrt(1.0 - nv * nv);
+        for (int row = 0; row < ROWS; row++) {
+            double root = (row + 0.5) / ROWS, nl = root * root, r = sqrt(1.0 - nl * nl);
+            double v = 1.0 / ((1.0 + sheen_lambda(nv, a) + sheen_lambda(nl, a)) * 4.0 * nv * nl);
+            for (int column = 0; column < COLUMNS; column++) {
+                double phi = (column + 0.5) / COLUMNS * M_PI;
+                double x = sine + r * cos(phi), y = r * sin(phi), z = nv + nl;
+                double sin2 = (x * x + y * y) / (x * x + y * y + z * z);
+                double d = (2.0 + 1.0 / a) * pow(sin2, 0.5 / a) / (2.0 * M_PI);
+                sum += d * v * nl * 2.0 * root * 2.0 * M_PI / ((double)ROWS * COLUMNS);
+            }
+        }
+        double found = (double)lsf_sheen_albedo(cosines[k % 4], roughnesses[k / 4]);
+        print_message("sheen at %g, %g: %.4f, expected %.4f\n", (double)roughnesses[k / 4], nv,
+                      found, sum);
+        assert_true(fabs(found - sum) < 0.006);
+    }
 }
 
 /* What a plane reflects of a uniform environment: the integral of f cos over the hemisphere, in
@@ -217,7 +288,8 @@ static double reflectance(const material_case *c, int channel)
             double specular = ((1.0 - metallic) * dielectric + metallic * metal) * d * 0.5 /
                               (lambda_l + lambda_v);
             double diffuse = (1.0 - metallic) * below * base / M_PI;
-            sum += ((specular + diffuse) * coat_leaves(c, nv) * coat_leaves(c, nl) +
+            double sheen = sheen_value(c, hz, nv, nl, &specular, &diffuse);
+            sum += ((specular + diffuse + sheen) * coat_leaves(c, nv) * coat_leaves(c, nl) +
                     coat_value(c, (vx * hx + vy * hy + nv * hz), hz, nv, nl)) *
                    nl;
         }
@@ -237,6 +309,9 @@ static void furnace_by_material(void **unused)
         material->metallic = c->metallic;
         material->anisotropy_strength = c->anisotropy;
         material->specular = 1.0f - c->dim;
+        for (int channel = 0; channel < 3; channel++)
+            material->sheen_color[channel] = c->sheen;
+        material->sheen_roughness = c->sheen_roughness;
         material->coat = c->coat;
         material->coat_roughness = c->coat_roughness;
         for (int channel = 0; channel < 3; channel++)
@@ -268,6 +343,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directions_follow_density),
         cmocka_unit_test(reciprocity),
+        cmocka_unit_test(sheen_albedo),
         cmocka_unit_test(extremes_are_finite),
         cmocka_unit_test(furnace_by_material),
     };

@@ -100,6 +100,8 @@ lsf_material *build_material(lsf_scene *scene, float r, float g, float b)
         .coat_texture = none,
         .coat_roughness_texture = none,
         .coat_normal_texture = none,
+        .sheen_color_texture = none,
+        .sheen_roughness_texture = none,
     };
     return material;
 }
