@@ -64,6 +64,13 @@ static int image_of(const tinygltf::Texture &texture)
     return texture.source;
 }
 
+static bool is_ktx2(const tinygltf::Image &image)
+{
+    const std::string &uri = image.uri;
+    return image.mimeType == "image/ktx2" || uri.compare(0, 16, "data:image/ktx2;") == 0 ||
+           (!uri_is_data(uri) && uri.size() > 5 && uri.compare(uri.size() - 5, 5, ".ktx2") == 0);
+}
+
 uint32_t texture_importer::add(int index, bool srgb)
 {
     auto found = known_.find({index, srgb});
@@ -71,7 +78,12 @@ uint32_t texture_importer::add(int index, bool srgb)
         return found->second;
     const tinygltf::Texture &source = import_.model.textures[(size_t)index];
     int image = image_of(source);
-    if (image < 0) {
+    bool ktx2 = image >= 0 && is_ktx2(import_.model.images[(size_t)image]);
+    if (ktx2 && !import_.params->lenient)
+        fail("UNSUPPORTED_EXTENSION", location_of("images", (size_t)image),
+             "the image is KTX2 (KHR_texture_basisu), which is not read; export the file with PNG, "
+             "JPEG or WebP textures, or see with --lenient how it looks without");
+    if (image < 0 || ktx2) {
         import_.repairs.textures_without_image++;
         return known_[{index, srgb}] = LSF_NONE;
     }

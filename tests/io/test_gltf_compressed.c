@@ -109,6 +109,20 @@ static void test_webp(void **state)
     }
 }
 
+static void test_lenient_ktx2(void **state)
+{
+    (void)state;
+    lsf_scene_params params = {LSF_SCENE_PARAMS_DEFAULTS};
+    params.lenient = true;
+    char *path = lsf_format("%s/ktx2.gltf", gltf_folder);
+    lsf_scene *scene = lsf_scene_load(path, &params, NULL);
+    free(path);
+    assert_non_null(scene);
+    assert_int_equal(scene->texture_count, 0);
+    assert_true(has_note(scene, "no PNG, JPEG or WebP image"));
+    lsf_scene_destroy(scene);
+}
+
 /* Any byte of what is compressed may be wrong: a result or an error, but no crash. */
 static void test_changed_bytes(void **state)
 {
@@ -152,6 +166,7 @@ int main(void)
         cmocka_unit_test(test_draco),
         cmocka_unit_test(test_meshopt),
         cmocka_unit_test(test_webp),
+        cmocka_unit_test(test_lenient_ktx2),
         cmocka_unit_test(test_changed_bytes),
     };
     return cmocka_run_group_tests_name("gltf compressed", tests, make_gltf_folder,
