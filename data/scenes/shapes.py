@@ -212,7 +212,7 @@ class Mesh:
 
         def point(u, v):
             p, side, up = frames[round(v * rows)]
-            angle = -2 * math.pi * (round(u * segments) % segments) / segments
+            angle = 2 * math.pi * (round(u * segments) % segments) / segments
             c, s = radius * math.cos(angle), radius * math.sin(angle)
             return tuple(p[k] + c * side[k] + s * up[k] for k in range(3))
 

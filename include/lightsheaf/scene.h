@@ -33,6 +33,8 @@ typedef struct lsf_scene_params {
     float environment_strength; /* its radiance is multiplied by this, at least 0 */
     lsf_default_light default_light;
     bool diffuse_only; /* read every material as Lambert of its base colour, without normal maps */
+    bool show_back_faces; /* let the camera see single-sided materials from behind, too; glTF hides
+                           * their backs. To light they are two-sided either way */
     bool lenient; /* ignore extensions that the file requires when they change the look alone */
     uint64_t memory_limit; /* bytes that loading may take at any moment: document, buffers,
                             * geometry, decoded images, and what making them takes */
@@ -45,10 +47,9 @@ typedef struct lsf_scene_params {
 
 #define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
     .environment_path = NULL, .environment_radiance = NULL, .environment_rotation = 0.0f,          \
-    .environment_strength = 1.0f,                                                                  \
-    .default_light = LSF_DEFAULT_LIGHT_AUTO, .diffuse_only = false, .lenient = false,              \
-    .memory_limit = (uint64_t)8 << 30, .scene = NULL, .variant = NULL, .animations = NULL,         \
-    .animation_count = 0
+    .environment_strength = 1.0f, .default_light = LSF_DEFAULT_LIGHT_AUTO, .diffuse_only = false,  \
+    .show_back_faces = false, .lenient = false, .memory_limit = (uint64_t)8 << 30, .scene = NULL,  \
+    .variant = NULL, .animations = NULL, .animation_count = 0
 
 /* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
  * the environment. Whatever is ignored is logged as one warning each and kept for

@@ -46,6 +46,16 @@ void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program)
     glDepthFunc(GL_GREATER);
 }
 
+void lsf_cull_back(bool culled, bool mirrored)
+{
+    if (!culled) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glCullFace(mirrored ? GL_FRONT : GL_BACK);
+}
+
 void lsf_blend_add(uint32_t attachments)
 {
     for (uint32_t i = 0; i < attachments; i++)

@@ -101,6 +101,10 @@ void lsf_draw_vertices(lsf_context *context, uint32_t count);
  * the nearer. The caller binds the framebuffer. */
 void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program);
 
+/* Whether backs are left out of the draws that follow. The winding of a mirrored instance flips;
+ * shaders know of it, so that it is not the front that is named anew. */
+void lsf_cull_back(bool culled, bool mirrored);
+
 /* What the program gives for the first attachments is added to them. */
 void lsf_blend_add(uint32_t attachments);
 /* One attachment is multiplied by it. */

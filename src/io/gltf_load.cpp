@@ -70,6 +70,7 @@ static uint64_t import_file(lsf_scene *scene, const char *path, const lsf_scene_
                                                : import.path.substr(0, slash);
     scene->path = copy_text(import.path);
     scene->diffuse_only = params->diffuse_only;
+    scene->show_back_faces = params->show_back_faces;
     gltf_document_read(import);
     gltf_meshopt_decode(import);
     accessors_check(import);

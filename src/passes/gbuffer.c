@@ -185,7 +185,8 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
     set_chance(pass, iteration);
     lsf_draw_region region;
     lsf_iteration_region(iteration, &region);
-    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SHADING, &region, pass->counts);
+    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_SEEN, &region, pass->counts);
+    glDisable(GL_CULL_FACE);
     if (pass->outputs.tint)
         tint(pass, iteration, &region);
     lsf_timer_end(pass->timer);

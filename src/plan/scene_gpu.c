@@ -417,7 +417,7 @@ static void bind_slot(const lsf_scene_gpu *gpu, GLuint unit, const lsf_texture_s
 
 static bool shades(lsf_draw_mode mode)
 {
-    return mode == LSF_DRAW_SHADING || mode == LSF_DRAW_POINTWISE ||
+    return mode == LSF_DRAW_SHADING || mode == LSF_DRAW_SEEN || mode == LSF_DRAW_POINTWISE ||
            mode == LSF_DRAW_TRANSMISSIVE || mode == LSF_DRAW_WALLS;
 }
 
@@ -482,6 +482,10 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
         }
         if (instance->material != bound)
             bind_material(gpu, &gpu->scene->materials[bound = instance->material], mode);
+        if (mode == LSF_DRAW_SEEN)
+            lsf_cull_back(
+                lsf_material_hides_back(gpu->scene, &gpu->scene->materials[instance->material]),
+                instance->mirrored);
         const lsf_primitive *primitive = &gpu->scene->primitives[instance->primitive];
         counts[LSF_DRAW_INSTANCES]++;
         lsf_cluster_walk walk = lsf_clusters_walk(&gpu->clusters, gpu->scene, instance, region);

@@ -68,6 +68,7 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
 
 typedef enum lsf_draw_mode {
     LSF_DRAW_SHADING,      /* all streams; material textures are bound for each draw */
+    LSF_DRAW_SEEN,         /* the same of what the camera sees: hidden backs are culled */
     LSF_DRAW_POINTWISE,    /* the same, but textures give the nearest texel of the nearest level,
                             * for passes whose samples are spread at random */
     LSF_DRAW_TRANSMISSIVE, /* as for shading, of materials that transmit only */

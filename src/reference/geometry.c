@@ -16,6 +16,7 @@
 /* Handed through Embree to the filters. */
 typedef struct ray_context {
     struct RTCIntersectContext embree;
+    const lsf_reference_geometry *geometry;
     lsf_reference_chance chance;
 } ray_context;
 
@@ -47,6 +48,33 @@ static void reject_cut_out(const struct RTCFilterFunctionNArguments *arguments)
         lsf_reference_hit hit = {mesh->instance, numbers[5 * count + i], values[3 * count + i],
                                  values[4 * count + i], 0.0f};
         if (arguments->valid[i] != 0 && !is_there(mesh, &hit, arguments->context))
+            arguments->valid[i] = 0;
+    }
+}
+
+/* As reject_cut_out; of the arrays of rays, the direction comes after origin and near, and of hits
+ * the geometry after the triangle. */
+static void reject_hidden_backs(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const lsf_reference_geometry *geometry = ((const ray_context *)arguments->context)->geometry;
+    const lsf_scene *scene = geometry->scene;
+    const float *rays = (const float *)arguments->ray;
+    const unsigned *numbers = (const unsigned *)arguments->hit;
+    size_t count = arguments->N;
+    for (size_t i = 0; i < count; i++) {
+        if (arguments->valid[i] == 0)
+            continue;
+        uint32_t index = numbers[6 * count + i];
+        const lsf_instance_state *instance = &geometry->state->instances[index];
+        if (!lsf_material_hides_back(scene, &scene->materials[instance->material]))
+            continue;
+        lsf_float3 direction =
+            lsf_f3(rays[4 * count + i], rays[5 * count + i], rays[6 * count + i]);
+        lsf_float3 corners[3];
+        lsf_reference_corners(geometry, index, numbers[5 * count + i], corners);
+        lsf_float3 normal =
+            lsf_f3_cross(lsf_f3_sub(corners[1], corners[0]), lsf_f3_sub(corners[2], corners[0]));
+        if ((lsf_f3_dot(normal, direction) > 0.0f) != instance->mirrored)
             arguments->valid[i] = 0;
     }
 }
@@ -152,7 +180,9 @@ bool lsf_reference_geometry_init(lsf_reference_geometry *geometry, const lsf_sce
     if (ok) {
         /* Robust: no ray slips between two triangles that share an edge. */
         bool fast = use == LSF_REFERENCE_USE_SPEED;
-        rtcSetSceneFlags(geometry->tree, fast ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(geometry->tree,
+                         fast ? RTC_SCENE_FLAG_NONE
+                              : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
         rtcSetSceneBuildQuality(geometry->tree,
                                 fast ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
     }
@@ -207,18 +237,21 @@ static bool within_range(lsf_float3 v)
     return lsf_f3_max_abs(v) < 1e18f;
 }
 
-bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 origin,
-                         lsf_float3 direction, float near, float far, lsf_reference_chance chance,
-                         lsf_reference_hit *hit)
+/* Of rays between surfaces and lights. */
+static void bound_direction(lsf_float3 *direction, float *far)
 {
-    if (!within_range(origin) || !within_range(direction))
-        return false;
-    ray_context context = {.chance = chance};
-    rtcInitIntersectContext(&context.embree);
-    struct RTCRayHit query = {.ray = make_ray(origin, direction, near, far)};
+    if (within_range(*direction))
+        return;
+    *direction = lsf_f3_scale(*direction, 1.0f / lsf_f3_max_abs(*direction));
+    *far = INFINITY;
+}
+
+static bool nearest(ray_context *context, struct RTCRay ray, lsf_reference_hit *hit)
+{
+    struct RTCRayHit query = {.ray = ray};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(geometry->tree, &context.embree, &query);
+    rtcIntersect1(context->geometry->tree, &context->embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
     *hit = (lsf_reference_hit){query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
@@ -226,14 +259,33 @@ bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 orig
     return true;
 }
 
+bool lsf_reference_see(const lsf_reference_geometry *geometry, lsf_float3 origin,
+                       lsf_float3 direction, float near, lsf_reference_chance chance,
+                       lsf_reference_hit *hit)
+{
+    if (!within_range(origin) || !within_range(direction))
+        return false;
+    ray_context context = {.geometry = geometry, .chance = chance};
+    rtcInitIntersectContext(&context.embree);
+    context.embree.filter = reject_hidden_backs;
+    return nearest(&context, make_ray(origin, direction, near, INFINITY), hit);
+}
+
+bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 origin,
+                         lsf_float3 direction, float near, float far, lsf_reference_chance chance,
+                         lsf_reference_hit *hit)
+{
+    bound_direction(&direction, &far);
+    ray_context context = {.geometry = geometry, .chance = chance};
+    rtcInitIntersectContext(&context.embree);
+    return nearest(&context, make_ray(origin, direction, near, far), hit);
+}
+
 bool lsf_reference_occluded(const lsf_reference_geometry *geometry, lsf_float3 origin,
                             lsf_float3 direction, float far, lsf_reference_chance chance)
 {
-    if (!within_range(direction)) {
-        direction = lsf_f3_scale(direction, 1.0f / lsf_f3_max_abs(direction));
-        far = INFINITY;
-    }
-    ray_context context = {.chance = chance};
+    bound_direction(&direction, &far);
+    ray_context context = {.geometry = geometry, .chance = chance};
     rtcInitIntersectContext(&context.embree);
     struct RTCRay ray = make_ray(origin, direction, 0.0f, far);
     rtcOccluded1(geometry->tree, &context.embree, &ray);

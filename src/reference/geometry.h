@@ -51,7 +51,10 @@ typedef struct lsf_reference_chance {
 } lsf_reference_chance;
 
 /* Nearest hit with near < t < far. Triangles that an alpha mask cuts out are not hit, blended ones
- * as often as their alpha says. */
+ * as often as their alpha says. A ray from the camera does not see hidden backs. */
+bool lsf_reference_see(const lsf_reference_geometry *geometry, lsf_float3 origin,
+                       lsf_float3 direction, float near, lsf_reference_chance chance,
+                       lsf_reference_hit *hit);
 bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 origin,
                          lsf_float3 direction, float near, float far, lsf_reference_chance chance,
                          lsf_reference_hit *hit);

@@ -460,8 +460,8 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     origin = lsf_f3_mad(origin, along, before);
     lsf_float3 direction = lsf_f3_normalize(along);
     lsf_reference_hit hit;
-    if (!lsf_reference_trace(&world->geometry, origin, along, camera->near_plane - before, INFINITY,
-                             next_chance(&w), &hit)) {
+    if (!lsf_reference_see(&world->geometry, origin, along, camera->near_plane - before,
+                           next_chance(&w), &hit)) {
         path->emission = world->background.environment
                              ? lsf_environment_radiance(world->sky.environment, direction)
                              : lsf_f3_load(world->background.radiance);

@@ -3,6 +3,11 @@
 
 #include "scene/scene.h"
 
+bool lsf_material_hides_back(const lsf_scene *scene, const lsf_material *material)
+{
+    return !material->double_sided && !(material->transmission > 0.0f) && !scene->show_back_faces;
+}
+
 bool lsf_material_is_thin_wall(const lsf_material *material)
 {
     return material->transmission > 0.0f && !material->volume;

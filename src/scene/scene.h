@@ -215,7 +215,7 @@ struct lsf_scene {
     lsf_extension *extensions;
     uint32_t note_count;
     char **notes;
-    bool diffuse_only;
+    bool diffuse_only, show_back_faces;
     lsf_requirements requirements;
 };
 
@@ -227,6 +227,11 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
 /* Sets which nodes an animation moves, by themselves or with an ancestor. `moves`: one for each node,
  * all false. */
 void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves);
+
+/* Whether the camera sees only its front: of single-sided materials, as glTF asks (2.0,
+ * section 3.9.6), but of none that transmits, whose far side is seen through the near one. Light
+ * meets both sides of any surface, or it would leak through walls. */
+bool lsf_material_hides_back(const lsf_scene *scene, const lsf_material *material);
 
 /* Whether light passes it and no medium lies behind it. */
 bool lsf_material_is_thin_wall(const lsf_material *material);

@@ -150,6 +150,10 @@ static const lsf_command_option options[] = {
     {"diffuse-only", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG,
      AT(diffuse_only), 0, 0, NULL, NULL,
      "read every material as a diffuse one of its base colour, without normal maps"},
+    {"show-back-faces", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG,
+     AT(show_back_faces), 0, 0, NULL, NULL,
+     "let the camera see the backs of single-sided materials, which glTF hides; light meets both "
+     "sides in any case"},
     {"lenient", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG, AT(lenient), 0, 0,
      NULL, NULL,
      "ignore, with a warning each, extensions that the file requires and that change the look "

@@ -132,7 +132,7 @@ typedef struct lsf_settings {
     lsf_environment_setting environment;
     float environment_rotation, environment_strength;
     int default_light; /* lsf_default_light */
-    bool diffuse_only, lenient;
+    bool diffuse_only, show_back_faces, lenient;
     const char *scene, *variant; /* NULL: not given */
     lsf_list_setting animations;
 

@@ -510,6 +510,7 @@ lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings)
     params.environment_strength = settings->environment_strength;
     params.default_light = (lsf_default_light)settings->default_light;
     params.diffuse_only = settings->diffuse_only;
+    params.show_back_faces = settings->show_back_faces;
     params.lenient = settings->lenient;
     params.scene = settings->scene;
     params.variant = settings->variant;

@@ -90,6 +90,7 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
         lsf_json_string(json, "background", backgrounds[settings->background.kind]);
     lsf_json_string(json, "default_light", default_lights[settings->default_light]);
     lsf_json_bool(json, "diffuse_only", settings->diffuse_only);
+    lsf_json_bool(json, "show_back_faces", settings->show_back_faces);
     lsf_json_bool(json, "lenient", settings->lenient);
     lsf_json_string(json, "scene", settings->scene);
     lsf_json_begin(json, "animations", '[');

@@ -238,7 +238,8 @@ class Json(CommandTest):
         self.assertEqual(set(options), {
             "samples", "time_limit", "camera", "camera_position", "camera_target", "fov_y", "time",
             "exposure", "tonemap", "aovs", "environment", "environment_rotation",
-            "environment_strength", "background", "default_light", "diffuse_only", "lenient", "scene",
+            "environment_strength", "background", "default_light", "diffuse_only",
+            "show_back_faces", "lenient", "scene",
             "animations", "variant", "keep_partial", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])

@@ -430,6 +430,7 @@ static void unlit(void **unused)
     material->base_color_texture.texture = build_noise(scene, 3, 4, 4, true);
     lsf_node *node =
         build_quad(scene, lsf_f3(-2, -1, 0), lsf_f3(2, -1, 0), lsf_f3(2, 1, 0), lsf_f3(-2, 1, 0));
+    scene->show_back_faces = true;
     node->rotation[1] = 1.0; /* seen from behind */
     node->rotation[3] = 0.0;
     check_view("unlit", scene, (const float[3]){0.3f, 0.6f, 5}, INFINITY);

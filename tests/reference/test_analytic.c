@@ -123,6 +123,7 @@ static void emissive_quad(void **unused)
     scene->diffuse_only = true;
     build_material(scene, 0.6f, 0.6f, 0.6f);
     build_floor(scene, 0.0f, 10.0f);
+    scene->show_back_faces = true;
     lsf_material *light = build_material(scene, 0.0f, 0.0f, 0.0f);
     light->emission[0] = 3.0f;
     light->emission[1] = 2.0f;
@@ -216,6 +217,7 @@ static void unlit_shines_both_ways(void **unused)
     scene->diffuse_only = true;
     build_material(scene, 0.5f, 0.5f, 0.5f);
     build_floor(scene, -0.5f, 0.2f);
+    scene->show_back_faces = true;
     lsf_material *wall = build_material(scene, 0.25f, 0.5f, 0.75f);
     wall->unlit = true;
     build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), false);
