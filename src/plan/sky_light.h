@@ -14,7 +14,7 @@ typedef struct lsf_sky_light_params {
     int32_t directions; /* drawn an iteration; 0: the environment is found by chance alone */
 } lsf_sky_light_params;
 
-#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = 4
+#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = 8
 
 #define LSF_SKY_LIGHT_OPTION_COUNT 1
 extern const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT];

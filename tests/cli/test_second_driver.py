@@ -1,0 +1,52 @@
+"""Every technique on a second driver: OpenGL over Vulkan (Mesa's zink on lavapipe), whose shaders another
+compiler translates. Pictures agree with those of Mesa's own software OpenGL."""
+import os
+
+from command import CommandTest, SOURCE_ROOT, main
+
+ZINK = dict(os.environ, GALLIUM_DRIVER="zink", LIBGL_ALWAYS_SOFTWARE="1")
+SMALL = ["-r", "32,32", "-s", "2", "-b", "2", "-D", "voxel.resolution=32", "-D", "bundle.resolution=64",
+         "-D", "rsm.resolution=64", "-D", "vpl.shadow_resolution=64"]
+
+
+def write_environment(path):
+    """8 x 4 texels as RGBE, a bright one among them: 2^(exponent - 136) times each of three bytes."""
+    texels = bytearray()
+    for i in range(32):
+        texels += bytes([120, 140, 180, 134 if i == 10 else 128])
+    with open(path, "wb") as file:
+        file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" + texels)
+    return path
+
+
+class SecondDriver(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.run_command("render", self.scene(), "-t", "direct", "-o", "probe.exr", "--json", "probe.json",
+                         "--backend", "egl", "-r", "4,4", "-s", "1", env=ZINK)
+        if "zink" not in str(self.read_json("probe.json")["device"]):
+            self.skipTest("Mesa has no zink, or no Vulkan in software, here")
+
+    def agrees(self, technique, scene):
+        scene = os.path.join(SOURCE_ROOT, "data/scenes", scene)
+        words = ["render", scene, "-t", technique, "-e", write_environment(self.path("sky.hdr")), *SMALL]
+        self.run_command(*words, "-o", "own.exr", "--backend", "osmesa")
+        self.run_command(*words, "-o", "zink.exr", "--backend", "egl", env=ZINK)
+        self.run_command("compare", "zink.exr", "own.exr", "--threshold", "rmse_relative=0.01",
+                         "--threshold", "bias=0.001")
+
+    def test_direct(self):
+        self.agrees("direct", "cornell_glossy.gltf")
+
+    def test_bidirectional(self):
+        self.agrees("bidirectional", "cornell_glossy.gltf")
+
+    def test_cone(self):
+        self.agrees("cone", "cornell_glossy.gltf")
+
+    def test_voxel_path(self):
+        self.agrees("voxel_path", "cornell_glass.gltf")
+
+
+if __name__ == "__main__":
+    main()
