@@ -89,7 +89,31 @@ static void take_entries(memory_budget &budget, const json &root)
         budget.take(root[lights].size(), 1024, lights.to_string());
 }
 
-static json parse(std::string_view text, memory_budget &budget)
+/* Nesting is bounded by DEPTH_MAX. */
+static void take_apart(json &value)
+{
+    while (value.is_array() && !value.empty()) {
+        json &last = value.get_ref<json::array_t &>().back();
+        take_apart(last);
+        value.get_ref<json::array_t &>().pop_back();
+    }
+    while (value.is_object() && !value.empty()) {
+        take_apart(value.begin().value());
+        value.erase(value.begin());
+    }
+}
+
+/* nlohmann's destructor makes a list of what a value holds; without memory for it, it would end the
+ * process. Of a document that was taken apart it has nothing to list. */
+struct json_document {
+    json root;
+    ~json_document()
+    {
+        take_apart(root);
+    }
+};
+
+static void parse(std::string_view text, memory_budget &budget, json &root)
 {
     lsf_json_shape shape = lsf_json_scan(text.data(), text.size());
     if (shape.depth > DEPTH_MAX)
@@ -97,7 +121,6 @@ static json parse(std::string_view text, memory_budget &budget)
              shape.depth, DEPTH_MAX);
     take_document(budget, text, shape);
 
-    json root;
     locating_parser parser(root);
     if (!json::sax_parse(text.begin(), text.end(), &parser)) {
         uint64_t line, column;
@@ -112,7 +135,6 @@ static json parse(std::string_view text, memory_budget &budget)
     if (!root.is_object())
         fail("TYPE_MISMATCH", "/", "the document is %s, not an object; is this a glTF file?",
              root.type_name());
-    return root;
 }
 
 /* --- checking against the tables --- */
@@ -469,7 +491,9 @@ static void check_choices(const json &root)
 
 gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budget &budget)
 {
-    json root = parse(text, budget);
+    json_document document;
+    json &root = document.root;
+    parse(text, budget, root);
     checker checker(root);
     /* First: what such a file leaves out may be just what the extension would bring. */
     check_required_extensions(root, lenient);

@@ -151,5 +151,10 @@ lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_
         lsf_scene_destroy(scene);
         return NULL;
     }
+    if (scene->note_lost) {
+        lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
+        lsf_scene_destroy(scene);
+        return NULL;
+    }
     return scene;
 }

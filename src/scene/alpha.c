@@ -41,13 +41,22 @@ static bool is_opaque(const lsf_scene *scene, const lsf_material *material, foun
     return known[image] == OPAQUE;
 }
 
-static bool vertices_are_opaque(const lsf_scene *scene, const lsf_primitive *primitive)
+/* `known` has an entry for each vertex, of which that of a primitive's first is used: primitives
+ * may share their vertices. */
+static bool vertices_are_opaque(const lsf_scene *scene, const lsf_primitive *primitive,
+                                uint8_t *known)
 {
     const float *colors = scene->vertices.color;
-    for (uint64_t i = 0; colors && i < primitive->vertex_count; i++)
-        if (colors[4 * (primitive->first_vertex + i) + 3] < 1.0f)
-            return false;
-    return true;
+    if (!colors || primitive->vertex_count == 0)
+        return true;
+    uint8_t *answer = &known[primitive->first_vertex];
+    if (*answer == UNKNOWN) {
+        *answer = OPAQUE;
+        for (uint64_t i = 0; *answer == OPAQUE && i < primitive->vertex_count; i++)
+            if (colors[4 * (primitive->first_vertex + i) + 3] < 1.0f)
+                *answer = NOT_OPAQUE;
+    }
+    return *answer == OPAQUE;
 }
 
 /* Without memory blended materials stay so, which is right if dearer. */
@@ -55,17 +64,19 @@ void lsf_scene_settle_alpha(lsf_scene *scene)
 {
     found *known = lsf_alloc(scene->image_count, sizeof *known);
     bool *opaque = lsf_alloc(scene->material_count, sizeof *opaque);
+    uint8_t *vertices_known = lsf_alloc(scene->vertices.color ? scene->vertices.count : 0, 1);
     for (uint32_t m = 0; known && opaque && m < scene->material_count; m++)
         opaque[m] = scene->materials[m].alpha_mode == LSF_ALPHA_BLEND &&
                     is_opaque(scene, &scene->materials[m], known);
-    for (uint32_t p = 0; known && opaque && p < scene->primitive_count; p++) {
+    for (uint32_t p = 0; known && opaque && vertices_known && p < scene->primitive_count; p++) {
         const lsf_primitive *primitive = &scene->primitives[p];
         if (opaque[primitive->material])
-            opaque[primitive->material] = vertices_are_opaque(scene, primitive);
+            opaque[primitive->material] = vertices_are_opaque(scene, primitive, vertices_known);
     }
-    for (uint32_t m = 0; known && opaque && m < scene->material_count; m++)
+    for (uint32_t m = 0; known && opaque && vertices_known && m < scene->material_count; m++)
         if (opaque[m])
             scene->materials[m].alpha_mode = LSF_ALPHA_OPAQUE;
     free(known);
     free(opaque);
+    free(vertices_known);
 }

@@ -20,8 +20,10 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     va_start(arguments, format);
     char *note = lsf_format_arguments(format, arguments);
     va_end(arguments);
-    if (!note)
+    if (!note) {
+        scene->note_lost = true;
         return;
+    }
     lsf_make_printable(note);
     for (uint32_t i = 0; i < scene->note_count; i++)
         if (strcmp(scene->notes[i], note) == 0) {
@@ -31,12 +33,15 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     if (scene->note_count == NOTES_MAX - 1) {
         free(note);
         note = strdup("there are more such notes: they are left out");
-        if (!note)
+        if (!note) {
+            scene->note_lost = true;
             return;
+        }
     }
     lsf_log(LSF_LOG_WARNING, "%s", note);
     char **notes = realloc(scene->notes, (scene->note_count + 1) * sizeof(char *));
     if (!notes) {
+        scene->note_lost = true;
         free(note);
         return;
     }

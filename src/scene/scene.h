@@ -215,6 +215,7 @@ struct lsf_scene {
     lsf_extension *extensions;
     uint32_t note_count;
     char **notes;
+    bool note_lost; /* for want of memory: loading fails */
     bool diffuse_only, show_back_faces;
     lsf_requirements requirements;
 };
