@@ -29,8 +29,9 @@ vec3 arriving(cone_light light, vec3 direction, float cosine)
 }
 
 #if LSF_SPECULAR && LSF_ENVIRONMENT && LSF_SEALED
-/* The environment in the specular lobe, by a ray drawn from it, as directions drawn by radiance leave it. */
-vec3 lobe_environment(surface s, vec3 point, vec3 to_viewer)
+/* The specular lobe's light by a ray drawn from it: of voxels, and of the environment as directions drawn by
+ * radiance leave it. */
+vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 {
     vec3 number = hash_unit(hash(uvec3(gl_FragCoord.xy, 1u)));
     vec2 u = fract(cone_gather.xw + number.xy);
@@ -38,12 +39,33 @@ vec3 lobe_environment(surface s, vec3 point, vec3 to_viewer)
     p.specular = 1.0;
     vec3 direction = brdf_draw(p, vec3(u, fract(cone_gather.x + number.z)));
     float cosine = dot(s.normal, direction);
-    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
-        cone_diffuse(point, s.geometric_normal, direction, 0.0).transmittance == 0.0)
+    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0)
         return vec3(0.0);
+    cone_light light = cone_diffuse(point, s.geometric_normal, direction, 0.0);
     float pdf = brdf_pdf(p, direction);
-    return brdf_evaluate(s, to_viewer, direction, 0.0).specular *
-           sky_left(environment_radiance(direction), pdf) * (cosine / pdf);
+    vec3 radiance = light.radiance * grid.unit.x +
+                    light.transmittance * sky_left(environment_radiance(direction), pdf);
+    return brdf_evaluate(s, to_viewer, direction, 0.0).specular * radiance * (cosine / pdf);
+}
+#elif LSF_SPECULAR
+/* ... by a cone along the mirror direction. */
+vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
+{
+    vec3 view_direction = lift_to_horizon(to_viewer, s.normal);
+    vec3 mirrored = reflect(-view_direction, s.normal);
+    if (dot(mirrored, s.geometric_normal) <= 0.0)
+        return vec3(0.0);
+    float spread = min(lobe_spread * lsf_alpha_from_roughness(s.roughness), CONE_WIDEST);
+    cone_light light = cone_trace(point, s.geometric_normal, mirrored, spread);
+    vec2 place = vec2(dot(s.normal, view_direction), s.roughness);
+    vec2 albedo = textureLod(albedo_texture, place, 0.0).rg;
+    vec3 reflected = surface_specular_f0(s) * albedo.x + surface_specular_f90(s) * albedo.y;
+    vec3 radiance = light.radiance * grid.unit.x;
+#if LSF_ENVIRONMENT
+    radiance += light.transmittance * environment_radiance(mirrored);
+#endif
+    float nv = dot(s.normal, view_direction);
+    return reflected * sheen_leaves(s, nv, nv) * coat_passes(s, to_viewer, mirrored) * radiance;
 }
 #endif
 
@@ -103,24 +125,6 @@ void main()
                                        light.transmittance);
     }
 #if LSF_SPECULAR
-    vec3 view_direction = lift_to_horizon(to_viewer, s.normal);
-    vec3 mirrored = reflect(-view_direction, s.normal);
-    if (dot(mirrored, s.geometric_normal) > 0.0) {
-        float alpha = lsf_alpha_from_roughness(s.roughness);
-        float spread = min(lobe_spread * alpha, CONE_WIDEST);
-        cone_light light = cone_trace(point, s.geometric_normal, mirrored, spread);
-        vec2 place = vec2(dot(s.normal, view_direction), s.roughness);
-        vec2 albedo = textureLod(albedo_texture, place, 0.0).rg;
-        vec3 reflected = surface_specular_f0(s) * albedo.x + surface_specular_f90(s) * albedo.y;
-        vec3 radiance = light.radiance * grid.unit.x;
-#if LSF_ENVIRONMENT && !LSF_SEALED
-        radiance += light.transmittance * environment_radiance(mirrored);
-#endif
-        float nv = dot(s.normal, view_direction);
-        specular_out.rgb += reflected * sheen_leaves(s, nv, nv) * coat_passes(s, to_viewer, mirrored) * radiance;
-    }
-#if LSF_ENVIRONMENT && LSF_SEALED
-    specular_out.rgb += lobe_environment(s, point, to_viewer);
-#endif
+    specular_out.rgb += lobe_light(s, point, to_viewer);
 #endif
 }

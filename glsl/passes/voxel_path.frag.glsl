@@ -313,8 +313,12 @@ void main()
 #if LSF_GLOSS
         gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
 #endif
-        /* More of them the rougher it is. */
-        int count = int(mix(float(lengths.z), float(lengths.w), v.s.roughness) + 0.5);
+        /* More of them the rougher it is, by the larger of its roughnesses. */
+        float roughness = v.s.roughness;
+#if LSF_ANISOTROPY
+        roughness = sqrt(lsf_alpha_along_tangent(roughness * roughness, v.s.anisotropy));
+#endif
+        int count = int(mix(float(lengths.z), float(lengths.w), roughness) + 0.5);
         path_random_key key;
         key.pixel = uint(texel.x) | (uint(texel.y) << 16);
         key.seed = turn.y;

@@ -46,6 +46,8 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
         return;
     lsf_plan_texture_add(plan, "cone_trace.specular", GL_RGBA32F, width, height,
                          "light of the specular lobe");
+    if (!lsf_cone_marches(params, r))
+        return;
     lsf_plan_texture_add(plan, "cone_trace.lobe_albedo", GL_RG32F, ALBEDO_SIDE, ALBEDO_SIDE,
                          "what the specular lobe reflects, by view and roughness");
 }

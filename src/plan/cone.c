@@ -32,10 +32,14 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
      "other directions for each pixel"},
 };
 
-/* Sealed diffuse cones see voxels alone. */
+bool lsf_cone_marches(const lsf_cone_params *params, const lsf_requirements *requirements)
+{
+    return !params->sealed || (requirements->specular && !requirements->environment);
+}
+
 uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements)
 {
-    return params->sealed && !requirements->specular ? 1 : LSF_VOXEL_LEVELS;
+    return lsf_cone_marches(params, requirements) ? LSF_VOXEL_LEVELS : 1;
 }
 
 uint32_t lsf_cone_slices(const lsf_cone_params *params)

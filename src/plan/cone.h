@@ -32,7 +32,11 @@ typedef struct lsf_cone_params {
 #define LSF_CONE_OPTION_COUNT 10
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
 
-/* Levels of radiance that cones of a scene with those requirements read. */
+/* Whether cones march through the pyramid of radiance in a scene with those requirements. Sealed
+ * diffuse ones are their axis, and so are specular ones under an environment, drawn from the lobe.
+ */
+bool lsf_cone_marches(const lsf_cone_params *params, const lsf_requirements *requirements);
+/* Levels of radiance that they read. */
 uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements);
 
 /* Slices of radiance along z. */

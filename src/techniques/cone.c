@@ -81,7 +81,7 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         if (w.levels > 1)
             lsf_voxel_mip_plan(plan, use.sides);
         else
-            lsf_plan_omit(plan, "voxel_mip", "cones are sealed, and none is specular");
+            lsf_plan_omit(plan, "voxel_mip", "no cone marches: each is the ray along its axis");
         lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &use);
         if (w.bounces > 0)
             lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
