@@ -55,7 +55,7 @@ vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, floa
     surface x1 = vpl_surface(vpl);
     float cosine_0 = dot(x1.geometric_normal, vpl.to_light.xyz);
     float shading_cosine_0 = dot(x1.normal, vpl.to_light.xyz);
-    if (cosine_0 <= 0.0 || shading_cosine_0 <= 0.0 || dot(x1.normal, direction) >= 0.0)
+    if (cosine_0 <= 0.0 || shading_cosine_0 <= 0.0)
         return l;
     float p_e = vpl.geometric_normal.w;
     path_density p = path_density_at(cosine_0, vpl.to_light.w, cosine_3, distance2, p_e,

@@ -97,7 +97,7 @@ static void lights_add_up(void **unused)
     double sum[3] = {0}, both[3];
     for (int which = LIGHT_A; which <= (LIGHT_A | LIGHT_B); which++) {
         lsf_scene *scene = room(which, 1.0f);
-        lsf_image *image = render_corner(scene, bidirectional_params(256, 1), 24);
+        lsf_image *image = render_corner(scene, bidirectional_params(1024, 1), 24);
         double rgb[3];
         mean_rgb(image, 0, rgb);
         for (int c = 0; c < 3; c++) {
@@ -143,6 +143,45 @@ static void strategies_agree(void **unused)
 }
 
 /* Light times 2^k gives the picture times 2^k, to the bit. */
+/* A wall whose normals are bent by 35 degrees lights the floor beside it, from below its shading
+ * horizon, too: VPLs on it and bundles that hit it alike. */
+static void bent_normals(void **unused)
+{
+    (void)unused;
+    static const char *const strategies[] = {"bidirectional.strategy=vpl",
+                                             "bidirectional.strategy=bundle"};
+    const char *options[] = {SMALL_MAPS, NULL};
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.8f, 0.8f, 0.8f);
+    build_floor(scene, 0.0f, 2.0f);
+    uint64_t first = scene->vertices.count;
+    build_quad(scene, lsf_f3(-1, 0, -0.5f), lsf_f3(1, 0, -0.5f), lsf_f3(1, 1.5f, -0.5f),
+               lsf_f3(-1, 1.5f, -0.5f));
+    for (uint64_t i = first; i < scene->vertices.count; i++)
+        lsf_f3_store(scene->vertices.normal + 3 * i, lsf_f3(0, 0.574f, 0.819f));
+    scene->diffuse_only = true;
+    lsf_light *spot =
+        build_light(scene, LSF_LIGHT_SPOT, lsf_f3(0, 1.5f, 2), lsf_f3(0, -0.3f, -1), 20.0f);
+    spot->inner_cone = 0.15f;
+    spot->outer_cone = 0.2f;
+    finish_gl_scene(scene);
+    double rgb[2][3];
+    for (int i = 0; i < 2; i++) {
+        options[SMALL_MAP_OPTIONS] = strategies[i];
+        lsf_render_params params = bidirectional_params(1024, 1);
+        params.options = options;
+        params.option_count = SMALL_MAP_OPTIONS + 1;
+        params.fov_y = 20.0f;
+        lsf_image *image =
+            render_gl_from(scene, params, 16, lsf_f3(0, 2, 0.5f), lsf_f3(0, 0, -0.2f));
+        mean_rgb(image, 0, rgb[i]);
+        lsf_image_destroy(image);
+    }
+    print_message("by VPLs %.5f, by bundles %.5f\n", rgb[0][0], rgb[1][0]);
+    assert_true(rgb[1][0] > 0.0 && fabs(rgb[0][0] / rgb[1][0] - 1.0) < 0.04);
+    destroy_scene(scene);
+}
+
 static void light_scales(void **unused)
 {
     (void)unused;
@@ -191,7 +230,7 @@ static void counts_do_not_change_the_mean(void **unused)
     lsf_scene *scene = room(LIGHT_A, 1.0f);
     double rgb[4][3];
     for (int i = 0; i < 4; i++) {
-        lsf_render_params params = bidirectional_params(256, 1);
+        lsf_render_params params = bidirectional_params(1024, 1);
         params.options = options[i];
         params.option_count = OPTIONS;
         lsf_image *image = render_corner(scene, params, 24);
@@ -257,15 +296,11 @@ static void weights_sum_to_one(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_sum_to_one),
-        cmocka_unit_test(energy_in_a_furnace),
-        cmocka_unit_test(white_furnace),
-        cmocka_unit_test(lights_add_up),
-        cmocka_unit_test(strategies_agree),
-        cmocka_unit_test(light_scales),
-        cmocka_unit_test(same_bits_again),
-        cmocka_unit_test(extremes),
-        cmocka_unit_test(counts_do_not_change_the_mean),
+        cmocka_unit_test(weights_sum_to_one), cmocka_unit_test(energy_in_a_furnace),
+        cmocka_unit_test(white_furnace),      cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(strategies_agree),   cmocka_unit_test(bent_normals),
+        cmocka_unit_test(light_scales),       cmocka_unit_test(same_bits_again),
+        cmocka_unit_test(extremes),           cmocka_unit_test(counts_do_not_change_the_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
