@@ -89,6 +89,11 @@ lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf
 void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
                            const lsf_voxel_grid *grid)
 {
+    lsf_plan_remark(
+        plan,
+        "a voxel is %.3g wide, in scene units: a grid over all of the scene blurs bounced "
+        "light by as much, and sees no room that is smaller",
+        (double)grid->side / plan->requirements.scale);
     if (grid->resolution != (uint32_t)params->resolution)
         lsf_plan_remark(plan,
                         "a grid of %u voxels instead of %d along the scene's longest side: a finer "
