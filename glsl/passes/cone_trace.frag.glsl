@@ -45,7 +45,13 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
     float pdf = brdf_pdf(p, direction);
     vec3 radiance = light.radiance * grid.unit.x +
                     light.transmittance * sky_left(environment_radiance(direction), pdf);
-    return brdf_evaluate(s, to_viewer, direction, 0.0).specular * radiance * (cosine / pdf);
+    float leaves = 1.0;
+#if LSF_SHEEN
+    /* What a sheen reflects itself, diffuse cones find. */
+    leaves = sheen_leaves(s, max(dot(s.normal, to_viewer), LSF_COSINE_MIN), cosine);
+    s.sheen = vec4(0.0);
+#endif
+    return brdf_evaluate(s, to_viewer, direction, 0.0).specular * radiance * (leaves * cosine / pdf);
 }
 #elif LSF_SPECULAR
 /* ... by a cone along the mirror direction. */
