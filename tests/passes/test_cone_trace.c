@@ -389,6 +389,38 @@ static void empty_and_flat_scenes(void **state)
     destroy_scene(flat);
 }
 
+/* A sphere of velvet under a uniform environment: cones and paths find the same light of its sheen,
+ * its lobe and its cloth. */
+static void sheen_counts_once(void **unused)
+{
+    (void)unused;
+    static const char *const techniques[2] = {"cone", "voxel_path"};
+    double rgb[2][3];
+    lsf_scene *scene = build_scene();
+    lsf_material *velvet = build_material(scene, 0.1f, 0.1f, 0.1f);
+    velvet->roughness = 0.6f;
+    velvet->sheen_roughness = 0.5f;
+    velvet->sheen_color[0] = velvet->sheen_color[1] = velvet->sheen_color[2] = 0.9f;
+    build_sphere(scene, 3, false);
+    build_environment(scene, 1.0f);
+    finish_gl_scene(scene);
+    for (int t = 0; t < 2; t++) {
+        static const char *const coarse[] = {"voxel.resolution=32"};
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+        params.technique = techniques[t];
+        params.samples = 32;
+        params.fov_y = 20.0f; /* nothing but the sphere */
+        params.options = coarse;
+        params.option_count = 1;
+        lsf_image *image = render_gl_from(scene, params, 16, lsf_f3(0, 0, 4), lsf_f3(0, 0, 0));
+        mean_rgb(image, 0, rgb[t]);
+        lsf_image_destroy(image);
+    }
+    destroy_scene(scene);
+    print_message("velvet: %.4f by cones, %.4f by paths\n", rgb[0][1], rgb[1][1]);
+    assert_true(fabs(rgb[0][1] / rgb[1][1] - 1.0) <= 0.02);
+}
+
 int main(void)
 {
     static uint32_t sides[] = {1, LSF_VOXEL_SIDES_AXES};
@@ -401,6 +433,7 @@ int main(void)
         cmocka_unit_test(same_bits_again),
         cmocka_unit_test(grids),
         cmocka_unit_test(empty_and_flat_scenes),
+        cmocka_unit_test(sheen_counts_once),
     };
     return cmocka_run_group_tests_name("cone tracing", tests, NULL, NULL);
 }
