@@ -115,7 +115,8 @@ static void shells(void **unused)
     double light[3];
     for (int shell = 0; shell < 3; shell++) {
         lsf_scene *scene = build_scene();
-        build_material(scene, 0.7f, 0.7f, 0.7f);
+        /* The camera sees the shells from outside. */
+        build_material(scene, 0.7f, 0.7f, 0.7f)->double_sided = true;
         build_box(scene, lsf_f3(-2, -2, -2), lsf_f3(2, 2, 2), true);
         if (shell == 1)
             build_sphere(scene, 3, true);
