@@ -207,6 +207,20 @@ static int find_camera(const lsf_scene *scene, const char *which)
     return -1;
 }
 
+static bool no_such_camera(const lsf_scene *scene, const char *which, lsf_error *error)
+{
+    enum { LISTED = 8 };
+    lsf_string names = {0};
+    for (uint32_t i = 0; i < scene->camera_count && i < LISTED; i++)
+        lsf_string_add(&names, "%s%u \"%s\"", i ? ", " : "", i,
+                       scene->cameras[i].name ? scene->cameras[i].name : "");
+    lsf_error_set(error, LSF_ERROR_USAGE, "camera '%s' is not in the scene, which has %s%s", which,
+                  names.text ? names.text : "others",
+                  scene->camera_count > LISTED ? " and more; `lightsheaf info` lists them" : "");
+    free(names.text);
+    return false;
+}
+
 /* How far the camera may be from the nearest of the scene, in depths of the scene, before depths
  * are counted from the far plane. Positions are rounded by what they are counted from. */
 #define FAR_AWAY 4.0
@@ -351,10 +365,7 @@ bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_p
         return false;
     int camera_index = find_camera(scene, params->camera);
     if (camera_index < 0)
-        return lsf_error_set(
-            error, LSF_ERROR_USAGE,
-            "camera '%s' is not in the scene; it has %u, listed by `lightsheaf info`",
-            params->camera, scene->camera_count);
+        return no_such_camera(scene, params->camera, error);
     double *worlds = lsf_alloc(scene->node_count, 16 * sizeof *worlds);
     if (!state->instances)
         state->instances = lsf_alloc(scene->instance_count, sizeof *state->instances);

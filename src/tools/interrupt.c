@@ -58,11 +58,10 @@ bool lsf_interrupt_progress(uint32_t done, uint32_t total, void *bar)
     return !lsf_interrupted();
 }
 
-bool lsf_interrupt_may_save(const lsf_settings *settings, uint32_t samples, lsf_error *error)
+bool lsf_interrupt_may_save(uint32_t samples, lsf_error *error)
 {
-    if (!lsf_interrupted() || (settings->keep_partial && samples > 0))
+    if (!lsf_interrupted() || samples > 0)
         return true;
-    return lsf_error_set(
-        error, LSF_ERROR_RENDER, "interrupted after %u samples; nothing was written%s", samples,
-        settings->keep_partial ? "" : " (--keep-partial saves what has converged)");
+    return lsf_error_set(error, LSF_ERROR_RENDER,
+                         "interrupted before the first sample was done; nothing was written");
 }

@@ -84,8 +84,6 @@ static const lsf_command_option options[] = {
      "write options, device, times, bytes and counts as JSON; - is standard output"},
     {"json", 0, NULL, PRINTING, "Output", LSF_VALUE_FLAG, AT(print_json), 0, 0, NULL, NULL,
      "print JSON instead of text"},
-    {"keep-partial", 0, NULL, RENDERING, "Output", LSF_VALUE_FLAG, AT(keep_partial), 0, 0, NULL,
-     NULL, "when interrupted, save what has converged so far"},
     {"halves", 0, NULL, LSF_COMMAND_REFERENCE, "Output", LSF_VALUE_FLAG, AT(halves), 0, 0, NULL,
      NULL,
      "take --samples twice, independently: out_a.exr and out_b.exr beside out.exr, which holds "

@@ -112,7 +112,7 @@ typedef struct lsf_settings {
     int format;         /* lsf_image_format */
     lsf_exposure_setting exposure;
     int tonemap; /* lsf_tone_curve */
-    bool keep_partial, halves;
+    bool halves;
 
     const char *technique;
     uint32_t resolution[2];

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MOST_OPTIONS = 128, FIRST_LONG_VALUE = 256 };
 
@@ -142,14 +143,16 @@ static bool set_define(lsf_list_setting *place, const lsf_command_option *option
 }
 
 /* A list of numbers is a uniform radiance; whatever else is a file. What can only have been meant
- * as numbers (digits, signs, points and commas) is not looked for as a file. */
+ * as numbers (digits, signs, points and commas) is not looked for as a file, nor is a bare word, such
+ * as a colour's name, unless there is one. */
 static bool set_environment(lsf_environment_setting *place, const lsf_command_option *option,
                             const char *text, lsf_error *error)
 {
     lsf_environment_setting setting = {0};
     if (lsf_parse_numbers(text, option->minimum, option->maximum, 3, setting.uniform.value))
         setting.uniform.given = true;
-    else if (strspn(text, "0123456789+-.,eE") == strlen(text))
+    else if (strspn(text, "0123456789+-.,eE") == strlen(text) ||
+             (!strpbrk(text, "./") && access(text, F_OK) != 0))
         return bad_value(option, text, NULL, error);
     else
         setting.path = text;
@@ -179,6 +182,19 @@ static bool set_threshold(lsf_list_setting *place, const lsf_command_option *opt
     if (!equals || equals == text || !lsf_parse_number(equals + 1, -1e30, 1e30, &value))
         return bad_value(option, text, NULL, error);
     return append_value(place, option, text, error);
+}
+
+static bool bad_technique(const lsf_command_option *option, const char *text, lsf_error *error)
+{
+    const char *nearest = lsf_nearest(text, next_technique, NULL);
+    lsf_string names = {0};
+    for (uint32_t i = 0; lsf_technique_name(i); i++)
+        lsf_string_add(&names, "%s%s", i ? ", " : "", lsf_technique_name(i));
+    lsf_error_set(error, LSF_ERROR_USAGE, "--%s %s: expected one of %s%s%s%s", option->name,
+                  *text ? text : "\"\"", names.text ? names.text : "--list-techniques",
+                  nearest ? "; did you mean " : "", nearest ? nearest : "", nearest ? "?" : "");
+    free(names.text);
+    return false;
 }
 
 static bool set_value(lsf_settings *settings, const lsf_command_option *option, const char *text,
@@ -238,7 +254,7 @@ static bool set_value(lsf_settings *settings, const lsf_command_option *option, 
         for (uint32_t i = 0; !good && lsf_technique_name(i); i++)
             good = strcmp(lsf_technique_name(i), text) == 0;
         if (!good)
-            return bad_value(option, text, lsf_nearest(text, next_technique, NULL), error);
+            return bad_technique(option, text, error);
         *(const char **)place = text;
         break;
     case LSF_VALUE_AOVS:
@@ -290,6 +306,26 @@ static const char *next_name(size_t index, void *user)
     return NULL;
 }
 
+/* What other renderers call an option of this command; NULL: nothing known. */
+static const char *meant_by(const char *name, const lsf_command *command)
+{
+    static const char *const words[][2] = {
+        {"size", "resolution"},      {"width", "resolution"},     {"height", "resolution"},
+        {"spp", "samples"},          {"iterations", "samples"},   {"envmap", "environment"},
+        {"env", "environment"},      {"hdri", "environment"},     {"ibl", "environment"},
+        {"method", "technique"},     {"integrator", "technique"}, {"max-depth", "bounces"},
+        {"depth", "bounces"},        {"fov", "fov-y"},            {"out", "output"},
+        {"tone-mapping", "tonemap"}, {"eye", "camera-position"},  {"look-at", "camera-target"},
+        {"bg", "background"},        {"timeout", "time-limit"},
+    };
+    for (size_t i = 0; i < LSF_COUNT(words); i++)
+        for (size_t k = 0; strcmp(words[i][0], name) == 0 && next_name(k, (void *)(uintptr_t)command);
+             k++)
+            if (strcmp(next_name(k, (void *)(uintptr_t)command), words[i][1]) == 0)
+                return words[i][1];
+    return NULL;
+}
+
 /* An option that getopt did not take: says whether it is another command's, a beginning that
  * several share, or a slip of the hand. */
 static bool bad_option(const lsf_command *command, const char *word, lsf_error *error)
@@ -325,7 +361,9 @@ static bool bad_option(const lsf_command *command, const char *word, lsf_error *
         lsf_error_set(error, LSF_ERROR_USAGE, "--%s: an option of %s, not of %s", name,
                       meant.length ? meant.text : "another command", command->name);
     } else {
-        const char *nearest = lsf_nearest(name, next_name, (void *)(uintptr_t)command);
+        const char *nearest = meant_by(name, command);
+        if (!nearest)
+            nearest = lsf_nearest(name, next_name, (void *)(uintptr_t)command);
         lsf_error_set(error, LSF_ERROR_USAGE,
                       "--%s: not an option of %s%s%s%s; `lightsheaf %s %s` lists them", name,
                       command->name, nearest ? "; did you mean --" : "", nearest ? nearest : "",

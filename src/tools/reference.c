@@ -86,7 +86,7 @@ static bool take_mean(reference_job *job, lsf_error *error)
 static bool save(reference_job *job, lsf_error *error)
 {
     uint32_t samples = job->results[0].samples + job->results[1].samples;
-    if (!lsf_interrupt_may_save(&job->settings, samples, error))
+    if (!lsf_interrupt_may_save(samples, error))
         return false;
     double start = lsf_now();
     bool good;

@@ -104,7 +104,7 @@ static bool save_rgb8(render_job *job, lsf_error *error)
 
 static bool save(render_job *job, lsf_error *error)
 {
-    if (!lsf_interrupt_may_save(&job->settings, job->stats.samples, error))
+    if (!lsf_interrupt_may_save(job->stats.samples, error))
         return false;
     double start = lsf_now();
     bool good = job->maps_on_gpu ? save_rgb8(job, error) : save_float(job, error);

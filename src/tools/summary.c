@@ -98,7 +98,6 @@ static void add_options(lsf_json *json, const lsf_settings *settings)
         lsf_json_string(json, NULL, settings->animations.items[i]);
     lsf_json_end(json, ']');
     lsf_json_string(json, "variant", settings->variant);
-    lsf_json_bool(json, "keep_partial", settings->keep_partial);
     lsf_json_bool(json, "halves", settings->halves);
     lsf_json_string(json, "backend", backends[settings->backend]);
     lsf_json_string(json, "shader_dir", settings->shader_dir);

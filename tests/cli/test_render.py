@@ -240,7 +240,7 @@ class Json(CommandTest):
             "exposure", "tonemap", "aovs", "environment", "environment_rotation",
             "environment_strength", "background", "default_light", "diffuse_only",
             "show_back_faces", "lenient", "scene",
-            "animations", "variant", "keep_partial", "halves", "backend",
+            "animations", "variant", "halves", "backend",
             "shader_dir", "gl_debug", "passes"})
         self.assertEqual(options["aovs"], ["albedo", "normal"])
         self.assertEqual(options["environment"], [1, 0.5, 0])

@@ -100,8 +100,14 @@ class Refusals(CommandTest):
             os.close(theirs)
 
     def test_unknown_camera(self):
-        self.refuse("render", self.scene(), "-o", "a.exr", "--camera", "Back", says=["Back", "info"])
+        self.refuse("render", self.scene(), "-o", "a.exr", "--camera", "Back", says=["Back", '0 "Front"'])
         self.refuse("plan", self.scene(), "--technique", "dirct", says=["did you mean direct?"])
+
+    def test_what_others_call_it(self):
+        for word, meant in (("--size", "--resolution"), ("--spp", "--samples"), ("--envmap", "--environment")):
+            self.refuse("render", self.scene(), "-o", "a.exr", f"{word}=1", says=[f"did you mean {meant}?"])
+        self.refuse("render", self.scene(), "-o", "a.exr", "-t", "path", says=["voxel_path", "direct"])
+        self.refuse("render", self.scene(), "-o", "a.exr", "-e", "red", says=["three numbers"])
 
     def test_every_error_is_one_line(self):
         for words in (["rendr"], ["render", "-s", "x"], ["info", "missing.gltf"]):

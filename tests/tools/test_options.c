@@ -158,7 +158,7 @@ static void check_everything(void)
     assert_true(settings.exposure.ev == -2);
     assert_int_equal(params.aovs, LSF_AOV_ALBEDO | LSF_AOV_DEPTH);
     assert_string_equal(settings.json_path, "-");
-    assert_true(settings.diffuse_only && settings.keep_partial && settings.gl_debug);
+    assert_true(settings.diffuse_only && settings.gl_debug);
     assert_int_equal(settings.backend, LSF_BACKEND_OSMESA);
     assert_string_equal(settings.shader_dir, "glsl");
     assert_int_equal(settings.format, LSF_IMAGE_FORMAT_EXR);
@@ -187,7 +187,6 @@ static void test_order_does_not_matter(void **state)
         "--aov depth,albedo",
         "--json -",
         "--diffuse-only",
-        "--keep-partial",
         "--gl-debug",
         "--backend osmesa",
         "--shader-dir glsl",
