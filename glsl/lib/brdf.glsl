@@ -26,6 +26,16 @@ vec3 surface_diffuse(surface s)
 #endif
 }
 
+/* The larger of the two roughnesses. */
+float surface_widest_roughness(surface s)
+{
+#if LSF_ANISOTROPY
+    return sqrt(lsf_alpha_along_tangent(s.roughness * s.roughness, s.anisotropy));
+#else
+    return s.roughness;
+#endif
+}
+
 /* Schlick's term, for the side that the surface is seen from. */
 float surface_fresnel(surface s, float f0, float f90, float vh)
 {

@@ -21,7 +21,7 @@ layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec2 sky_paths;
 /* Takes what is left to this light of the environment, which it has `density` of. */
 void share_sky(surface s, vec3 view_direction, vec3 direction, float density, inout brdf_value f)
 {
-    float count = floor(mix(sky_paths.x, sky_paths.y, s.roughness) + 0.5);
+    float count = floor(mix(sky_paths.x, sky_paths.y, surface_widest_roughness(s)) + 0.5);
     brdf_sampler p = brdf_sampler_of(s, view_direction, true);
 #if LSF_SKY_CHANCE == LSF_SKY_CHANCE_PATHS
     float left = density / (density + count * brdf_pdf(p, direction));

@@ -314,10 +314,7 @@ void main()
         gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
 #endif
         /* More of them the rougher it is, by the larger of its roughnesses. */
-        float roughness = v.s.roughness;
-#if LSF_ANISOTROPY
-        roughness = sqrt(lsf_alpha_along_tangent(roughness * roughness, v.s.anisotropy));
-#endif
+        float roughness = surface_widest_roughness(v.s);
         int count = int(mix(float(lengths.z), float(lengths.w), roughness) + 0.5);
         path_random_key key;
         key.pixel = uint(texel.x) | (uint(texel.y) << 16);
