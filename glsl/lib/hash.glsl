@@ -22,4 +22,15 @@ vec3 hash_unit(uvec3 bits)
     return vec3(bits >> 8) * (1.0 / 16777216.0);
 }
 
+/* Owen's scrambling of bit-reversed numbers; scramble_reversed of math/sampling.c. */
+uvec3 scramble_reversed(uvec3 x, uvec3 seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
 #endif

@@ -28,17 +28,6 @@ vec3 path_random(path_random_key key, uint index, uint vertex)
     return texelFetch(random_texture, (key.place + ivec2(shift.xy & 0xffffu)) & (size - 1), 0).rgb;
 }
 #else
-/* On bit-reversed values, see math/sampling.c. */
-uvec3 path_scramble(uvec3 x, uvec3 seed)
-{
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return x;
-}
-
 /* Sobol's second dimension, bit-reversed: its direction numbers are Pascal's triangle modulo 2, whose
  * entry (i, j) is odd where the ones of i are among those of j (Lucas); a sum over supersets. */
 uint path_sobol_second(uint index)
@@ -56,8 +45,8 @@ vec3 path_random(path_random_key key, uint index, uint vertex)
     uvec3 order = hash(seed);
     /* One order for the pair, one for the number that stands alone. */
     uvec3 shuffled =
-        bitfieldReverse(path_scramble(uvec3(bitfieldReverse(index)), uvec3(order.x, order.xy)));
-    return hash_unit(bitfieldReverse(path_scramble(
+        bitfieldReverse(scramble_reversed(uvec3(bitfieldReverse(index)), uvec3(order.x, order.xy)));
+    return hash_unit(bitfieldReverse(scramble_reversed(
         uvec3(shuffled.x, path_sobol_second(shuffled.y), shuffled.z), seed)));
 }
 #endif
