@@ -53,9 +53,10 @@ static uint32_t sample_count(const lsf_bidirectional_sampling *s)
 static bool create_light_picks(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
                                const lsf_state *state, lsf_error *error)
 {
-    uint32_t count = state->light_count + plan->sky_lights, shining = plan->sky_lights > 0;
+    bool sky_bounces = plan->sky_lights > 0 && plan->requirements.environment_map;
+    uint32_t count = state->light_count + plan->sky_lights, shining = sky_bounces;
     float *weights = lsf_alloc(count, sizeof *weights), sum = 0.0f;
-    float sky = plan->sky_lights > 0
+    float sky = sky_bounces
                     ? (float)lsf_sky_fluence(&scene->environment) / (float)plan->sky_lights
                     : 0.0f;
     const lsf_light_state sky_light = {.type = LSF_LIGHT_DIRECTIONAL, .intensity = {sky, sky, sky}};

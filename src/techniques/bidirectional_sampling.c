@@ -9,10 +9,11 @@ static uint32_t max_u32(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/* Of lights that have a map: punctual ones, and those that stand for the environment. */
+/* Of lights that have a map: punctual ones, and those that stand for the environment, unless it is
+ * uniform: bundles find that as well. */
 static bool mapped_light_shines(const lsf_plan *plan, const lsf_state *state)
 {
-    if (plan->sky_lights > 0)
+    if (plan->sky_lights > 0 && plan->requirements.environment_map)
         return true;
     for (uint32_t i = 0; i < state->light_count; i++)
         if (lsf_light_power(&state->lights[i]) > 0.0f)
