@@ -21,7 +21,8 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_find(plan, "gbuffer.emission") != NULL,
                         "some material emits or is unlit");
-    lsf_plan_switch_add(plan, "LSF_DIRECT", use->direct, "there are punctual lights");
+    lsf_plan_switch_add(plan, "LSF_DIRECT", use->direct,
+                        "there are punctual lights, or directions of the environment");
     lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light comes by VPLs or bundles");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", use->indirect && r->specular,
                         "materials have a specular lobe");

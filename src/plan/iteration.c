@@ -102,7 +102,7 @@ static void set_view(struct lsf_view_data *view, const lsf_plan *plan, const lsf
     depth_law(camera, &view->depth.x, &view->depth.y);
 }
 
-/* Suppression m' of glossy lobes, Tokuyoshi and Ogaki 2012, section 4. */
+/* Suppression m' of glossy lobes, Tokuyoshi and Ogaki 2012, section 5. */
 #define KERNEL_SAMPLES 16.0f
 
 static bool create_lights(lsf_iteration *iteration, lsf_error *error)

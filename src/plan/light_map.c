@@ -37,7 +37,7 @@ void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
         needed[kind] = false;
     for (uint32_t i = 0; i < state->light_count; i++)
         needed[lsf_light_map_kind_of(&state->lights[i])] = true;
-    if (plan->sky_lights > 0)
+    if (plan->sky_lights > 0 && plan->requirements.environment_map)
         needed[LSF_LIGHT_MAP_WINDOWS] = true;
 }
 

@@ -17,7 +17,8 @@ lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light);
 
 /* Whether anything lights straight: a punctual light, or the environment by directions. */
 bool lsf_light_any(const lsf_plan *plan, const lsf_state *state);
-/* Which kinds of map the lights need. */
+/* Which kinds of map the lights need for surfaces that the camera may not see: directions of an
+ * environment map need windows, those of a uniform environment light visible points alone. */
 void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
                          bool needed[LSF_LIGHT_MAP_KINDS]);
 
