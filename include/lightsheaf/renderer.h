@@ -112,6 +112,7 @@ lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *param
                           lsf_error *error);
 void lsf_plan_destroy(lsf_plan *plan); /* NULL allowed */
 uint64_t lsf_plan_bytes(const lsf_plan *plan); /* GL bytes of all resources */
+uint32_t lsf_plan_bounces(const lsf_plan *plan); /* indirect ones; 0: the technique has none */
 char *lsf_plan_describe(const lsf_plan *plan, bool json); /* malloc'ed; NULL without memory */
 
 /* A renderer owns every GL object that the plan lists and nothing else. The scene and the

@@ -195,6 +195,17 @@ static bool write_all(int descriptor, const char *bytes, size_t length)
     return true;
 }
 
+bool lsf_file_can_write(const char *path, lsf_error *error)
+{
+    lsf_atomic_file file;
+    if (strcmp(path, "-") == 0)
+        return true;
+    if (!lsf_atomic_file_begin(&file, path, error))
+        return false;
+    lsf_atomic_file_abort(&file);
+    return true;
+}
+
 bool lsf_file_write(const char *path, const void *bytes, size_t length, lsf_error *error)
 {
     if (strcmp(path, "-") == 0) {

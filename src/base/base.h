@@ -30,6 +30,9 @@ int lsf_format_plain(char *buffer, size_t size, const char *format, va_list argu
 int lsf_print(char *buffer, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* "s", or "" for one. */
+const char *lsf_plural(uint64_t count);
+
 /* Makes control characters question marks: names in files could steer a terminal. */
 void lsf_make_printable(char *text);
 
@@ -76,6 +79,9 @@ bool lsf_atomic_file_commit(lsf_atomic_file *file, lsf_error *error); /* fsync, 
 void lsf_atomic_file_abort(lsf_atomic_file *file); /* removes the temporary; harmless after commit */
 /* Removes every temporary that is still open; async-signal-safe, for interrupt handlers. */
 void lsf_atomic_file_abort_all(void);
+/* Whether a file could be written there; goes as far as one can without touching one that is there
+ * already. */
+bool lsf_file_can_write(const char *path, lsf_error *error);
 /* Begin, write, commit. Path "-" is standard output. */
 bool lsf_file_write(const char *path, const void *bytes, size_t length, lsf_error *error);
 

@@ -22,6 +22,11 @@ void lsf_string_add_bytes(lsf_string *string, const char *bytes, size_t length)
     string->text[string->length] = '\0';
 }
 
+const char *lsf_plural(uint64_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
 static locale_t plain_locale;
 
 static void make_plain_locale(void)

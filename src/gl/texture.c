@@ -100,7 +100,7 @@ GLuint lsf_texture_create(lsf_context *context, const lsf_texture_desc *desc, ls
     char what[320];
     snprintf(what, sizeof what, "texture %s, %s, %u x %u x %u, %u level%s, %llu bytes",
              desc->label ? desc->label : "without a label", lsf_format_name(desc->internal_format),
-             desc->width, desc->height, desc->depth, desc->levels, desc->levels == 1 ? "" : "s",
+             desc->width, desc->height, desc->depth, desc->levels, lsf_plural(desc->levels),
              (unsigned long long)lsf_texture_bytes(desc));
     if (!check_limits(desc, what, error) || !lsf_memory_begin(context, what, error))
         return 0;

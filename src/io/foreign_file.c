@@ -35,6 +35,10 @@ static const struct {
     {"\x1f\x8b", {"compressed by gzip", "unpack it first"}},
 };
 
+static const lsf_foreign_file nothing = {"an empty file", "copy or export it again"};
+static const lsf_foreign_file unknown = {"neither: it begins with neither `{` nor `glTF`",
+                                         CONVERT};
+
 /* What begins with neither '{' nor "glTF" is taken for what its name says. */
 static const struct {
     const char *ending;
@@ -81,7 +85,9 @@ const lsf_foreign_file *lsf_foreign_file_find(const char *path, const void *byte
         text++;
         length--;
     }
-    if (length == 0 || *text == '{' || begins_with(text, length, "glTF"))
+    if (length == 0)
+        return &nothing;
+    if (*text == '{' || begins_with(text, length, "glTF"))
         return NULL;
     for (size_t i = 0; i < LSF_COUNT(beginnings); i++)
         if (begins_with(text, length, beginnings[i].magic))
@@ -90,5 +96,5 @@ const lsf_foreign_file *lsf_foreign_file_find(const char *path, const void *byte
     for (size_t i = 0; ending && i < LSF_COUNT(endings); i++)
         if (strcasecmp(ending, endings[i].ending) == 0)
             return &endings[i].file;
-    return NULL;
+    return &unknown;
 }

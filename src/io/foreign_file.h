@@ -13,7 +13,7 @@ typedef struct lsf_foreign_file {
     const char *remedy; /* what to do about it */
 } lsf_foreign_file;
 
-/* NULL when the file may be glTF, or is nothing that is known. */
+/* NULL when the file may be glTF. */
 const lsf_foreign_file *lsf_foreign_file_find(const char *path, const void *bytes, size_t length);
 
 #ifdef __cplusplus

@@ -25,10 +25,12 @@ static void note_extensions(gltf_import &import)
     }
 }
 
-static void note_count(gltf_import &import, uint64_t count, const char *what)
+/* "3 normals of ..."; `what` is one of them. */
+static void note_count(gltf_import &import, uint64_t count, const char *what, const char *finding)
 {
     if (count > 0)
-        lsf_scene_add_note(import.scene, "%" PRIu64 " %s", count, what);
+        lsf_scene_add_note(import.scene, "%" PRIu64 " %s%s%s", count, what, lsf_plural(count),
+                           finding);
 }
 
 static void note_left_out(gltf_import &import, uint64_t primitives, uint64_t elements,
@@ -38,7 +40,7 @@ static void note_left_out(gltf_import &import, uint64_t primitives, uint64_t ele
         lsf_scene_add_note(import.scene,
                            "%" PRIu64 " primitive%s of %s, %" PRIu64
                            " in all, left out: only triangles are rendered",
-                           primitives, primitives == 1 ? "" : "s", kind, elements);
+                           primitives, lsf_plural(primitives), kind, elements);
 }
 
 void gltf_notes_add(gltf_import &import)
@@ -49,41 +51,37 @@ void gltf_notes_add(gltf_import &import)
     uint64_t skinned = 0;
     for (size_t i = 0; i < import.model.nodes.size(); i++)
         skinned += import.model.nodes[i].skin >= 0 && import.node_of[i] != LSF_NONE;
-    note_count(import, skinned,
-               "skinned nodes: skins are ignored, the meshes are shown undeformed");
-    note_count(import, repairs.negative_colors,
-               "components of vertex colours were negative and set to 0");
-    note_count(
-        import, repairs.textures_without_image,
-        "textures have no PNG, JPEG or WebP image: the materials that use them are shown without");
-    note_count(import, repairs.morph_targets,
-               "primitives with morph targets: the targets are ignored");
+    note_count(import, skinned, "skinned node",
+               ": skins are ignored, and meshes shown undeformed");
+    note_count(import, repairs.negative_colors, "component",
+               " of vertex colours below 0: set to 0");
+    note_count(import, repairs.textures_without_image, "texture",
+               " without a PNG, JPEG or WebP image: materials are shown without");
+    note_count(import, repairs.morph_targets, "primitive",
+               " with morph targets: the targets are ignored");
     note_left_out(import, repairs.point_primitives, repairs.points, "points");
     note_left_out(import, repairs.line_primitives, repairs.lines, "lines");
-    note_count(import, repairs.no_position, "primitives without POSITION are ignored");
-    note_count(import, repairs.further_vertex_colors,
-               "primitives with more than one set of vertex colours: only COLOR_0 is used");
-    note_count(import, repairs.further_uv_sets,
-               "primitives with more than two sets of texture coordinates: only TEXCOORD_0 and "
-               "TEXCOORD_1 are used");
-    note_count(import, repairs.missing_uv_sets,
-               "textured primitives lack the texture coordinates that their material reads: 0, 0 "
-               "is used");
-    note_count(import, repairs.trailing_indices,
-               "vertices at the end of a triangle list do not make a whole triangle and are "
-               "ignored");
-    note_count(import, repairs.normals_missing_primitives,
-               "primitives have no normals: they are shaded flat");
-    note_count(import, repairs.normals_scaled, "normals were not of unit length and were scaled");
-    note_count(import, repairs.normals_zero,
-               "normals had no length and were replaced by those of the triangles around them");
-    note_count(import, repairs.tangents_scaled,
-               "tangents were not of unit length, or had no sign, and were repaired");
-    note_count(import, repairs.tangents_without_uv,
-               "primitives need tangents but have no texture coordinates: arbitrary tangents are "
-               "used");
-    note_count(import, repairs.rotations_scaled,
-               "node rotations were not unit quaternions and were scaled");
+    note_count(import, repairs.no_position, "primitive", " without POSITION: ignored");
+    note_count(import, repairs.further_vertex_colors, "primitive",
+               " with more than one set of vertex colours: only COLOR_0 is used");
+    note_count(import, repairs.further_uv_sets, "primitive",
+               " with more than two sets of texture coordinates: only TEXCOORD_0 and TEXCOORD_1 "
+               "are used");
+    note_count(import, repairs.missing_uv_sets, "textured primitive",
+               " without the texture coordinates that the material reads: 0, 0 is used");
+    note_count(import, repairs.trailing_indices, "corner",
+               " left over at the end of a triangle list: ignored");
+    note_count(import, repairs.normals_missing_primitives, "primitive",
+               " without normals: shaded flat");
+    note_count(import, repairs.normals_scaled, "normal", " not of unit length: scaled");
+    note_count(import, repairs.normals_zero, "normal",
+               " without length: replaced by those of the triangles around");
+    note_count(import, repairs.tangents_scaled, "tangent",
+               " not of unit length, or without a sign: repaired");
+    note_count(import, repairs.tangents_without_uv, "primitive",
+               " without the texture coordinates that tangents need: arbitrary tangents are used");
+    note_count(import, repairs.rotations_scaled, "node rotation",
+               " by other than a unit quaternion: scaled");
 }
 
 } // namespace lsf

@@ -64,7 +64,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     else
         lsf_plan_omit(plan, "ray_bundle_bounds", "bundles hold the whole scene");
     lsf_plan_pass_add(plan, "ray_bundle_build", "every fragment of the scene along %u direction%s",
-                      use->count, use->count == 1 ? "" : "s");
+                      use->count, lsf_plural(use->count));
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
     lsf_scene_gpu_material_switches(plan, lsf_ray_bundle_has_gloss(plan) && !use->distances_only,

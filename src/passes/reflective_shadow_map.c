@@ -109,7 +109,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
         r->specular && (r->anisotropic || r->glossy || r->variable_ior || plan->transmission);
     uint32_t most_faces = 1;
     lsf_plan_pass_add(plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
-                      state->light_count, state->light_count == 1 ? "" : "s",
+                      state->light_count, lsf_plural(state->light_count),
                       plan->sky_lights > 0 && r->environment_map ? " and directions of the environment" : "");
     lsf_scene_gpu_material_switches(plan, gloss, false);
     lsf_scene_gpu_fold_lobes(plan);

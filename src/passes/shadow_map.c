@@ -69,7 +69,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     for (uint32_t i = 0; i < state->light_count; i++)
         needed[lsf_light_map_kind_of(&state->lights[i])] = true;
     lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s%s see", state->light_count,
-                      state->light_count == 1 ? "" : "s",
+                      lsf_plural(state->light_count),
                       plan->sky_lights > 0 ? " and directions of the environment" : "");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", params->filter == LSF_SHADOW_FILTER_NONE,
                         "shadow.filter is none: planes are compared");

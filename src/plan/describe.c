@@ -20,8 +20,11 @@ static void describe_text(const lsf_plan *plan, lsf_string *out)
     if (plan->samples == UINT32_MAX)
         lsf_string_add(out, "as many iterations as the time limit allows");
     else
-        lsf_string_add(out, "%u iterations", plan->samples);
-    lsf_string_add(out, ", %u bounces\n", plan->bounces);
+        lsf_string_add(out, "%u iteration%s", plan->samples, lsf_plural(plan->samples));
+    if (plan->bounces > 0)
+        lsf_string_add(out, ", %u bounce%s\n", plan->bounces, lsf_plural(plan->bounces));
+    else
+        lsf_string_add(out, ", no bounces\n");
     lsf_string_add(out, "\npasses, in order\n");
     for (uint64_t i = 0; i < plan->pass_count; i++) {
         const lsf_plan_pass *pass = &plan->passes[i];

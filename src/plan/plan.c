@@ -130,6 +130,11 @@ void lsf_plan_destroy(lsf_plan *plan)
     free(plan);
 }
 
+uint32_t lsf_plan_bounces(const lsf_plan *plan)
+{
+    return plan->bounces;
+}
+
 uint64_t lsf_plan_bytes(const lsf_plan *plan)
 {
     uint64_t bytes = 0;

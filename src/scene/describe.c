@@ -221,8 +221,8 @@ static void describe_json(lsf_string *out, const lsf_scene *scene)
 static void add_images_text(lsf_string *out, const lsf_scene *scene)
 {
     static const int bits[] = {8, 16, 32};
-    lsf_string_add(out, "textures     %u, from %u images\n", scene->texture_count,
-                   scene->image_count);
+    lsf_string_add(out, "textures     %u, from %u image%s\n", scene->texture_count,
+                   scene->image_count, lsf_plural(scene->image_count));
     for (uint32_t i = 0; i < scene->image_count; i++) {
         const lsf_texture_image *image = &scene->images[i];
         lsf_string_add(out, "             %u x %u, %u x %d bit  %s\n", image->width, image->height,
@@ -260,12 +260,13 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
     const lsf_requirements *r = &scene->requirements;
     lsf_string_add(out, "%s\n", scene->path);
     lsf_string_add(out, "nodes        %u\n", scene->node_count);
-    lsf_string_add(out, "meshes       %u, %u primitives, %u instances\n", scene->mesh_count,
-                   scene->primitive_count, scene->instance_count);
-    lsf_string_add(out, "triangles    %llu, %llu of them stored, %llu of those without area, %llu vertices\n",
+    lsf_string_add(out, "meshes       %u, %u primitive%s, %u instance%s\n", scene->mesh_count,
+                   scene->primitive_count, lsf_plural(scene->primitive_count),
+                   scene->instance_count, lsf_plural(scene->instance_count));
+    lsf_string_add(out, "triangles    %llu, %llu of them stored, %llu of those without area\n",
                    (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
-                   (unsigned long long)r->degenerate_triangles,
-                   (unsigned long long)r->vertices);
+                   (unsigned long long)r->degenerate_triangles);
+    lsf_string_add(out, "vertices     %llu\n", (unsigned long long)r->vertices);
     lsf_string_add(out, "materials    %u in use\n", r->materials);
     add_images_text(out, scene);
     lsf_string_add(out, "lights       %u point, %u spot, %u directional\n",
@@ -295,8 +296,8 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
         lsf_string_add(out, "extension    %s, %s\n", scene->extensions[i].name,
                        kind_of(&scene->extensions[i]));
     if (scene->channel_count > 0)
-        lsf_string_add(out, "animated     %u channels, %.9g s\n", scene->channel_count,
-                       animation_duration(scene));
+        lsf_string_add(out, "animated     %u channel%s, %.9g s\n", scene->channel_count,
+                       lsf_plural(scene->channel_count), animation_duration(scene));
     if (r->bounds_min[0] <= r->bounds_max[0])
         lsf_string_add(out, "bounds       %.9g %.9g %.9g to %.9g %.9g %.9g\n", r->bounds_min[0],
                        r->bounds_min[1], r->bounds_min[2], r->bounds_max[0], r->bounds_max[1],

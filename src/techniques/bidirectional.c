@@ -535,6 +535,7 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
 const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",
     .help = "global illumination by ray-bundles and virtual point lights, combined by MIS",
+    .bounces = true,
     .plan = lsf_bidirectional_plan,
     .create = create_bidirectional,
     .run = run_bidirectional,

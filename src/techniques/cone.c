@@ -298,6 +298,7 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
 const lsf_technique lsf_technique_cone = {
     .name = "cone",
     .help = "global illumination by cones through voxels",
+    .bounces = true,
     .draws_lobes = true,
     .plan = plan_cone,
     .create = create_cone,

@@ -39,8 +39,6 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
     if (r->environment && plan->sky_lights == 0)
         lsf_plan_remark(plan, "environment.directions=0: the environment is seen, but lights "
                               "nothing");
-    if (plan->bounces > plan->requirements.bounces)
-        lsf_plan_remark(plan, "the direct technique has no bounces; %u asked for", plan->bounces);
     if (plan->aovs & (LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR))
         lsf_plan_remark(plan, "the direct technique has no indirect light; its layers are black");
 }

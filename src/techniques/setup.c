@@ -99,8 +99,9 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     plan->width = params->width;
     plan->height = params->height;
     plan->samples = params->samples;
-    plan->bounces =
-        params->bounces == LSF_BOUNCES_AUTO ? plan->requirements.bounces : params->bounces;
+    bool by_scene = params->bounces == LSF_BOUNCES_AUTO;
+    if (technique && technique->bounces)
+        plan->bounces = by_scene ? plan->requirements.bounces : params->bounces;
     plan->aovs = params->aovs;
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
@@ -108,9 +109,12 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     plan->background = lsf_background_resolve(scene, params);
     lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);
-    if (params->bounces == LSF_BOUNCES_AUTO && plan->requirements.transmissive)
+    if (by_scene && plan->bounces > 0 && plan->requirements.transmissive)
         lsf_plan_remark(plan, "%u bounces, for light takes one to cross each side of a wall of glass",
                         plan->bounces);
+    if (!by_scene && params->bounces > plan->bounces)
+        lsf_plan_remark(plan, "the %s technique has no bounces; %u asked for", params->technique,
+                        params->bounces);
     if (setup->tessellated)
         lsf_plan_remark(plan, "tessellation.factor=%d: %llu triangles became %llu",
                         setup->pass_params.tessellation.factor,

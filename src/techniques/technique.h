@@ -75,6 +75,7 @@ typedef struct lsf_pass_report {
 
 typedef struct lsf_technique {
     const char *name, *help;
+    bool bounces; /* follows light from surface to surface, as often as the plan's bounces say */
     bool
         refracts; /* scatters and refracts light that surfaces transmit; else it goes straight on */
     bool draws_lobes; /* finds the environment by rays drawn from the BRDF, which suit a uniform one

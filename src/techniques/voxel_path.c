@@ -212,6 +212,7 @@ static uint32_t report_voxel_path(void *self, lsf_pass_report reports[LSF_TECHNI
 const lsf_technique lsf_technique_voxel_path = {
     .name = "voxel_path",
     .help = "global illumination by paths through the scene's voxels, blurred and upsampled",
+    .bounces = true,
     .refracts = true,
     .draws_lobes = true,
     .plan = plan_voxel_path,

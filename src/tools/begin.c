@@ -39,6 +39,8 @@ int lsf_tool_begin(lsf_settings *settings, lsf_command_bit command, int argc, ch
     int status = LSF_GO_ON;
     if (add_answer(&text, settings))
         status = lsf_file_write("-", text.text, text.length, &error) ? 0 : lsf_report_error(&error);
+    else if (settings->json_path && !lsf_file_can_write(settings->json_path, &error))
+        status = lsf_report_error(&error);
     free(text.text);
     return status;
 }
@@ -85,4 +87,12 @@ lsf_scene *lsf_tool_load_scene(const lsf_settings *settings, char **path, double
     lsf_scene *scene = *path ? lsf_scene_load(*path, &params, error) : NULL;
     *seconds = lsf_now() - start;
     return scene;
+}
+
+bool lsf_tool_print(const char *path, char *text, lsf_error *error)
+{
+    bool good = text ? lsf_file_write(path, text, strlen(text), error)
+                     : lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    free(text);
+    return good;
 }

@@ -17,4 +17,8 @@ char *lsf_tool_scene_path(const lsf_settings *settings, lsf_error *error);
 lsf_scene *lsf_tool_load_scene(const lsf_settings *settings, char **path, double *seconds,
                                lsf_error *error);
 
+/* Writes a malloc'ed text, which it frees, to a file, or to standard output by "-"; NULL: there was
+ * no memory for it. */
+bool lsf_tool_print(const char *path, char *text, lsf_error *error);
+
 #endif

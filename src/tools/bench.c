@@ -28,7 +28,7 @@ static const char *next_measurement(size_t index, void *user)
 
 bool lsf_bench_print(const lsf_bench *bench, lsf_error *error, const char *format, ...)
 {
-    if (bench->settings.print_json || bench->settings.quiet)
+    if (lsf_settings_print_json(&bench->settings) || bench->settings.quiet)
         return true;
     va_list arguments;
     va_start(arguments, format);
@@ -69,11 +69,8 @@ static void begin_json(lsf_bench *bench, const char *measurement)
 
 static bool end_json(lsf_bench *bench, lsf_error *error)
 {
-    lsf_string *text = &bench->json.text;
     lsf_json_end(&bench->json, '}');
-    if (text->failed)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
-    return !bench->settings.print_json || lsf_file_write("-", text->text, text->length, error);
+    return lsf_json_write(&bench->json, bench->settings.json_path, error);
 }
 
 static bool run(lsf_bench *bench, lsf_error *error)

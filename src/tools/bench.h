@@ -21,7 +21,7 @@ bool lsf_bench_bidirectional(lsf_bench *bench, lsf_error *error);
 bool lsf_bench_cone(lsf_bench *bench, lsf_error *error);
 bool lsf_bench_voxel_path(lsf_bench *bench, lsf_error *error);
 
-/* A part of the text, on standard output at once; nothing with --json or --quiet. */
+/* A part of the text, on standard output at once; nothing with --json - or --quiet. */
 bool lsf_bench_print(const lsf_bench *bench, lsf_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -97,8 +97,9 @@ static bool measure(measured *m, const lsf_bench *bench, lsf_error *error)
 static bool print(const measured *m, const lsf_bench *bench, size_t frame, lsf_error *error)
 {
     bool good =
-        lsf_bench_print(bench, error, "%s%ux%u, %u bounces, mean of %u frames\n", frame ? "\n" : "",
-                        m->params.width, m->params.height, m->params.bounces, m->count);
+        lsf_bench_print(bench, error, "%s%ux%u, %u bounce%s, mean of %u frame%s\n",
+                        frame ? "\n" : "", m->params.width, m->params.height, m->params.bounces,
+                        lsf_plural(m->params.bounces), m->count, lsf_plural(m->count));
     for (uint32_t i = 0; good && i < m->params.option_count; i++)
         good = lsf_bench_print(bench, error, "%s%s", i ? " " : "", m->options[i]);
     return good && lsf_bench_print(bench, error, "\n\n") &&

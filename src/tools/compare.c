@@ -218,13 +218,16 @@ static bool print_result(const session *s, const lsf_settings *settings, bool pa
                          lsf_error *error)
 {
     lsf_json json = {0};
-    if (settings->print_json)
-        add_json(&json, s, settings, passed);
-    else if (!settings->quiet)
-        add_text(&json.text, s, settings);
-    bool good = !json.text.failed || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
-    good = good && lsf_file_write("-", json.text.text, json.text.length, error);
+    add_json(&json, s, settings, passed);
+    bool good = lsf_json_write(&json, settings->json_path, error);
     free(json.text.text);
+    if (!good || settings->quiet || lsf_settings_print_json(settings))
+        return good;
+    lsf_string text = {0};
+    add_text(&text, s, settings);
+    good = !text.failed || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    good = good && lsf_file_write("-", text.text, text.length, error);
+    free(text.text);
     return good;
 }
 

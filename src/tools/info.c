@@ -3,20 +3,17 @@
 #include "tools/report.h"
 #include "tools/tools.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 static bool print_scene(const lsf_settings *settings, lsf_error *error)
 {
     lsf_scene_params params = lsf_settings_scene_params(settings);
     lsf_scene *scene = lsf_scene_load(settings->operands.items[0], &params, error);
     if (!scene)
         return false;
-    char *text = lsf_scene_describe(scene, settings->print_json);
-    bool good = text ? lsf_file_write("-", text, strlen(text), error)
-                     : lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left",
-                                     settings->operands.items[0]);
-    free(text);
+    bool good = true;
+    if (!lsf_settings_print_json(settings))
+        good = lsf_tool_print("-", lsf_scene_describe(scene, false), error);
+    if (good && settings->json_path)
+        good = lsf_tool_print(settings->json_path, lsf_scene_describe(scene, true), error);
     lsf_scene_destroy(scene);
     return good;
 }

@@ -72,3 +72,12 @@ void lsf_json_vector(lsf_json *json, const char *name, const float *values, uint
     }
     lsf_string_add_bytes(&json->text, "]", 1);
 }
+
+bool lsf_json_write(const lsf_json *json, const char *path, lsf_error *error)
+{
+    if (!path)
+        return true;
+    if (json->text.failed)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "--json %s: no memory left", path);
+    return lsf_file_write(path, json->text.text, json->text.length, error);
+}

@@ -9,7 +9,6 @@
 #define LOADING (PLANNING | LSF_COMMAND_INFO)
 #define STAGING (PLANNING | LSF_COMMAND_BENCH)
 #define DRAWING (RENDERING | LSF_COMMAND_BENCH)
-#define PRINTING (LSF_COMMAND_INFO | LSF_COMMAND_PLAN | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH)
 #define ANY (LOADING | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH | LSF_COMMAND_HELP)
 
 static const lsf_command commands[] = {
@@ -80,10 +79,10 @@ static const lsf_command_option options[] = {
      "layers beside the picture, separated by commas: albedo, normal, depth, emission, direct, "
      "indirect_diffuse, indirect_specular, motion, or all of these; of voxels: voxel_albedo, "
      "voxel_normal, voxel_radiance; for .exr"},
-    {"json", 0, "FILE", RENDERING, "Output", LSF_VALUE_TEXT, AT(json_path), 0, 0, NULL, NULL,
-     "write options, device, times, bytes and counts as JSON; - is standard output"},
-    {"json", 0, NULL, PRINTING, "Output", LSF_VALUE_FLAG, AT(print_json), 0, 0, NULL, NULL,
-     "print JSON instead of text"},
+    {"json", 0, "FILE", LOADING | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH, "Output", LSF_VALUE_JSON,
+     AT(json_path), 0, 0, NULL, NULL,
+     "write as JSON what is found, decided and measured; - is standard output, where it takes the "
+     "place of text"},
     {"halves", 0, NULL, LSF_COMMAND_REFERENCE, "Output", LSF_VALUE_FLAG, AT(halves), 0, 0, NULL,
      NULL,
      "take --samples twice, independently: out_a.exr and out_b.exr beside out.exr, which holds "
@@ -233,6 +232,8 @@ char *lsf_command_option_range(const lsf_command_option *option)
     case LSF_VALUE_TEXT:
     case LSF_VALUE_TEXTS:
         return lsf_format("a text that is not empty");
+    case LSF_VALUE_JSON:
+        return lsf_format("a file such as report.json, or - for standard output");
     case LSF_VALUE_CHOICE:
         return lsf_format("one of %s", option->choices);
     case LSF_VALUE_TECHNIQUE:

@@ -42,6 +42,7 @@ typedef enum lsf_value_type {
     LSF_VALUE_RESOLUTION,  /* uint32_t[2], each in minimum..maximum */
     LSF_VALUE_TEXT,        /* const char *, not empty */
     LSF_VALUE_TEXTS,       /* lsf_list_setting of texts, not empty */
+    LSF_VALUE_JSON,        /* const char *, a path that is not a picture's or a scene's */
     LSF_VALUE_CHOICE,      /* int: minimum + index in `choices` */
     LSF_VALUE_TECHNIQUE,   /* const char *, registered */
     LSF_VALUE_AOVS,        /* uint32_t, lsf_aov bits */
@@ -105,8 +106,7 @@ typedef struct lsf_settings {
     lsf_list_setting operands;
 
     bool help, version, list_options, list_techniques, quiet, verbose;
-    bool print_json;       /* info, plan, compare, bench: JSON on stdout */
-    const char *json_path; /* render, reference; NULL: none */
+    const char *json_path; /* "-": standard output; NULL: none */
 
     const char *output; /* NULL: not given */
     int format;         /* lsf_image_format */
@@ -157,6 +157,9 @@ void lsf_settings_finish(lsf_settings *settings);
 
 /* Whether the option of that long name was on the command line. */
 bool lsf_settings_given(const lsf_settings *settings, const char *name);
+
+/* Whether JSON goes to standard output, where text would go else. */
+bool lsf_settings_print_json(const lsf_settings *settings);
 
 /* What the library's calls take; the results borrow from `settings`. */
 lsf_render_params lsf_settings_render_params(const lsf_settings *settings);

@@ -35,16 +35,6 @@ static lsf_image_format format_of(const char *path)
     return LSF_IMAGE_FORMAT_AUTO;
 }
 
-/* Goes as far as one can without touching the file that may be there already. */
-static bool check_writable(const char *path, lsf_error *error)
-{
-    lsf_atomic_file file;
-    if (!lsf_atomic_file_begin(&file, path, error))
-        return false;
-    lsf_atomic_file_abort(&file);
-    return true;
-}
-
 static bool check_format(lsf_destination *destination, const lsf_settings *settings,
                          lsf_error *error)
 {
@@ -89,7 +79,7 @@ static bool check_halves(lsf_destination *destination, lsf_error *error)
             lsf_format("%.*s_%c%s", (int)stem, path, 'a' + half, path + stem);
         if (!destination->half_paths[half])
             return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", path);
-        if (!check_writable(destination->half_paths[half], error))
+        if (!lsf_file_can_write(destination->half_paths[half], error))
             return false;
     }
     return true;
@@ -104,7 +94,7 @@ static bool check_json(const lsf_destination *destination, const char *json, lsf
     if (same)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--json %s: the picture goes there; give it another place", json);
-    return strcmp(json, "-") == 0 || check_writable(json, error);
+    return true;
 }
 
 bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *settings,
@@ -120,7 +110,7 @@ bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *s
                              ".png, or - for standard output");
     if (!check_format(destination, settings, error))
         return false;
-    if (strcmp(destination->path, "-") != 0 && !check_writable(destination->path, error))
+    if (!lsf_file_can_write(destination->path, error))
         return false;
     if (settings->halves && !check_halves(destination, error))
         return false;
@@ -148,6 +138,37 @@ void lsf_destination_expose(lsf_destination *destination, const lsf_image *image
                     destination->path, (double)destination->exposure);
 }
 
+void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64_t seen,
+                                      uint64_t pixels)
+{
+    bool exposed = destination->format == LSF_IMAGE_FORMAT_PNG;
+    if (100 * seen < pixels)
+        lsf_log(LSF_LOG_WARNING,
+                "%s: nearly black: less than 1 in 100 pixels shows more than 1 %% of white%s; "
+                "%s--default-light always lights the rest",
+                destination->path, exposed ? "" : ", a radiance of 0.01",
+                exposed ? "--exposure auto brightens what is lit, " : "");
+}
+
+/* Pixels that surfaces cover, and those of them that show more than 1 % of white. */
+static void look_for_darkness(const lsf_destination *destination, const lsf_image *image)
+{
+    int rgb[3] = {lsf_image_channel(image, "R"), lsf_image_channel(image, "G"),
+                  lsf_image_channel(image, "B")};
+    int alpha = lsf_image_channel(image, "A");
+    bool exposed = destination->format == LSF_IMAGE_FORMAT_PNG;
+    float least = 0.01f * exp2f(exposed ? -destination->exposure : 0.0f);
+    uint64_t covered = 0, seen = 0;
+    for (uint64_t i = 0; i < (uint64_t)image->width * image->height; i++) {
+        const float *pixel = image->pixels + i * image->channel_count;
+        if (alpha >= 0 && !(pixel[alpha] > 0.0f))
+            continue;
+        covered++;
+        seen += pixel[rgb[0]] > least || pixel[rgb[1]] > least || pixel[rgb[2]] > least;
+    }
+    lsf_destination_warn_of_darkness(destination, seen, covered);
+}
+
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
                           lsf_error *error)
 {
@@ -155,6 +176,10 @@ bool lsf_destination_save(const lsf_destination *destination, int half, const ls
     params.format = destination->format;
     params.exposure = destination->exposure;
     params.curve = destination->curve;
-    return lsf_image_save(image, half < 0 ? destination->path : destination->half_paths[half],
-                          &params, error);
+    if (!lsf_image_save(image, half < 0 ? destination->path : destination->half_paths[half],
+                        &params, error))
+        return false;
+    if (half < 0)
+        look_for_darkness(destination, image);
+    return true;
 }

@@ -22,7 +22,12 @@ void lsf_destination_finish(lsf_destination *destination);
  */
 void lsf_destination_expose(lsf_destination *destination, const lsf_image *image);
 
-/* `half` -1: the picture itself; 0 and 1: its halves. */
+/* Says so when fewer than one in a hundred `pixels` are `seen` to show more than 1 % of white: such a
+ * picture looks as if something had gone wrong. */
+void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64_t seen,
+                                      uint64_t pixels);
+
+/* `half` -1: the picture itself, which it looks at for darkness; 0 and 1: its halves. */
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
                           lsf_error *error);
 

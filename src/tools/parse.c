@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 enum { MOST_OPTIONS = 128, FIRST_LONG_VALUE = 256 };
@@ -77,6 +78,18 @@ static bool set_choice(int *place, const lsf_command_option *option, const char 
             return false;
         choice += length + 1;
     }
+}
+
+/* What stands behind --json without a thought of its value is a scene or a picture. */
+static bool set_json(const char **place, const char *text)
+{
+    static const char *const others[] = {".gltf", ".glb", ".exr", ".hdr", ".png", ".jpg"};
+    const char *ending = strrchr(text, '.');
+    for (size_t i = 0; ending && i < LSF_COUNT(others); i++)
+        if (strcasecmp(ending, others[i]) == 0)
+            return false;
+    *place = text;
+    return *text != '\0';
 }
 
 static bool set_resolution(uint32_t *place, const lsf_command_option *option, const char *text)
@@ -243,6 +256,9 @@ static bool set_value(lsf_settings *settings, const lsf_command_option *option, 
         good = *text != '\0';
         if (good)
             *(const char **)place = text;
+        break;
+    case LSF_VALUE_JSON:
+        good = set_json(place, text);
         break;
     case LSF_VALUE_TEXTS:
         return *text ? append_value(place, option, text, error)
@@ -505,6 +521,11 @@ bool lsf_settings_given(const lsf_settings *settings, const char *name)
             (settings->given[i / 64] >> i % 64 & 1))
             return true;
     return false;
+}
+
+bool lsf_settings_print_json(const lsf_settings *settings)
+{
+    return settings->json_path && strcmp(settings->json_path, "-") == 0;
 }
 
 /* --- what the library takes --- */

@@ -4,7 +4,6 @@
 #include "tools/tools.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static bool print_plan(const lsf_settings *settings, lsf_error *error)
 {
@@ -14,17 +13,14 @@ static bool print_plan(const lsf_settings *settings, lsf_error *error)
     lsf_scene_params scene_params = lsf_settings_scene_params(settings);
     lsf_render_params params = lsf_settings_render_params(settings);
     lsf_plan *plan = NULL;
-    char *text = NULL;
-    bool good = false;
     lsf_scene *scene = lsf_scene_load(path, &scene_params, error);
     if (scene)
         plan = lsf_plan_create(scene, &params, error);
-    if (plan) {
-        text = lsf_plan_describe(plan, settings->print_json);
-        good = text ? lsf_file_write("-", text, strlen(text), error)
-                    : lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", path);
-    }
-    free(text);
+    bool good = plan != NULL;
+    if (good && !lsf_settings_print_json(settings))
+        good = lsf_tool_print("-", lsf_plan_describe(plan, false), error);
+    if (good && settings->json_path)
+        good = lsf_tool_print(settings->json_path, lsf_plan_describe(plan, true), error);
     lsf_plan_destroy(plan);
     lsf_scene_destroy(scene);
     free(path);

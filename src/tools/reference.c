@@ -123,11 +123,11 @@ static bool report(reference_job *job, lsf_error *error)
     };
     uint32_t samples = a->samples + b->samples;
     uint32_t bounces = lsf_summary_bounces(&job->settings, job->scene);
-    lsf_report_line("%s: %ux%u, %u samples%s, %u bounce%s, traced in %.2f s of %.2f s, %.1f million rays",
+    lsf_report_line("%s: %ux%u, %u sample%s%s, %u bounce%s, traced in %.2f s of %.2f s, %.1f "
+                    "million rays",
                     job->destination.path, job->halves[0]->width, job->halves[0]->height, samples,
-                    lsf_interrupted() ? " (interrupted)" : "",
-                    bounces, bounces == 1 ? "" : "s",
-                    a->render_seconds + b->render_seconds, total,
+                    lsf_plural(samples), lsf_interrupted() ? " (interrupted)" : "", bounces,
+                    lsf_plural(bounces), a->render_seconds + b->render_seconds, total,
                     1e-6 * (double)(a->rays + b->rays));
     lsf_summary summary = {
         .settings = &job->settings,
@@ -136,6 +136,7 @@ static bool report(reference_job *job, lsf_error *error)
         .output = job->destination.path,
         .half_paths = job->mean ? (const char *const *)job->destination.half_paths : NULL,
         .technique = "path tracing",
+        .bounces = bounces,
         .samples = samples,
         .interrupted = lsf_interrupted(),
         .exposure = job->destination.exposure,

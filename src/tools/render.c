@@ -6,6 +6,7 @@
 #include "tools/summary.h"
 #include "tools/tools.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct render_job {
@@ -68,18 +69,13 @@ static bool save_float(render_job *job, lsf_error *error)
     return good;
 }
 
-/* A picture of which less than one pixel in a hundred shows more than 1 % of white, code value 25,
- * looks as if something had gone wrong. */
-static void warn_of_darkness(const char *path, const uint8_t *rgb, uint64_t pixels)
+/* Code value 25 is 1 % of white. */
+static uint64_t count_seen(const uint8_t *rgb, uint64_t pixels)
 {
     uint64_t seen = 0;
     for (const uint8_t *p = rgb; p < rgb + 3 * pixels; p += 3)
         seen += p[0] > 25 || p[1] > 25 || p[2] > 25;
-    if (100 * seen < pixels)
-        lsf_log(LSF_LOG_WARNING,
-                "%s: nearly black: less than 1 in 100 pixels shows more than 1 %% of white; "
-                "--exposure auto brightens what is lit, --default-light always lights the rest",
-                path);
+    return seen;
 }
 
 /* Tone-mapped on the GPU: only the bytes of the file come back. */
@@ -94,7 +90,9 @@ static bool save_rgb8(render_job *job, lsf_error *error)
                                   rgb, error) &&
            lsf_image_save_rgb8(rgb, width, height, job->destination.path, error);
     if (good)
-        warn_of_darkness(job->destination.path, rgb, (uint64_t)width * height);
+        lsf_destination_warn_of_darkness(&job->destination,
+                                         count_seen(rgb, (uint64_t)width * height),
+                                         (uint64_t)width * height);
     if (good && job->stats.lost_pixels > 0) /* lsf_image_save says so by itself */
         lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination.path,
                 (unsigned long long)job->stats.lost_pixels, (unsigned long long)width * height);
@@ -116,7 +114,7 @@ static bool report(render_job *job, lsf_error *error)
 {
     lsf_context_info device = lsf_context_get_info(job->context);
     double total = lsf_now() - job->start;
-    uint32_t bounces = lsf_summary_bounces(&job->settings, job->scene);
+    uint32_t bounces = lsf_plan_bounces(lsf_renderer_plan(job->renderer));
     const lsf_summary_seconds seconds[] = {
         {"load", job->load_seconds},
         {"context", job->context_seconds},
@@ -126,12 +124,13 @@ static bool report(render_job *job, lsf_error *error)
         {"save", job->save_seconds},
         {"total", total},
     };
-    lsf_report_line("%s: %ux%u, %u samples%s of %s with %u bounce%s, rendered in %.2f s of %.2f s on "
-                    "%s",
+    char light[32] = "";
+    if (bounces > 0)
+        snprintf(light, sizeof light, " with %u bounce%s", bounces, lsf_plural(bounces));
+    lsf_report_line("%s: %ux%u, %u sample%s%s of %s%s, rendered in %.2f s of %.2f s on %s",
                     job->destination.path, job->settings.resolution[0], job->settings.resolution[1],
-                    job->stats.samples, lsf_interrupted() ? " (interrupted)" : "",
-                    job->settings.technique, bounces,
-                    bounces == 1 ? "" : "s",
+                    job->stats.samples, lsf_plural(job->stats.samples),
+                    lsf_interrupted() ? " (interrupted)" : "", job->settings.technique, light,
                     job->stats.render_seconds, total, device.renderer);
     if (job->stats.lost_share > 0.0)
         lsf_report_line("%s: bounds took %.3g %% of the light away", job->destination.path,
@@ -142,6 +141,7 @@ static bool report(render_job *job, lsf_error *error)
         .scene_path = job->scene_path,
         .output = job->destination.path,
         .technique = job->settings.technique,
+        .bounces = bounces,
         .samples = job->stats.samples,
         .interrupted = lsf_interrupted(),
         .exposure = job->destination.exposure,

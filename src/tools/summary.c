@@ -160,7 +160,7 @@ static void add_summary(lsf_json *json, const lsf_summary *summary)
     }
     lsf_json_string(json, "technique", summary->technique);
     lsf_json_integer(json, "seed", settings->seed);
-    lsf_json_integer(json, "bounces", lsf_summary_bounces(settings, summary->scene));
+    lsf_json_integer(json, "bounces", summary->bounces);
     lsf_json_vector(json, "resolution",
                     (float[]){(float)settings->resolution[0], (float)settings->resolution[1]}, 2);
     lsf_json_integer(json, "samples", summary->samples);
@@ -195,14 +195,9 @@ static void add_summary(lsf_json *json, const lsf_summary *summary)
 
 bool lsf_summary_write(const lsf_summary *summary, lsf_error *error)
 {
-    const char *path = summary->settings->json_path;
-    if (!path)
-        return true;
     lsf_json json = {0};
     add_summary(&json, summary);
-    bool good = !json.text.failed
-                    ? lsf_file_write(path, json.text.text, json.text.length, error)
-                    : lsf_error_set(error, LSF_ERROR_RENDER, "--json %s: no memory left", path);
+    bool good = lsf_json_write(&json, summary->settings->json_path, error);
     free(json.text.text);
     return good;
 }

@@ -12,7 +12,7 @@ EMBREE = "reference" in os.environ["LSF_MODULES"]
 @unittest.skipUnless(EMBREE, "built without Embree")
 class Rays(CommandTest):
     def test_json(self):
-        done = self.run_command("bench", "rays", CORNELL, "-r", "64,48", "-s", "2", "--json")
+        done = self.run_command("bench", "rays", CORNELL, "-r", "64,48", "-s", "2", "--json", "-")
         report = json.loads(done.stdout)
         self.assertEqual((report["command"], report["measurement"]), ("bench", "rays"))
         self.assertEqual(report["scene"], CORNELL)
@@ -39,7 +39,7 @@ class Rays(CommandTest):
 
     def test_tessellated(self):
         """Bundles and Embree see the same surface: the options of passes count for both."""
-        done = self.run_command("bench", "rays", self.glossy(), "-r", "64,48", "-s", "1", "--json",
+        done = self.run_command("bench", "rays", self.glossy(), "-r", "64,48", "-s", "1", "--json", "-",
                                 "-D", "tessellation.factor=3")
         self.assertGreater(json.loads(done.stdout)["rows"][0]["agreement"], 0.95)
 
@@ -57,7 +57,7 @@ class Bidirectional(CommandTest):
              "interleave.size=2", "-D", "bundle.count=4")
 
     def test_json(self):
-        done = self.run_command("bench", "bidirectional", CORNELL, "--json", *self.SMALL)
+        done = self.run_command("bench", "bidirectional", CORNELL, "--json", "-", *self.SMALL)
         report = json.loads(done.stdout)
         self.assertEqual(report["measurement"], "bidirectional")
         self.assertEqual((report["screen"], report["supersampling"]), ([16, 12], 2))
@@ -81,7 +81,7 @@ class Bidirectional(CommandTest):
         self.assertRegex(text, r"(?m)^Total +[\d.]+ +77\.8$")
 
     def test_triangles_of_the_paper(self):
-        done = self.run_command("bench", "bidirectional", "--json", "-r", "4,4", "-s", "1", "-D",
+        done = self.run_command("bench", "bidirectional", "--json", "-", "-r", "4,4", "-s", "1", "-D",
                                 "vpl.count=1", "-D", "bundle.count=1", "-D", "interleave.size=1")
         triangles = json.loads(done.stdout)["triangles"]
         self.assertGreater(triangles, 174e3 / 2)
@@ -92,7 +92,7 @@ class Cone(CommandTest):
     SMALL = ("-r", "24,16", "-s", "1", "-D", "voxel.resolution=16")
 
     def test_json(self):
-        done = self.run_command("bench", "cone", CORNELL, "--json", *self.SMALL)
+        done = self.run_command("bench", "cone", CORNELL, "--json", "-", *self.SMALL)
         report = json.loads(done.stdout)
         self.assertEqual((report["measurement"], report["screen"]), ("cone", [24, 16]))
         self.assertEqual(report["options"][-1], "voxel.resolution=16")
@@ -111,7 +111,7 @@ class VoxelPath(CommandTest):
     SMALL = ("-r", "24,16", "-s", "1", "-D", "voxel.resolution=16")
 
     def test_json(self):
-        done = self.run_command("bench", "voxel_path", CORNELL, "--json", *self.SMALL)
+        done = self.run_command("bench", "voxel_path", CORNELL, "--json", "-", *self.SMALL)
         report = json.loads(done.stdout)
         self.assertEqual(report["measurement"], "voxel_path")
         self.assertEqual(len(report["measured"]), 2)

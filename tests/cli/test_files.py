@@ -16,8 +16,10 @@ class Outputs(CommandTest):
     def test_folder_in_place_of_a_file(self):
         os.mkdir(self.path("a.exr"))
         self.refuse("render", "missing.gltf", "-o", "a.exr", status=FILE, says=["a.exr", "folder"])
-        self.refuse("render", "missing.gltf", "-o", "b.exr", "--json", "a.exr", status=FILE,
-                    says=["a.exr"])
+        os.mkdir(self.path("a.json"))
+        for words in (["render", "-o", "b.exr"], ["info"], ["plan"], ["bench", "rays"]):
+            self.refuse(*words, "missing.gltf", "--json", "a.json", status=FILE, says=["a.json"])
+        self.refuse("compare", "a.exr", "b.exr", "--json", "a.json", status=FILE, says=["a.json"])
 
     def test_file_in_place_of_a_folder(self):
         self.scene()
@@ -82,6 +84,13 @@ class Inputs(CommandTest):
     def test_missing(self):
         for words in (["info"], ["plan"], ["render", "-o", "a.exr"]):
             self.refuse(*words, "missing.gltf", status=FILE, says=["missing.gltf"])
+
+    def test_other_files(self):
+        for name, content, says in (("a.txt", b"hello", "this is neither"), ("a", b"\x7fELF", "this is neither"),
+                                    ("a.gltf", b" \n", "an empty file"), ("a.glb", b"\x89PNG", "a PNG picture")):
+            with open(self.path(name), "wb") as file:
+                file.write(content)
+            self.refuse("info", name, status=FILE, says=[name, "only .gltf and .glb are read", says])
 
     def test_wrong_kinds(self):
         os.mkfifo(self.path("fifo.gltf"))

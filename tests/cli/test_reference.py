@@ -40,7 +40,7 @@ class Reference(CommandTest):
         self.assertEqual(report["samples"], 8)
         self.assertNotEqual(self.read("truth.v1_a.exr"), self.read("truth.v1_b.exr"))
         done = self.run_command("compare", "truth.v1.exr", "truth.v1_a.exr", "truth.v1_b.exr",
-                                "--json")
+                                "--json", "-")
         # The mean is as far from one half as from the other: x - a = -(x - b).
         json.loads(done.stdout)
 
@@ -61,9 +61,9 @@ class Compare(CommandTest):
     def test_text_and_json(self):
         self.pictures()
         self.assertIn("relmse", self.run_command("compare", "a.exr", "b.exr").stdout.decode().lower())
-        report = json.loads(self.run_command("compare", "a.exr", "b.exr", "--json").stdout)
+        report = json.loads(self.run_command("compare", "a.exr", "b.exr", "--json", "-").stdout)
         self.assertIsInstance(report, dict)
-        self.run_command("compare", "--json", "b.exr", "a.exr", "a.exr")
+        self.run_command("compare", "--json", "-", "b.exr", "a.exr", "a.exr")
 
     def test_threshold(self):
         self.pictures()

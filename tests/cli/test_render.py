@@ -85,7 +85,7 @@ class Pictures(CommandTest):
         done = self.run_command("render", scene, "-o", "a.exr", *words[:6])
         self.assertIn("a default sky and key light show it", done.text)
         self.run_command("render", scene, "-o", "b.exr", "--default-light", "never", *words)
-        done = self.run_command("compare", "a.exr", "b.exr", "--json")
+        done = self.run_command("compare", "a.exr", "b.exr", "--json", "-")
         measured = json.loads(done.stdout)
         self.assertGreater(min(a - b for a, b in zip(measured["mean_test"],
                                                      measured["mean_reference"])), 0.05)
@@ -102,6 +102,10 @@ class Pictures(CommandTest):
         self.assertNotIn("nearly black", self.run_command(*words).text)
         self.assertIn("a.png: nearly black",
                       self.run_command(*words, "--default-light", "never").text)
+        for name, further in (("a.exr", []), ("b.png", ["--background", "transparent"])):
+            for when in ("always", "never"):
+                text = self.run_command(*words, "-o", name, "--default-light", when, *further).text
+                self.assertEqual(f"{name}: nearly black" in text, when == "never", text)
 
     def test_tone_curves(self):
         scene = self.scene()
@@ -125,7 +129,7 @@ class Pictures(CommandTest):
         self.run_command(*words, "-o", "b.png", "--exposure", repr(report["exposure"]), "--json",
                          "b.json")
         self.assertEqual(self.read_json("b.json")["exposure"], report["exposure"])
-        difference = json.loads(self.run_command("compare", "a.png", "b.png", "--json").stdout)
+        difference = json.loads(self.run_command("compare", "a.png", "b.png", "--json", "-").stdout)
         self.assertGreater(difference["psnr"] or 99, 45)  # GPU and CPU round differently
         self.run_command(*words, "-o", "c.exr", "--exposure", "auto", "--json", "c.json")
         self.assertIsNone(self.read_json("c.json")["exposure"])
@@ -279,25 +283,25 @@ class WithoutGl(CommandTest):
     def test_info(self):
         scene = self.scene()
         self.assertIn("point", self.run_without_gl("info", scene).stdout.decode())
-        self.assertIsInstance(json.loads(self.run_without_gl("info", "--json", scene).stdout), dict)
+        self.assertIsInstance(json.loads(self.run_without_gl("info", "--json", "-", scene).stdout), dict)
         self.assertEqual(self.run_without_gl("info", self.scene("b.gltf", light=False)).text, "")
 
     def test_plan(self):
         scene = self.scene()
         words = ("plan", scene, "-r", "32,32", "-b", "0", "--aov", "albedo", "-D", "shadow.filter=pcf")
         self.assertIn("gbuffer", self.run_without_gl(*words).stdout.decode().lower())
-        self.assertIsInstance(json.loads(self.run_without_gl(*words, "--json").stdout), dict)
+        self.assertIsInstance(json.loads(self.run_without_gl(*words, "--json", "-").stdout), dict)
 
     def test_plan_for_a_time(self):
         words = ("plan", self.scene(), "--time-limit", "3")
         self.assertIn("as many iterations as the time limit allows",
                       self.run_without_gl(*words).stdout.decode())
-        self.assertIsNone(json.loads(self.run_without_gl(*words, "--json").stdout)["samples"])
+        self.assertIsNone(json.loads(self.run_without_gl(*words, "--json", "-").stdout)["samples"])
 
     def test_bounces_that_materials_need(self):
         def planned(name, *words):
             scene = os.path.join(SOURCE_ROOT, "data/scenes", name)
-            return json.loads(self.run_without_gl("plan", scene, "--json", *words).stdout)["bounces"]
+            return json.loads(self.run_without_gl("plan", scene, "--json", "-", *words).stdout)["bounces"]
 
         self.assertEqual(planned("cornell_point.gltf"), 1)
         self.assertEqual(planned("cornell_glass.gltf"), 5)

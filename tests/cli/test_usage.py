@@ -1,9 +1,10 @@
 """Help, versions, lists, and what a wrong command line gets."""
+import json
 import os
 import pty
 import subprocess
 
-from command import COMMAND, DONE, FILE, USAGE, CommandTest, main
+from command import COMMAND, DONE, FILE, SOURCE_ROOT, USAGE, CommandTest, main
 
 COMMANDS = ("render", "reference", "compare", "info", "plan", "bench", "help")
 
@@ -38,6 +39,45 @@ class Help(CommandTest):
         options = self.run_command("plan", "--list-options").stdout.decode().splitlines()
         self.assertRegex(options[0], r"^option +type +range +default +effect$")
         self.assertTrue(any(line.startswith("shadow.filter ") for line in options), options)
+
+
+class Words(CommandTest):
+    def test_one_is_not_several(self):
+        """A square is one primitive of one instance; two of anything are several."""
+        text = self.run_command("info", self.scene()).stdout.decode()
+        self.assertIn("meshes       1, 1 primitive, 1 instance\n", text)
+        self.assertIn("from 0 images\n", text)
+        text = self.run_command("info", self.scene(animated=True)).stdout.decode()
+        self.assertIn("1 channel, 1 s\n", text)
+        for words, says in ((["-s", "1"], "1 iteration, 1 bounce\n"),
+                            (["-s", "2", "-b", "2"], "2 iterations, 2 bounces\n"),
+                            (["-s", "2", "-b", "0"], "2 iterations, no bounces\n")):
+            text = self.run_command("plan", self.scene(), *words).stdout.decode()
+            self.assertIn(says, text.splitlines(keepends=True)[0])
+
+    def test_direct_has_no_bounces(self):
+        glass = os.path.join(SOURCE_ROOT, "data/scenes/cornell_glass.gltf")
+        for words, remarked in (([], False), (["-b", "3"], True)):
+            text = self.run_command("plan", glass, "-t", "direct", *words).stdout.decode()
+            self.assertIn("64 iterations, no bounces\n", text)
+            self.assertEqual("has no bounces; 3 asked for" in text, remarked, text)
+        done = self.run_command("render", self.scene(), "-t", "direct", "-r", "8,8", "-s", "1", "-o",
+                                "a.exr", "--json", "-")
+        self.assertEqual(json.loads(done.stdout)["bounces"], 0)
+        self.assertIn("1 sample of direct, rendered in", done.text)
+
+    def test_json_is_alike_in_every_command(self):
+        """FILE beside the text, or - in its place."""
+        self.run_command("render", self.scene(), "-r", "8,8", "-s", "1", "-o", "a.exr", "--json",
+                         "render.json")
+        for name, words in (("info", ["scene.gltf"]), ("plan", ["scene.gltf"]),
+                            ("compare", ["a.exr", "a.exr"])):
+            text = self.run_command(name, *words).stdout
+            done = self.run_command(name, *words, "--json", f"{name}.json")
+            self.assertEqual(done.stdout, text)
+            self.assertIsInstance(self.read_json(f"{name}.json"), dict)
+            self.assertEqual(self.run_command(name, *words, "--json", "-").stdout,
+                             self.read(f"{name}.json"))
 
 
 class Refusals(CommandTest):
@@ -87,8 +127,15 @@ class Refusals(CommandTest):
         self.refuse("render", self.scene(), "-o", "a.exr", "--json", "a.exr", says=["--json a.exr"])
         self.refuse("reference", self.scene(), "-o", "a.exr", "--halves", "--json", "a_b.exr",
                     says=["--json a_b.exr"])
+        self.refuse("render", self.scene(), "-o", "a.json", "--format", "exr", "--json", "a.json",
+                    says=["--json a.json"])
         self.refuse("reference", self.scene(), "-o", "-", "--halves", says=["--halves"])
         self.assertEqual(self.files(), ["scene.gltf"])
+
+    def test_json_never_replaces_what_it_is_about(self):
+        """`--json` once took no value, and a name behind it is easily one of the operands."""
+        for words in (["compare", "--json", "a.exr", "b.exr", "c.exr"], ["info", "--json", "a.glb", "b.glb"]):
+            self.refuse(*words, says=[f"--json {words[2]}", "report.json", "standard output"])
 
     def test_no_picture_into_a_terminal(self):
         mine, theirs = pty.openpty()

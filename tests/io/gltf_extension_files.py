@@ -115,9 +115,9 @@ for name, content, what in [
 quad().gltf('foreign/in_spite_of_its_name.obj')
 case('foreign/in_spite_of_its_name.obj', 'ok', 2)
 write('foreign/neither.txt', b'hello')
-case('foreign/neither.txt', 'INVALID_JSON')
+case('foreign/neither.txt', 'this is neither')
 write('foreign/nothing.obj', b'')
-case('foreign/nothing.obj', 'INVALID_JSON')
+case('foreign/nothing.obj', 'an empty file')
 
 # --- KHR_materials_pbrSpecularGlossiness ----------------------------------------------------------
 

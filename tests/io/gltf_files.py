@@ -18,7 +18,7 @@ from gltf_writer import *
 quad().glb('quad.glb')
 case('quad.glb', 'ok', 2)
 quad(normals=None).gltf('flat.gltf')
-case('flat.gltf', 'ok', 2, 'no normals')
+case('flat.gltf', 'ok', 2, 'without normals')
 for name, index_type in ('u8', UBYTE), ('u16', USHORT), ('u32', UINT):
     quad(index_type=index_type).gltf('indices_%s.gltf' % name)
     case('indices_%s.gltf' % name, 'ok', 2)
@@ -29,7 +29,7 @@ case('fan.gltf', 'ok', 2)
 quad(indices=(0, 1, 3, 2), mode=5).gltf('strip_indexed.gltf')
 case('strip_indexed.gltf', 'ok', 2)
 quad(indices=None).gltf('trailing.gltf')
-case('trailing.gltf', 'ok', 1, 'whole triangle')
+case('trailing.gltf', 'ok', 1, 'left over at the end')
 for mode, (name, left_out) in enumerate((('points', 'of points, 6 in'), ('lines', 'of lines, 3 in'),
                                          ('line_loop', 'of lines, 6 in'),
                                          ('line_strip', 'of lines, 5 in'))):
@@ -56,9 +56,9 @@ changed('blend.gltf', 'ok',
         lambda f: (f.json.update(materials=[{'alphaMode': 'BLEND'}]),
                    f.json['meshes'][0]['primitives'][0].update(material=0)), 2)
 changed('rotation.gltf', 'ok', lambda f: f.json['nodes'][0].update(rotation=[0, 0, 0, 2]), 2,
-        'unit quaternions')
+        'a unit quaternion')
 quad(normals=[(0, 0, 0), (0, 0, 3), (0, 0, 1), (0, 0, 1)]).gltf('normals.gltf')
-case('normals.gltf', 'ok', 2, 'no length')
+case('normals.gltf', 'ok', 2, 'without length')
 file = quad()
 file.json['nodes'] = [{'children': [1, 2]}, {'mesh': 0}, {'mesh': 0, 'translation': [3, 0, 0]}]
 file.gltf('instances.gltf')
@@ -77,7 +77,7 @@ case('glb_length.glb', 'GLB_LENGTH_MISMATCH')
 write('glb_version.glb', glb([(JSON, good), (BIN, binary)], version=1))
 case('glb_version.glb', 'GLB_INVALID_VERSION')
 write('glb_magic.glb', glb([(JSON, good)], magic=b'glTG'))
-case('glb_magic.glb', 'INVALID_JSON')
+case('glb_magic.glb', 'this is neither')
 write('glb_order.glb', glb([(BIN, binary), (JSON, good)]))
 case('glb_order.glb', 'GLB_UNEXPECTED_FIRST_CHUNK')
 write('glb_two_json.glb', glb([(JSON, good), (JSON, good)]))

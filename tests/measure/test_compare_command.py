@@ -67,7 +67,7 @@ def compare(*arguments, status=0):
 
 
 def figures(*arguments):
-    return json.loads(compare(*arguments, '--json').stdout)
+    return json.loads(compare(*arguments, '--json', '-').stdout)
 
 
 def close(a, b, tolerance):
@@ -178,7 +178,7 @@ def main():
                      status=5)
     assert 'rmse' in failed.stderr and 'VIOLATED' in failed.stdout
     compare(x, a, '--threshold', 'ssim=0.9999', status=5)
-    assert json.loads(compare(x, a, '--json', '--threshold', 'bias=0', status=5).stdout)[
+    assert json.loads(compare(x, a, '--json', '-', '--threshold', 'bias=0', status=5).stdout)[
         'passed'] is False
     compare(x, a, '--threshold', 'colour=1', status=2)
     compare(x, status=2)

@@ -28,7 +28,7 @@ def run(*command):
 
 
 def compare(lightsheaf, *images):
-    return json.loads(run(lightsheaf, "compare", *images, "--json", "-q"))
+    return json.loads(run(lightsheaf, "compare", *images, "--json", "-", "-q"))
 
 
 def main():

@@ -240,10 +240,11 @@ static void test_forms(void **state)
     assert_string_equal(lsf_settings_scene_params(&settings).environment_path, "./1,2,3");
     must_parse(LSF_COMMAND_REFERENCE, "reference --halves");
     assert_true(settings.halves);
-    must_parse(LSF_COMMAND_INFO, "info a.glb --json");
-    assert_true(settings.print_json);
-    must_parse(LSF_COMMAND_PLAN, "plan --json a.glb -b 0");
-    assert_true(settings.print_json);
+    must_parse(LSF_COMMAND_INFO, "info a.glb --json -");
+    assert_true(lsf_settings_print_json(&settings));
+    must_parse(LSF_COMMAND_PLAN, "plan --json a.json a.glb -b 0");
+    assert_false(lsf_settings_print_json(&settings));
+    assert_string_equal(settings.json_path, "a.json");
     must_parse(LSF_COMMAND_COMPARE, "compare a.exr --threshold rmse=0.1 b.exr --threshold ssim=.9 "
                                     "c.exr --mask m.png --difference d.png --epsilon 0.01");
     assert_int_equal(settings.operands.count, 3);
