@@ -280,6 +280,6 @@ webp('webp_source.gltf', 'UNRESOLVED_REFERENCE', {'extensions': {'EXT_texture_we
 webp('ktx2.gltf', '--lenient', {'source': 1},
      'data:image/ktx2;base64,' + base64.b64encode(b'\xabKTX 20\xbb\r\n\x1a\n' + bytes(80)).decode())
 webp('basisu.gltf', 'ok', {'extensions': {'KHR_texture_basisu': {'source': 1}}}, triangles=2,
-     note='no PNG, JPEG or WebP image')
+     note='without a PNG, JPEG or WebP image')
 
 write_table()

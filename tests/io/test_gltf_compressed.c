@@ -119,7 +119,7 @@ static void test_lenient_ktx2(void **state)
     free(path);
     assert_non_null(scene);
     assert_int_equal(scene->texture_count, 0);
-    assert_true(has_note(scene, "no PNG, JPEG or WebP image"));
+    assert_true(has_note(scene, "without a PNG, JPEG or WebP image"));
     lsf_scene_destroy(scene);
 }
 
