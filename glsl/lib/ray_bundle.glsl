@@ -1,6 +1,6 @@
 /* A ray-bundle: its projection and its nodes, one for each fragment of the scene along its direction.
  * Switches LSF_BUNDLE_SIDE (texels along a side), LSF_BUNDLE_SLICES, LSF_BUNDLE_GLOSS,
- * LSF_BUNDLE_ANISOTROPY, LSF_BUNDLE_EMISSION; lsf_ray_bundle_reader_switches adds them. Writers define
+ * LSF_BUNDLE_ANISOTROPY, LSF_BUNDLE_EMISSION, LSF_BUNDLE_GAPS; lsf_ray_bundle_reader_switches adds them. Writers define
  * LSF_BUNDLE_ACCESS as coherent.
  *
  * The first LSF_BUNDLE_SLICES (a multiple of 4 less one, or 0) fragments of a texel have a place of
@@ -10,9 +10,8 @@
 #ifndef LSF_LIB_RAY_BUNDLE
 #define LSF_LIB_RAY_BUNDLE
 
+#include "lib/bundle_map.glsl"
 #include "lib/gbuffer.glsl"
-#include "shared/bundle_data.h"
-#include "shared/scene_data.h"
 
 #ifndef LSF_BUNDLE_ACCESS
 #define LSF_BUNDLE_ACCESS readonly
@@ -100,7 +99,18 @@ uint bundle_key(uint node)
 
 vec3 bundle_coordinates(vec3 p)
 {
-    return vec3(dot(bundle.right.xyz, p), dot(bundle.up.xyz, p), dot(bundle.forward.xyz, p));
+    return bundle_map_coordinates(bundle, p);
+}
+
+/* How much farther apart two places are than their coordinates along the bundle. */
+float bundle_gaps_between(float from, float to)
+{
+#if LSF_BUNDLE_GAPS
+    return bundle_left_out(to, bundle.gap_starts[2], bundle.gap_lengths[2]) -
+           bundle_left_out(from, bundle.gap_starts[2], bundle.gap_lengths[2]);
+#else
+    return 0.0;
+#endif
 }
 
 /* Continuous texel coordinates of a point with these coordinates. */
@@ -288,7 +298,8 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
         if (!bundle_is_veil(key))
             continue;
         vec3 plane = bundle_veil_plane(node, key);
-        float t = side * (bundle.range.x + bundle.range.y * plane.x + dot(plane.yz, from_center) - q.z);
+        float z = bundle.range.x + bundle.range.y * plane.x;
+        float t = side * (z + dot(plane.yz, from_center) - q.z + bundle_gaps_between(q.z, z));
         if (t > 0.0 && t < far && t * t > self * self * (1.0 + dot(plane.yz, plane.yz)))
             steps += bundle_tint_steps(bundle_surfaces[3u * node + 1u]);
     }
@@ -310,7 +321,8 @@ vec3 bundle_position(uint node, vec3 origin)
     along *= min(1.0, 0.5 * length(size) / max(length(along), 1e-30));
     float z = bundle.range.x + bundle.range.y * plane.x;
     return origin + (along.x - from_center.x) * bundle.right.xyz +
-           (along.y - from_center.y) * bundle.up.xyz + (z + along.z - q.z) * bundle.forward.xyz;
+           (along.y - from_center.y) * bundle.up.xyz +
+           (z + along.z - q.z + bundle_gaps_between(q.z, z)) * bundle.forward.xyz;
 }
 
 /* The surface of a node as a ray along the bundle, or against it, sees it: normals turned against

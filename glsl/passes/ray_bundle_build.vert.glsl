@@ -1,5 +1,5 @@
+#include "lib/bundle_map.glsl"
 #include "lib/material_vertex.glsl"
-#include "shared/bundle_data.h"
 
 layout(std140, binding = LSF_BINDING_BUNDLE) uniform lsf_bundle_block
 {
@@ -9,7 +9,7 @@ layout(std140, binding = LSF_BINDING_BUNDLE) uniform lsf_bundle_block
 void main()
 {
     vec3 p = instance_position(position);
-    vec3 q = vec3(dot(bundle.right.xyz, p), dot(bundle.up.xyz, p), dot(bundle.forward.xyz, p));
+    vec3 q = bundle_map_coordinates(bundle, p);
     gl_Position = vec4((q.xy - bundle.window.xy) / bundle.window.zw,
                        (q.z - bundle.range.x) / bundle.range.y, 1.0);
     material_vertex(p);

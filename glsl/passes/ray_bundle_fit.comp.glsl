@@ -1,8 +1,8 @@
 /* Fits a bundle's window to the visible points: one work group for each bundle. The points of a tile
  * lie in the piece of the view that its corners and its nearest and farthest depth bound, and a linear
- * function is largest and smallest at that piece's corners. Needs LSF_ORTHOGRAPHIC. */
+ * function is largest and smallest at that piece's corners. Switches LSF_ORTHOGRAPHIC, LSF_BUNDLE_GAPS. */
+#include "lib/bundle_map.glsl"
 #include "lib/view.glsl"
-#include "shared/bundle_data.h"
 
 layout(local_size_x = LSF_BUNDLE_FIT_SIZE) in;
 
@@ -36,7 +36,7 @@ void main()
         for (int corner = 0; corner < 8; corner++) {
             vec2 ndc = vec2((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y);
             vec3 p = position_from_depth(ndc, (corner & 4) != 0 ? depths.y : depths.x);
-            vec2 q = vec2(dot(b.right.xyz, p), dot(b.up.xyz, p));
+            vec2 q = bundle_map_coordinates(b, p).xy;
             box = merge(box, vec4(q, q));
         }
     }

@@ -1,5 +1,6 @@
 /* The view's rays in a bundle's coordinates. They are affine over the picture: what is seen lies at
- * start + view depth from the view's start on * along. */
+ * start + view depth from the view's start on * along. With LSF_BUNDLE_GAPS that holds before gaps are taken
+ * out. */
 #ifndef LSF_PASSES_RAY_BUNDLE_FRAME
 #define LSF_PASSES_RAY_BUNDLE_FRAME
 
@@ -8,18 +9,32 @@
 #include "lib/view.glsl"
 
 struct bundle_frame {
-    vec3 start, along; /* texels, texels, steps of depth */
+    vec3 start, along; /* texels, texels, steps of depth; with LSF_BUNDLE_GAPS in normalised space */
     vec3 forward;      /* the bundle's direction */
     vec4 scale;        /* x, y: depth steps across a texel for a slope of 1; steps of a unit of length;
                         * square of the steps within which a ray is still on the surface it left */
 };
 
+#if LSF_BUNDLE_GAPS
+vec3 along_axes(vec3 v)
+{
+    return vec3(dot(bundle.right.xyz, v), dot(bundle.up.xyz, v), dot(bundle.forward.xyz, v));
+}
+
+/* Texels, texels and steps of depth of a place along the axes. */
+vec3 map_place(vec3 q, float steps)
+{
+    q = bundle_close(bundle, q);
+    return vec3(bundle_place(q), (q.z - bundle.range.x) * steps);
+}
+#else
 /* A vector in normalised space as texels and depth steps. */
 vec3 to_map(vec3 v)
 {
     return bundle_coordinates(v) * vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw,
                                         LSF_BUNDLE_DEPTH_STEPS / bundle.range.y);
 }
+#endif
 
 /* At a place in the region [fragment coordinates]. */
 bundle_frame frame_at(vec2 fragment)
@@ -29,10 +44,15 @@ bundle_frame frame_at(vec2 fragment)
     float steps = LSF_BUNDLE_DEPTH_STEPS / bundle.range.y;
     float self = LSF_BUNDLE_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5;
     bundle_frame frame;
+#if LSF_BUNDLE_GAPS
+    frame.start = along_axes(view_ray_start(ndc));
+    frame.along = along_axes(view_ray_direction(ndc));
+#else
     frame.start = to_map(view_ray_start(ndc)) -
                   vec3(bundle.window.xy - bundle.window.zw, bundle.range.x) *
                       vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw, steps);
     frame.along = to_map(view_ray_direction(ndc));
+#endif
     frame.forward = bundle.forward.xyz;
     frame.scale = vec4(texel * steps, steps, self * self);
     return frame;

@@ -46,6 +46,9 @@ bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
 #endif
     float depth = texelFetch(origin_depth, pixel, 0).r;
     place = frame.start + view_depth_from_start(depth) * frame.along;
+#if LSF_BUNDLE_GAPS
+    place = map_place(place, frame.scale.z);
+#endif
     return depth != 0.0;
 }
 

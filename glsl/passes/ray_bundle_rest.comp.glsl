@@ -87,6 +87,6 @@ void main()
         if (hit.tie)
             hit.node = int(choose(uint(ray.texel), uint(hit.node)));
 #endif
-        imageStore(hits, pixel, uvec4(hit_pack(hit, frame), 0u, 0u));
+        imageStore(hits, pixel, uvec4(hit_pack(ray, hit, frame), 0u, 0u));
     }
 }

@@ -8,10 +8,16 @@ layout(std430, binding = LSF_BINDING_REST) LSF_BUNDLE_REST_ACCESS buffer lsf_res
     uint rest[]; /* x | y << 16 */
 };
 
-uvec2 hit_pack(bundle_hit hit, bundle_frame frame)
+uvec2 hit_pack(bundle_ray ray, bundle_hit hit, bundle_frame frame)
 {
-    /* -1 is LSF_NO_NODE */
-    return uvec2(hit.node < 0 ? 0u : floatBitsToUint(hit.distance / frame.scale.z), uint(hit.node));
+    if (hit.node < 0)
+        return uvec2(0u, LSF_NO_NODE);
+    float distance = hit.distance / frame.scale.z;
+#if LSF_BUNDLE_GAPS
+    float from = bundle.range.x + ray.depth / frame.scale.z;
+    distance += abs(bundle_gaps_between(from, from + ray.sign * distance));
+#endif
+    return uvec2(floatBitsToUint(distance), uint(hit.node));
 }
 
 #endif

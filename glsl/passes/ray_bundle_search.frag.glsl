@@ -18,5 +18,5 @@ void main()
     bundle_hit hit = search_slices(ray);
     if (hit.tie || ray.count > LSF_BUNDLE_SLICES)
         rest[atomicAdd(rest_count, 1u)] = uint(gl_FragCoord.x) | uint(gl_FragCoord.y) << 16;
-    hit_out = hit_pack(hit, frame);
+    hit_out = hit_pack(ray, hit, frame);
 }

@@ -7,19 +7,24 @@
 /* With q = (right, up, forward) . p of a point p, its place on the map, 0..texels, and its depth,
  * 0..1 over the whole scene, are
  *   place = ((q.xy - center) / extent * 0.5 + 0.5) * texels,   depth = (q.z - start) / length
- * Both are affine in p. right x up = -forward: seen along forward, x is right and y up. */
+ * Both are affine in p. right x up = -forward: seen along forward, x is right and y up.
+ *
+ * Where parts of the scene lie far apart, what lies between them along an axis is taken out of q: of a gap
+ * from s on and g long, q loses clamp(q - s, 0, g). No triangle reaches into one, so that the maps stay affine
+ * over each. */
 struct lsf_bundle_data {
     vec4 right, up; /* unit axes; right.w: the map's texels to those in use, along a side */
     vec4 forward;   /* unit: the bundle's direction; w: its density [1/sr], p_r in the paper */
     vec4 window;    /* xy: center, zw: extent (half width and height) of the whole map */
     vec4 range; /* start, length (along forward), texels in use along a side, which lie about the
                  * map's centre; 1 / texels of the map */
+    vec4 gap_starts[3], gap_lengths[3]; /* along right, up and forward, in ascending order; length 0: none */
 };
 
 /* In an array, at 256 bytes each: GL's largest alignment of ranges bound as uniform buffers. */
 struct lsf_bundle_slot_data {
     LSF_SHARED_STRUCT(lsf_bundle_data) data;
-    vec4 unused[11];
+    vec4 unused[5];
 };
 
 /* How far a node's plane may pass from the origin of a ray and still be the surface that it left: a

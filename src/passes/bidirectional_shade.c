@@ -35,9 +35,9 @@ static const char *const vpl_names[2] = {"bidirectional_shade_vpl", "bidirection
 static const char *const hit_names[2] = {"bidirectional_shade_hit", "bidirectional_shade_hit_deep"};
 
 /* Of lib/ray_bundle.glsl. */
-static const char *const bundle_switches[] = {"LSF_BUNDLE_SIDE", "LSF_BUNDLE_SLICES",
-                                              "LSF_BUNDLE_GLOSS", "LSF_BUNDLE_ANISOTROPY",
-                                              "LSF_BUNDLE_EMISSION"};
+static const char *const bundle_switches[] = {"LSF_BUNDLE_SIDE",     "LSF_BUNDLE_SLICES",
+                                              "LSF_BUNDLE_GLOSS",    "LSF_BUNDLE_ANISOTROPY",
+                                              "LSF_BUNDLE_EMISSION", "LSF_BUNDLE_GAPS"};
 
 static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
                           const lsf_bidirectional_shade_use *use, bool of_vpl, bool deep)

@@ -40,6 +40,12 @@ static bool window_is_fitted(const lsf_ray_bundle_params *params, const lsf_ray_
            (params->window == LSF_RAY_BUNDLE_WINDOW_AUTO && !use->whole_scene);
 }
 
+void lsf_ray_bundle_gap_switch(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_GAPS", plan->islands.count > 1,
+                        "parts of the scene lie far apart");
+}
+
 void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params)
 {
     bool gloss = lsf_ray_bundle_has_gloss(plan);
@@ -51,6 +57,7 @@ void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params 
                         "some material is anisotropic or lets light through");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_EMISSION", lsf_ray_bundle_has_emission(plan),
                         "some material emits or is unlit");
+    lsf_ray_bundle_gap_switch(plan);
 }
 
 void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,

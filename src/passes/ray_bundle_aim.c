@@ -15,6 +15,7 @@ void lsf_ray_bundle_aim_plan(lsf_plan *plan)
 {
     lsf_plan_pass_add(plan, "ray_bundle_bounds", "windows fitted to the visible points");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_ray_bundle_gap_switch(plan);
     lsf_plan_texture_add(
         plan, "ray_bundle.tiles", GL_RG32F, (plan->width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
         (plan->height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
@@ -63,6 +64,7 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
                     const lsf_ray_bundle_direction *direction, struct lsf_bundle_data *data)
 {
     float turn[2], shift[2], texels = (float)pass->side;
+    const lsf_islands *islands = &iteration->plan->islands;
     float whole = (float)pass->params.resolution;
     uint32_t index = iteration->index * pass->use.count + bundle;
     lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_TURN), turn);
@@ -71,7 +73,11 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     axes[2] = lsf_f3_load(direction->direction);
     turned_axes(axes[2], turn[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);
     float low[3] = {0}, high[3] = {0};
-    lsf_state_bounds_along(iteration->state, axes, low, high);
+    lsf_ray_bundle_gaps gaps = {0};
+    if (islands->count > 1)
+        gaps = lsf_ray_bundle_close_gaps(islands, axes, texels, low, high);
+    else
+        lsf_state_bounds_along(iteration->state, axes, low, high);
     float extent[2], center[2];
     for (int axis = 0; axis < 2; axis++) {
         extent[axis] = lsf_bundle_extent(low[axis], high[axis], texels);
@@ -90,6 +96,8 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
         .window = {center[0], center[1], extent[0], extent[1]},
         .range = {low[2], fmaxf(high[2] - low[2], MIN_LENGTH), texels, 1.0f / whole},
     };
+    memcpy(data->gap_starts, gaps.starts, sizeof gaps.starts);
+    memcpy(data->gap_lengths, gaps.lengths, sizeof gaps.lengths);
 }
 
 static void fit(lsf_ray_bundle *pass, const lsf_iteration *iteration, GLuint depth)

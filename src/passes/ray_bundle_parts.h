@@ -59,6 +59,11 @@ struct lsf_ray_bundle {
     uint64_t draw_counts[LSF_DRAW_COUNTS];
 };
 
+/* --- ray_bundle.c */
+
+/* Adds to the pass in turn the switch of lib/bundle_map.glsl. */
+void lsf_ray_bundle_gap_switch(lsf_plan *plan);
+
 /* --- ray_bundle_nodes.c */
 
 /* Texels of a map in memory, in whole tiles. */
@@ -100,6 +105,18 @@ bool lsf_ray_bundle_tally_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
 /* Counts the nodes of the bundle that is bound and was drawn within samples_query. */
 void lsf_ray_bundle_tally_build(const lsf_ray_bundle *pass);
 void lsf_ray_bundle_tally_destroy(lsf_ray_bundle *pass);
+
+/* --- ray_bundle_gaps.c */
+
+/* As in lsf_bundle_data. */
+typedef struct lsf_ray_bundle_gaps {
+    lsf_vec4 starts[3], lengths[3];
+} lsf_ray_bundle_gaps;
+
+/* What is empty between islands along a bundle's axes, for a map of `texels` a side. Sets low and
+ * high to the bounds of all of the scene without it. */
+lsf_ray_bundle_gaps lsf_ray_bundle_close_gaps(const lsf_islands *islands, const lsf_float3 axes[3],
+                                              float texels, float low[3], float high[3]);
 
 /* --- ray_bundle_aim.c */
 

@@ -9,6 +9,7 @@
 
 #include "gl/gl.h"
 #include "scene/background.h"
+#include "scene/islands.h"
 #include "scene/scene.h"
 #include <lightsheaf/renderer.h>
 
@@ -46,6 +47,7 @@ struct lsf_plan {
     lsf_requirements requirements;
     uint32_t width, height, samples, bounces, aovs;
     uint32_t sky_lights; /* directions an iteration from which the environment lights */
+    lsf_islands islands; /* of techniques that draw maps over the whole scene; else none */
     bool orthographic;
     lsf_seen_background background;
     bool transmission; /* there are materials that transmit light */

@@ -536,6 +536,7 @@ const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",
     .help = "global illumination by ray-bundles and virtual point lights, combined by MIS",
     .bounces = true,
+    .maps_scene = true,
     .plan = lsf_bidirectional_plan,
     .create = create_bidirectional,
     .run = run_bidirectional,

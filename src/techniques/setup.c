@@ -105,6 +105,8 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     plan->aovs = params->aovs;
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
+    if (!technique || technique->maps_scene)
+        lsf_islands_find(&plan->islands, setup->scene, &setup->state);
     plan->orthographic = setup->state.camera.orthographic;
     plan->background = lsf_background_resolve(scene, params);
     lsf_scene_gpu_plan(plan, setup->scene);

@@ -80,6 +80,7 @@ typedef struct lsf_technique {
         refracts; /* scatters and refracts light that surfaces transmit; else it goes straight on */
     bool draws_lobes; /* finds the environment by rays drawn from the BRDF, which suit a uniform one
                        * better than directions drawn by its radiance */
+    bool maps_scene;  /* draws maps that hold all of the scene: where it is empty matters to them */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
     /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets

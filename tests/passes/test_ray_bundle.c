@@ -44,16 +44,13 @@ static uint64_t count_of(const bundle_rig *rig, int which)
     return lsf_ray_bundle_counts(rig->bundle)[which];
 }
 
-/* A box seen from inside: every ray meets its far walls, at a distance in closed form. */
-static void box_from_inside(void **unused)
+/* Rays in a box seen from inside, which may not be the whole scene, meet its far walls, at a
+ * distance in closed form. */
+static void check_box(const lsf_scene *scene, lsf_ray_bundle_window window)
 {
-    (void)unused;
-    lsf_scene *scene = build_scene();
-    build_material(scene, 0.5f, 0.5f, 0.5f);
-    build_box(scene, lsf_f3(-1, -1, -3), lsf_f3(1, 1, 3), true);
-    finish_gl_scene(scene);
     const lsf_render_params view = view_params(64, 48);
-    const lsf_ray_bundle_params params = bundle_params(256, LSF_RAY_BUNDLE_RASTER_COMPUTE);
+    lsf_ray_bundle_params params = bundle_params(256, LSF_RAY_BUNDLE_RASTER_COMPUTE);
+    params.window = window;
     bundle_rig rig;
     bundle_rig_run(&rig, scene, &view, &params, along, false);
     uint32_t right = 0, seen = 0;
@@ -66,19 +63,80 @@ static void box_from_inside(void **unused)
             float sign = lsf_f3_dot(n, along) > 0.0f ? 1.0f : -1.0f, expected = INFINITY;
             const float at[3] = {p.x, p.y, p.z};
             const float ray[3] = {sign * along.x, sign * along.y, sign * along.z};
-            const float *high = rig.setup.state.bounds_max, *low = rig.setup.state.bounds_min;
+            const lsf_instance_state *box = &rig.setup.state.instances[0];
+            const float *high = box->bounds_max, *low = box->bounds_min;
+            float size = high[0] - low[0];
             for (int axis = 0; axis < 3; axis++) {
                 float wall = ray[axis] > 0.0f ? high[axis] : low[axis];
                 float t = (wall - at[axis]) / ray[axis];
-                expected = t > 1e-4f ? fminf(expected, t) : expected;
+                expected = t > 1e-4f * size ? fminf(expected, t) : expected;
             }
             uint32_t node;
             float distance = bundle_rig_distance(&rig, x, y, &node);
-            right += fabsf(distance - expected) < 0.01f * expected + 0.01f;
+            right += fabsf(distance - expected) < 0.01f * expected + 0.01f * size;
         }
     print_message("%u of %u right\n", right, seen);
     /* Those in the texel along an edge may see the wrong one of its two walls. */
     assert_true(seen == rig.width * rig.height && right > 0.99 * seen);
+    bundle_rig_finish(&rig);
+}
+
+static void box_from_inside(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    build_box(scene, lsf_f3(-1, -1, -3), lsf_f3(1, 1, 3), true);
+    finish_gl_scene(scene);
+    check_box(scene, LSF_RAY_BUNDLE_WINDOW_AUTO);
+    destroy_scene(scene);
+}
+
+/* A triangle that makes a box's scene a thousand times as large, in any direction, takes no texels
+ * from the box, whether bundles hold all of the scene or what is seen. */
+static void box_beside_a_stray_triangle(void **unused)
+{
+    (void)unused;
+    static const lsf_float3 places[] = {{2000, 0, 0}, {-900, 1900, 0}, {1300, -1100, 1500}};
+    for (int i = 0; i < 3; i++)
+        for (int window = LSF_RAY_BUNDLE_WINDOW_VISIBLE; window <= LSF_RAY_BUNDLE_WINDOW_SCENE;
+             window++) {
+            const lsf_float3 p = places[i];
+            const lsf_float3 stray[3] = {
+                p, {p.x + 1e-3f, p.y, p.z}, {p.x, p.y + 1e-3f, p.z + 1e-3f}};
+            lsf_scene *scene = build_scene();
+            build_material(scene, 0.5f, 0.5f, 0.5f);
+            build_box(scene, lsf_f3(-1, -1, -3), lsf_f3(1, 1, 3), true);
+            build_triangles(scene, stray, 1);
+            finish_gl_scene(scene);
+            check_box(scene, (lsf_ray_bundle_window)window);
+            destroy_scene(scene);
+        }
+}
+
+/* Rays go as far as they went before what is empty was taken out of the map. */
+static void across_a_gap(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    for (int wall = 0; wall < 2; wall++) {
+        float z = wall ? 700.0f : 0.0f, half = wall ? 10.0f : 4.0f;
+        const lsf_float3 corners[6] = {{-half, -half, z}, {half, -half, z}, {half, half, z},
+                                       {-half, -half, z}, {half, half, z},  {-half, half, z}};
+        build_triangles(scene, corners, 2);
+    }
+    finish_gl_scene(scene);
+    const lsf_render_params view = view_params(32, 32);
+    lsf_ray_bundle_params params = bundle_params(128, LSF_RAY_BUNDLE_RASTER_COMPUTE);
+    bundle_rig rig;
+    bundle_rig_run(&rig, scene, &view, &params, lsf_f3(0, 0, -1), false);
+    assert_true(rig.data.range.y < 0.1f);
+    for (uint32_t i = 0; i < 32 * 32; i++) {
+        uint32_t node;
+        float distance = bundle_rig_distance(&rig, i % 32, i / 32, &node);
+        assert_true(fabsf(distance / (700.0f * (float)rig.setup.state.scale) - 1.0f) < 1e-5f);
+    }
     bundle_rig_finish(&rig);
     destroy_scene(scene);
 }
@@ -392,7 +450,8 @@ static void empty_and_flat(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(box_from_inside),       cmocka_unit_test(rasters_agree),
+        cmocka_unit_test(box_from_inside),       cmocka_unit_test(box_beside_a_stray_triangle),
+        cmocka_unit_test(across_a_gap),          cmocka_unit_test(rasters_agree),
         cmocka_unit_test(search_is_brute_force), cmocka_unit_test(room_grows),
         cmocka_unit_test(distances_alone),       cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(coinciding_surfaces),   cmocka_unit_test(thousands_of_layers),

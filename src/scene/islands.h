@@ -1,0 +1,22 @@
+/* Parts of a scene that lie far from each other: boxes that hold all of its triangles, and nothing
+ * between them. A map over the whole scene need not spend its texels on the space between. */
+#ifndef LSF_SCENE_ISLANDS_H
+#define LSF_SCENE_ISLANDS_H
+
+#include "scene/state.h"
+
+#define LSF_ISLANDS_MAX 5 /* along an axis, four gaps at the most */
+
+typedef struct lsf_islands {
+    uint32_t count;                   /* 1: the scene is in one piece; 0: it is empty */
+    float bounds[LSF_ISLANDS_MAX][6]; /* normalised space: least and greatest corner */
+} lsf_islands;
+
+/* Divides the scene across its axes, where nothing lies on a share of a part's length that is wide
+ * enough, until there are LSF_ISLANDS_MAX parts. */
+void lsf_islands_find(lsf_islands *islands, const lsf_scene *scene, const lsf_state *state);
+
+/* Bounds along an axis of one island. */
+void lsf_island_bounds_along(const float bounds[6], lsf_float3 axis, float *low, float *high);
+
+#endif
