@@ -147,8 +147,9 @@ int shadow_order(shadow_receiver r, ivec2 at)
     vec2 gradient = hemisphere_unpack_slope(texel) * (depth * 2.0 * light.map_shape.w);
 #else
     float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
-    vec2 gradient =
-        texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_map_depth_unit(depth);
+    vec2 gradient = vec2(0.0);
+    if (depth > 0.0) /* nothing writes the gradient where nothing is shown */
+        gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_map_depth_unit(depth);
 #endif
     vec2 to_center = vec2(at) + 0.5 - r.texel;
     float at_receiver = depth - dot(gradient, to_center) - r.depth;

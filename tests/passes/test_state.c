@@ -1,4 +1,4 @@
-/* No pass depends on what was left in the context by the pass before it. */
+/* No pass depends on what the pass before it left in the context, or on what fresh memory holds. */
 #include "base/base.h"
 #include "render_gl.h"
 #include "shared/scene_data.h"
@@ -127,7 +127,7 @@ static void techniques_see_one_surface(void **unused)
 
 static GLuint hostile_sampler, hostile_texture, hostile_framebuffer, hostile_target;
 static PFNGLPUSHDEBUGGROUPPROC push_group;
-static uint32_t groups;
+static uint32_t groups, filled;
 
 static void make_hostile_objects(void)
 {
@@ -196,11 +196,75 @@ static void push_hostile_group(GLenum source, GLuint id, GLsizei length, const G
     push_group(source, id, length, message);
 }
 
+/* --- hostile memory -----------------------------------------------------------------------------
+ * Software drivers give zeroes where others give what was there before. */
+
+static PFNGLTEXTURESTORAGE2DPROC storage_2d;
+static PFNGLTEXTURESTORAGE3DPROC storage_3d;
+static PFNGLNAMEDBUFFERSTORAGEPROC buffer_storage;
+
+/* Of every format a value that is neither zero nor rare: 2^13, or its nearest. */
+static void fill_texture(GLuint texture, GLsizei levels)
+{
+    static const GLfloat number[4] = {8192.0f, 8192.0f, 8192.0f, 8192.0f};
+    static const GLuint word[4] = {0x46004600u, 0x46004600u, 0x46004600u, 0x46004600u};
+    for (GLint level = 0; level < levels; level++) {
+        GLint depth = 0, type = 0;
+        glGetTextureLevelParameteriv(texture, level, GL_TEXTURE_DEPTH_TYPE, &depth);
+        glGetTextureLevelParameteriv(texture, level, GL_TEXTURE_RED_TYPE, &type);
+        if (depth != GL_NONE)
+            glClearTexImage(texture, level, GL_DEPTH_COMPONENT, GL_FLOAT, number);
+        else if (type == GL_INT || type == GL_UNSIGNED_INT)
+            glClearTexImage(texture, level, GL_RGBA_INTEGER, GL_UNSIGNED_INT, word);
+        else
+            glClearTexImage(texture, level, GL_RGBA, GL_FLOAT, number);
+    }
+    filled++;
+}
+
+static void hostile_storage_2d(GLuint texture, GLsizei levels, GLenum format, GLsizei width,
+                               GLsizei height)
+{
+    storage_2d(texture, levels, format, width, height);
+    fill_texture(texture, levels);
+}
+
+static void hostile_storage_3d(GLuint texture, GLsizei levels, GLenum format, GLsizei width,
+                               GLsizei height, GLsizei depth)
+{
+    storage_3d(texture, levels, format, width, height, depth);
+    fill_texture(texture, levels);
+}
+
+static void hostile_buffer_storage(GLuint buffer, GLsizeiptr size, const void *data,
+                                   GLbitfield flags)
+{
+    static const GLubyte byte = 0x46;
+    buffer_storage(buffer, size, data, flags);
+    if (!data)
+        glClearNamedBufferData(buffer, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &byte);
+    filled++;
+}
+
+static void set_hostile_memory(bool hostile)
+{
+    if (hostile) {
+        storage_2d = glad_glTextureStorage2D;
+        storage_3d = glad_glTextureStorage3D;
+        buffer_storage = glad_glNamedBufferStorage;
+    }
+    glad_glTextureStorage2D = hostile ? hostile_storage_2d : storage_2d;
+    glad_glTextureStorage3D = hostile ? hostile_storage_3d : storage_3d;
+    glad_glNamedBufferStorage = hostile ? hostile_buffer_storage : buffer_storage;
+}
+
 static lsf_image *render_hostile(const lsf_scene *scene, const lsf_render_params *params)
 {
     lsf_error error = {0};
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    set_hostile_memory(true);
     lsf_renderer *renderer = lsf_renderer_create(context, scene, params, &error);
+    set_hostile_memory(false);
     if (!renderer)
         fail_msg("%s", error.message);
     make_hostile_objects();
@@ -220,12 +284,12 @@ static lsf_image *render_hostile(const lsf_scene *scene, const lsf_render_params
 
 static void check_hostile(const char *what, const lsf_scene *scene, lsf_render_params params)
 {
-    params = corner_params(params, SIZE);
-    groups = 0;
+    groups = filled = 0;
     lsf_image *expected = render_gl(LSF_BACKEND_OSMESA, scene, &params);
     lsf_image *image = render_hostile(scene, &params);
-    print_message("%s, %s: %u passes\n", params.technique, what, groups);
-    assert_true(groups > 4);
+    print_message("%s, %s: %u passes, %u textures and buffers\n", params.technique, what, groups,
+                  filled);
+    assert_true(groups > 4 && filled > 10);
     assert_same_pixels(image, expected);
     lsf_image_destroy(image);
     lsf_image_destroy(expected);
@@ -239,7 +303,7 @@ static void hostile_state(void **unused)
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         lsf_render_params params = params_of(techniques[t], NULL);
         params.bounces = 2;
-        check_hostile("lamps and lights", lit, params);
+        check_hostile("lamps and lights", lit, corner_params(params, SIZE));
     }
     destroy_scene(lit);
 }
@@ -261,8 +325,27 @@ static void hostile_state_of_frames(void **unused)
     for (size_t i = 0; i < LSF_COUNT(frames); i++) {
         lsf_render_params params = params_of(frames[i].technique, frames[i].options);
         params.samples = 1;
-        check_hostile(frames[i].options[0], scene, params);
+        check_hostile(frames[i].options[0], scene, corner_params(params, SIZE));
     }
+    destroy_scene(scene);
+}
+
+/* Past the edges of a room lit from outside, shadow maps show nothing. */
+static void hostile_memory_beyond_walls(void **unused)
+{
+    (void)unused;
+    static const float eye[3] = {-0.4f, 0.3f, 0.6f}, target[3] = {1, -1, -1};
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.8f, 0.8f, 0.8f);
+    build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
+    build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(-0.4f, -0.8f, -0.5f), 1.0f);
+    finish_gl_scene(scene);
+    lsf_render_params params = params_of("direct", NULL);
+    params.width = params.height = 4 * SIZE;
+    params.samples = 8;
+    params.camera_position = eye;
+    params.camera_target = target;
+    check_hostile("edges of a room", scene, params);
     destroy_scene(scene);
 }
 
@@ -272,6 +355,7 @@ int main(void)
         cmocka_unit_test(techniques_see_one_surface),
         cmocka_unit_test(hostile_state),
         cmocka_unit_test(hostile_state_of_frames),
+        cmocka_unit_test(hostile_memory_beyond_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
