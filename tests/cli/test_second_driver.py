@@ -4,8 +4,9 @@ import os
 
 from command import CommandTest, SOURCE_ROOT, main
 
-ZINK = dict(os.environ, GALLIUM_DRIVER="zink", LIBGL_ALWAYS_SOFTWARE="1")
-SMALL = ["-r", "32,32", "-s", "2", "-b", "2", "-D", "voxel.resolution=32", "-D", "bundle.resolution=64",
+# Fresh memory, which zink hands on as it is, holds 5a5a5a5a: as a number, large.
+ZINK = dict(os.environ, GALLIUM_DRIVER="zink", LIBGL_ALWAYS_SOFTWARE="1", MALLOC_PERTURB_="165")
+SMALL = ["-r", "32,32", "-b", "2", "-D", "voxel.resolution=32", "-D", "bundle.resolution=64",
          "-D", "rsm.resolution=64", "-D", "vpl.shadow_resolution=64"]
 
 
@@ -27,25 +28,32 @@ class SecondDriver(CommandTest):
         if "zink" not in str(self.read_json("probe.json")["device"]):
             self.skipTest("Mesa has no zink, or no Vulkan in software, here")
 
-    def agrees(self, technique, scene):
+    def agrees(self, technique, scene, samples):
         scene = os.path.join(SOURCE_ROOT, "data/scenes", scene)
-        words = ["render", scene, "-t", technique, "-e", write_environment(self.path("sky.hdr")), *SMALL]
+        words = ["render", scene, "-t", technique, "-e", write_environment(self.path("sky.hdr")), *SMALL,
+                 "-s", str(samples)]
         self.run_command(*words, "-o", "own.exr", "--backend", "osmesa")
         self.run_command(*words, "-o", "zink.exr", "--backend", "egl", env=ZINK)
         self.run_command("compare", "zink.exr", "own.exr", "--threshold", "rmse_relative=0.01",
                          "--threshold", "bias=0.001")
 
+    def agree_on_both(self, technique):
+        self.agrees(technique, "cornell_glossy.gltf", 2)
+        # Glass lets light through by numbers drawn from the last bits of depths, which drivers round
+        # differently: the difference is noise.
+        self.agrees(technique, "cornell_glass.gltf", 16)
+
     def test_direct(self):
-        self.agrees("direct", "cornell_glossy.gltf")
+        self.agree_on_both("direct")
 
     def test_bidirectional(self):
-        self.agrees("bidirectional", "cornell_glossy.gltf")
+        self.agree_on_both("bidirectional")
 
     def test_cone(self):
-        self.agrees("cone", "cornell_glossy.gltf")
+        self.agree_on_both("cone")
 
     def test_voxel_path(self):
-        self.agrees("voxel_path", "cornell_glossy.gltf")
+        self.agree_on_both("voxel_path")
 
 
 if __name__ == "__main__":
