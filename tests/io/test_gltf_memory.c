@@ -263,7 +263,7 @@ static void test_notes_are_limited(void **state)
     assert_non_null(scene);
     bool found = false;
     for (uint32_t i = 0; i < lsf_scene_note_count(scene); i++)
-        found |= strstr(lsf_scene_note(scene, i), "20000 textures have no ") != NULL;
+        found |= strstr(lsf_scene_note(scene, i), "20000 textures without a ") != NULL;
     assert_true(found);
     for (int i = 0; i < 1000; i++)
         lsf_scene_add_note(scene, "note %d", i);
