@@ -3,6 +3,7 @@
 #define LIGHTSHEAF_SCENE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include <lightsheaf/error.h>
@@ -38,6 +39,7 @@ typedef struct lsf_scene_params {
     bool lenient; /* ignore extensions that the file requires when they change the look alone */
     uint64_t memory_limit; /* bytes that loading may take at any moment: document, buffers,
                             * geometry, decoded images, and what making them takes */
+    const char *name; /* what messages and descriptions call a scene from memory; NULL: "memory" */
     /* A name, or an index from 0, of what the file offers; a name goes first. */
     const char *scene;             /* NULL: the file's own, else the first */
     const char *variant;           /* KHR_materials_variants; NULL: the file's own materials */
@@ -48,7 +50,7 @@ typedef struct lsf_scene_params {
 #define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
     .environment_path = NULL, .environment_radiance = NULL, .environment_rotation = 0.0f,          \
     .environment_strength = 1.0f, .default_light = LSF_DEFAULT_LIGHT_AUTO, .diffuse_only = false,  \
-    .show_back_faces = false, .lenient = false, .memory_limit = (uint64_t)8 << 30, .scene = NULL,  \
+    .show_back_faces = false, .lenient = false, .memory_limit = (uint64_t)8 << 30, .name = NULL, .scene = NULL,  \
     .variant = NULL, .animations = NULL, .animation_count = 0
 
 /* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
@@ -56,6 +58,12 @@ typedef struct lsf_scene_params {
  * lsf_scene_note. The caller destroys it. LSF_ERROR_FILE names file, JSON location and cause;
  * LSF_ERROR_USAGE what was chosen, and what there is to choose from. */
 lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error);
+
+/* The same of the content of a .gltf or .glb in memory, borrowed until it returns; it counts against
+ * the memory limit as a file's content does. Buffers and textures in files of their own are looked
+ * for in `folder`; with NULL there may be none. */
+lsf_scene *lsf_scene_load_memory(const void *data, size_t size, const char *folder,
+                                 const lsf_scene_params *params, lsf_error *error);
 void lsf_scene_destroy(lsf_scene *scene); /* NULL allowed */
 
 /* What the scene asks of a renderer; computed once, at load. */

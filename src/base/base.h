@@ -65,6 +65,9 @@ char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error 
 /* The same for a file of any size, of which the first `most` bytes are read. */
 char *lsf_file_read_start(const char *path, uint64_t most, size_t *length, lsf_error *error);
 
+/* The rest of standard input, of at most `limit` bytes; else as lsf_file_read. */
+char *lsf_file_read_standard_input(uint64_t limit, size_t *length, lsf_error *error);
+
 /* The real path of `relative` below `folder`, for files that a file names: absolute paths, ".."
  * and symbolic links that lead out of the folder are refused. malloc'ed; NULL on failure. */
 char *lsf_path_confine(const char *folder, const char *relative, lsf_error *error);

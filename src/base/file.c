@@ -132,6 +132,18 @@ char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error 
     return bytes;
 }
 
+char *lsf_file_read_standard_input(uint64_t limit, size_t *length, lsf_error *error)
+{
+    static const char name[] = "standard input";
+    char *bytes =
+        read_most(STDIN_FILENO, 65536, limit + (limit < UINT64_MAX), name, length, error);
+    if (!bytes || *length <= limit)
+        return bytes;
+    refuse_size(name, limit, error);
+    free(bytes);
+    return NULL;
+}
+
 /* True when some component of the path is "..". */
 static bool climbs(const char *path)
 {

@@ -107,10 +107,10 @@ static void read_buffers(gltf_import &import, const gltf_container &container,
     }
 }
 
-static void refuse_other_formats(const std::string &path, const file_content &file)
+static void refuse_other_formats(const std::string &path, std::string_view bytes)
 {
     const lsf_foreign_file *foreign =
-        lsf_foreign_file_find(path.c_str(), file.bytes.get(), file.length);
+        lsf_foreign_file_find(path.c_str(), bytes.data(), bytes.size());
     if (foreign)
         throw failure(path + ": only .gltf and .glb are read, and this is " + foreign->what + "; " +
                       foreign->remedy);
@@ -118,11 +118,16 @@ static void refuse_other_formats(const std::string &path, const file_content &fi
 
 void gltf_document_read(gltf_import &import)
 {
-    file_content file = file_read(import.path, import.budget);
-    memory_loan file_loan(import.budget, "/");
-    file_loan.take(file.length, 1);
-    refuse_other_formats(import.path, file);
-    gltf_container container = gltf_container_split({file.bytes.get(), file.length});
+    file_content file;
+    std::string_view bytes = import.memory;
+    if (!bytes.data()) {
+        file = file_read(import.path, import.budget);
+        bytes = {file.bytes.get(), file.length};
+    }
+    memory_loan content_loan(import.budget, "/");
+    content_loan.take(bytes.size(), 1);
+    refuse_other_formats(import.path, bytes);
+    gltf_container container = gltf_container_split(bytes);
     gltf_checked checked = gltf_schema_check(container.json, import.params->lenient, import.budget);
     buffer_queue queue;
     read_buffers(import, container, checked, queue);
@@ -141,8 +146,8 @@ void gltf_document_read(gltf_import &import)
             ? parser.LoadASCIIFromString(&import.model, &error, &warning, container.json.data(),
                                          (unsigned int)container.json.size(), "")
             : parser.LoadBinaryFromMemory(&import.model, &error, &warning,
-                                          reinterpret_cast<unsigned char *>(file.bytes.get()),
-                                          (unsigned int)file.length, "");
+                                          reinterpret_cast<const unsigned char *>(bytes.data()),
+                                          (unsigned int)bytes.size(), "");
     for (const gltf_checked::indices &indices : checked.indices_without_view)
         if (parsed)
             import.model.meshes[indices.mesh].primitives[indices.primitive].indices =

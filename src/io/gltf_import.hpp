@@ -138,7 +138,8 @@ bool uri_is_data(const std::string &uri);
 uint64_t uri_data_size(const std::string &uri, const std::string &location);
 /* What it holds. */
 std::string uri_data(const std::string &uri, const std::string &location);
-/* Path of a file below `folder`; refuses schemes, absolute paths and ways out of the folder. */
+/* Path of a file below `folder`; refuses schemes, absolute paths and ways out of the folder, and
+ * every path without a folder. */
 std::string uri_to_path(const std::string &folder, const std::string &uri,
                         const std::string &location);
 /* The whole file; fails when it is not a regular one or longer than what is left of the budget. */
@@ -168,7 +169,8 @@ struct gltf_import {
 
     lsf_scene *scene;
     const lsf_scene_params *params;
-    std::string path, folder;
+    std::string path, folder; /* no folder: the scene may refer to no file */
+    std::string_view memory;  /* the content; without data: it is read from the file */
     memory_budget budget;
     tinygltf::Model model;
     std::vector<bool> placeholders; /* by file's buffer */

@@ -59,15 +59,24 @@ char *copy_text(const std::string &text)
     return copy;
 }
 
+static std::string folder_of(const lsf_gltf_source &source)
+{
+    if (source.data)
+        return source.folder ? source.folder : "";
+    std::string path = source.path;
+    size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
 /* Returns what is left of the memory limit. */
-static uint64_t import_file(lsf_scene *scene, const char *path, const lsf_scene_params *params)
+static uint64_t import_scene(lsf_scene *scene, const lsf_gltf_source &source,
+                             const lsf_scene_params *params)
 {
     gltf_import import(scene, params);
-    import.path = path;
-    size_t slash = import.path.rfind('/');
-    import.folder = slash == std::string::npos ? "."
-                    : slash == 0               ? "/"
-                                               : import.path.substr(0, slash);
+    import.path = source.path;
+    import.folder = folder_of(source);
+    if (source.data)
+        import.memory = {static_cast<const char *>(source.data), source.size};
     scene->path = copy_text(import.path);
     scene->diffuse_only = params->diffuse_only;
     scene->show_back_faces = params->show_back_faces;
@@ -88,11 +97,12 @@ static uint64_t import_file(lsf_scene *scene, const char *path, const lsf_scene_
 
 } // namespace lsf
 
-bool lsf_gltf_load(lsf_scene *scene, const char *path, const lsf_scene_params *params,
+bool lsf_gltf_load(lsf_scene *scene, const lsf_gltf_source *source, const lsf_scene_params *params,
                    uint64_t *memory_left, lsf_error *error)
 {
+    const char *path = source->path;
     try {
-        *memory_left = lsf::import_file(scene, path, params);
+        *memory_left = lsf::import_scene(scene, *source, params);
         return true;
     } catch (const std::bad_alloc &) {
         return lsf_error_set(error, LSF_ERROR_FILE,

@@ -106,6 +106,11 @@ std::string uri_to_path(const std::string &folder, const std::string &uri,
         fail("INVALID_URI", location,
              "\"%s\": this data URI is not supported here; use base64 PNG or JPEG, or a file",
              excerpt(uri).c_str());
+    if (folder.empty())
+        fail("IO_ERROR", location,
+             "\"%s\": a scene that is not read from a file cannot refer to files; embed them (as .glb, "
+             "or as data URIs), or give the path of the file",
+             excerpt(uri).c_str());
     if (has_scheme(uri))
         fail("INVALID_URI", location,
              "\"%s\": only files beside the scene are read; use a path relative to the file's "

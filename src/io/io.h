@@ -11,10 +11,18 @@
 extern "C" {
 #endif
 
+/* Where a scene comes from. */
+typedef struct lsf_gltf_source {
+    const char *path; /* of the file; of memory the name for messages */
+    const void *data; /* memory; NULL: the file */
+    size_t size;
+    const char *folder; /* of what memory refers to; NULL: nothing may be there */
+} lsf_gltf_source;
+
 /* glTF 2.0, .gltf or .glb, validated and converted (gltf_*.cpp). Requirements, default light and
  * default camera are the caller's. `scene` is zeroed before; on failure the caller destroys it.
  * `memory_left` gets what of the memory limit the scene does not take. */
-bool lsf_gltf_load(lsf_scene *scene, const char *path, const lsf_scene_params *params,
+bool lsf_gltf_load(lsf_scene *scene, const lsf_gltf_source *source, const lsf_scene_params *params,
                    uint64_t *memory_left, lsf_error *error);
 
 /* Decodes PNG, JPEG, WebP, HDR or EXR from memory into `image` (name is kept). Type and channel

@@ -115,18 +115,19 @@ static bool check_transforms(const lsf_scene *scene, lsf_error *error)
     return good;
 }
 
-lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error)
+static const lsf_scene_params defaults = {LSF_SCENE_PARAMS_DEFAULTS};
+
+static lsf_scene *load(const lsf_gltf_source *source, const lsf_scene_params *params,
+                       lsf_error *error)
 {
-    static const lsf_scene_params defaults = {LSF_SCENE_PARAMS_DEFAULTS};
-    if (!params)
-        params = &defaults;
+    const char *path = source->path;
     lsf_scene *scene = lsf_alloc(1, sizeof(*scene));
     if (!scene) {
         lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", path);
         return NULL;
     }
     uint64_t memory_left;
-    if (!lsf_gltf_load(scene, path, params, &memory_left, error) ||
+    if (!lsf_gltf_load(scene, source, params, &memory_left, error) ||
         !check_transforms(scene, error) || !load_environment(scene, params, memory_left, error) ||
         !lsf_bound_radiance(scene, error)) {
         lsf_scene_destroy(scene);
@@ -157,4 +158,22 @@ lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_
         return NULL;
     }
     return scene;
+}
+
+lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error)
+{
+    const lsf_gltf_source source = {.path = path};
+    return load(&source, params ? params : &defaults, error);
+}
+
+lsf_scene *lsf_scene_load_memory(const void *data, size_t size, const char *folder,
+                                 const lsf_scene_params *params, lsf_error *error)
+{
+    if (!params)
+        params = &defaults;
+    const lsf_gltf_source source = {.path = params->name ? params->name : "memory",
+                                    .data = data ? data : "", /* of no bytes */
+                                    .size = data ? size : 0,
+                                    .folder = folder};
+    return load(&source, params, error);
 }

@@ -3,6 +3,7 @@
 #include "tools/begin.h"
 #include "tools/number.h"
 #include "tools/report.h"
+#include "tools/scenes.h"
 #include "tools/summary.h"
 #include "tools/tools.h"
 
@@ -46,7 +47,9 @@ static bool start(lsf_bench *bench, lsf_error *error)
 {
     double seconds;
     lsf_context_params params = lsf_settings_context_params(&bench->settings);
-    bench->scene = lsf_tool_load_scene(&bench->settings, &bench->scene_path, &seconds, error);
+    bench->scene_path = lsf_tool_scene_path(&bench->settings, 0, error);
+    if (bench->scene_path)
+        bench->scene = lsf_tool_load_scene(&bench->settings, bench->scene_path, &seconds, error);
     if (bench->scene)
         bench->context = lsf_context_create(&params, error);
     if (!bench->context)

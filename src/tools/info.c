@@ -1,19 +1,20 @@
 #include "base/base.h"
 #include "tools/begin.h"
 #include "tools/report.h"
+#include "tools/scenes.h"
 #include "tools/tools.h"
 
-static bool print_scene(const lsf_settings *settings, lsf_error *error)
+static bool print_scene(void *user, uint32_t index, const char *path, lsf_json *json,
+                        lsf_error *error)
 {
-    lsf_scene_params params = lsf_settings_scene_params(settings);
-    lsf_scene *scene = lsf_scene_load(settings->operands.items[0], &params, error);
+    const lsf_settings *settings = user;
+    double seconds;
+    lsf_scene *scene = lsf_tool_load_scene(settings, path, &seconds, error);
     if (!scene)
         return false;
-    bool good = true;
-    if (!lsf_settings_print_json(settings))
-        good = lsf_tool_print("-", lsf_scene_describe(scene, false), error);
-    if (good && settings->json_path)
-        good = lsf_tool_print(settings->json_path, lsf_scene_describe(scene, true), error);
+    bool good = lsf_tool_print(settings, index, lsf_scene_describe(scene, false), error);
+    if (good)
+        lsf_json_text(json, NULL, lsf_scene_describe(scene, true));
     lsf_scene_destroy(scene);
     return good;
 }
@@ -21,13 +22,12 @@ static bool print_scene(const lsf_settings *settings, lsf_error *error)
 int lsf_tool_info(int argc, char **argv)
 {
     lsf_settings settings;
-    lsf_error error;
     int status = lsf_tool_begin(&settings, LSF_COMMAND_INFO, argc, argv);
     if (status == LSF_GO_ON) {
         /* What loading warns of is in the description; it is not said twice. */
         if (!settings.verbose)
             lsf_report_start(LSF_VERBOSITY_QUIET);
-        status = print_scene(&settings, &error) ? 0 : lsf_report_error(&error);
+        status = lsf_tool_for_each_scene(&settings, print_scene, &settings);
     }
     lsf_settings_finish(&settings);
     return status;

@@ -1,6 +1,8 @@
 #include "tools/json.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
 
 static void start_value(lsf_json *json, const char *name)
 {
@@ -71,6 +73,17 @@ void lsf_json_vector(lsf_json *json, const char *name, const float *values, uint
         lsf_string_add_json_number(&json->text, values[i]);
     }
     lsf_string_add_bytes(&json->text, "]", 1);
+}
+
+void lsf_json_text(lsf_json *json, const char *name, char *text)
+{
+    size_t length = text ? strlen(text) : 0;
+    start_value(json, name);
+    if (json->depth > 0 && length > 0 && text[length - 1] == '\n')
+        length--;
+    lsf_string_add_bytes(&json->text, text ? text : "", length);
+    json->text.failed |= !text;
+    free(text);
 }
 
 bool lsf_json_write(const lsf_json *json, const char *path, lsf_error *error)

@@ -2,6 +2,7 @@
 
 #include "base/base.h"
 #include "tools/report.h"
+#include "tools/scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,24 +98,40 @@ static bool check_json(const lsf_destination *destination, const char *json, lsf
     return true;
 }
 
-bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *settings,
-                             lsf_error *error)
+/* The scene's name in place of each %s. */
+static char *fill_in(const char *output, const char *scene)
 {
+    const char *slash = strrchr(scene, '/');
+    const char *name = strcmp(scene, "-") == 0 ? "stdin" : slash ? slash + 1 : scene;
+    lsf_string path = {0};
+    for (const char *c = output; *c; c++) {
+        if (c[0] == '%' && c[1] == 's') {
+            lsf_string_add_bytes(&path, name, stem_length(name));
+            c++;
+        } else {
+            lsf_string_add_bytes(&path, c, 1);
+        }
+    }
+    return path.text;
+}
+
+static bool prepare(lsf_destination *destination, const lsf_settings *settings, uint32_t scene,
+                    lsf_error *error)
+{
+    char *scene_path = lsf_tool_scene_path(settings, scene, error);
+    if (!scene_path)
+        return false;
     *destination =
-        (lsf_destination){.path = settings->output,
+        (lsf_destination){.path = fill_in(settings->output, scene_path),
                           .exposure = settings->exposure.automatic ? NAN : settings->exposure.ev,
                           .curve = (lsf_tone_curve)settings->tonemap};
-    if (!settings->output)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--output: missing; say where the picture goes: -o picture.exr, .hdr, "
-                             ".png, or - for standard output");
-    if (!check_format(destination, settings, error))
-        return false;
-    if (!lsf_file_can_write(destination->path, error))
-        return false;
-    if (settings->halves && !check_halves(destination, error))
-        return false;
-    if (settings->json_path && !check_json(destination, settings->json_path, error))
+    free(scene_path);
+    if (!destination->path)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    if (!check_format(destination, settings, error) ||
+        !lsf_file_can_write(destination->path, error) ||
+        (settings->halves && !check_halves(destination, error)) ||
+        (settings->json_path && !check_json(destination, settings->json_path, error)))
         return false;
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     params.format = destination->format;
@@ -122,11 +139,62 @@ bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *s
                               &params, error);
 }
 
-void lsf_destination_finish(lsf_destination *destination)
+/* The picture and its halves; NULL where there is none. */
+static const char *path_of(const lsf_destination *destination, int which)
 {
-    free(destination->half_paths[0]);
-    free(destination->half_paths[1]);
-    *destination = (lsf_destination){0};
+    return which < 2 ? destination->half_paths[which] : destination->path;
+}
+
+static bool check_distinct(const lsf_destination *destinations, uint32_t last,
+                           const lsf_settings *settings, lsf_error *error)
+{
+    const lsf_list_setting *scenes = &settings->operands;
+    for (uint32_t i = 0; i < last; i++)
+        for (int pair = 0; pair < 9; pair++) {
+            const char *a = path_of(&destinations[i], pair % 3);
+            const char *b = path_of(&destinations[last], pair / 3);
+            if (a && b && strcmp(a, b) == 0)
+                return lsf_error_set(error, LSF_ERROR_USAGE,
+                                     "--output %s: the pictures of %s and %s would both go to %s; "
+                                     "%s",
+                                     settings->output, scenes->items[i], scenes->items[last], a,
+                                     strstr(settings->output, "%s")
+                                         ? "render them one after the other"
+                                         : "write %s where the scene's name is to be, as in "
+                                           "-o '%s.png'");
+        }
+    return true;
+}
+
+lsf_destination *lsf_destinations_create(const lsf_settings *settings, uint32_t count,
+                                         lsf_error *error)
+{
+    if (!settings->output) {
+        lsf_error_set(error, LSF_ERROR_USAGE,
+                      "--output: missing; say where the picture goes: -o picture.exr, .hdr, .png, or "
+                      "- for standard output");
+        return NULL;
+    }
+    lsf_destination *destinations = lsf_alloc(count, sizeof *destinations);
+    if (!destinations)
+        lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    for (uint32_t i = 0; destinations && i < count; i++)
+        if (!prepare(&destinations[i], settings, i, error) ||
+            !check_distinct(destinations, i, settings, error)) {
+            lsf_destinations_destroy(destinations, count);
+            destinations = NULL;
+        }
+    return destinations;
+}
+
+void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count)
+{
+    for (uint32_t i = 0; destinations && i < count; i++) {
+        free(destinations[i].path);
+        free(destinations[i].half_paths[0]);
+        free(destinations[i].half_paths[1]);
+    }
+    free(destinations);
 }
 
 void lsf_destination_expose(lsf_destination *destination, const lsf_image *image)

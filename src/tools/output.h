@@ -5,18 +5,18 @@
 #include "tools/options.h"
 
 typedef struct lsf_destination {
-    const char *path;        /* "-": standard output; borrowed from the settings */
+    char *path;              /* "-": standard output */
     lsf_image_format format; /* never AUTO */
     char *half_paths[2];     /* --halves: OUT_a and OUT_b; else NULL */
     float exposure;          /* EV; NAN: chosen by lsf_destination_expose, or none is used */
     lsf_tone_curve curve;
 } lsf_destination;
 
-/* Checks that the picture and the JSON can be written where the settings want them.
- * LSF_ERROR_USAGE or LSF_ERROR_FILE. Finish it either way; it needs no initialisation. */
-bool lsf_destination_prepare(lsf_destination *destination, const lsf_settings *settings,
-                             lsf_error *error);
-void lsf_destination_finish(lsf_destination *destination);
+/* One for each scene of the command line, of which there are `count`. Checks that pictures and JSON can
+ * be written where the settings want them. NULL: LSF_ERROR_USAGE or LSF_ERROR_FILE. */
+lsf_destination *lsf_destinations_create(const lsf_settings *settings, uint32_t count,
+                                         lsf_error *error);
+void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count); /* NULL allowed */
 
 /* Where --exposure auto asks for it, chooses the exposure that suits the picture, and says which.
  */

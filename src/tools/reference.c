@@ -3,15 +3,16 @@
 #include "tools/interrupt.h"
 #include "tools/output.h"
 #include "tools/report.h"
+#include "tools/scenes.h"
 #include "tools/summary.h"
 #include "tools/tools.h"
 
 #include <stdlib.h>
 
 typedef struct reference_job {
-    lsf_settings settings;
-    lsf_destination destination;
-    char *scene_path;
+    const lsf_settings *settings;
+    lsf_destination *destination;
+    const char *scene_path;
     lsf_scene *scene;
     uint32_t half, half_count;
     lsf_image *halves[2];
@@ -31,14 +32,14 @@ static void warn_of_options_without_effect(const lsf_settings *settings)
 
 static bool load(reference_job *job, lsf_error *error)
 {
-    job->scene = lsf_tool_load_scene(&job->settings, &job->scene_path, &job->load_seconds, error);
+    job->scene = lsf_tool_load_scene(job->settings, job->scene_path, &job->load_seconds, error);
     return job->scene != NULL;
 }
 
 static bool trace(reference_job *job, lsf_error *error)
 {
-    job->half_count = job->settings.halves ? 2 : 1;
-    lsf_render_params params = lsf_settings_render_params(&job->settings);
+    job->half_count = job->settings->halves ? 2 : 1;
+    lsf_render_params params = lsf_settings_render_params(job->settings);
     params.time_limit /= job->half_count;
     params.progress = lsf_interrupt_progress;
     params.progress_user = &job->bar;
@@ -63,7 +64,7 @@ static bool take_mean(reference_job *job, lsf_error *error)
     const lsf_image *a = job->halves[0], *b = job->halves[1];
     const char **names = lsf_alloc(a->channel_count, sizeof *names);
     if (!names)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination.path);
+        return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination->path);
     for (uint32_t c = 0; c < a->channel_count; c++)
         names[c] = a->channel_names[c];
     job->mean = lsf_image_create(a->width, a->height, a->channel_count, names, error);
@@ -93,24 +94,24 @@ static bool save(reference_job *job, lsf_error *error)
     if (job->half_count == 2 && job->results[1].samples > 0) {
         good = take_mean(job, error);
         if (good)
-            lsf_destination_expose(&job->destination, job->mean);
-        good = good && lsf_destination_save(&job->destination, 0, job->halves[0], error) &&
-               lsf_destination_save(&job->destination, 1, job->halves[1], error) &&
-               lsf_destination_save(&job->destination, -1, job->mean, error);
+            lsf_destination_expose(job->destination, job->mean);
+        good = good && lsf_destination_save(job->destination, 0, job->halves[0], error) &&
+               lsf_destination_save(job->destination, 1, job->halves[1], error) &&
+               lsf_destination_save(job->destination, -1, job->mean, error);
     } else {
-        lsf_destination_expose(&job->destination, job->halves[0]);
-        good = lsf_destination_save(&job->destination, -1, job->halves[0], error);
+        lsf_destination_expose(job->destination, job->halves[0]);
+        good = lsf_destination_save(job->destination, -1, job->halves[0], error);
         if (good && job->half_count == 2)
             good = lsf_error_set(error, LSF_ERROR_RENDER,
                                  "interrupted before the second half: %s holds the first, and no "
                                  "halves were written",
-                                 job->destination.path);
+                                 job->destination->path);
     }
     job->save_seconds = lsf_now() - start;
     return good;
 }
 
-static bool report(reference_job *job, lsf_error *error)
+static void report(const reference_job *job, lsf_json *json)
 {
     const lsf_reference_result *a = &job->results[0], *b = &job->results[1];
     double total = lsf_now() - job->start;
@@ -122,54 +123,70 @@ static bool report(reference_job *job, lsf_error *error)
         {"total", total},
     };
     uint32_t samples = a->samples + b->samples;
-    uint32_t bounces = lsf_summary_bounces(&job->settings, job->scene);
+    uint32_t bounces = lsf_summary_bounces(job->settings, job->scene);
     lsf_report_line("%s: %ux%u, %u sample%s%s, %u bounce%s, traced in %.2f s of %.2f s, %.1f "
                     "million rays",
-                    job->destination.path, job->halves[0]->width, job->halves[0]->height, samples,
+                    job->destination->path, job->halves[0]->width, job->halves[0]->height, samples,
                     lsf_plural(samples), lsf_interrupted() ? " (interrupted)" : "", bounces,
                     lsf_plural(bounces), a->render_seconds + b->render_seconds, total,
                     1e-6 * (double)(a->rays + b->rays));
     lsf_summary summary = {
-        .settings = &job->settings,
+        .settings = job->settings,
         .scene = job->scene,
         .scene_path = job->scene_path,
-        .output = job->destination.path,
-        .half_paths = job->mean ? (const char *const *)job->destination.half_paths : NULL,
+        .output = job->destination->path,
+        .half_paths = job->mean ? (const char *const *)job->destination->half_paths : NULL,
         .technique = "path tracing",
         .bounces = bounces,
         .samples = samples,
         .interrupted = lsf_interrupted(),
-        .exposure = job->destination.exposure,
+        .exposure = job->destination->exposure,
         .seconds = seconds,
         .seconds_count = LSF_COUNT(seconds),
         .rays = a->rays + b->rays,
     };
-    return lsf_summary_write(&summary, error);
+    lsf_summary_add(json, &summary);
 }
 
-static void finish(reference_job *job)
+/* What the scenes of a run share. */
+typedef struct reference_run {
+    lsf_settings settings;
+    lsf_destination *destinations;
+    double start; /* of what has not been counted for a scene before */
+} reference_run;
+
+static bool trace_scene(void *user, uint32_t index, const char *path, lsf_json *json,
+                        lsf_error *error)
 {
-    lsf_image_destroy(job->halves[0]);
-    lsf_image_destroy(job->halves[1]);
-    lsf_image_destroy(job->mean);
-    lsf_scene_destroy(job->scene);
-    free(job->scene_path);
-    lsf_destination_finish(&job->destination);
+    reference_run *run = user;
+    reference_job job = {.settings = &run->settings,
+                         .destination = &run->destinations[index],
+                         .scene_path = path,
+                         .start = run->start};
+    bool good = load(&job, error) && trace(&job, error) && save(&job, error);
+    if (good)
+        report(&job, json);
+    lsf_image_destroy(job.halves[0]);
+    lsf_image_destroy(job.halves[1]);
+    lsf_image_destroy(job.mean);
+    lsf_scene_destroy(job.scene);
+    run->start = lsf_now();
+    return good;
 }
 
 int lsf_tool_reference(int argc, char **argv)
 {
-    reference_job job = {.start = lsf_now()};
+    reference_run run = {.start = lsf_now()};
     lsf_error error;
-    int status = lsf_tool_begin(&job.settings, LSF_COMMAND_REFERENCE, argc, argv);
+    int status = lsf_tool_begin(&run.settings, LSF_COMMAND_REFERENCE, argc, argv);
     if (status == LSF_GO_ON) {
-        warn_of_options_without_effect(&job.settings);
-        bool good = lsf_destination_prepare(&job.destination, &job.settings, &error) &&
-                    load(&job, &error) && trace(&job, &error) && save(&job, &error) &&
-                    report(&job, &error);
-        status = good ? 0 : lsf_report_error(&error);
-        finish(&job);
+        uint32_t count = lsf_tool_scene_count(&run.settings);
+        warn_of_options_without_effect(&run.settings);
+        run.destinations = lsf_destinations_create(&run.settings, count, &error);
+        status = run.destinations ? lsf_tool_for_each_scene(&run.settings, trace_scene, &run)
+                                  : lsf_report_error(&error);
+        lsf_destinations_destroy(run.destinations, count);
     }
-    lsf_settings_finish(&job.settings);
+    lsf_settings_finish(&run.settings);
     return status;
 }

@@ -3,6 +3,7 @@
 #include "tools/interrupt.h"
 #include "tools/output.h"
 #include "tools/report.h"
+#include "tools/scenes.h"
 #include "tools/summary.h"
 #include "tools/tools.h"
 
@@ -10,9 +11,9 @@
 #include <stdlib.h>
 
 typedef struct render_job {
-    lsf_settings settings;
-    lsf_destination destination;
-    char *scene_path;
+    const lsf_settings *settings;
+    lsf_destination *destination;
+    const char *scene_path;
     lsf_scene *scene;
     lsf_context *context;
     lsf_renderer *renderer;
@@ -25,13 +26,14 @@ typedef struct render_job {
 
 static bool load(render_job *job, lsf_error *error)
 {
-    job->scene = lsf_tool_load_scene(&job->settings, &job->scene_path, &job->load_seconds, error);
+    job->scene =
+        lsf_tool_load_scene(job->settings, job->scene_path, &job->load_seconds, error);
     return job->scene != NULL;
 }
 
 static bool start_gl(render_job *job, lsf_error *error)
 {
-    lsf_context_params params = lsf_settings_context_params(&job->settings);
+    lsf_context_params params = lsf_settings_context_params(job->settings);
     double start = lsf_now();
     job->context = lsf_context_create(&params, error);
     job->context_seconds = lsf_now() - start;
@@ -40,10 +42,10 @@ static bool start_gl(render_job *job, lsf_error *error)
 
 static bool converge(render_job *job, lsf_error *error)
 {
-    lsf_render_params params = lsf_settings_render_params(&job->settings);
-    job->maps_on_gpu = job->destination.format == LSF_IMAGE_FORMAT_PNG &&
+    lsf_render_params params = lsf_settings_render_params(job->settings);
+    job->maps_on_gpu = job->destination->format == LSF_IMAGE_FORMAT_PNG &&
                        params.background != LSF_BACKGROUND_TRANSPARENT &&
-                       !job->settings.exposure.automatic;
+                       !job->settings->exposure.automatic;
     params.rgb8 = job->maps_on_gpu;
     params.progress = lsf_interrupt_progress;
     params.progress_user = &job->bar;
@@ -63,8 +65,8 @@ static bool save_float(render_job *job, lsf_error *error)
 {
     lsf_image *image = lsf_renderer_read(job->renderer, error);
     if (image)
-        lsf_destination_expose(&job->destination, image);
-    bool good = image && lsf_destination_save(&job->destination, -1, image, error);
+        lsf_destination_expose(job->destination, image);
+    bool good = image && lsf_destination_save(job->destination, -1, image, error);
     lsf_image_destroy(image);
     return good;
 }
@@ -81,20 +83,20 @@ static uint64_t count_seen(const uint8_t *rgb, uint64_t pixels)
 /* Tone-mapped on the GPU: only the bytes of the file come back. */
 static bool save_rgb8(render_job *job, lsf_error *error)
 {
-    uint32_t width = job->settings.resolution[0], height = job->settings.resolution[1];
+    uint32_t width = job->settings->resolution[0], height = job->settings->resolution[1];
     uint8_t *rgb = lsf_alloc((uint64_t)width * height, 3);
     bool good =
-        rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination.path);
+        rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination->path);
     good = good &&
-           lsf_renderer_read_rgb8(job->renderer, job->destination.exposure, job->destination.curve,
+           lsf_renderer_read_rgb8(job->renderer, job->destination->exposure, job->destination->curve,
                                   rgb, error) &&
-           lsf_image_save_rgb8(rgb, width, height, job->destination.path, error);
+           lsf_image_save_rgb8(rgb, width, height, job->destination->path, error);
     if (good)
-        lsf_destination_warn_of_darkness(&job->destination,
+        lsf_destination_warn_of_darkness(job->destination,
                                          count_seen(rgb, (uint64_t)width * height),
                                          (uint64_t)width * height);
     if (good && job->stats.lost_pixels > 0) /* lsf_image_save says so by itself */
-        lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination.path,
+        lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination->path,
                 (unsigned long long)job->stats.lost_pixels, (unsigned long long)width * height);
     free(rgb);
     return good;
@@ -110,7 +112,7 @@ static bool save(render_job *job, lsf_error *error)
     return good;
 }
 
-static bool report(render_job *job, lsf_error *error)
+static void report(const render_job *job, lsf_json *json)
 {
     lsf_context_info device = lsf_context_get_info(job->context);
     double total = lsf_now() - job->start;
@@ -128,53 +130,70 @@ static bool report(render_job *job, lsf_error *error)
     if (bounces > 0)
         snprintf(light, sizeof light, " with %u bounce%s", bounces, lsf_plural(bounces));
     lsf_report_line("%s: %ux%u, %u sample%s%s of %s%s, rendered in %.2f s of %.2f s on %s",
-                    job->destination.path, job->settings.resolution[0], job->settings.resolution[1],
+                    job->destination->path, job->settings->resolution[0], job->settings->resolution[1],
                     job->stats.samples, lsf_plural(job->stats.samples),
-                    lsf_interrupted() ? " (interrupted)" : "", job->settings.technique, light,
+                    lsf_interrupted() ? " (interrupted)" : "", job->settings->technique, light,
                     job->stats.render_seconds, total, device.renderer);
     if (job->stats.lost_share > 0.0)
-        lsf_report_line("%s: bounds took %.3g %% of the light away", job->destination.path,
+        lsf_report_line("%s: bounds took %.3g %% of the light away", job->destination->path,
                         100.0 * job->stats.lost_share);
     lsf_summary summary = {
-        .settings = &job->settings,
+        .settings = job->settings,
         .scene = job->scene,
         .scene_path = job->scene_path,
-        .output = job->destination.path,
-        .technique = job->settings.technique,
+        .output = job->destination->path,
+        .technique = job->settings->technique,
         .bounces = bounces,
         .samples = job->stats.samples,
         .interrupted = lsf_interrupted(),
-        .exposure = job->destination.exposure,
+        .exposure = job->destination->exposure,
         .seconds = seconds,
         .seconds_count = LSF_COUNT(seconds),
         .device = &device,
         .stats = &job->stats,
         .plan_bytes = lsf_plan_bytes(lsf_renderer_plan(job->renderer)),
     };
-    return lsf_summary_write(&summary, error);
+    lsf_summary_add(json, &summary);
 }
 
-static void finish(render_job *job)
+/* What the scenes of a run share. */
+typedef struct render_run {
+    lsf_settings settings;
+    lsf_destination *destinations;
+    double start; /* of what has not been counted for a scene before */
+} render_run;
+
+static bool render_scene(void *user, uint32_t index, const char *path, lsf_json *json,
+                         lsf_error *error)
 {
-    lsf_renderer_destroy(job->renderer);
-    lsf_context_destroy(job->context);
-    lsf_scene_destroy(job->scene);
-    free(job->scene_path);
-    lsf_destination_finish(&job->destination);
+    render_run *run = user;
+    render_job job = {.settings = &run->settings,
+                      .destination = &run->destinations[index],
+                      .scene_path = path,
+                      .start = run->start};
+    bool good = load(&job, error) && start_gl(&job, error) && converge(&job, error) &&
+                save(&job, error);
+    if (good)
+        report(&job, json);
+    lsf_renderer_destroy(job.renderer);
+    lsf_context_destroy(job.context);
+    lsf_scene_destroy(job.scene);
+    run->start = lsf_now();
+    return good;
 }
 
 int lsf_tool_render(int argc, char **argv)
 {
-    render_job job = {.start = lsf_now()};
+    render_run run = {.start = lsf_now()};
     lsf_error error;
-    int status = lsf_tool_begin(&job.settings, LSF_COMMAND_RENDER, argc, argv);
+    int status = lsf_tool_begin(&run.settings, LSF_COMMAND_RENDER, argc, argv);
     if (status == LSF_GO_ON) {
-        bool good = lsf_destination_prepare(&job.destination, &job.settings, &error) &&
-                    load(&job, &error) && start_gl(&job, &error) && converge(&job, &error) &&
-                    save(&job, &error) && report(&job, &error);
-        status = good ? 0 : lsf_report_error(&error);
-        finish(&job);
+        uint32_t count = lsf_tool_scene_count(&run.settings);
+        run.destinations = lsf_destinations_create(&run.settings, count, &error);
+        status = run.destinations ? lsf_tool_for_each_scene(&run.settings, render_scene, &run)
+                                  : lsf_report_error(&error);
+        lsf_destinations_destroy(run.destinations, count);
     }
-    lsf_settings_finish(&job.settings);
+    lsf_settings_finish(&run.settings);
     return status;
 }

@@ -144,7 +144,7 @@ uint32_t lsf_summary_bounces(const lsf_settings *settings, const lsf_scene *scen
                                                  : settings->bounces;
 }
 
-static void add_summary(lsf_json *json, const lsf_summary *summary)
+void lsf_summary_add(lsf_json *json, const lsf_summary *summary)
 {
     const lsf_settings *settings = summary->settings;
     lsf_json_begin(json, NULL, '{');
@@ -191,13 +191,4 @@ static void add_summary(lsf_json *json, const lsf_summary *summary)
         lsf_json_string(json, NULL, lsf_scene_note(summary->scene, i));
     lsf_json_end(json, ']');
     lsf_json_end(json, '}');
-}
-
-bool lsf_summary_write(const lsf_summary *summary, lsf_error *error)
-{
-    lsf_json json = {0};
-    add_summary(&json, summary);
-    bool good = lsf_json_write(&json, summary->settings->json_path, error);
-    free(json.text.text);
-    return good;
 }

@@ -35,7 +35,6 @@ void lsf_summary_add_device(lsf_json *json, const lsf_context_info *device);
 /* Those asked for, or those that the scene needs. */
 uint32_t lsf_summary_bounces(const lsf_settings *settings, const lsf_scene *scene);
 
-/* To settings->json_path, when there is one. */
-bool lsf_summary_write(const lsf_summary *summary, lsf_error *error);
+void lsf_summary_add(lsf_json *json, const lsf_summary *summary);
 
 #endif

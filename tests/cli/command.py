@@ -25,8 +25,10 @@ class CommandTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def run_command(self, *words, status=DONE, timeout=120, **keywords):
+        if "input" not in keywords:
+            keywords.setdefault("stdin", subprocess.DEVNULL)
+        keywords.setdefault("stdout", subprocess.PIPE)
         done = subprocess.run([COMMAND, *words], cwd=self.folder, timeout=timeout,
-                              stdin=subprocess.DEVNULL, stdout=keywords.pop("stdout", subprocess.PIPE),
                               stderr=subprocess.PIPE, **keywords)
         done.text = done.stderr.decode(errors="replace")
         self.assertEqual(done.returncode, status,

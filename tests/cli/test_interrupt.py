@@ -17,11 +17,11 @@ def hear_signals():
 
 
 class Interrupt(CommandTest):
-    def start_and_interrupt(self, tool, *words, number=signal.SIGINT, again=False):
+    def start_and_interrupt(self, tool, *words, number=signal.SIGINT, again=False, output="a.exr"):
         """Starts at a terminal, waits for the progress bar, and sends the signal."""
         mine, theirs = pty.openpty()
         scene = self.scene()
-        process = subprocess.Popen([COMMAND, tool, scene, "-o", "a.exr", *ENDLESS, *words],
+        process = subprocess.Popen([COMMAND, tool, scene, "-o", output, *ENDLESS, *words],
                                    cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=theirs,
                                    preexec_fn=hear_signals)
@@ -52,7 +52,7 @@ class Interrupt(CommandTest):
             report = self.read_json("a.json")
             self.assertIs(report["interrupted"], True)
             self.assertGreater(report["samples"], 0)
-            self.assertIn(f"{report['samples']} samples", seen)
+            self.assertIn(f"{report['samples']} sample", seen)
             self.assertEqual(self.files(), ["a.exr", "a.json", "scene.gltf"])
 
     def test_partial_is_the_same_as_asking_for_it(self):
@@ -68,6 +68,18 @@ class Interrupt(CommandTest):
         status, seen = self.start_and_interrupt("render", again=True)
         self.assertIn(status, (DONE, -signal.SIGTERM, -signal.SIGINT), seen)
         self.assertIn(self.files(), (["scene.gltf"], ["a.exr", "scene.gltf"]))
+
+    def test_scenes_behind_are_left_out(self):
+        self.scene("b.gltf")
+        self.scene("c.gltf")
+        status, seen = self.start_and_interrupt("render", "b.gltf", "c.gltf", "--json", "a.json",
+                                                output="%s.exr")
+        self.assertEqual(status, RENDERING, seen)
+        self.assertIn("error: b.gltf: interrupted before this scene and those behind it", seen)
+        self.assertEqual(self.files(), ["a.json", "b.gltf", "c.gltf", "scene.exr", "scene.gltf"])
+        first, second = self.read_json("a.json")
+        self.assertIs(first["interrupted"], True)
+        self.assertEqual(second["scene"], "b.gltf")
 
     def test_reference(self):
         status, seen = self.start_and_interrupt("reference")
