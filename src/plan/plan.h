@@ -20,6 +20,13 @@ typedef struct lsf_plan_switch {
     char when[LSF_PLAN_TEXT_SIZE]; /* it is on */
 } lsf_plan_switch;
 
+/* The finest that a map or a grid over all of the scene tells apart. */
+typedef struct lsf_plan_grain {
+    float width;                    /* normalised space; 0: there is no such map */
+    const char *cell, *of, *option; /* "a voxel", of a "grid", and the option for finer ones */
+    const char *instead;            /* what else helps, to follow a comma, or "" */
+} lsf_plan_grain;
+
 #define LSF_PLAN_MAX_SWITCHES 48
 
 typedef struct lsf_plan_pass {
@@ -48,6 +55,7 @@ struct lsf_plan {
     uint32_t width, height, samples, bounces, aovs;
     uint32_t sky_lights; /* directions an iteration from which the environment lights */
     lsf_islands islands; /* of techniques that draw maps over the whole scene; else none */
+    lsf_plan_grain grain;
     bool orthographic;
     lsf_seen_background background;
     bool transmission; /* there are materials that transmit light */

@@ -1,5 +1,7 @@
 #include "techniques/bidirectional_sampling.h"
 
+#include <math.h>
+
 #include "passes/compose.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
@@ -117,6 +119,17 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params,
                         s->vpl_emitter ? "once" : "not at all");
 }
 
+/* Of all islands together, along the longest side of each. */
+static float islands_length(const lsf_islands *islands)
+{
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < islands->count; i++) {
+        const float *b = islands->bounds[i];
+        sum += fmaxf(b[3] - b[0], fmaxf(b[4] - b[1], b[5] - b[2]));
+    }
+    return sum;
+}
+
 void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
     lsf_bidirectional_sampling s = lsf_bidirectional_sampling_choose(plan, params, state);
@@ -143,6 +156,13 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
         lsf_ray_bundle_use use = lsf_bidirectional_bundle_use(&s);
         lsf_bundle_directions_plan(plan);
         lsf_ray_bundle_plan(plan, &params->ray_bundle, &use);
+        if (s.whole_scene)
+            plan->grain = (lsf_plan_grain){
+                .width = islands_length(&plan->islands) / (float)params->ray_bundle.resolution,
+                .cell = "a texel of ray-bundles",
+                .of = "map",
+                .option = "bundle.resolution",
+                .instead = s.segments > 1 ? ", or let light bounce once" : ""};
     } else {
         lsf_plan_omit(plan, "ray_bundle",
                       s.vpl_light || s.vpl_emitter ? "VPLs alone light visible points"

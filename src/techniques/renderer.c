@@ -9,6 +9,7 @@
 #include "math/vector.h"
 #include "passes/accumulate.h"
 #include "passes/tonemap.h"
+#include "techniques/grain.h"
 #include "techniques/setup.h"
 
 #define MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 2)
@@ -24,6 +25,7 @@ struct lsf_renderer {
     lsf_tonemap tonemap;
     uint32_t samples; /* iterations asked for so far */
     uint32_t next;    /* iteration to run next: fewer, where some have to be run again */
+    bool grain_checked;
     double time_limit;
     uint32_t samples_wanted;
     lsf_progress progress;
@@ -140,6 +142,9 @@ static void run_iteration(lsf_renderer *renderer)
     setup->technique->run(renderer->technique, &renderer->iteration, &renderer->outputs);
     for (uint32_t i = 0; i < setup->layer_count; i++)
         layers[i] = layer_texture(&renderer->outputs, setup->layer_aovs[i]);
+    if (!renderer->grain_checked)
+        lsf_grain_check(&renderer->iteration, renderer->outputs.depth);
+    renderer->grain_checked = true;
     lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers, renderer->outputs.depth,
                        renderer->outputs.gate);
     renderer->next++;

@@ -46,6 +46,12 @@ void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const l
     lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, use);
     lsf_voxel_light_use light = light_use(params, use);
     lsf_voxel_grid_remark(plan, &params->voxel_grid, &grid);
+    if (plan->bounces > 0 || plan->requirements.emissive || plan->requirements.environment)
+        plan->grain = (lsf_plan_grain){.width = grid.side,
+                                       .cell = "a voxel",
+                                       .of = "grid",
+                                       .option = "voxel.resolution",
+                                       .instead = ", or take --technique bidirectional"};
     lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid.resolution);
     lsf_voxelize_plan(plan, &params->voxelize, &grid);
     lsf_voxel_light_plan(plan, &grid, &light);
