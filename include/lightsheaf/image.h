@@ -59,14 +59,22 @@ typedef enum lsf_tone_curve {
     LSF_TONE_CURVE_AGX,     /* like film, with bright colours that fade to white */
 } lsf_tone_curve;
 
+/* What a file says about its picture: an EXR's attribute of type string, a PNG's tEXt. */
+typedef struct lsf_image_text {
+    const char *key, *value;
+} lsf_image_text;
+
 typedef struct lsf_image_save_params {
     lsf_image_format format;
     float exposure; /* EV: radiance is multiplied by 2^exposure before tone mapping; PNG only */
     lsf_tone_curve curve; /* PNG only */
+    const lsf_image_text *texts; /* EXR and PNG only */
+    uint32_t text_count;
 } lsf_image_save_params;
 
 #define LSF_IMAGE_SAVE_PARAMS_DEFAULTS                                                             \
-    .format = LSF_IMAGE_FORMAT_AUTO, .exposure = 0.0f, .curve = LSF_TONE_CURVE_NEUTRAL
+    .format = LSF_IMAGE_FORMAT_AUTO, .exposure = 0.0f, .curve = LSF_TONE_CURVE_NEUTRAL,            \
+    .texts = NULL, .text_count = 0
 
 /* The exposure [EV] that brings the log-average luminance of R, G and B to middle grey, 0.18
  * (Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002). Pixels count by
@@ -86,9 +94,17 @@ bool lsf_image_can_save(uint32_t width, uint32_t height, const char *path,
                         const lsf_image_save_params *params, lsf_error *error);
 
 /* Writes 8-bit sRGB pixels as PNG: `width` * `height` * 3 bytes, rows from the top, as
- * lsf_renderer_read_rgb8 gives them. Written aside and renamed; path "-" is standard output. */
+ * lsf_renderer_read_rgb8 gives them. Of `params` the texts alone count; NULL means none. Written
+ * aside and renamed; path "-" is standard output. */
 bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,
-                         lsf_error *error);
+                         const lsf_image_save_params *params, lsf_error *error);
+
+/* Whether there is a file that begins as the pictures do that lsf_image_load reads. */
+bool lsf_image_recognise(const char *path);
+
+/* Prints what the file's header says: format, size, channels and texts; as text or JSON. The pixels
+ * stay undecoded. malloc'ed; NULL with LSF_ERROR_FILE. */
+char *lsf_image_describe(const char *path, bool json, lsf_error *error);
 
 /* Removes what lsf_image_save is writing aside at this moment, in any thread. Async-signal-safe:
  * for the handler of a signal that ends the process. */

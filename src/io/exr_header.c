@@ -183,3 +183,42 @@ bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
         ((uint64_t)64 << 20) + 2 * (uint64_t)header->width * header->height * found.pixel_bytes;
     return true;
 }
+
+/* An attribute of a header that was checked; advances *at behind it. */
+static bool next_attribute(const uint8_t *bytes, size_t *at, const char **type,
+                           lsf_header_text *attribute)
+{
+    size_t place = *at ? *at : 8;
+    if (bytes[place] == 0)
+        return false;
+    attribute->key = (const char *)bytes + place;
+    place += strlen(attribute->key) + 1;
+    *type = (const char *)bytes + place;
+    place += strlen(*type) + 1;
+    attribute->length = read_u32(bytes + place);
+    attribute->value = (const char *)bytes + place + 4;
+    *at = place + 4 + attribute->length;
+    return true;
+}
+
+bool lsf_exr_next_text(const uint8_t *bytes, size_t *at, lsf_header_text *text)
+{
+    const char *type;
+    while (next_attribute(bytes, at, &type, text))
+        if (strcmp(type, "string") == 0)
+            return true;
+    return false;
+}
+
+const char *lsf_exr_next_channel(const uint8_t *bytes, size_t *at)
+{
+    const char *type;
+    lsf_header_text list;
+    size_t place = *at;
+    while (*at == 0 && next_attribute(bytes, &place, &type, &list))
+        if (strcmp(list.key, "channels") == 0)
+            *at = (size_t)(list.value - (const char *)bytes);
+    const char *name = (const char *)bytes + *at;
+    *at += strlen(name) + 17;
+    return name;
+}

@@ -44,6 +44,20 @@ bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
 bool lsf_webp_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
                           uint64_t *pixels_max, const char *name, lsf_error *error);
 
+/* A text in a file that lsf_image_header_read let pass: an EXR's attribute of type string, a PNG's
+ * tEXt. The key ends with a NUL, the value after `length` bytes. */
+typedef struct lsf_header_text {
+    const char *key, *value;
+    size_t length;
+} lsf_header_text;
+
+/* The next one from *at on, which is 0 at first; false when there is none any more. */
+bool lsf_png_next_text(const uint8_t *bytes, size_t length, size_t *at, lsf_header_text *text);
+bool lsf_exr_next_text(const uint8_t *bytes, size_t *at, lsf_header_text *text);
+
+/* The name of the next channel, likewise; there are as many as the header says. */
+const char *lsf_exr_next_channel(const uint8_t *bytes, size_t *at);
+
 /* Takes out of a file that lsf_image_header_read let pass what no pixel needs: comments,
  * thumbnails, Exif, IPTC, XMP, colour profiles. Decoding libraries parse these with less care than
  * pixels. Returns the length that is left. */

@@ -25,6 +25,8 @@ typedef struct lsf_encode_request {
     uint32_t width, height, channels;
     const char (*names)[LSF_CHANNEL_NAME_SIZE]; /* EXR only */
     const void *texels;
+    const lsf_image_text *texts; /* PNG and EXR only */
+    uint32_t text_count;
 } lsf_encode_request;
 
 typedef struct lsf_image_module {

@@ -154,17 +154,28 @@ static bool save_png(const float *rgb, const float *alpha, uint32_t width, uint3
                                   .width = width,
                                   .height = height,
                                   .channels = channels,
-                                  .texels = codes};
+                                  .texels = codes,
+                                  .texts = params->texts,
+                                  .text_count = params->text_count};
     bool saved = encode_and_write(&request, path, error);
     free(codes);
     return saved;
 }
 
+static const lsf_image_save_params defaults = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
+
 bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,
-                         lsf_error *error)
+                         const lsf_image_save_params *params, lsf_error *error)
 {
-    lsf_encode_request request = {
-        .file = LSF_IMAGE_FILE_PNG, .width = width, .height = height, .channels = 3, .texels = rgb};
+    if (!params)
+        params = &defaults;
+    lsf_encode_request request = {.file = LSF_IMAGE_FILE_PNG,
+                                  .width = width,
+                                  .height = height,
+                                  .channels = 3,
+                                  .texels = rgb,
+                                  .texts = params->texts,
+                                  .text_count = params->text_count};
     return check_size(width, height, path, error) && encode_and_write(&request, path, error);
 }
 
@@ -224,8 +235,6 @@ static void warn_of_lost_pixels(const lsf_image *image, const char *path)
                 (unsigned long long)lost, (unsigned long long)count);
 }
 
-static const lsf_image_save_params defaults = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
-
 bool lsf_image_can_save(uint32_t width, uint32_t height, const char *path,
                         const lsf_image_save_params *params, lsf_error *error)
 {
@@ -250,7 +259,9 @@ bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_sa
             .height = image->height,
             .channels = image->channel_count,
             .names = (const char(*)[LSF_CHANNEL_NAME_SIZE])image->channel_names,
-            .texels = image->pixels};
+            .texels = image->pixels,
+            .texts = params->texts,
+            .text_count = params->text_count};
         if (image->channel_count == 0)
             return lsf_error_set(error, LSF_ERROR_FILE, "%s: the image has no channels",
                                  shown_path(path));

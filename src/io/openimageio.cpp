@@ -139,6 +139,9 @@ bool encode_unguarded(const lsf_encode_request *request, void **bytes, size_t *l
     spec.attribute("DateTime", "");
     spec.attribute("oiio:ColorSpace", request->file == LSF_IMAGE_FILE_PNG ? "sRGB" : "Linear");
 
+    for (uint32_t i = 0; i < request->text_count; i++)
+        spec.attribute(request->texts[i].key, request->texts[i].value);
+
     auto output = OIIO::ImageOutput::create(plugin_names[request->file]);
     if (!output)
         return encode_failed(name, request->file, OIIO::geterror(), error);

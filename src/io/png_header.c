@@ -93,3 +93,23 @@ size_t lsf_png_without_metadata(uint8_t *bytes, size_t length)
     }
     return kept;
 }
+
+bool lsf_png_next_text(const uint8_t *bytes, size_t length, size_t *at, lsf_header_text *text)
+{
+    for (size_t place = *at ? *at : SIGNATURE_BYTES; place + CHUNK_FRAME_BYTES <= length;) {
+        const uint8_t *chunk = bytes + place;
+        size_t size = read_u32(chunk);
+        const uint8_t *key = chunk + 8;
+        const uint8_t *end = size > 0 ? memchr(key, 0, size) : NULL;
+        place += size + CHUNK_FRAME_BYTES;
+        if (is_type(chunk, "IEND"))
+            break;
+        if (!is_type(chunk, "tEXt") || !end)
+            continue;
+        *at = place;
+        *text = (lsf_header_text){(const char *)key, (const char *)end + 1,
+                                  size - (size_t)(end - key) - 1};
+        return true;
+    }
+    return false;
+}

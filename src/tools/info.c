@@ -4,11 +4,23 @@
 #include "tools/scenes.h"
 #include "tools/tools.h"
 
-static bool print_scene(void *user, uint32_t index, const char *path, lsf_json *json,
-                        lsf_error *error)
+static bool print_picture(const lsf_settings *settings, uint32_t index, const char *path,
+                          lsf_json *json, lsf_error *error)
+{
+    char *text = lsf_image_describe(path, false, error);
+    bool good = text && lsf_tool_print(settings, index, text, error);
+    if (good)
+        lsf_json_text(json, NULL, lsf_image_describe(path, true, error));
+    return good;
+}
+
+static bool print_file(void *user, uint32_t index, const char *path, lsf_json *json,
+                       lsf_error *error)
 {
     const lsf_settings *settings = user;
     double seconds;
+    if (lsf_image_recognise(path))
+        return print_picture(settings, index, path, json, error);
     lsf_scene *scene = lsf_tool_load_scene(settings, path, &seconds, error);
     if (!scene)
         return false;
@@ -27,7 +39,7 @@ int lsf_tool_info(int argc, char **argv)
         /* What loading warns of is in the description; it is not said twice. */
         if (!settings.verbose)
             lsf_report_start(LSF_VERBOSITY_QUIET);
-        status = lsf_tool_for_each_scene(&settings, print_scene, &settings);
+        status = lsf_tool_for_each_scene(&settings, print_file, &settings);
     }
     lsf_settings_finish(&settings);
     return status;

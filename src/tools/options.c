@@ -12,9 +12,11 @@
 #define ANY (LOADING | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH | LSF_COMMAND_HELP)
 
 static const lsf_command commands[] = {
-    {LSF_COMMAND_RENDER, "render", "[SCENE]... -o OUT", 0, UINT32_MAX, "render a glTF scene with OpenGL",
+    {LSF_COMMAND_RENDER, "render", "[SCENE]... -o OUT", 0, UINT32_MAX,
+     "render a glTF scene with OpenGL",
      "Renders SCENE (.gltf or .glb, - for standard input; without one, the furnished interior that "
-     "comes with Lightsheaf) into OUT by iterations that converge. It needs neither display nor GPU."},
+     "comes with Lightsheaf) into OUT by iterations that converge. It needs neither display nor "
+     "GPU."},
     {LSF_COMMAND_REFERENCE, "reference", "[SCENE]... -o OUT", 0, UINT32_MAX,
      "path-trace the same picture on the CPU, as ground truth",
      "Path-traces SCENE on the CPU: what a technique's picture is measured against. It takes the "
@@ -24,10 +26,14 @@ static const lsf_command commands[] = {
      "Prints the error of TEST against REFERENCE: RMSE, relMSE, bias per channel, SSIM and PSNR. "
      "With two independent halves of the reference, its own noise is taken out of the squared "
      "errors. A pixel that is not finite is a failure."},
-    {LSF_COMMAND_INFO, "info", "SCENE...", 1, UINT32_MAX, "say what a scene holds and what it requires",
+    {LSF_COMMAND_INFO, "info", "SCENE...", 1, UINT32_MAX,
+     "say what a scene holds and what it requires",
      "Prints what the file holds, what was ignored or repaired, and what the scene requires of a "
-     "renderer. It needs no OpenGL."},
-    {LSF_COMMAND_PLAN, "plan", "[SCENE]...", 0, UINT32_MAX, "say what a rendering would run, and why",
+     "renderer. Of a picture it prints format, size, channels and texts, which tell how Lightsheaf "
+     "made "
+     "it. It needs no OpenGL."},
+    {LSF_COMMAND_PLAN, "plan", "[SCENE]...", 0, UINT32_MAX,
+     "say what a rendering would run, and why",
      "Prints the frame plan: the passes in order, each resource with its bytes, each shader's "
      "switches, and why each is there or was left out. It needs no OpenGL."},
     {LSF_COMMAND_BENCH, "bench", "rays|bidirectional|cone|voxel_path [SCENE]", 1, 2,

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/base.h"
 #include <lightsheaf/lightsheaf.h>
 
 typedef enum lsf_command_bit {
@@ -145,6 +146,7 @@ typedef struct lsf_settings {
     double epsilon; /* NAN: relative to the reference's mean */
     lsf_list_setting thresholds;
 
+    lsf_string typed;  /* the options that shape a picture, as one would type them */
     uint64_t given[2]; /* bit i of word i / 64: row i of the table was on the command line */
 } lsf_settings;
 

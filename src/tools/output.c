@@ -238,10 +238,12 @@ static void look_for_darkness(const lsf_destination *destination, const lsf_imag
 }
 
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
-                          lsf_error *error)
+                          const lsf_imprint *imprint, lsf_error *error)
 {
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     params.format = destination->format;
+    params.texts = imprint->texts;
+    params.text_count = LSF_COUNT(imprint->texts);
     params.exposure = destination->exposure;
     params.curve = destination->curve;
     if (!lsf_image_save(image, half < 0 ? destination->path : destination->half_paths[half],

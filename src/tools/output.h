@@ -2,6 +2,7 @@
 #ifndef LSF_TOOLS_OUTPUT_H
 #define LSF_TOOLS_OUTPUT_H
 
+#include "tools/imprint.h"
 #include "tools/options.h"
 
 typedef struct lsf_destination {
@@ -29,6 +30,6 @@ void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64
 
 /* `half` -1: the picture itself, which it looks at for darkness; 0 and 1: its halves. */
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
-                          lsf_error *error);
+                          const lsf_imprint *imprint, lsf_error *error);
 
 #endif

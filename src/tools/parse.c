@@ -1,6 +1,7 @@
 #include "tools/options.h"
 
 #include "base/base.h"
+#include "tools/imprint.h"
 #include "tools/number.h"
 
 #include <getopt.h>
@@ -498,6 +499,7 @@ bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, c
         settings->given[row / 64] |= (uint64_t)1 << row % 64;
         if (!set_value(settings, option, optarg, error))
             return false;
+        lsf_imprint_add_option(&settings->typed, option, option->argument ? optarg : NULL);
     }
     for (; optind < argc; optind++) /* behind "--" */
         if (!append(&settings->operands, argv[optind]))
@@ -511,6 +513,7 @@ void lsf_settings_finish(lsf_settings *settings)
     free((void *)settings->animations.items);
     free((void *)settings->defines.items);
     free((void *)settings->thresholds.items);
+    free(settings->typed.text);
     *settings = (lsf_settings){0};
 }
 

@@ -9,6 +9,9 @@
 
 #include <stdlib.h>
 
+/* What JSON and header call it. */
+#define TECHNIQUE "path tracing"
+
 typedef struct reference_job {
     const lsf_settings *settings;
     lsf_destination *destination;
@@ -84,23 +87,35 @@ static bool take_mean(reference_job *job, lsf_error *error)
     return true;
 }
 
+/* `half` as in lsf_destination_save. */
+static bool save_one(reference_job *job, int half, const lsf_image *image, uint32_t samples,
+                     lsf_error *error)
+{
+    lsf_imprint imprint;
+    bool good = lsf_imprint_make(&imprint, job->settings, job->scene_path, TECHNIQUE,
+                                 lsf_summary_bounces(job->settings, job->scene), samples, error) &&
+                lsf_destination_save(job->destination, half, image, &imprint, error);
+    lsf_imprint_finish(&imprint);
+    return good;
+}
+
 static bool save(reference_job *job, lsf_error *error)
 {
-    uint32_t samples = job->results[0].samples + job->results[1].samples;
-    if (!lsf_interrupt_may_save(samples, error))
+    const lsf_reference_result *a = &job->results[0], *b = &job->results[1];
+    if (!lsf_interrupt_may_save(a->samples + b->samples, error))
         return false;
     double start = lsf_now();
     bool good;
-    if (job->half_count == 2 && job->results[1].samples > 0) {
+    if (job->half_count == 2 && b->samples > 0) {
         good = take_mean(job, error);
         if (good)
             lsf_destination_expose(job->destination, job->mean);
-        good = good && lsf_destination_save(job->destination, 0, job->halves[0], error) &&
-               lsf_destination_save(job->destination, 1, job->halves[1], error) &&
-               lsf_destination_save(job->destination, -1, job->mean, error);
+        good = good && save_one(job, 0, job->halves[0], a->samples, error) &&
+               save_one(job, 1, job->halves[1], b->samples, error) &&
+               save_one(job, -1, job->mean, a->samples + b->samples, error);
     } else {
         lsf_destination_expose(job->destination, job->halves[0]);
-        good = lsf_destination_save(job->destination, -1, job->halves[0], error);
+        good = save_one(job, -1, job->halves[0], a->samples, error);
         if (good && job->half_count == 2)
             good = lsf_error_set(error, LSF_ERROR_RENDER,
                                  "interrupted before the second half: %s holds the first, and no "
@@ -136,7 +151,7 @@ static void report(const reference_job *job, lsf_json *json)
         .scene_path = job->scene_path,
         .output = job->destination->path,
         .half_paths = job->mean ? (const char *const *)job->destination->half_paths : NULL,
-        .technique = "path tracing",
+        .technique = TECHNIQUE,
         .bounces = bounces,
         .samples = samples,
         .interrupted = lsf_interrupted(),

@@ -61,12 +61,12 @@ static bool converge(render_job *job, lsf_error *error)
     return good && lsf_context_check(job->context, error);
 }
 
-static bool save_float(render_job *job, lsf_error *error)
+static bool save_float(render_job *job, const lsf_imprint *imprint, lsf_error *error)
 {
     lsf_image *image = lsf_renderer_read(job->renderer, error);
     if (image)
         lsf_destination_expose(job->destination, image);
-    bool good = image && lsf_destination_save(job->destination, -1, image, error);
+    bool good = image && lsf_destination_save(job->destination, -1, image, imprint, error);
     lsf_image_destroy(image);
     return good;
 }
@@ -81,16 +81,19 @@ static uint64_t count_seen(const uint8_t *rgb, uint64_t pixels)
 }
 
 /* Tone-mapped on the GPU: only the bytes of the file come back. */
-static bool save_rgb8(render_job *job, lsf_error *error)
+static bool save_rgb8(render_job *job, const lsf_imprint *imprint, lsf_error *error)
 {
+    lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
+    params.texts = imprint->texts;
+    params.text_count = LSF_COUNT(imprint->texts);
     uint32_t width = job->settings->resolution[0], height = job->settings->resolution[1];
     uint8_t *rgb = lsf_alloc((uint64_t)width * height, 3);
     bool good =
         rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination->path);
     good = good &&
-           lsf_renderer_read_rgb8(job->renderer, job->destination->exposure, job->destination->curve,
-                                  rgb, error) &&
-           lsf_image_save_rgb8(rgb, width, height, job->destination->path, error);
+           lsf_renderer_read_rgb8(job->renderer, job->destination->exposure,
+                                  job->destination->curve, rgb, error) &&
+           lsf_image_save_rgb8(rgb, width, height, job->destination->path, &params, error);
     if (good)
         lsf_destination_warn_of_darkness(job->destination,
                                          count_seen(rgb, (uint64_t)width * height),
@@ -107,7 +110,13 @@ static bool save(render_job *job, lsf_error *error)
     if (!lsf_interrupt_may_save(job->stats.samples, error))
         return false;
     double start = lsf_now();
-    bool good = job->maps_on_gpu ? save_rgb8(job, error) : save_float(job, error);
+    lsf_imprint imprint;
+    bool good = lsf_imprint_make(&imprint, job->settings, job->scene_path, job->settings->technique,
+                                 lsf_plan_bounces(lsf_renderer_plan(job->renderer)),
+                                 job->stats.samples, error);
+    good = good &&
+           (job->maps_on_gpu ? save_rgb8(job, &imprint, error) : save_float(job, &imprint, error));
+    lsf_imprint_finish(&imprint);
     job->save_seconds = lsf_now() - start;
     return good;
 }

@@ -61,7 +61,7 @@ class Interrupt(CommandTest):
         samples = self.read_json("a.json")["samples"]
         self.run_command("render", "scene.gltf", "-o", "b.exr", "-q", "-r", "32,24", "-s",
                          str(samples))
-        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
+        self.assertEqual(self.pixels("a.exr"), self.pixels("b.exr"))
 
     def test_second_signal_kills(self):
         """Both may arrive before the first is looked at, or the second while saving or after it."""

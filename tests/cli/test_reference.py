@@ -38,7 +38,7 @@ class Reference(CommandTest):
         report = json.loads(done.stdout)
         self.assertEqual(report["halves"], ["truth.v1_a.exr", "truth.v1_b.exr"])
         self.assertEqual(report["samples"], 8)
-        self.assertNotEqual(self.read("truth.v1_a.exr"), self.read("truth.v1_b.exr"))
+        self.assertNotEqual(self.pixels("truth.v1_a.exr"), self.pixels("truth.v1_b.exr"))
         done = self.run_command("compare", "truth.v1.exr", "truth.v1_a.exr", "truth.v1_b.exr",
                                 "--json", "-")
         # The mean is as far from one half as from the other: x - a = -(x - b).

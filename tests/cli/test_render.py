@@ -20,7 +20,7 @@ class Pictures(CommandTest):
         self.assertEqual(exr_channels(self.read("a.exr")), {"R": 2, "G": 2, "B": 2})
         self.assertTrue(self.read("a.hdr").startswith(b"#?RADIANCE"))
         self.assertEqual(png_size(self.read("a.png")), (16, 12))
-        self.assertEqual(self.read("a.png"), self.read("A.PNG"))
+        self.assertEqual(self.pixels("a.png"), self.pixels("A.PNG"))
         self.assertEqual(self.files(), ["A.PNG", "a.exr", "a.hdr", "a.png", "scene.gltf"])
 
     def test_standard_output(self):
@@ -38,14 +38,14 @@ class Pictures(CommandTest):
         self.run_command("render", scene, "-o", "a.exr", "--seed", "7", *SMALL)
         self.run_command("render", *SMALL, "--seed=7", "-o", "b.exr", scene)
         self.run_command("render", *SMALL, "-ob.exr", "--seed", "7", "--", scene)
-        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
+        self.assertEqual(self.pixels("a.exr"), self.pixels("b.exr"))
 
     def test_seed(self):
         scene = self.scene()
         for name, seed in (("a.exr", 1), ("b.exr", 1), ("c.exr", 2)):
             self.run_command("render", scene, "-o", name, "--seed", str(seed), *SMALL)
-        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
-        self.assertNotEqual(self.read("a.exr"), self.read("c.exr"))
+        self.assertEqual(self.pixels("a.exr"), self.pixels("b.exr"))
+        self.assertNotEqual(self.pixels("a.exr"), self.pixels("c.exr"))
 
     def test_layers(self):
         self.run_command("render", self.scene(), "-o", "a.exr", "--aov", "albedo,normal,depth,motion",
@@ -63,8 +63,8 @@ class Pictures(CommandTest):
         for suffix in ("exr", "png"):
             self.run_command("render", scene, "-o", f"a.{suffix}", *SMALL)
             self.run_command("render", scene, "-o", f"b.{suffix}", "--exposure", "-3", *SMALL)
-        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
-        self.assertNotEqual(self.read("a.png"), self.read("b.png"))
+        self.assertEqual(self.pixels("a.exr"), self.pixels("b.exr"))
+        self.assertNotEqual(self.pixels("a.png"), self.pixels("b.png"))
 
     def test_camera(self):
         scene = self.scene(animated=True)
@@ -73,10 +73,10 @@ class Pictures(CommandTest):
         pictures = []
         for words in views:
             self.run_command("render", scene, "-o", "a.exr", *words, *SMALL)
-            pictures.append(self.read("a.exr"))
+            pictures.append(self.pixels("a.exr"))
         self.assertEqual(len(set(pictures)), len(views))
         self.run_command("render", scene, "-o", "b.exr", "--camera", "Front", *SMALL)
-        self.assertEqual(self.read("b.exr"), pictures[0])
+        self.assertEqual(self.pixels("b.exr"), pictures[0])
 
     def test_default_light(self):
         """A dial that glows does not keep the rest of the picture dark."""
@@ -93,8 +93,8 @@ class Pictures(CommandTest):
         self.run_command("render", lit, "-o", "c.exr", *words)
         self.run_command("render", lit, "-o", "d.exr", "--default-light", "never", *words)
         self.run_command("render", lit, "-o", "e.exr", "--default-light", "always", *words)
-        self.assertEqual(self.read("c.exr"), self.read("d.exr"))
-        self.assertNotEqual(self.read("c.exr"), self.read("e.exr"))
+        self.assertEqual(self.pixels("c.exr"), self.pixels("d.exr"))
+        self.assertNotEqual(self.pixels("c.exr"), self.pixels("e.exr"))
 
     def test_darkness_is_not_silent(self):
         scene = self.scene(light=False)
@@ -114,8 +114,8 @@ class Pictures(CommandTest):
         for curve in curves:
             self.run_command(*words, "-o", f"{curve}.png", "--tonemap", curve)
         self.run_command(*words, "-o", "default.png")
-        self.assertEqual(self.read("default.png"), self.read("neutral.png"))
-        self.assertEqual(len({self.read(f"{curve}.png") for curve in curves}), 4)
+        self.assertEqual(self.pixels("default.png"), self.pixels("neutral.png"))
+        self.assertEqual(len({self.pixels(f"{curve}.png") for curve in curves}), 4)
         self.refuse(*words, "-o", "a.png", "--tonemap", "filmic", says=["neutral|none|aces|agx"])
 
     def test_auto_exposure(self):
@@ -154,7 +154,7 @@ class Pictures(CommandTest):
         self.run_command("render", "-o", "a.png", *SMALL)
         self.run_command("render", os.path.join(SOURCE_ROOT, "data/scenes/interior.gltf"), "-o",
                          "b.png", *SMALL)
-        self.assertEqual(self.read("a.png"), self.read("b.png"))
+        self.assertEqual(self.pixels("a.png"), self.pixels("b.png"))
 
     def test_time_limit(self):
         done = self.run_command("render", self.scene(), "-o", "a.exr", "--resolution", "16,12",
@@ -169,7 +169,7 @@ class Pictures(CommandTest):
         for backend in ("egl", "osmesa"):
             self.run_command("render", scene, "-o", f"{backend}.exr", "--backend", backend, *SMALL,
                              env={**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"})
-        self.assertEqual(self.read("egl.exr"), self.read("osmesa.exr"))
+        self.assertEqual(self.pixels("egl.exr"), self.pixels("osmesa.exr"))
 
     def test_no_gl(self):
         """A loader that finds neither libEGL nor libOSMesa cannot be had everywhere; a driver that

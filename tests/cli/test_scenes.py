@@ -40,7 +40,7 @@ class Several(CommandTest):
         self.run_command("render", "a.gltf", "folder/b.v2.gltf", "-o", "%s.exr", *SMALL)
         for name in ("a", "folder/b.v2"):
             self.run_command("render", f"{name}.gltf", "-o", "alone.exr", *SMALL)
-            self.assertEqual(self.read("alone.exr"), self.read(f"{os.path.basename(name)}.exr"))
+            self.assertEqual(self.pixels("alone.exr"), self.pixels(f"{os.path.basename(name)}.exr"))
 
     def test_the_first_failure_decides_the_status(self):
         self.three()
@@ -114,7 +114,7 @@ class StandardInput(CommandTest):
             self.assertTrue(text.startswith("standard input\nnodes        3\n"), text)
         self.run_command("render", "-", "-o", "%s.exr", *SMALL, input=self.glb())
         self.run_command("render", "scene.gltf", "-o", "alone.exr", *SMALL)
-        self.assertEqual(self.read("stdin.exr"), self.read("alone.exr"))
+        self.assertEqual(self.pixels("stdin.exr"), self.pixels("alone.exr"))
         done = self.run_command("render", "-o", "-", "--format", "png", "-", *SMALL, input=embedded)
         self.assertEqual(png_size(done.stdout), (8, 8))
 

@@ -155,7 +155,7 @@ static void test_integers_are_decoded_from_srgb(void **state)
     uint8_t codes[256 * 3];
     for (int i = 0; i < 256 * 3; i++)
         codes[i] = (uint8_t)(i / 3);
-    assert_true(lsf_image_save_rgb8(codes, 16, 16, in_folder("ramp.png"), NULL));
+    assert_true(lsf_image_save_rgb8(codes, 16, 16, in_folder("ramp.png"), NULL, NULL));
     lsf_image *image = load(in_folder("ramp.png"));
     for (int i = 0; i < 256; i++) {
         double s = i / 255.0;

@@ -1,0 +1,24 @@
+/* What a picture says of itself in its header: how it was made, and how to make it again. */
+#ifndef LSF_TOOLS_IMPRINT_H
+#define LSF_TOOLS_IMPRINT_H
+
+#include "base/base.h"
+#include "tools/options.h"
+
+/* Adds an option as one would type it, to be read by a shell; nothing where it leaves the picture
+ * as it is. `value` NULL: none. */
+void lsf_imprint_add_option(lsf_string *options, const lsf_command_option *option,
+                            const char *value);
+
+typedef struct lsf_imprint {
+    lsf_image_text texts[7];
+    char *command; /* the shell command without its --output */
+    char seed[24], bounces[16], samples[16];
+} lsf_imprint;
+
+/* Finish it either way. */
+bool lsf_imprint_make(lsf_imprint *imprint, const lsf_settings *settings, const char *scene_path,
+                      const char *technique, uint32_t bounces, uint32_t samples, lsf_error *error);
+void lsf_imprint_finish(lsf_imprint *imprint);
+
+#endif
