@@ -50,8 +50,8 @@ typedef struct lsf_scene_params {
 #define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
     .environment_path = NULL, .environment_radiance = NULL, .environment_rotation = 0.0f,          \
     .environment_strength = 1.0f, .default_light = LSF_DEFAULT_LIGHT_AUTO, .diffuse_only = false,  \
-    .show_back_faces = false, .lenient = false, .memory_limit = (uint64_t)8 << 30, .name = NULL, .scene = NULL,  \
-    .variant = NULL, .animations = NULL, .animation_count = 0
+    .show_back_faces = false, .lenient = false, .memory_limit = (uint64_t)8 << 30, .name = NULL,   \
+    .scene = NULL, .variant = NULL, .animations = NULL, .animation_count = 0
 
 /* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
  * the environment. Whatever is ignored is logged as one warning each and kept for
@@ -59,9 +59,9 @@ typedef struct lsf_scene_params {
  * LSF_ERROR_USAGE what was chosen, and what there is to choose from. */
 lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error);
 
-/* The same of the content of a .gltf or .glb in memory, borrowed until it returns; it counts against
- * the memory limit as a file's content does. Buffers and textures in files of their own are looked
- * for in `folder`; with NULL there may be none. */
+/* The same of the content of a .gltf or .glb in memory, borrowed until it returns; it counts
+ * against the memory limit as a file's content does. Buffers and textures in files of their own are
+ * looked for in `folder`; with NULL there may be none. */
 lsf_scene *lsf_scene_load_memory(const void *data, size_t size, const char *folder,
                                  const lsf_scene_params *params, lsf_error *error);
 void lsf_scene_destroy(lsf_scene *scene); /* NULL allowed */

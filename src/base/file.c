@@ -135,8 +135,7 @@ char *lsf_file_read(const char *path, uint64_t limit, size_t *length, lsf_error 
 char *lsf_file_read_standard_input(uint64_t limit, size_t *length, lsf_error *error)
 {
     static const char name[] = "standard input";
-    char *bytes =
-        read_most(STDIN_FILENO, 65536, limit + (limit < UINT64_MAX), name, length, error);
+    char *bytes = read_most(STDIN_FILENO, 65536, limit + (limit < UINT64_MAX), name, length, error);
     if (!bytes || *length <= limit)
         return bytes;
     refuse_size(name, limit, error);

@@ -51,8 +51,7 @@ void gltf_notes_add(gltf_import &import)
     uint64_t skinned = 0;
     for (size_t i = 0; i < import.model.nodes.size(); i++)
         skinned += import.model.nodes[i].skin >= 0 && import.node_of[i] != LSF_NONE;
-    note_count(import, skinned, "skinned node",
-               ": skins are ignored, and meshes shown undeformed");
+    note_count(import, skinned, "skinned node", ": skins are ignored, and meshes shown undeformed");
     note_count(import, repairs.negative_colors, "component",
                " of vertex colours below 0: set to 0");
     note_count(import, repairs.textures_without_image, "texture",

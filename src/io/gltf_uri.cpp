@@ -108,7 +108,8 @@ std::string uri_to_path(const std::string &folder, const std::string &uri,
              excerpt(uri).c_str());
     if (folder.empty())
         fail("IO_ERROR", location,
-             "\"%s\": a scene that is not read from a file cannot refer to files; embed them (as .glb, "
+             "\"%s\": a scene that is not read from a file cannot refer to files; embed them (as "
+             ".glb, "
              "or as data URIs), or give the path of the file",
              excerpt(uri).c_str());
     if (has_scheme(uri))

@@ -129,8 +129,7 @@ static bool print_table(const lsf_bench *bench, const frame *f, const lsf_bench_
         "Table 1 of Tokuyoshi and Ogaki 2012 on %s\n%s, %llu triangles\n"
         "%ux%u with 2x2 supersampling (%ux%u pixels), %u bounces, mean of %u frame%s\n",
         bench->device.renderer, bench->scene_path, (unsigned long long)f->triangles, f->width,
-        f->height, f->params.width, f->params.height, BOUNCES, f->count,
-        lsf_plural(f->count));
+        f->height, f->params.width, f->params.height, BOUNCES, f->count, lsf_plural(f->count));
     for (uint32_t i = 0; good && i < f->params.option_count; i++)
         good = lsf_bench_print(bench, error, "%s%s", i ? " " : "", f->options[i]);
     return good && lsf_bench_print(bench, error, "\n\n") &&

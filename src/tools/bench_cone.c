@@ -64,14 +64,13 @@ static bool measure(lsf_bench_table *table, const lsf_bench *bench, const lsf_re
 static bool print(const lsf_bench_table *table, const lsf_bench *bench,
                   const lsf_render_params *params, uint32_t frames, lsf_error *error)
 {
-    bool good =
-        lsf_bench_print(bench, error,
-                        "A frame of cone tracing, all made anew, on %s\n%s, %llu triangles\n"
-                        "%ux%u, %u bounce%s, mean of %u frame%s\n",
-                        bench->device.renderer, bench->scene_path,
-                        (unsigned long long)lsf_scene_get_requirements(bench->scene)->triangles,
-                        params->width, params->height, params->bounces,
-                        lsf_plural(params->bounces), frames, lsf_plural(frames));
+    bool good = lsf_bench_print(
+        bench, error,
+        "A frame of cone tracing, all made anew, on %s\n%s, %llu triangles\n"
+        "%ux%u, %u bounce%s, mean of %u frame%s\n",
+        bench->device.renderer, bench->scene_path,
+        (unsigned long long)lsf_scene_get_requirements(bench->scene)->triangles, params->width,
+        params->height, params->bounces, lsf_plural(params->bounces), frames, lsf_plural(frames));
     for (uint32_t i = 0; good && i < params->option_count; i++)
         good = lsf_bench_print(bench, error, "%s%s", i ? " " : "", params->options[i]);
     return good && lsf_bench_print(bench, error, "\n\n") &&

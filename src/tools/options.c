@@ -67,8 +67,10 @@ const lsf_command *lsf_command_find(lsf_command_bit bit)
 static const lsf_command_option options[] = {
     {"output", 'o', "OUT", RENDERING, "Output", LSF_VALUE_TEXT, AT(output), 0, 0, NULL, NULL,
      "where the picture goes, its format by the ending: .exr (32-bit float, linear radiance, with "
-     "the layers of --aov), .hdr (RGBE), .png (tone-mapped, 8-bit sRGB); - is standard output; %s in it "
-     "is the scene's name without folder and ending, which tells the pictures of several scenes apart"},
+     "the layers of --aov), .hdr (RGBE), .png (tone-mapped, 8-bit sRGB); - is standard output; %s "
+     "in it "
+     "is the scene's name without folder and ending, which tells the pictures of several scenes "
+     "apart"},
     {"format", 0, "FORMAT", RENDERING, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
      0, "exr|hdr|png", NULL,
      "the format, whatever the ending of OUT; standard output is exr without it"},

@@ -170,9 +170,10 @@ lsf_destination *lsf_destinations_create(const lsf_settings *settings, uint32_t 
                                          lsf_error *error)
 {
     if (!settings->output) {
-        lsf_error_set(error, LSF_ERROR_USAGE,
-                      "--output: missing; say where the picture goes: -o picture.exr, .hdr, .png, or "
-                      "- for standard output");
+        lsf_error_set(
+            error, LSF_ERROR_USAGE,
+            "--output: missing; say where the picture goes: -o picture.exr, .hdr, .png, or "
+            "- for standard output");
         return NULL;
     }
     lsf_destination *destinations = lsf_alloc(count, sizeof *destinations);

@@ -13,8 +13,8 @@ typedef struct lsf_destination {
     lsf_tone_curve curve;
 } lsf_destination;
 
-/* One for each scene of the command line, of which there are `count`. Checks that pictures and JSON can
- * be written where the settings want them. NULL: LSF_ERROR_USAGE or LSF_ERROR_FILE. */
+/* One for each scene of the command line, of which there are `count`. Checks that pictures and JSON
+ * can be written where the settings want them. NULL: LSF_ERROR_USAGE or LSF_ERROR_FILE. */
 lsf_destination *lsf_destinations_create(const lsf_settings *settings, uint32_t count,
                                          lsf_error *error);
 void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count); /* NULL allowed */
@@ -23,8 +23,8 @@ void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count); /*
  */
 void lsf_destination_expose(lsf_destination *destination, const lsf_image *image);
 
-/* Says so when fewer than one in a hundred `pixels` are `seen` to show more than 1 % of white: such a
- * picture looks as if something had gone wrong. */
+/* Says so when fewer than one in a hundred `pixels` are `seen` to show more than 1 % of white: such
+ * a picture looks as if something had gone wrong. */
 void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64_t seen,
                                       uint64_t pixels);
 

@@ -26,8 +26,7 @@ typedef struct render_job {
 
 static bool load(render_job *job, lsf_error *error)
 {
-    job->scene =
-        lsf_tool_load_scene(job->settings, job->scene_path, &job->load_seconds, error);
+    job->scene = lsf_tool_load_scene(job->settings, job->scene_path, &job->load_seconds, error);
     return job->scene != NULL;
 }
 
@@ -95,9 +94,8 @@ static bool save_rgb8(render_job *job, const lsf_imprint *imprint, lsf_error *er
                                   job->destination->curve, rgb, error) &&
            lsf_image_save_rgb8(rgb, width, height, job->destination->path, &params, error);
     if (good)
-        lsf_destination_warn_of_darkness(job->destination,
-                                         count_seen(rgb, (uint64_t)width * height),
-                                         (uint64_t)width * height);
+        lsf_destination_warn_of_darkness(
+            job->destination, count_seen(rgb, (uint64_t)width * height), (uint64_t)width * height);
     if (good && job->stats.lost_pixels > 0) /* lsf_image_save says so by itself */
         lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination->path,
                 (unsigned long long)job->stats.lost_pixels, (unsigned long long)width * height);
@@ -139,10 +137,11 @@ static void report(const render_job *job, lsf_json *json)
     if (bounces > 0)
         snprintf(light, sizeof light, " with %u bounce%s", bounces, lsf_plural(bounces));
     lsf_report_line("%s: %ux%u, %u sample%s%s of %s%s, rendered in %.2f s of %.2f s on %s",
-                    job->destination->path, job->settings->resolution[0], job->settings->resolution[1],
-                    job->stats.samples, lsf_plural(job->stats.samples),
-                    lsf_interrupted() ? " (interrupted)" : "", job->settings->technique, light,
-                    job->stats.render_seconds, total, device.renderer);
+                    job->destination->path, job->settings->resolution[0],
+                    job->settings->resolution[1], job->stats.samples,
+                    lsf_plural(job->stats.samples), lsf_interrupted() ? " (interrupted)" : "",
+                    job->settings->technique, light, job->stats.render_seconds, total,
+                    device.renderer);
     if (job->stats.lost_share > 0.0)
         lsf_report_line("%s: bounds took %.3g %% of the light away", job->destination->path,
                         100.0 * job->stats.lost_share);
@@ -180,8 +179,8 @@ static bool render_scene(void *user, uint32_t index, const char *path, lsf_json 
                       .destination = &run->destinations[index],
                       .scene_path = path,
                       .start = run->start};
-    bool good = load(&job, error) && start_gl(&job, error) && converge(&job, error) &&
-                save(&job, error);
+    bool good =
+        load(&job, error) && start_gl(&job, error) && converge(&job, error) && save(&job, error);
     if (good)
         report(&job, json);
     lsf_renderer_destroy(job.renderer);

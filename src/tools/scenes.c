@@ -20,8 +20,8 @@ uint32_t lsf_tool_scene_count(const lsf_settings *settings)
     return settings->operands.count > first ? settings->operands.count - first : 1;
 }
 
-/* Beside the executable, in the build folder or moved with its prefix; else where the build was told
- * to install it. */
+/* Beside the executable, in the build folder or moved with its prefix; else where the build was
+ * told to install it. */
 static char *find_default_scene(void)
 {
     static const char *const folders[] = {"/../data/scenes/", "/../share/lightsheaf/scenes/"};
@@ -68,8 +68,7 @@ static lsf_scene *load_standard_input(lsf_scene_params *params, lsf_error *error
     params->name = "standard input";
     size_t length;
     char *content = lsf_file_read_standard_input(params->memory_limit, &length, error);
-    lsf_scene *scene =
-        content ? lsf_scene_load_memory(content, length, NULL, params, error) : NULL;
+    lsf_scene *scene = content ? lsf_scene_load_memory(content, length, NULL, params, error) : NULL;
     free(content);
     return scene;
 }

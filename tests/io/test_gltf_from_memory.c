@@ -1,4 +1,5 @@
-/* Scenes that are loaded from memory: as from a file, and files beside them only where asked for. */
+/* Scenes that are loaded from memory: as from a file, and files beside them only where asked for.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -92,8 +93,9 @@ static void test_cut_at_every_byte(void **state)
 static void test_files_beside_it(void **state)
 {
     (void)state;
-    static const char scene_text[] = "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":3,"
-                                     "\"uri\":\"beside.bin\"}]}";
+    static const char scene_text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":3,"
+        "\"uri\":\"beside.bin\"}]}";
     char *buffer = lsf_format("%s/beside.bin", gltf_folder);
     assert_true(lsf_file_write(buffer, "abc", 3, NULL));
     lsf_scene *scene = load_block(scene_text, strlen(scene_text), gltf_folder, NULL, NULL);
