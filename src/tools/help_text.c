@@ -66,7 +66,8 @@ static void add_option(lsf_string *text, const lsf_command_option *option)
     lsf_string words = {0};
     lsf_string_add(&words, "%s", option->help);
     if (option->choices) {
-        lsf_string_add(&words, " (%s", option->choices);
+        lsf_string_add(&words, " (");
+        lsf_command_option_add_choices(&words, option, ", ");
         lsf_string_add(&words, option->initial ? "; default %s)" : ")", option->initial);
     } else if (option->initial) {
         lsf_string_add(&words, " (default %s)", option->initial);

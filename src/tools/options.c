@@ -3,6 +3,7 @@
 #include "base/base.h"
 
 #include <math.h>
+#include <string.h>
 
 #define RENDERING (LSF_COMMAND_RENDER | LSF_COMMAND_REFERENCE)
 #define PLANNING (RENDERING | LSF_COMMAND_PLAN)
@@ -30,8 +31,7 @@ static const lsf_command commands[] = {
      "say what a scene holds and what it requires",
      "Prints what the file holds, what was ignored or repaired, and what the scene requires of a "
      "renderer. Of a picture it prints format, size, channels and texts, which tell how Lightsheaf "
-     "made "
-     "it. It needs no OpenGL."},
+     "made it. It needs no OpenGL."},
     {LSF_COMMAND_PLAN, "plan", "[SCENE]...", 0, UINT32_MAX,
      "say what a rendering would run, and why",
      "Prints the frame plan: the passes in order, each resource with its bytes, each shader's "
@@ -68,9 +68,8 @@ static const lsf_command_option options[] = {
     {"output", 'o', "OUT", RENDERING, "Output", LSF_VALUE_TEXT, AT(output), 0, 0, NULL, NULL,
      "where the picture goes, its format by the ending: .exr (32-bit float, linear radiance, with "
      "the layers of --aov), .hdr (RGBE), .png (tone-mapped, 8-bit sRGB); - is standard output; %s "
-     "in it "
-     "is the scene's name without folder and ending, which tells the pictures of several scenes "
-     "apart"},
+     "in it is the scene's name without folder and ending, which tells the pictures of several "
+     "scenes apart"},
     {"format", 0, "FORMAT", RENDERING, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
      0, "exr|hdr|png", NULL,
      "the format, whatever the ending of OUT; standard output is exr without it"},
@@ -84,10 +83,12 @@ static const lsf_command_option options[] = {
      LSF_TONE_CURVE_NEUTRAL, 0, "neutral|none|aces|agx", "neutral",
      "from radiance to .png: neutral is Khronos PBR Neutral, which keeps base colours; none is "
      "sRGB, cut off at 1; aces and agx are like film"},
-    {"aov", 0, "LIST", PLANNING, "Output", LSF_VALUE_AOVS, AT(aovs), 0, 0, NULL, NULL,
-     "layers beside the picture, separated by commas: albedo, normal, depth, emission, direct, "
-     "indirect_diffuse, indirect_specular, motion, or all of these; of voxels: voxel_albedo, "
-     "voxel_normal, voxel_radiance; for .exr"},
+    {"aov", 0, "LIST", PLANNING, "Output", LSF_VALUE_AOVS, AT(aovs), 0, 0,
+     "albedo|normal|depth|emission|direct|indirect_diffuse|indirect_specular|motion|voxel_albedo|"
+     "voxel_normal|voxel_radiance|all",
+     NULL,
+     "layers beside the picture in .exr, separated by commas; all is every one but those of "
+     "voxels"},
     {"json", 0, "FILE", LOADING | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH, "Output", LSF_VALUE_JSON,
      AT(json_path), 0, 0, NULL, NULL,
      "write as JSON what is found, decided and measured; - is standard output, where it takes the "
@@ -124,8 +125,8 @@ static const lsf_command_option options[] = {
     {"define", 'D', "pass.key=value", STAGING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,
      NULL, "set an option of a pass; repeatable; see --list-options"},
 
-    {"background", 0, "R,G,B|WORD", PLANNING, "Picture", LSF_VALUE_BACKGROUND, AT(background), 0,
-     1e30, NULL, NULL,
+    {"background", 0, "R,G,B|environment|transparent", PLANNING, "Picture", LSF_VALUE_BACKGROUND,
+     AT(background), 0, 1e30, NULL, NULL,
      "what is seen where no surface is: a radiance; environment; or transparent, which gives .exr "
      "and .png the alpha of each pixel; without it, the environment, or grey before the default "
      "sky"},
@@ -180,9 +181,8 @@ static const lsf_command_option options[] = {
     {"mask", 0, "FILE", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(mask), 0, 0, NULL,
      NULL, "leave out the pixels whose first channel is above 0.5"},
     {"threshold", 0, "METRIC=X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_THRESHOLD,
-     AT(thresholds), 0, 0, NULL, NULL,
-     "end with status 5 when METRIC (rmse, rmse_relative, relmse, bias, ssim, psnr) is worse "
-     "than X; repeatable"},
+     AT(thresholds), 0, 0, "rmse|rmse_relative|relmse|bias|ssim|psnr", NULL,
+     "end with status 5 when METRIC is worse than X; repeatable"},
     {"difference", 0, "OUT", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(difference), 0,
      0, NULL, NULL, "write the absolute difference as a picture"},
     {"difference-gain", 0, "X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_FLOAT,
@@ -217,6 +217,13 @@ const lsf_command_option *lsf_command_option_at(size_t index)
     return index < LSF_COUNT(options) ? &options[index] : NULL;
 }
 
+void lsf_command_option_add_choices(lsf_string *text, const lsf_command_option *option,
+                                    const char *separator)
+{
+    for (const char *c = option->choices; *c; c++)
+        lsf_string_add_bytes(text, *c == '|' ? separator : c, *c == '|' ? strlen(separator) : 1);
+}
+
 char *lsf_command_option_range(const lsf_command_option *option)
 {
     double low = option->minimum, high = option->maximum;
@@ -248,9 +255,7 @@ char *lsf_command_option_range(const lsf_command_option *option)
     case LSF_VALUE_TECHNIQUE:
         return lsf_format("one of the names that --list-techniques prints");
     case LSF_VALUE_AOVS:
-        return lsf_format("albedo, normal, depth, emission, direct, indirect_diffuse, "
-                          "indirect_specular, motion, voxel_albedo, voxel_normal, voxel_radiance "
-                          "or all, separated by commas");
+        return lsf_format("one or more of %s, separated by commas", option->choices);
     case LSF_VALUE_DEFINE:
         return lsf_format("pass.key=value with a key that --list-options prints");
     case LSF_VALUE_ENVIRONMENT:
@@ -262,7 +267,7 @@ char *lsf_command_option_range(const lsf_command_option *option)
         return lsf_format("environment, transparent, or three numbers from 0 separated by commas, "
                           "such as 1,1,1");
     case LSF_VALUE_THRESHOLD:
-        return lsf_format("METRIC=X, such as rmse=0.02");
+        return lsf_format("METRIC=X, such as rmse=0.02, with one of %s", option->choices);
     }
     return NULL;
 }

@@ -63,13 +63,17 @@ typedef struct lsf_command_option {
     lsf_value_type type;
     size_t offset; /* in lsf_settings */
     double minimum, maximum;
-    const char *choices; /* "auto|egl|osmesa" */
+    const char *choices; /* "auto|egl|osmesa"; words of a list, or metrics, just as well */
     const char *initial; /* the default as one would type it; NULL: none */
     const char *help;    /* effect, unit */
 } lsf_command_option;
 
 /* NULL past the end. */
 const lsf_command_option *lsf_command_option_at(size_t index);
+
+/* Its choices with that between two of them. */
+void lsf_command_option_add_choices(lsf_string *text, const lsf_command_option *option,
+                                    const char *separator);
 
 /* What an option accepts, in words, for messages: "a whole number in 1..65535". */
 char *lsf_command_option_range(const lsf_command_option *option); /* malloc'ed */

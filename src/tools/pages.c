@@ -1,6 +1,7 @@
 /* Writes what is made from the option table at build time:
- * lightsheaf-pages man|bash|zsh|fish|markdown */
+ * lightsheaf-pages man|bash|fish|zsh|markdown */
 #include "base/base.h"
+#include "tools/completion.h"
 #include "tools/options.h"
 
 #include <ctype.h>
@@ -35,8 +36,11 @@ static void add_man_option(lsf_string *page, const lsf_command_option *option)
     }
     lsf_string_add(page, "\n");
     add_roff(page, option->help);
-    if (option->choices)
-        lsf_string_add(page, " (%s)", option->choices);
+    if (option->choices) {
+        lsf_string_add(page, " (");
+        lsf_command_option_add_choices(page, option, ", ");
+        lsf_string_add(page, ")");
+    }
     if (option->initial) {
         lsf_string_add(page, " (default ");
         add_roff(page, option->initial);
@@ -87,130 +91,6 @@ static void add_man(lsf_string *page)
                          "lightsheaf compare atrium.exr truth_a.exr truth_b.exr\n.fi\n");
 }
 
-/* --- shell completion --- */
-
-/* Single quotes end a quoted word in every shell; the table has none, and this keeps it so. */
-static void add_quoted(lsf_string *page, const char *text)
-{
-    for (; *text; text++)
-        lsf_string_add(page, *text == '\'' ? "'\\''" : "%c", *text);
-}
-
-static void add_words(lsf_string *page, const char *choices)
-{
-    for (; *choices; choices++)
-        lsf_string_add(page, "%c", *choices == '|' ? ' ' : *choices);
-}
-
-static bool takes_file(const lsf_command_option *option)
-{
-    return option->type == LSF_VALUE_ENVIRONMENT ||
-           (option->type == LSF_VALUE_TEXT && strncmp(option->argument, "NAME", 4) != 0);
-}
-
-static void add_bash_values(lsf_string *page)
-{
-    lsf_string_add(page, "    case $previous in\n");
-    for (size_t i = 0; lsf_command_option_at(i); i++) {
-        const lsf_command_option *option = lsf_command_option_at(i);
-        if (!option->argument)
-            continue;
-        lsf_string_add(page, "    --%s", option->name);
-        if (option->letter)
-            lsf_string_add(page, "|-%c", option->letter);
-        lsf_string_add(page, ")\n");
-        if (option->choices) {
-            lsf_string_add(page, "        COMPREPLY=($(compgen -W '");
-            add_words(page, option->choices);
-            lsf_string_add(page, "' -- \"$word\"))\n");
-        } else if (option->type == LSF_VALUE_TECHNIQUE) {
-            lsf_string_add(page, "        COMPREPLY=($(compgen -W \"$(\"$1\" render "
-                                 "--list-techniques 2>/dev/null |\n"
-                                 "            cut -d ' ' -f 1)\" -- \"$word\"))\n");
-        } else if (option->type == LSF_VALUE_DEFINE) {
-            lsf_string_add(page, "        COMPREPLY=($(compgen -S = -W \"$(\"$1\" render "
-                                 "--list-options 2>/dev/null |\n"
-                                 "            sed 1d | cut -d ' ' -f 1)\" -- \"$word\"))\n"
-                                 "        compopt -o nospace\n");
-        } else if (option->type == LSF_VALUE_AOVS) {
-            lsf_string_add(page, "        COMPREPLY=($(compgen -W 'albedo normal depth emission "
-                                 "direct indirect_diffuse\n"
-                                 "            indirect_specular motion voxel_albedo voxel_normal "
-                                 "voxel_radiance all' -- \"$word\"))\n");
-        } else if (takes_file(option)) {
-            lsf_string_add(page, "        compopt -o default\n");
-        }
-        lsf_string_add(page, "        return ;;\n");
-    }
-    lsf_string_add(page, "    esac\n");
-}
-
-static void add_bash(lsf_string *page)
-{
-    lsf_string_add(page, "# bash completion for lightsheaf, made from its option table\n"
-                         "_lightsheaf()\n{\n"
-                         "    local word=${COMP_WORDS[COMP_CWORD]} "
-                         "previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
-                         "    COMPREPLY=()\n"
-                         "    if ((COMP_CWORD == 1)); then\n"
-                         "        COMPREPLY=($(compgen -W '");
-    for (size_t i = 0; lsf_command_at(i); i++)
-        lsf_string_add(page, "%s ", lsf_command_at(i)->name);
-    lsf_string_add(page, "--help --version' -- \"$word\"))\n        return\n    fi\n");
-    add_bash_values(page);
-    lsf_string_add(page, "    if [[ $word != -* ]]; then\n"
-                         "        if [[ ${COMP_WORDS[1]} == help ]]; then\n"
-                         "            COMPREPLY=($(compgen -W '");
-    for (size_t i = 0; lsf_command_at(i); i++)
-        lsf_string_add(page, "%s%s", i ? " " : "", lsf_command_at(i)->name);
-    lsf_string_add(page, "' -- \"$word\"))\n"
-                         "        else\n            compopt -o default\n        fi\n"
-                         "        return\n    fi\n    case ${COMP_WORDS[1]} in\n");
-    for (size_t i = 0; lsf_command_at(i); i++) {
-        lsf_string_add(page, "    %s)\n        COMPREPLY=($(compgen -W '", lsf_command_at(i)->name);
-        const char *space = "";
-        for (size_t j = 0; lsf_command_option_at(j); j++) {
-            if (!(lsf_command_option_at(j)->commands & lsf_command_at(i)->bit))
-                continue;
-            lsf_string_add(page, "%s--%s", space, lsf_command_option_at(j)->name);
-            space = " ";
-        }
-        lsf_string_add(page, "' -- \"$word\")) ;;\n");
-    }
-    lsf_string_add(page, "    esac\n}\ncomplete -F _lightsheaf lightsheaf\n");
-}
-
-static void add_fish(lsf_string *page)
-{
-    lsf_string_add(page, "# fish completion for lightsheaf, made from its option table\n");
-    for (size_t i = 0; lsf_command_at(i); i++) {
-        const lsf_command *command = lsf_command_at(i);
-        lsf_string_add(page, "complete -c lightsheaf -n __fish_use_subcommand -f -a %s -d '",
-                       command->name);
-        add_quoted(page, command->summary);
-        lsf_string_add(page, "'\n");
-        for (size_t j = 0; lsf_command_option_at(j); j++) {
-            const lsf_command_option *option = lsf_command_option_at(j);
-            if (!(option->commands & command->bit))
-                continue;
-            lsf_string_add(page, "complete -c lightsheaf -n '__fish_seen_subcommand_from %s' -l %s",
-                           command->name, option->name);
-            if (option->letter)
-                lsf_string_add(page, " -s %c", option->letter);
-            if (option->argument)
-                lsf_string_add(page, takes_file(option) ? " -r" : " -x");
-            if (option->choices) {
-                lsf_string_add(page, " -a '");
-                add_words(page, option->choices);
-                lsf_string_add(page, "'");
-            }
-            lsf_string_add(page, " -d '");
-            add_quoted(page, option->help);
-            lsf_string_add(page, "'\n");
-        }
-    }
-}
-
 /* --- docs/command.md --- */
 
 static void add_markdown(lsf_string *page)
@@ -235,8 +115,7 @@ static void add_markdown(lsf_string *page)
             lsf_string_add(page, "` | %s", option->help);
             if (option->choices) {
                 lsf_string_add(page, " (");
-                for (const char *c = option->choices; *c; c++)
-                    lsf_string_add(page, *c == '|' ? ", " : "%c", *c);
+                lsf_command_option_add_choices(page, option, ", ");
                 lsf_string_add(page, ")");
             }
             if (option->initial)
@@ -251,8 +130,11 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*add)(lsf_string *page);
-    } pages[] = {
-        {"man", add_man}, {"bash", add_bash}, {"fish", add_fish}, {"markdown", add_markdown}};
+    } pages[] = {{"man", add_man},
+                 {"bash", lsf_completion_add_bash},
+                 {"fish", lsf_completion_add_fish},
+                 {"zsh", lsf_completion_add_zsh},
+                 {"markdown", add_markdown}};
     for (size_t i = 0; argc == 2 && i < LSF_COUNT(pages); i++) {
         if (strcmp(argv[1], pages[i].name) != 0)
             continue;
@@ -262,6 +144,6 @@ int main(int argc, char **argv)
         free(page.text);
         return good ? 0 : 1;
     }
-    fprintf(stderr, "usage: lightsheaf-pages man|bash|fish|markdown\n");
+    fprintf(stderr, "usage: lightsheaf-pages man|bash|fish|zsh|markdown\n");
     return 2;
 }

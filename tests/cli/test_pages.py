@@ -1,5 +1,8 @@
 """What is made from the option table: docs/command.md, the man page, the completions."""
 import os
+import pty
+import re
+import select
 import shutil
 import subprocess
 import unittest
@@ -37,25 +40,120 @@ class Pages(CommandTest):
                                   capture_output=True, check=True)
             self.assertEqual(done.stderr, b"")
 
-    @unittest.skipUnless(shutil.which("bash"), "no bash")
-    def test_bash_completion(self):
-        self.assertEqual(self.complete("lightsheaf", "re"), ["render", "reference"])
-        self.assertEqual(self.complete("lightsheaf", "render", "--camera-"),
-                         ["--camera-position", "--camera-target"])
-        self.assertEqual(self.complete("lightsheaf", "render", "--backend", "e"), ["egl"])
-        self.assertIn("direct", self.complete("lightsheaf", "plan", "--technique", ""))
-        self.assertIn("shadow.filter=", self.complete("lightsheaf", "render", "-D", "shadow."))
-        self.assertEqual(self.complete("lightsheaf", "help", "in"), ["info"])
-        self.assertNotIn("--halves", self.complete("lightsheaf", "render", "--"))
 
-    def complete(self, *words):
+class Completion(CommandTest):
+    """What the shells propose for a line that ends here, in each shell that there is."""
+
+    def check(self, complete):
+        self.assertEqual(complete("lightsheaf ren"), ["render"])
+        self.assertEqual(complete("lightsheaf render --backend e"), ["egl"])
+        self.assertEqual(complete("lightsheaf plan --technique di"), ["direct"])
+        self.assertEqual(complete("lightsheaf render -D shadow.t"), ["shadow.texels_per_pixel="])
+        self.assertEqual(complete("lightsheaf plan --define shadow.filter=p"), ["shadow.filter=pcf"])
+        self.assertEqual(complete("lightsheaf plan -D voxel.jitter=of"), ["voxel.jitter=off"])
+        self.assertEqual(complete("lightsheaf render --aov albedo,no"), ["albedo,normal"])
+        self.assertEqual(complete("lightsheaf render --tonemap ag"), ["agx"])
+        self.assertEqual(complete("lightsheaf render --exposure a"), ["auto"])
+        self.assertEqual(complete("lightsheaf render --background tr"), ["transparent"])
+        self.assertEqual(complete("lightsheaf compare a b --threshold xyz"), [])
+        self.assertEqual(complete("lightsheaf compare a b --threshold relm"), ["relmse="])
+        self.assertEqual(complete("lightsheaf bench voxel"), ["voxel_path"])
+        self.assertEqual(complete("lightsheaf help inf"), ["info"])
+        self.assertEqual(complete("lightsheaf reference --halv"), ["--halves"])
+
+    @unittest.skipUnless(shutil.which("bash"), "no bash")
+    def test_bash(self):
+        self.check(self.bash)
+        self.check(lambda line: self.bash(line, breaks=True))
+        self.assertEqual(self.bash("lightsheaf re"), ["render", "reference"])
+        self.assertEqual(self.bash("lightsheaf render --camera-"), ["--camera-position", "--camera-target"])
+        self.assertEqual(self.bash("lightsheaf render --technique=di"), ["--technique=direct"])
+        self.assertEqual(self.bash("lightsheaf render --technique=di", breaks=True), ["--technique=direct"])
+        self.assertEqual(self.bash("lightsheaf compare --exposure a"), [])
+        self.assertNotIn("--halves", self.bash("lightsheaf render --"))
+
+    def bash(self, line, breaks=False):
+        """With `breaks`, as readline does: "=" is a word, and what comes back takes its place behind it."""
+        words = re.split(r" |(=)" if breaks else " ", line)
+        words = [word for at, word in enumerate(words) if word or (word == "" and at == len(words) - 1)]
+        if len(words) > 1 and words[-1] == "" and words[-2] == "=":
+            words.pop()
         script = (page("bash") + "\ncompopt() { :; }\nCOMP_WORDS=(" +
-                  " ".join(f"'{word}'" for word in words) +
-                  f")\nCOMP_CWORD={len(words) - 1}\n_lightsheaf '{COMMAND}'\n"
+                  " ".join(f"'{word}'" for word in words) + f")\nCOMP_CWORD={len(words) - 1}\n" +
+                  f"COMP_WORDBREAKS={'=' if breaks else ''}\n_lightsheaf '{COMMAND}'\n"
                   "printf '%s\\n' \"${COMPREPLY[@]}\"\n")
         done = subprocess.run(["bash", "-c", script], capture_output=True, check=True)
         self.assertEqual(done.stderr, b"")
-        return [line for line in done.stdout.decode().splitlines() if line]
+        typed = line.rpartition(" ")[2]
+        kept = typed.rpartition("=")[0] + "=" if breaks and "=" in typed else ""
+        return [kept + word for word in done.stdout.decode().splitlines() if word]
+
+    @unittest.skipUnless(shutil.which("fish"), "no fish")
+    def test_fish(self):
+        self.on_path()
+        with open(self.path("lightsheaf.fish"), "w", encoding="utf-8") as file:
+            file.write(page("fish"))
+        self.check(self.fish)
+
+    def fish(self, line):
+        done = subprocess.run(["fish", "--no-config", "-c",
+                               f"source lightsheaf.fish; complete -C '{line}'"],
+                              cwd=self.folder, env=self.environment, capture_output=True, check=True)
+        self.assertEqual(done.stderr, b"")
+        words = [found.split("\t")[0] for found in done.stdout.decode().splitlines()]
+        # fish knows no endings that ask for more, and names files where nothing else fits
+        return [word + "=" if word == "relmse" else word for word in words if word not in self.files()]
+
+    @unittest.skipUnless(shutil.which("zsh"), "no zsh")
+    def test_zsh(self):
+        """In a shell at a terminal, by the key: what the line is then, where one proposal is left."""
+        self.on_path()
+        with open(self.path("_lightsheaf"), "w", encoding="utf-8") as file:
+            file.write(page("zsh"))
+        with open(self.path(".zshrc"), "w", encoding="utf-8") as file:
+            file.write("fpath=($ZDOTDIR $fpath)\nautoload -Uz compinit\ncompinit -u -D\nPROMPT=\nunsetopt beep\n"
+                       "show() { print -r -- \"<<$BUFFER>>\"; BUFFER=; }\n"
+                       "zle -N show\nbindkey '^X' show\nprint READY\n")
+        mine, theirs = pty.openpty()
+        shell = subprocess.Popen(["zsh", "-i"], cwd=self.folder, stdin=theirs, stdout=theirs, stderr=theirs,
+                                 start_new_session=True,
+                                 env={**self.environment, "ZDOTDIR": self.folder, "TERM": "dumb"})
+        os.close(theirs)
+        self.addCleanup(os.close, mine)
+        self.addCleanup(shell.wait)
+        self.addCleanup(shell.kill)
+        self.until(mine, b"READY")
+
+        def complete(line):
+            os.write(mine, line.encode() + b"\t\x18")
+            seen = re.search(rb"<<(.*?)>>", self.until(mine, b">>"), re.DOTALL).group(1)
+            word = seen.decode().strip().rpartition(" ")[2].rstrip(",")  # of lists zsh types one
+            return [] if word == line.rpartition(" ")[2] else [word]
+
+        self.check(complete)
+
+    def until(self, terminal, mark):
+        seen = b""
+        while mark not in seen:
+            ready, _, _ = select.select([terminal], [], [], 30)
+            self.assertTrue(ready, seen)
+            seen += os.read(terminal, 65536)
+        return seen
+
+    def on_path(self):
+        os.symlink(COMMAND, self.path("lightsheaf"))
+        self.environment = {**os.environ, "PATH": self.folder + ":" + os.environ["PATH"],
+                            "HOME": self.folder}
+
+    def test_every_option_is_there(self):
+        """In each shell's page, whether or not the shell is at hand."""
+        pages = {name: page(name) for name in ("bash", "fish", "zsh")}
+        for line in page("markdown").splitlines():
+            option = re.match(r"\| `(?:-\w, )?--([\w-]+)", line)
+            if option:
+                self.assertIn(f"--{option[1]}", pages["bash"])
+                self.assertIn(f"--{option[1]}", pages["zsh"])
+                self.assertIn(f" -l {option[1]}", pages["fish"])
 
 
 if __name__ == "__main__":

@@ -37,6 +37,8 @@ class Install(unittest.TestCase):
     def test_files(self):
         wanted = ["bin/lightsheaf", "share/man/man1/lightsheaf.1",
                   "share/bash-completion/completions/lightsheaf",
+                  "share/fish/vendor_completions.d/lightsheaf.fish",
+                  "share/zsh/site-functions/_lightsheaf",
                   "share/lightsheaf/scenes/interior.gltf", "share/lightsheaf/scenes/interior.bin",
                   f"{LIBDIR}/liblightsheaf.so", f"{LIBDIR}/pkgconfig/lightsheaf.pc"]
         wanted += [f"include/lightsheaf/{header.name}"

@@ -55,6 +55,20 @@ static void must_refuse(lsf_command_bit command, const char *line, const char *p
                  other ? other : "");
 }
 
+/* The table cannot ask the library: the pages are made from it before the library is. */
+static void test_layers_of_the_table(void **state)
+{
+    (void)state;
+    lsf_string names = {0};
+    for (uint32_t i = 0; i < LSF_AOV_COUNT; i++)
+        lsf_string_add(&names, "%s|", lsf_aov_name(1u << i));
+    lsf_string_add(&names, "all");
+    for (size_t i = 0; lsf_command_option_at(i); i++)
+        if (lsf_command_option_at(i)->type == LSF_VALUE_AOVS)
+            assert_string_equal(lsf_command_option_at(i)->choices, names.text);
+    free(names.text);
+}
+
 static void test_rows_are_whole(void **state)
 {
     (void)state;
@@ -65,7 +79,9 @@ static void test_rows_are_whole(void **state)
         assert_non_null(option->group);
         assert_true(option->commands != 0);
         assert_int_equal(option->argument == NULL, option->type == LSF_VALUE_FLAG);
-        assert_int_equal(option->choices != NULL, option->type == LSF_VALUE_CHOICE);
+        assert_int_equal(option->choices != NULL, option->type == LSF_VALUE_CHOICE ||
+                                                      option->type == LSF_VALUE_AOVS ||
+                                                      option->type == LSF_VALUE_THRESHOLD);
         char *range = lsf_command_option_range(option);
         assert_non_null(range);
         free(range);
@@ -361,6 +377,7 @@ static void test_numbers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_layers_of_the_table),
         cmocka_unit_test(test_rows_are_whole),
         cmocka_unit_test(test_shown_defaults_are_the_defaults),
         cmocka_unit_test(test_defaults_are_the_librarys),
