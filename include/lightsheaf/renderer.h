@@ -50,7 +50,9 @@ typedef enum lsf_background {
                                  * share of the pixel that they cover, which is channel A */
 } lsf_background;
 
-/* Called between iterations: `done` of `total` iterations. Return false to stop early. */
+/* Called between iterations, and within long ones about ten times a second: `done` of `total`
+ * iterations. Return false to stop early: an iteration in progress is dropped, so that there may be
+ * no picture yet. */
 typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 
 /* As many bounces as the scene's materials need: lsf_requirements.bounces. */
@@ -61,7 +63,8 @@ typedef struct lsf_render_params {
     const char *technique;   /* see lsf_technique_name */
     uint32_t width, height;  /* pixels */
     uint32_t samples;        /* iterations; UINT32_MAX: as many as the time limit allows */
-    double time_limit;       /* seconds of rendering; infinity: none */
+    double time_limit;       /* seconds of rendering, after which all but a first iteration is
+                              * dropped; infinity: none */
     uint32_t bounces;        /* indirect bounces; 0: direct light only; at most LSF_BOUNCES_MAX,
                               * or LSF_BOUNCES_AUTO */
     uint64_t seed;

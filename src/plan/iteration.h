@@ -6,6 +6,9 @@
 #include "plan/sky_light.h"
 #include "shared/view.h"
 
+/* Whether an iteration that takes long shall go on. */
+typedef bool (*lsf_iteration_question)(void *user);
+
 typedef struct lsf_iteration {
     lsf_context *context;
     lsf_plan *plan; /* passes change the size of what grows while rendering, nothing else */
@@ -21,7 +24,16 @@ typedef struct lsf_iteration {
     lsf_sky_share *shares;  /* one for each light; a technique that finds the environment in other
                              * ways, too, sets them for the iteration */
     lsf_sky sky;
+    lsf_iteration_question question; /* NULL: it shall */
+    void *question_user;
 } lsf_iteration;
+
+/* Asked before each light, each VPL and each path. Once it is false it stays so, and nobody will
+ * use what the iteration leaves. */
+static inline bool lsf_iteration_goes_on(const lsf_iteration *iteration)
+{
+    return !iteration->question || iteration->question(iteration->question_user);
+}
 
 /* A part of the picture to work on: a viewport, and with interleaved sampling the tile whose pixels
  * it holds; see lib/region.glsl. */

@@ -18,10 +18,15 @@
 /* Paths in a pass, at least: threads meet after each, which small pictures should not notice. */
 #define PATHS_PER_PASS 16384u
 
+/* Seconds between two questions whether a long pass shall go on. */
+#define QUESTION_EVERY 0.1
+
 /* Sums of a pixel, in double precision: the mean stays put beyond 2^24 samples. */
 typedef struct pixel_sum {
     double emission[3], direct[3], indirect_diffuse[3], indirect_specular[3];
-    uint64_t covered; /* samples that met a surface */
+    uint32_t
+        taken; /* samples; when a pass is broken off, one pixel has more of them than another */
+    uint32_t covered; /* those that met a surface */
 } pixel_sum;
 
 typedef struct guide_sum {
@@ -37,6 +42,8 @@ typedef struct render {
     uint32_t first_sample, pass_samples;
     uint32_t tiles_x, tile_count;
     bool done;
+    double deadline, next_question; /* in seconds as lsf_now counts them */
+    atomic_bool stopped;            /* the pass is broken off */
     atomic_uint next_tile;
     atomic_ullong rays;
     pthread_mutex_t gate;
@@ -75,6 +82,7 @@ static uint64_t render_pixel(render *r, uint32_t x, uint32_t y)
         add(r->sums[pixel].direct, path.direct);
         add(r->sums[pixel].indirect_diffuse, path.indirect_diffuse);
         add(r->sums[pixel].indirect_specular, path.indirect_specular);
+        r->sums[pixel].taken++;
         r->sums[pixel].covered += isfinite(path.depth);
         if (r->guides != NULL) {
             add(r->guides[pixel].albedo, path.albedo);
@@ -86,7 +94,22 @@ static uint64_t render_pixel(render *r, uint32_t x, uint32_t y)
     return rays;
 }
 
-static void render_tiles(render *r)
+/* The limit leaves the first pass whole: a late picture is better than none. */
+static void ask(render *r)
+{
+    const lsf_render_params *params = r->job->params;
+    double now = lsf_now();
+    if (now < r->next_question)
+        return;
+    r->next_question = now + QUESTION_EVERY;
+    if ((r->first_sample > 0 && now >= r->deadline) ||
+        (params->progress != NULL &&
+         !params->progress(r->first_sample, params->samples, params->progress_user)))
+        atomic_store(&r->stopped, true);
+}
+
+/* Of all threads, the caller's own `asks` its questions. */
+static void render_tiles(render *r, bool asks)
 {
     const lsf_render_params *params = r->job->params;
     uint64_t rays = 0;
@@ -96,8 +119,12 @@ static void render_tiles(render *r)
             break;
         uint32_t x0 = tile % r->tiles_x * TILE, y0 = tile / r->tiles_x * TILE;
         for (uint32_t y = y0; y < y0 + TILE && y < params->height; y++)
-            for (uint32_t x = x0; x < x0 + TILE && x < params->width; x++)
-                rays += render_pixel(r, x, y);
+            for (uint32_t x = x0; x < x0 + TILE && x < params->width; x++) {
+                if (asks)
+                    ask(r);
+                if (!atomic_load(&r->stopped))
+                    rays += render_pixel(r, x, y);
+            }
     }
     atomic_fetch_add(&r->rays, rays);
 }
@@ -113,7 +140,7 @@ static void *worker(void *argument)
         pthread_barrier_wait(&r->barrier);
         if (r->done)
             return NULL;
-        render_tiles(r);
+        render_tiles(r, false);
         pthread_barrier_wait(&r->barrier);
     }
 }
@@ -122,7 +149,7 @@ static void run_pass(render *r)
 {
     atomic_store(&r->next_tile, 0u);
     pthread_barrier_wait(&r->barrier);
-    render_tiles(r);
+    render_tiles(r, true);
     pthread_barrier_wait(&r->barrier);
 }
 
@@ -136,16 +163,20 @@ static void run_passes(render *r, lsf_reference_result *result)
         samples_per_pass = 1;
     double start = lsf_now();
     uint32_t taken = 0;
+    r->deadline = start + params->time_limit;
+    r->next_question = start + QUESTION_EVERY;
     while (taken < params->samples) {
         uint32_t left = params->samples - taken;
         r->first_sample = taken;
         r->pass_samples = left < samples_per_pass ? left : samples_per_pass;
         run_pass(r);
+        if (atomic_load(&r->stopped))
+            break;
         taken += r->pass_samples;
         if (params->progress != NULL &&
             !params->progress(taken, params->samples, params->progress_user))
             break;
-        if (lsf_now() - start >= params->time_limit)
+        if (lsf_now() >= r->deadline)
             break;
     }
     result->samples = taken;
@@ -203,14 +234,14 @@ static void write_light(const lsf_reference_job *job, const pixel_sum *sum, doub
             memcpy(pixel + channels[LSF_REFERENCE_EMISSION + i], layers[i], sizeof layers[i]);
 }
 
-static void write_image(const render *r, uint32_t samples)
+static void write_image(const render *r)
 {
     const lsf_reference_job *job = r->job;
     const int *channels = job->channels;
-    double scale = samples != 0 ? 1.0 / samples : 0.0;
     uint64_t pixels = (uint64_t)job->image->width * job->image->height;
     for (uint64_t i = 0; i < pixels; i++) {
         float *pixel = job->image->pixels + i * job->image->channel_count;
+        double scale = r->sums[i].taken != 0 ? 1.0 / r->sums[i].taken : 0.0;
         write_light(job, &r->sums[i], scale, pixel);
         if (channels[LSF_REFERENCE_COVERAGE] >= 0)
             pixel[channels[LSF_REFERENCE_COVERAGE]] = (float)((double)r->sums[i].covered * scale);
@@ -250,7 +281,7 @@ bool lsf_reference_module_render(lsf_reference_job *job, lsf_error *error)
         r->tiles_x = (params->width + TILE - 1) / TILE;
         r->tile_count = r->tiles_x * ((params->height + TILE - 1) / TILE);
         run_threads(r, &job->result);
-        write_image(r, job->result.samples);
+        write_image(r);
     }
     lsf_reference_world_finish(&r->world);
     free(r->sums);

@@ -379,7 +379,7 @@ static void run_light(sample_turn *turn, uint32_t light, uint32_t count)
                                 .light_buffer = b->rsm.outputs.light_buffer,
                                 .importance = b->rsm.outputs.importance,
                                 .sums = b->rsm.outputs.sums};
-    for (uint32_t i = first; i < count; i++) {
+    for (uint32_t i = first; i < count && lsf_iteration_goes_on(turn->iteration); i++) {
         if (b->lights[i] != light)
             continue;
         if (i < b->sampling.vpl_count)
@@ -406,14 +406,16 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
                                    b->aims);
         lsf_ray_bundle_aim(b->bundle, iteration, b->aims, b->chain.gbuffer.outputs.depth);
     }
-    for (uint32_t i = 0; s->segments > 1 && i < s->bundle_count; i++)
+    for (uint32_t i = 0; s->segments > 1 && i < s->bundle_count && lsf_iteration_goes_on(iteration);
+         i++)
         lsf_ray_bundle_build(b->bundle, iteration, i);
     if (s->vpl_light || s->bundle_light) {
         pick_lights(b, iteration, count);
-        for (uint32_t light = 0; light < iteration->light_count; light++)
+        for (uint32_t light = 0; light < iteration->light_count && lsf_iteration_goes_on(iteration);
+             light++)
             run_light(&turn, light, count);
     } else {
-        for (uint32_t i = 0; i < count; i++)
+        for (uint32_t i = 0; i < count && lsf_iteration_goes_on(iteration); i++)
             run_sample(&turn, i, LSF_NONE);
     }
 }

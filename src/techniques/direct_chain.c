@@ -63,7 +63,7 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
 {
     lsf_direct_chain_begin(chain, iteration);
-    for (uint32_t i = 0; i < iteration->light_count; i++)
+    for (uint32_t i = 0; i < iteration->light_count && lsf_iteration_goes_on(iteration); i++)
         lsf_direct_chain_light(chain, iteration, i);
 }
 

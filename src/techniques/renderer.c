@@ -14,6 +14,9 @@
 
 #define MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 2)
 
+/* Seconds between two questions whether a long iteration shall go on. */
+#define QUESTION_EVERY 0.1
+
 struct lsf_renderer {
     lsf_context *context;
     lsf_setup setup;
@@ -30,6 +33,8 @@ struct lsf_renderer {
     uint32_t samples_wanted;
     lsf_progress progress;
     void *progress_user;
+    double deadline, next_question; /* in seconds as lsf_now counts them */
+    bool stopped;                   /* the iteration in progress is to be dropped */
     double compile_seconds, upload_seconds, render_seconds;
     lsf_pass_stats pass_stats[MAX_PASSES];
 };
@@ -140,6 +145,8 @@ static void run_iteration(lsf_renderer *renderer)
     const lsf_setup *setup = &renderer->setup;
     lsf_iteration_begin(&renderer->iteration, renderer->next);
     setup->technique->run(renderer->technique, &renderer->iteration, &renderer->outputs);
+    if (renderer->stopped)
+        return;
     for (uint32_t i = 0; i < setup->layer_count; i++)
         layers[i] = layer_texture(&renderer->outputs, setup->layer_aovs[i]);
     if (!renderer->grain_checked)
@@ -162,19 +169,22 @@ static bool settle(lsf_renderer *renderer, bool wait)
 static bool catch_up(lsf_renderer *renderer, bool wait, lsf_error *error)
 {
     double start = lsf_now();
-    do
-        while (renderer->next < renderer->samples) {
+    do {
+        while (renderer->next < renderer->samples && !renderer->stopped) {
             run_iteration(renderer);
             if (!lsf_context_check(renderer->context, error))
                 return false;
         }
-    while (!settle(renderer, wait));
+        if (renderer->stopped)
+            renderer->samples = renderer->next;
+    } while (!settle(renderer, wait));
     renderer->render_seconds += lsf_now() - start;
     return lsf_context_check(renderer->context, error);
 }
 
 bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
 {
+    renderer->stopped = false;
     renderer->samples++;
     return catch_up(renderer, false, error);
 }
@@ -187,25 +197,53 @@ static void wait_for_gpu(lsf_renderer *renderer)
     renderer->render_seconds += lsf_now() - start;
 }
 
-bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
+static bool wants_more(const lsf_renderer *renderer, uint32_t done)
 {
-    double start = lsf_now();
+    return !renderer->progress ||
+           renderer->progress(done, renderer->samples_wanted, renderer->progress_user);
+}
+
+/* Within an iteration. The limit leaves the first one whole: a late picture is better than none. */
+static bool goes_on(void *user)
+{
+    lsf_renderer *renderer = user;
+    if (renderer->stopped || lsf_now() < renderer->next_question)
+        return !renderer->stopped;
+    glFinish(); /* or the question would be about commands that are given, not about work */
+    renderer->stopped = (renderer->next > 0 && lsf_now() >= renderer->deadline) ||
+                        !wants_more(renderer, renderer->next);
+    renderer->next_question = lsf_now() + QUESTION_EVERY;
+    return !renderer->stopped;
+}
+
+static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
+{
     bool limited = isfinite(renderer->time_limit);
     while (renderer->samples < renderer->samples_wanted) {
+        renderer->next_question = lsf_now() + QUESTION_EVERY;
         if (!lsf_renderer_iterate(renderer, error))
             return false;
-        if (renderer->progress && !renderer->progress(renderer->samples, renderer->samples_wanted,
-                                                      renderer->progress_user))
+        if (renderer->stopped || !wants_more(renderer, renderer->samples))
             break;
         /* A GPU takes commands faster than it runs them: without this, the limit would be one on
          * commands given. */
         if (limited)
             wait_for_gpu(renderer);
-        if (lsf_now() - start >= renderer->time_limit)
+        if (lsf_now() >= renderer->deadline)
             break;
     }
     wait_for_gpu(renderer);
     return catch_up(renderer, true, error);
+}
+
+bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
+{
+    renderer->deadline = lsf_now() + renderer->time_limit;
+    renderer->iteration.question = goes_on;
+    renderer->iteration.question_user = renderer;
+    bool good = run_until_stopped(renderer, error);
+    renderer->iteration.question = NULL;
+    return good;
 }
 
 /* Names of an image's channels: those of the picture, then of each layer. */

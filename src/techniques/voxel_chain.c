@@ -127,7 +127,7 @@ void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iterati
     lsf_voxel_light_inputs inputs = {0};
     if (on_voxels)
         inputs = light_inputs(chain->voxels);
-    for (uint32_t i = 0; i < iteration->light_count; i++) {
+    for (uint32_t i = 0; i < iteration->light_count && lsf_iteration_goes_on(iteration); i++) {
         lsf_direct_chain_light(&chain->direct, iteration, i);
         if (on_voxels)
             light_voxels(chain, iteration, &inputs, i);

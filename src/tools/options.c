@@ -115,7 +115,9 @@ static const lsf_command_option options[] = {
     {"samples", 's', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(samples), 1, 1000000000, NULL,
      NULL, "iterations; 64, or with --time-limit as many as fit"},
     {"time-limit", 0, "S", PLANNING, "Picture", LSF_VALUE_DOUBLE, AT(time_limit), 0.001, 1e9, NULL,
-     NULL, "seconds of rendering after which no further iteration starts"},
+     NULL,
+     "seconds after which rendering ends; an iteration that is not done is dropped, but for the "
+     "first"},
     {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, LSF_BOUNCES_MAX,
      NULL, NULL,
      "indirect bounces of light; 0 is direct light only; without it 1, and 5 where materials "

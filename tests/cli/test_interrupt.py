@@ -86,6 +86,21 @@ class Interrupt(CommandTest):
         self.assertEqual(status, DONE, seen)
         self.assertEqual(self.files(), ["a.exr", "scene.gltf"])
 
+    def test_reference_within_a_pass(self):
+        status, seen = self.start_and_interrupt("reference", "--resolution", "2048,1536")
+        self.assertEqual(status, RENDERING, seen)
+        self.assertIn("before the first sample", seen)
+        self.assertEqual(self.files(), ["scene.gltf"])
+
+    def test_reference_time_limit(self):
+        """Some pixels have more samples than others, and no pixel has fewer than are told."""
+        self.run_command("reference", self.scene(), "-o", "a.exr", "-r", "512,384", "--time-limit", "1",
+                         "--json", "a.json")
+        report = self.read_json("a.json")
+        self.assertGreater(report["samples"], 0)
+        self.run_command("reference", "scene.gltf", "-o", "b.exr", "-r", "512,384", "-s", str(report["samples"]))
+        self.run_command("compare", "a.exr", "b.exr", "--threshold", "bias=0.001", "--threshold", "rmse_relative=0.05")
+
     def test_reference_half(self):
         """Interrupted in the first half, there is one picture and no pair."""
         status, seen = self.start_and_interrupt("reference", "--halves")
@@ -96,7 +111,7 @@ class Interrupt(CommandTest):
 
 if __name__ == "__main__":
     if "reference" not in os.environ.get("LSF_MODULES", "reference"):
-        for name in ("test_reference", "test_reference_half"):
+        for name in [name for name in dir(Interrupt) if name.startswith("test_reference")]:
             setattr(Interrupt, name,
                     unittest.skip("built without Embree")(getattr(Interrupt, name)))
     main()

@@ -1,0 +1,130 @@
+/* An iteration that takes long is asked whether it shall go on; what it has done is dropped. */
+#include "base/base.h"
+#include "render_gl.h"
+
+enum { SIZE = 16, SAMPLES = 3 };
+
+static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+
+static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=32",
+                                      "vpl.shadow_resolution=32", "bundle.resolution=32"};
+
+/* Every look at the clock takes a second: all is slow. */
+static double now;
+
+double __wrap_lsf_now(void);
+
+double __wrap_lsf_now(void)
+{
+    return now += 1.0;
+}
+
+static lsf_scene *lit_scene(void)
+{
+    lsf_scene *scene = build_scene();
+    build_corner(scene);
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 3.0f);
+    build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(-0.4f, -0.8f, -0.5f), 1.0f);
+    build_light(scene, LSF_LIGHT_SPOT, lsf_f3(-1, 2.5f, 1), lsf_f3(0, -1, -0.5f), 8.0f);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+typedef struct caller {
+    uint32_t stop_after; /* iterations that are done; UINT32_MAX: never */
+    uint32_t within;     /* questions about the next one so far */
+    uint32_t last;
+} caller;
+
+static bool on_progress(uint32_t done, uint32_t total, void *user)
+{
+    caller *c = user;
+    assert_true(done <= total);
+    c->within = done == c->last ? c->within + 1 : 0;
+    c->last = done;
+    return done != c->stop_after || c->within == 0;
+}
+
+static lsf_image *read_picture(lsf_renderer *renderer, uint32_t samples)
+{
+    lsf_error error = {0};
+    lsf_image *image = lsf_renderer_read(renderer, &error);
+    if (!image)
+        fail_msg("%s", error.message);
+    assert_int_equal(lsf_renderer_get_stats(renderer).samples, samples);
+    return image;
+}
+
+static void run(lsf_renderer *renderer)
+{
+    lsf_error error = {0};
+    if (!lsf_renderer_run(renderer, &error))
+        fail_msg("%s", error.message);
+}
+
+static void check(const char *technique)
+{
+    lsf_scene *scene = lit_scene();
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    caller c = {.stop_after = UINT32_MAX};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    params.technique = technique;
+    params.samples = SAMPLES;
+    params.options = options;
+    params.option_count = LSF_COUNT(options);
+    params.progress = on_progress;
+    params.progress_user = &c;
+    params = corner_params(params, SIZE);
+    lsf_error error = {0};
+    lsf_image *whole[SAMPLES]; /* of 1, 2, ... iterations */
+    lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
+    assert_non_null(renderer);
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        assert_true(lsf_renderer_iterate(renderer, &error));
+        whole[i] = read_picture(renderer, i + 1);
+    }
+    lsf_renderer_destroy(renderer);
+
+    renderer = lsf_renderer_create(context, scene, &params, &error);
+    assert_non_null(renderer);
+    for (uint32_t done = 0; done <= SAMPLES; done++) {
+        c = (caller){.stop_after = done, .last = done ? done - 1 : 0};
+        run(renderer);
+        assert_true(done == SAMPLES || c.within == 1);
+        lsf_image *image = read_picture(renderer, done);
+        if (done > 0)
+            assert_same_pixels(image, whole[done - 1]);
+        lsf_image_destroy(image);
+    }
+    lsf_renderer_destroy(renderer);
+
+    c = (caller){.stop_after = UINT32_MAX};
+    params.time_limit = 0.5;
+    renderer = lsf_renderer_create(context, scene, &params, &error);
+    assert_non_null(renderer);
+    run(renderer);
+    lsf_image *image = read_picture(renderer, 1);
+    assert_same_pixels(image, whole[0]);
+    lsf_image_destroy(image);
+    lsf_renderer_destroy(renderer);
+    for (uint32_t i = 0; i < SAMPLES; i++)
+        lsf_image_destroy(whole[i]);
+    gl_test_check(context);
+    lsf_context_destroy(context);
+    destroy_scene(scene);
+}
+
+static void stops_within_an_iteration(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < LSF_COUNT(techniques); i++) {
+        print_message("%s\n", techniques[i]);
+        check(techniques[i]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(stops_within_an_iteration)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
