@@ -39,6 +39,7 @@ class Install(unittest.TestCase):
                   "share/bash-completion/completions/lightsheaf",
                   "share/fish/vendor_completions.d/lightsheaf.fish",
                   "share/zsh/site-functions/_lightsheaf",
+                  "share/thumbnailers/lightsheaf.thumbnailer",
                   "share/lightsheaf/scenes/interior.gltf", "share/lightsheaf/scenes/interior.bin",
                   f"{LIBDIR}/liblightsheaf.so", f"{LIBDIR}/pkgconfig/lightsheaf.pc"]
         wanted += [f"include/lightsheaf/{header.name}"
