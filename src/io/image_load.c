@@ -107,8 +107,8 @@ static lsf_image *linear_from_integers(const lsf_decoded_image *decoded, lsf_err
 }
 
 #define FLOATS_TOO_LARGE                                                                           \
-    "%s: %u x %u pixels as floats are more than the memory limit leaves; raise it or scale the "   \
-    "image down"
+    "%s: %u x %u pixels as floats are more than the memory limit leaves; raise --memory-limit or " \
+    "scale the image down"
 
 static lsf_image *image_from_memory(const void *bytes, size_t length, uint64_t byte_limit,
                                     const char *name, lsf_error *error)

@@ -167,6 +167,9 @@ static const lsf_command_option options[] = {
      NULL, NULL,
      "ignore, with a warning each, extensions that the file requires and that change the look "
      "alone"},
+    {"memory-limit", 0, "GIB", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_DOUBLE,
+     AT(memory_limit), 0.001, 1e6, NULL, "8",
+     "refuse a scene whose loading takes more memory than this at any moment, in GiB"},
     {"scene", 0, "NAME|INDEX", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXT, AT(scene), 0,
      0, NULL, NULL,
      "which of the file's scenes, by name or by index from 0; without it, the one that the file "

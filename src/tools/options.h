@@ -138,6 +138,7 @@ typedef struct lsf_settings {
     float environment_rotation, environment_strength;
     int default_light; /* lsf_default_light */
     bool diffuse_only, show_back_faces, lenient;
+    double memory_limit;         /* GiB */
     const char *scene, *variant; /* NULL: not given */
     lsf_list_setting animations;
 

@@ -405,6 +405,7 @@ static bool bad_argument(const lsf_command_option *option, bool missing, lsf_err
 static void set_defaults(lsf_settings *settings, const lsf_command *command)
 {
     const lsf_render_params render = {LSF_RENDER_PARAMS_DEFAULTS};
+    const lsf_scene_params scene = {LSF_SCENE_PARAMS_DEFAULTS};
     *settings = (lsf_settings){
         .command = command,
         .technique = render.technique,
@@ -413,7 +414,8 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
         .bounces = render.bounces,
         .seed = render.seed,
         .fov_y = render.fov_y,
-        .environment_strength = 1.0f,
+        .environment_strength = scene.environment_strength,
+        .memory_limit = (double)scene.memory_limit / 0x1p30,
         .time = render.time,
         .difference_gain = 4,
         .epsilon = NAN,
@@ -574,6 +576,7 @@ lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings)
     params.diffuse_only = settings->diffuse_only;
     params.show_back_faces = settings->show_back_faces;
     params.lenient = settings->lenient;
+    params.memory_limit = (uint64_t)(settings->memory_limit * 0x1p30);
     params.scene = settings->scene;
     params.variant = settings->variant;
     params.animations = settings->animations.items; /* NULL: not given */

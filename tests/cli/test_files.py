@@ -1,4 +1,5 @@
 """What happens to files: nothing is torn, nothing good is lost, nothing is left behind."""
+import json
 import os
 import resource
 import unittest
@@ -96,6 +97,20 @@ class Inputs(CommandTest):
         os.mkfifo(self.path("fifo.gltf"))
         for path in ("fifo.gltf", "/dev/zero", "."):
             self.refuse("info", path, status=FILE, says=[path])
+
+    def test_memory_limit(self):
+        """A file of 3 MB, and vertices that no file holds but that take 12 MB."""
+        with open(self.scene(), "a") as file:
+            file.write(3000000 * " ")
+        with open(self.path("zeros.gltf"), "w") as file:
+            json.dump({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                       "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                       "accessors": [{"componentType": 5126, "count": 999999, "type": "VEC3",
+                                      "min": [0, 0, 0], "max": [0, 0, 0]}]}, file)
+        for name in ("scene.gltf", "zeros.gltf"):
+            self.refuse("info", name, "--memory-limit", "0.001", status=FILE, says=[name, "raise --memory-limit"])
+            self.run_command("info", name, "--memory-limit", "0.5")
+        self.refuse("info", "scene.gltf", "--memory-limit", "0", says=["--memory-limit 0"])
 
     def test_missing_environment(self):
         self.refuse("info", self.scene(), "--environment", "sky.hdr", status=FILE, says=["sky.hdr"])
