@@ -65,7 +65,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
 {
     lsf_plan_buffer_add(plan, "ray_bundle.projections",
                         use->count * sizeof(struct lsf_bundle_slot_data),
-                        "projections of %u bundles", use->count);
+                        "projections of %u bundle%s", use->count, lsf_plural(use->count));
     if (window_is_fitted(params, use))
         lsf_ray_bundle_aim_plan(plan);
     else

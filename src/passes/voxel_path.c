@@ -41,7 +41,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     bool voxel_gloss = lsf_plan_find(plan, "voxelize.gloss") != NULL;
     bool emission = lsf_plan_find(plan, "voxelize.emission") != NULL;
     bool texture = params->sequence == LSF_VOXEL_PATH_TEXTURE;
-    lsf_plan_pass_add(plan, "voxel_path", "paths of %u segments through the voxels", use->segments);
+    lsf_plan_pass_add(plan, "voxel_path", "paths of %u segment%s through the voxels", use->segments,
+                      lsf_plural(use->segments));
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, use->width, use->height);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");

@@ -123,7 +123,8 @@ static void plan_occupancy(lsf_plan *plan, const lsf_voxel_grid *grid)
                                  .depth = (grid->size[2] + cell - 1) / cell,
                                  .levels = 1};
         snprintf(name, sizeof name, "voxelize.occupancy_%d", level);
-        lsf_plan_texture_desc_add(plan, name, &desc, "a bit for each cell of %u voxels", cell / 4);
+        lsf_plan_texture_desc_add(plan, name, &desc, "a bit for each cell of %u voxel%s", cell / 4,
+                                  lsf_plural(cell / 4));
     }
 }
 

@@ -46,9 +46,11 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
         lsf_plan_buffer_add(plan, "scene.normals", vertices * 12, "3 floats a vertex");
         lsf_plan_buffer_add(plan, "scene.indices", scene->index_count * 4, "32 bits each");
         lsf_plan_buffer_add(plan, "scene.instances", scene->instance_count * sizeof(instance_data),
-                            "transforms and material of %u instances", scene->instance_count);
+                            "transforms and material of %u instance%s", scene->instance_count,
+                            lsf_plural(scene->instance_count));
         lsf_plan_buffer_add(plan, "scene.materials", scene->material_count * sizeof(material_data),
-                            "%u materials", scene->material_count);
+                            "%u material%s", scene->material_count,
+                            lsf_plural(scene->material_count));
         if (lsf_scene_gpu_has_lobes(r))
             lsf_plan_buffer_add(
                 plan, "scene.lobes", scene->material_count * sizeof(struct lsf_lobe_data),

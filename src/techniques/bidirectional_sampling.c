@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/base.h"
 #include "passes/compose.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
@@ -95,9 +96,10 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params,
     const lsf_requirements *r = &plan->requirements;
     if (s->bundle_count > (uint32_t)params->ray_bundle.count)
         lsf_plan_remark(plan,
-                        "%u bundles an iteration instead of %d: paths of %u segments need as many "
-                        "independent directions, and each of %u tiles a sample",
-                        s->bundle_count, params->ray_bundle.count, s->segments, s->tiles);
+                        "%u bundles an iteration instead of %d: paths of %u segment%s need as many "
+                        "independent directions, and each of %u tile%s a sample",
+                        s->bundle_count, params->ray_bundle.count, s->segments,
+                        lsf_plural(s->segments), s->tiles, lsf_plural(s->tiles));
     if (max_u32(s->vpl_count, s->emitter_count) > (uint32_t)params->vpl.count)
         lsf_plan_remark(plan, "%u VPLs an iteration instead of %d: each of %u tiles needs one",
                         s->tiles, params->vpl.count, s->tiles);

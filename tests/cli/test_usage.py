@@ -54,6 +54,9 @@ class Words(CommandTest):
                             (["-s", "2", "-b", "0"], "2 iterations, no bounces\n")):
             text = self.run_command("plan", self.scene(), *words).stdout.decode()
             self.assertIn(says, text.splitlines(keepends=True)[0])
+        for technique in ("direct", "bidirectional", "cone", "voxel_path"):
+            text = self.run_command("plan", self.scene(), "-s", "1", "-t", technique).stdout.decode()
+            self.assertNotRegex(text, r"(?<![\d.])1 [a-z]+s\b")
 
     def test_direct_has_no_bounces(self):
         glass = os.path.join(SOURCE_ROOT, "data/scenes/cornell_glass.gltf")
