@@ -12,6 +12,7 @@
 
 #include "lib/bundle_map.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/plane_key.glsl"
 
 #ifndef LSF_BUNDLE_ACCESS
 #define LSF_BUNDLE_ACCESS readonly
@@ -126,9 +127,8 @@ vec2 bundle_texel_size()
 }
 
 /* --- planes: depth at the texel's centre, 0..1 over the scene, and slopes as rise over run in
- * normalised space. A slope s is kept as c = s / (1 + |s|), which divides its angle about evenly. Keys
- * have 16 and twice 8 bits of them: slopes within 0.45 degrees, up to 89.5. The rest, 16 and twice 8
- * bits more, lies with the surface. */
+ * normalised space. Keys are those of lib/plane_key.glsl. The rest, 16 and twice 8 bits more, lies with the
+ * surface. */
 
 #define LSF_BUNDLE_DEPTH_STEPS 65535.0
 
@@ -156,11 +156,6 @@ float bundle_key_depth(uint key)
     return float(int(key >> 16)); /* signed: software GL converts those at once */
 }
 
-vec2 bundle_key_slope(uint key)
-{
-    vec2 c = vec2(int(key << 16) >> 24, int(key << 24) >> 24);
-    return c / (128.0 - abs(c));
-}
 
 /* Depth at the texel's centre, 0..1, and slopes, as exact as they are kept. */
 vec3 bundle_plane(uint node)

@@ -1,6 +1,6 @@
 /* Visibility from the light's map. Switches LSF_SHADOW_PCF, the side of a filter or 0,
- * LSF_SHADOW_HEMISPHERE for the map of a VPL (see lib/hemisphere.glsl), and LSF_SHADOW_TINT where light may come
- * through thin walls.
+ * LSF_SHADOW_HEMISPHERE for the map of a VPL (see lib/hemisphere.glsl), LSF_SHADOW_SKY for maps of the environment
+ * (lib/sky_map.glsl), and LSF_SHADOW_TINT where light may come through thin walls.
  *
  * A texel knows the depth of the surface at its centre; the receiver lies elsewhere in the texel.
  * Depth is affine over a plane, so either surface can be continued to the other's place:
@@ -14,15 +14,23 @@
 #ifndef LSF_LIB_SHADOW
 #define LSF_LIB_SHADOW
 
+#include "shared/scene_data.h"
+#if LSF_SHADOW_SKY
+#include "lib/sky_map.glsl"
+#else
 #include "lib/hemisphere.glsl"
 #include "lib/light_map.glsl"
+#endif
 
 #if LSF_SHADOW_HEMISPHERE
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform usampler2D shadow_map;
+#elif LSF_SHADOW_SKY
+layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform usampler2DArray shadow_map;
+int shadow_sky_map = 0; /* the map in turn */
 #else
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform sampler2DArray shadow_depth;
 #endif
-#if !LSF_SHADOW_PCF && !LSF_SHADOW_HEMISPHERE
+#if !LSF_SHADOW_PCF && !LSF_SHADOW_HEMISPHERE && !LSF_SHADOW_SKY
 layout(binding = LSF_UNIT_SHADOW_GRADIENT) uniform sampler2DArray shadow_gradient;
 #endif
 
@@ -80,6 +88,28 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     return r;
 }
 
+#elif LSF_SHADOW_SKY
+
+shadow_receiver shadow_project(vec3 position, vec3 normal)
+{
+    shadow_receiver r;
+    r.face = shadow_sky_map;
+    vec3 projected = sky_map_project(r.face, position);
+    vec4 texel = sky_maps[r.face].texel;
+    /* Along unit axes. */
+    vec3 n = vec3(dot(sky_maps[r.face].right.xyz, normal) * texel.x,
+                  dot(sky_maps[r.face].up.xyz, normal) * texel.y,
+                  dot(sky_maps[r.face].to_sky.xyz, normal));
+    r.texel = projected.xy;
+    r.depth = projected.z;
+    r.gradient = texel.xy * n.xy / (-n.z * texel.z);
+    r.error = LSF_SHADOW_DEPTH_ERROR + SKY_MAP_DEPTH_ERROR +
+              (LSF_SHADOW_SLOPE_ERROR * max(texel.x, texel.y) +
+               sky_maps[r.face].error.x / abs(n.z)) / texel.z;
+    r.at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(int(texel.w) - 1));
+    return r;
+}
+
 #else
 
 shadow_receiver shadow_project(vec3 position, vec3 normal)
@@ -114,6 +144,15 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
 
 #endif
 
+int shadow_texels(shadow_receiver r)
+{
+#if LSF_SHADOW_SKY
+    return int(sky_maps[r.face].texel.w);
+#else
+    return int(light.map_shape.z);
+#endif
+}
+
 #if LSF_SHADOW_PCF
 
 /* Percentage-closer filter over as many texels' squares about the receiver along each axis as
@@ -122,12 +161,19 @@ float shadow_visibility(vec3 position, vec3 normal)
 {
     const int squares = LSF_SHADOW_PCF / 2; /* of 2 x 2 texels, which are read at once */
     shadow_receiver r = shadow_project(position, normal);
+    float side = float(shadow_texels(r));
     vec2 corner = floor(r.texel - 0.5) - float(squares - 1);
     vec4 lit = vec4(0.0);
     for (int i = 0; i < squares * squares; i++) {
         vec2 at = corner + 2.0 * vec2(i % squares, i / squares); /* the least of the four */
-        at = clamp(at, vec2(0.0), vec2(light.map_shape.z - 2.0));
-        vec4 depth = textureGather(shadow_depth, vec3((at + 1.0) / light.map_shape.z, r.face));
+        at = clamp(at, vec2(0.0), vec2(side - 2.0));
+#if LSF_SHADOW_SKY
+        uvec4 keys = textureGather(shadow_map, vec3((at + 1.0) / side, r.face));
+        vec4 depth = vec4(sky_map_depth(keys.x), sky_map_depth(keys.y), sky_map_depth(keys.z),
+                          sky_map_depth(keys.w));
+#else
+        vec4 depth = textureGather(shadow_depth, vec3((at + 1.0) / side, r.face));
+#endif
         vec4 receiver = r.depth + r.gradient.x * (vec4(at.x) + vec4(0.5, 1.5, 1.5, 0.5) - r.texel.x) +
                         r.gradient.y * (vec4(at.y) + vec4(1.5, 1.5, 0.5, 0.5) - r.texel.y);
         lit += vec4(lessThanEqual(depth, receiver + r.error));
@@ -141,22 +187,30 @@ float shadow_visibility(vec3 position, vec3 normal)
  * otherwise they are the same surface (0), or meet within the texel. */
 int shadow_order(shadow_receiver r, ivec2 at)
 {
+    vec2 to_center = vec2(at) + 0.5 - r.texel;
+    float slope_error = 0.0; /* at the receiver */
 #if LSF_SHADOW_HEMISPHERE
     uint texel = texelFetch(shadow_map, at, 0).r;
     float depth = hemisphere_unpack_depth(texel);
     vec2 gradient = hemisphere_unpack_slope(texel) * (depth * 2.0 * light.map_shape.w);
+#elif LSF_SHADOW_SKY
+    uint key = texelFetch(shadow_map, ivec3(at, r.face), 0).r;
+    float depth = sky_map_depth(key);
+    vec2 slope = plane_key_slope(key), steeper = 1.0 + abs(slope);
+    vec2 unit = sky_maps[r.face].texel.xy / sky_maps[r.face].texel.z;
+    vec2 gradient = slope * unit;
+    slope_error = SKY_MAP_SLOPE_ERROR * dot(steeper * steeper, abs(to_center) * unit);
 #else
     float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
     vec2 gradient = vec2(0.0);
     if (depth > 0.0) /* nothing writes the gradient where nothing is shown */
         gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_map_depth_unit(depth);
 #endif
-    vec2 to_center = vec2(at) + 0.5 - r.texel;
     float at_receiver = depth - dot(gradient, to_center) - r.depth;
     float at_center = depth - r.depth - dot(r.gradient, to_center);
-    if (min(at_receiver, at_center) > r.error)
+    if (min(at_receiver - slope_error, at_center) > r.error)
         return 1;
-    return max(at_receiver, at_center) < -r.error ? -1 : 0;
+    return max(at_receiver + slope_error, at_center) < -r.error ? -1 : 0;
 }
 
 /* A texel that shows something behind the receiver knows nothing about it: its centre is past an edge,
@@ -169,7 +223,7 @@ float shadow_visibility(vec3 position, vec3 normal)
     int order = shadow_order(r, r.at);
 #if !LSF_SHADOW_HEMISPHERE
     if (order < 0) {
-        ivec2 last = ivec2(int(light.map_shape.z) - 1);
+        ivec2 last = ivec2(shadow_texels(r) - 1);
         ivec2 step_to = ivec2(r.texel.x - float(r.at.x) >= 0.5 ? 1 : -1,
                               r.texel.y - float(r.at.y) >= 0.5 ? 1 : -1);
         for (int i = 1; i < 4; i++) {
@@ -196,6 +250,9 @@ vec3 shadow_tint(vec3 position, vec3 normal, bool transmits)
 #if LSF_SHADOW_HEMISPHERE
     float shown = hemisphere_unpack_depth(texelFetch(shadow_map, r.at, 0).r);
     vec3 tint = texelFetch(shadow_tint_texture, r.at, 0).rgb;
+#elif LSF_SHADOW_SKY
+    float shown = sky_map_depth(texelFetch(shadow_map, ivec3(r.at, r.face), 0).r);
+    vec3 tint = texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;
 #else
     float shown = texelFetch(shadow_depth, ivec3(r.at, r.face), 0).r;
     vec3 tint = texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;

@@ -1,15 +1,22 @@
-/* Light that one light sends to the eye by one reflection: f V E, added to the target. Switch
- * LSF_SKY_CHANCE, lsf_sky_chance: what else finds the environment, and leaves a share of it. */
+/* Light that one light sends to the eye by one reflection: f V E, added to the target. Switches LSF_SHADOW_SKY: not
+ * one light's, but that of a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: what else
+ * finds the environment, and leaves a share of it. */
 #include "lib/brdf.glsl"
 #if LSF_SKY_CHANCE
 #include "lib/brdf_sample.glsl"
 #endif
 #include "lib/gbuffer_textures.glsl"
-#include "lib/light.glsl"
 #include "lib/shadow.glsl"
+#if !LSF_SHADOW_SKY
+#include "lib/light.glsl"
+#endif
 #include "lib/view.glsl"
 
 layout(location = 0) out vec4 radiance_out;
+
+#if LSF_SHADOW_SKY
+layout(location = 0) uniform int sky_map_count;
+#endif
 
 #if LSF_SKY_CHANCE
 #define LSF_SKY_CHANCE_PATHS 1
@@ -39,6 +46,31 @@ void share_sky(surface s, vec3 view_direction, vec3 direction, float density, in
 }
 #endif
 
+/* What a visible point reflects of the light from a direction, `irradiance` on a plane that faces it. `density`: of
+ * the environment's directions, 0: it is no part of it. */
+vec3 reflected(surface s, vec3 position, vec3 view_direction, vec3 direction, vec3 irradiance,
+               float density, float kernel)
+{
+    float cosine = dot(s.normal, direction);
+    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
+        max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0)
+        return vec3(0.0);
+    float visibility = shadow_visibility(position, s.geometric_normal);
+    if (visibility == 0.0)
+        return vec3(0.0);
+#if LSF_SHADOW_TINT
+    irradiance *= shadow_tint(position, s.geometric_normal, s.transmission > 0.0);
+#endif
+#if LSF_SKY_CHANCE
+    brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
+    if (density > 0.0)
+        share_sky(s, view_direction, direction, density, f);
+#else
+    brdf_value f = brdf_evaluate(s, view_direction, direction, kernel);
+#endif
+    return brdf_sum(s, f) * irradiance * (cosine * visibility);
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -55,25 +87,16 @@ void main()
     vec2 ndc = sample_ndc(gl_FragCoord.xy);
     vec3 position = position_from_depth(ndc, depth);
     vec3 view_direction = -normalize(view_ray_direction(ndc));
+#if LSF_SHADOW_SKY
+    for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++)
+        radiance_out.rgb +=
+            reflected(s, position, view_direction, sky_maps[shadow_sky_map].to_sky.xyz,
+                      sky_maps[shadow_sky_map].irradiance.rgb, sky_maps[shadow_sky_map].to_sky.w,
+                      sky_maps[shadow_sky_map].irradiance.w);
+#else
     vec3 irradiance;
     float distance2;
     vec3 direction = light_direction(position, irradiance, distance2);
-    float cosine = dot(s.normal, direction);
-    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
-        max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0)
-        return;
-    float visibility = shadow_visibility(position, s.geometric_normal);
-    if (visibility == 0.0)
-        return;
-#if LSF_SHADOW_TINT
-    irradiance *= shadow_tint(position, s.geometric_normal, s.transmission > 0.0);
+    radiance_out.rgb = reflected(s, position, view_direction, direction, irradiance, 0.0, 0.0);
 #endif
-#if LSF_SKY_CHANCE
-    brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
-    if (light.intensity.w > 0.0)
-        share_sky(s, view_direction, direction, light.intensity.w, f);
-#else
-    brdf_value f = brdf_evaluate(s, view_direction, direction, light.map_offset.w);
-#endif
-    radiance_out.rgb = brdf_sum(s, f) * irradiance * (cosine * visibility);
 }

@@ -92,7 +92,7 @@ struct bundle_hit {
  * that the list's order does not. */
 void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hit)
 {
-    vec2 slope = bundle_key_slope(key);
+    vec2 slope = plane_key_slope(key);
     float depth = bundle_key_depth(key) + dot(slope, ray.to_depth);
     float distance = ray.sign * (depth - ray.depth);
     /* The origin's own surface: its distance from the plane is the one along the ray over

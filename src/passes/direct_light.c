@@ -6,11 +6,10 @@
 #include "plan/light_walls.h"
 #include "shared/scene_data.h"
 
-void lsf_direct_light_plan(lsf_plan *plan, const lsf_direct_light_use *use)
+static void plan_switches(lsf_plan *plan, const lsf_direct_light_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
-    lsf_plan_pass_add(plan, "direct_light", "one reflection of each light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
@@ -20,30 +19,58 @@ void lsf_direct_light_plan(lsf_plan *plan, const lsf_direct_light_use *use)
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_scene_gpu_lobe_switches(plan, gloss);
-    lsf_light_switches(plan);
-    lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
-                        "light passes thin walls");
-    lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", plan->sky_lights > 0 ? (int)use->chance : 0,
-                        "what else finds the environment");
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->shadow_pcf ? 4 : 0, "shadow.filter");
+}
+
+void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_light_use *use)
+{
+    if (lights > 0) {
+        lsf_plan_pass_add(plan, "direct_light", "one reflection of each light");
+        plan_switches(plan, use);
+        lsf_light_switches(plan);
+        lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
+                            "light passes thin walls");
+    } else {
+        lsf_plan_omit(plan, "direct_light", "no punctual light");
+    }
+    if (plan->sky_lights > 0) {
+        lsf_plan_pass_add(plan, "sky_light", "one reflection of the environment");
+        plan_switches(plan, use);
+        lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_plan_find(plan, "sky_map.tint") != NULL,
+                            "light passes materials that transmit");
+        lsf_plan_switch_add(plan, "LSF_SHADOW_SKY", 1, "directions of the environment");
+        lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", (int)use->chance,
+                            "what else finds the environment");
+    }
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the sum over lights");
+}
+
+/* Program and timer of a pass; both stay 0, with success, when the plan does not list it. */
+static bool create_program(lsf_context *context, const lsf_plan *plan, const char *name,
+                           GLuint *program, lsf_timer **timer, lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl",
+                                         "passes/direct_light.frag.glsl"};
+    if (!lsf_plan_find_pass(plan, name))
+        return true;
+    *program = lsf_plan_program(plan, context, name, files, error);
+    *timer = *program ? lsf_timer_create(context, name, error) : NULL;
+    return *timer != NULL;
 }
 
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_direct_light_use *use, lsf_error *error)
 {
-    static const char *const files[5] = {"lib/fullscreen.vert.glsl",
-                                         "passes/direct_light.frag.glsl"};
     *pass = (lsf_direct_light){.context = context, .use = *use};
     if (!lsf_plan_create_texture(plan, context, "direct_light.radiance", &pass->radiance, error))
         return false;
     lsf_framebuffer_desc desc = {
         .label = "direct_light", .color_count = 1, .colors = {pass->radiance}, .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
-    pass->program = lsf_plan_program(plan, context, "direct_light", files, error);
-    pass->timer = lsf_timer_create(context, "direct_light", error);
-    return pass->framebuffer && pass->program && pass->timer;
+    return pass->framebuffer &&
+           create_program(context, plan, "direct_light", &pass->program, &pass->timer, error) &&
+           create_program(context, plan, "sky_light", &pass->sky_program, &pass->sky_timer, error);
 }
 
 void lsf_direct_light_clear(lsf_direct_light *pass)
@@ -54,9 +81,11 @@ void lsf_direct_light_clear(lsf_direct_light *pass)
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
                           const lsf_direct_light_inputs *inputs)
 {
-    lsf_timer_begin(pass->timer);
+    bool sky = inputs->directions > 0;
+    lsf_timer *timer = sky ? pass->sky_timer : pass->timer;
+    lsf_timer_begin(timer);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
-                         pass->program);
+                         sky ? pass->sky_program : pass->program);
     lsf_blend_add(1);
     lsf_bind_texture(0, inputs->depth);
     lsf_bind_texture(1, inputs->surface);
@@ -64,10 +93,12 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
     lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
     lsf_bind_texture(LSF_UNIT_SHADOW_TINT, inputs->shadow_tint);
-    if (iteration->plan->sky_lights > 0 && pass->use.chance != LSF_SKY_CHANCE_NONE)
+    if (sky)
+        glUniform1i(0, (GLint)inputs->directions);
+    if (sky && pass->use.chance != LSF_SKY_CHANCE_NONE)
         glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.paths);
     lsf_draw_fullscreen(pass->context);
-    lsf_timer_end(pass->timer);
+    lsf_timer_end(timer);
 }
 
 void lsf_direct_light_destroy(lsf_direct_light *pass)
@@ -77,5 +108,6 @@ void lsf_direct_light_destroy(lsf_direct_light *pass)
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_texture_destroy(pass->context, &pass->radiance);
     lsf_timer_destroy(pass->timer);
+    lsf_timer_destroy(pass->sky_timer);
     memset(pass, 0, sizeof *pass);
 }

@@ -8,6 +8,8 @@ typedef struct lsf_direct_light_inputs {
     GLuint depth, surface, gloss;         /* of the G-buffer */
     GLuint shadow_depth, shadow_gradient,
         shadow_tint; /* of the light in turn, whose buffer is bound */
+    uint32_t directions; /* of the environment, in the place of one light: shadow_depth is their
+                          * maps, whose buffer is bound; there are no gradients. 0: it is a light */
 } lsf_direct_light_inputs;
 
 /* What else finds the environment from a visible point, by chance: its light is shared with that. */
@@ -27,16 +29,17 @@ typedef struct lsf_direct_light_use {
 typedef struct lsf_direct_light {
     lsf_context *context;
     GLuint radiance; /* output: RGBA32F, the sum over lights since lsf_direct_light_clear */
-    GLuint framebuffer, program;
+    GLuint framebuffer, program, sky_program; /* 0: there are no such lights */
     lsf_direct_light_use use;
-    lsf_timer *timer;
+    lsf_timer *timer, *sky_timer;
 } lsf_direct_light;
 
-void lsf_direct_light_plan(lsf_plan *plan, const lsf_direct_light_use *use);
+/* Beside `lights` punctual ones, the plan's directions of the environment. */
+void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_light_use *use);
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_direct_light_use *use, lsf_error *error);
 void lsf_direct_light_clear(lsf_direct_light *pass);
-/* Adds the light whose shadow map was drawn last. */
+/* Adds the light, or the directions, whose shadow map was drawn last. */
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
                           const lsf_direct_light_inputs *inputs);
 void lsf_direct_light_destroy(lsf_direct_light *pass);

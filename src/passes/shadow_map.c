@@ -41,6 +41,11 @@ static uint32_t face_side(const lsf_plan *plan, const lsf_shadow_map_params *par
     return side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
 }
 
+uint32_t lsf_shadow_map_cascade_side(const lsf_plan *plan, const lsf_shadow_map_params *params)
+{
+    return face_side(plan, params, CASCADES);
+}
+
 static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const char *name,
                      uint32_t faces, uint32_t side, const char *why)
 {
@@ -85,11 +90,6 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
         else
             lsf_plan_omit(plan, name, "%s", kinds[kind].omitted);
     }
-    /* Directions of the environment change from iteration to iteration and are many: the borders of
-     * their shadows need no cascades. */
-    if (plan->sky_lights > 0)
-        plan_map(plan, params, "sky", 1, face_side(plan, params, CASCADES),
-                 "a direction of the environment in turn");
     lsf_plan_buffer_add(plan, "shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
     lsf_light_walls_plan(plan, "shadow_map_walls", params->filter == LSF_SHADOW_FILTER_NONE);
@@ -149,10 +149,8 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         if (!create_target(&pass->targets[kind], context, plan, kinds[kind].name, error))
             return false;
-    if (!create_target(&pass->sky, context, plan, "sky", error) ||
-        !create_target(&pass->scene, context, plan, "scene", error))
-        return false;
-    if (!lsf_plan_create_buffer(plan, context, "shadow_map.light", NULL, GL_DYNAMIC_STORAGE_BIT,
+    if (!create_target(&pass->scene, context, plan, "scene", error) ||
+        !lsf_plan_create_buffer(plan, context, "shadow_map.light", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->outputs.light_buffer, error))
         return false;
     pass->program = lsf_plan_program(plan, context, "shadow_map", files, error);
@@ -203,8 +201,6 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
 static const lsf_shadow_map_target *target_of(const lsf_shadow_map *pass,
                                               const lsf_iteration *iteration, uint32_t light_index)
 {
-    if (light_index >= iteration->state->light_count)
-        return &pass->sky;
     return &pass->targets[lsf_light_map_kind_of(&iteration->lights[light_index])];
 }
 
@@ -238,7 +234,6 @@ void lsf_shadow_map_destroy(lsf_shadow_map *pass)
         return;
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
-    destroy_target(pass->context, &pass->sky);
     destroy_target(pass->context, &pass->scene);
     lsf_buffer_destroy(pass->context, &pass->outputs.light_buffer);
     lsf_timer_destroy(pass->timer);

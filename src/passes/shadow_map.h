@@ -46,7 +46,6 @@ typedef struct lsf_shadow_map {
     lsf_context *context;
     lsf_shadow_map_outputs outputs;
     lsf_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
-    lsf_shadow_map_target sky; /* of directions of the environment: one window on what is seen */
     lsf_shadow_map_target
         scene; /* of directional lights, for points that the camera does not see */
     GLuint program;
@@ -55,6 +54,8 @@ typedef struct lsf_shadow_map {
     lsf_timer *timer;
 } lsf_shadow_map;
 
+/* Texels along the side of a directional light's window. */
+uint32_t lsf_shadow_map_cascade_side(const lsf_plan *plan, const lsf_shadow_map_params *params);
 /* Lists the pass and the textures of the kinds of map that the lights in `state` need. */
 void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                          const lsf_state *state);

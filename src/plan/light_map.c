@@ -169,16 +169,35 @@ static void set_window(struct lsf_light_data *data, uint32_t face, const lsf_flo
                                         fmaxf(extent[1], 1e-4f) * room};
 }
 
+/* From what is seen farthest along the light to what is seen first, with a sixteenth to spare on
+ * either side: the plane of what is lit reaches beyond it within a texel. */
+static void fit_depths(struct lsf_light_data *data, lsf_float3 along, const box *view,
+                       const box *scene)
+{
+    float low = fmaxf(view->low[2], scene->low[2]), high = fminf(view->high[2], scene->high[2]);
+    float start = lsf_f3_dot(lsf_f3(data->map_origin.x, data->map_origin.y, data->map_origin.z),
+                             along);
+    float room = fmaxf(0.0625f * (high - low), 1e-4f);
+    if (!(low <= high)) /* nothing of the scene is in view */
+        return;
+    data->map_shape.x = low - room - start;
+    data->map_shape.y = high + room - start;
+}
+
 /* Nested windows: each reaches a third as deep into what is seen as the next one, so that a texel
  * is everywhere about as wide as a pixel is there; the last holds all that is seen. */
 static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
-                               uint32_t faces, const lsf_float3 axes[3], const box *scene)
+                               const lsf_light_map_layout *layout, const lsf_float3 axes[3],
+                               const box *scene)
 {
     float nearest, farthest;
+    uint32_t faces = layout->faces;
     seen_depths(iteration, &nearest, &farthest);
     float reach = farthest - nearest;
     for (uint32_t i = 0; i < faces; i++, reach /= CASCADE_RATIO) {
         box view = view_box(&iteration->state->camera, axes, nearest + reach);
+        if (layout->fitted && i == 0)
+            fit_depths(data, axes[2], &view, scene);
         float center[2], extent[2];
         for (int axis = 0; axis < 2; axis++) {
             float low = fmaxf(view.low[axis], scene->low[axis]);
@@ -203,7 +222,7 @@ static void project_windows(struct lsf_light_data *data, const lsf_iteration *it
     data->map_shape.x = 0.0f;
     data->map_shape.y = 2.02f * half_range;
     if (layout->view) {
-        set_nested_windows(data, iteration, layout->faces, axes, &scene);
+        set_nested_windows(data, iteration, layout, axes, &scene);
         return;
     }
     float center[2], extent[2];

@@ -30,6 +30,8 @@ typedef struct lsf_light_map_layout {
     uint32_t faces;
     bool view; /* windows of a directional light are nested about what the camera sees; else the one
                 * holds the whole scene */
+    bool fitted; /* depths of such windows are those of what the camera sees as well; else the whole
+                  * scene's */
     uint32_t resolution; /* texels along a face's side */
     uint32_t purpose;    /* its random turn and shift are of lsf_iteration_seed's purposes from
                           * here on, two for each light */

@@ -1,10 +1,12 @@
 #include "plan/scene_gpu.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/base.h"
+#include "math/vector.h"
 #include "plan/lobes.h"
 #include "plan/texture_upload.h"
 #include "shared/brdf.h"
@@ -151,6 +153,8 @@ void lsf_scene_gpu_plan_triangles(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
     uint64_t bytes = r->triangles * 9 * sizeof(float);
+    if (lsf_plan_find(plan, "scene.triangles"))
+        return;
     if (r->triangles == 0)
         lsf_plan_omit(plan, "scene.triangles", "the scene has no triangles");
     else if (bytes > STORAGE_BLOCK_BYTES)
@@ -239,10 +243,56 @@ static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
     return ok;
 }
 
+static bool is_listed(const lsf_scene_gpu *gpu, const lsf_instance_state *instance)
+{
+    const lsf_material *material = &gpu->scene->materials[instance->material];
+    return !instance->skipped && material->alpha_mode == LSF_ALPHA_OPAQUE &&
+           !(gpu->straight && material->transmission > 0.0f);
+}
+
+/* In normalised space. */
+static void place_triangle(float corners[9], const lsf_scene *scene,
+                           const lsf_instance_state *instance, uint32_t triangle)
+{
+    const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+    const uint32_t *indices = scene->indices + primitive->first_index + 3 * (size_t)triangle;
+    for (int corner = 0; corner < 3; corner++) {
+        const float *v = scene->vertices.position + 3 * (size_t)indices[corner];
+        const float *m = instance->transform;
+        for (int row = 0; row < 3; row++, m += 4)
+            corners[3 * corner + row] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2] + m[3];
+    }
+}
+
+/* Two classes for each power of two of a squared length, the longest first. */
+static uint32_t length_class(float squared)
+{
+    uint32_t bits;
+    memcpy(&bits, &squared, sizeof bits);
+    return LSF_SCENE_GPU_LENGTHS - 1 - (bits >> 22);
+}
+
+/* Of its longest edge. */
+static uint32_t triangle_class(const float corners[9])
+{
+    float longest = 0.0f;
+    for (int corner = 0; corner < 3; corner++) {
+        lsf_float3 edge = lsf_f3_sub(lsf_f3_load(corners + 3 * corner),
+                                     lsf_f3_load(corners + 3 * ((corner + 1) % 3)));
+        longest = fmaxf(longest, lsf_f3_dot(edge, edge));
+    }
+    return length_class(longest);
+}
+
+uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length)
+{
+    return gpu->triangles_to[length_class(length * length)];
+}
+
+/* Sorted by classes of length (a counting sort), in the order of instances within one. */
 static bool upload_triangles(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
                              lsf_error *error)
 {
-    const lsf_scene *scene = gpu->scene;
     const lsf_plan_resource *resource = lsf_plan_find(plan, "scene.triangles");
     if (!resource)
         return true;
@@ -250,23 +300,25 @@ static bool upload_triangles(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf
     if (!data)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u triangles",
                              (uint32_t)plan->requirements.triangles);
-    for (uint32_t i = 0; i < state->instance_count; i++) {
-        const lsf_instance_state *instance = &state->instances[i];
-        const lsf_primitive *primitive = &scene->primitives[instance->primitive];
-        const lsf_material *material = &scene->materials[instance->material];
-        if (instance->skipped || material->alpha_mode != LSF_ALPHA_OPAQUE ||
-            (plan->straight && material->transmission > 0.0f))
-            continue;
-        const float *m = instance->transform;
-        const uint32_t *indices = scene->indices + primitive->first_index;
-        for (uint32_t k = 0; k < primitive->index_count; k++) {
-            const float *v = scene->vertices.position + 3 * (size_t)indices[k];
-            float *corner = data[gpu->triangle_count + k / 3] + 3 * (k % 3);
-            for (int row = 0; row < 3; row++, m += 4)
-                corner[row] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2] + m[3];
-            m = instance->transform;
+    for (int placing = 0; placing < 2; placing++) {
+        for (uint32_t i = 0; i < state->instance_count; i++) {
+            const lsf_instance_state *instance = &state->instances[i];
+            if (!is_listed(gpu, instance))
+                continue;
+            uint32_t count = gpu->scene->primitives[instance->primitive].index_count / 3;
+            for (uint32_t k = 0; k < count; k++) {
+                float corners[9];
+                place_triangle(corners, gpu->scene, instance, k);
+                uint32_t at = gpu->triangles_to[triangle_class(corners)]++;
+                if (placing)
+                    memcpy(data[at], corners, sizeof corners);
+            }
         }
-        gpu->triangle_count += primitive->index_count / 3;
+        for (uint32_t c = 0; !placing && c < LSF_SCENE_GPU_LENGTHS; c++) {
+            uint32_t count = gpu->triangles_to[c];
+            gpu->triangles_to[c] = gpu->triangle_count;
+            gpu->triangle_count += count;
+        }
     }
     bool ok = lsf_plan_create_buffer(plan, gpu->context, "scene.triangles", data, 0,
                                      &gpu->triangles, error);

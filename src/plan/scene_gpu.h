@@ -8,6 +8,9 @@
 #include "scene/state.h"
 #include "shared/scene_data.h"
 
+/* Classes of triangles' lengths, two for each power of two of a squared length. */
+#define LSF_SCENE_GPU_LENGTHS 512
+
 typedef struct lsf_scene_gpu {
     lsf_context *context;
     const lsf_scene *scene;
@@ -16,7 +19,8 @@ typedef struct lsf_scene_gpu {
     GLuint instances, previous_transforms, materials, environment;
     GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */
     uint32_t triangle_count; /* in it: those of opaque materials, without what lets light
-                              * straight through */
+                              * straight through; from the longest class to the shortest */
+    uint32_t triangles_to[LSF_SCENE_GPU_LENGTHS]; /* where each class ends */
     GLuint lobes, lobe_table; /* struct lsf_lobe_data of each material, and the texture that shaders
                                * read it by; 0: no material needs it */
     GLuint *textures;        /* one for each image and colour space in use */
@@ -59,6 +63,10 @@ void lsf_scene_gpu_environment_switches(lsf_plan *plan, const char *why);
 /* Lists a table of the scene's triangles for shaders that fetch them themselves, unless the scene
  * is larger than such shaders can read on any device. */
 void lsf_scene_gpu_plan_triangles(lsf_plan *plan);
+
+/* How many triangles of the table, from its first on, hold all whose longest edge is at least this
+ * long, in normalised space. */
+uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length);
 
 /* `previous` is the state that motion is measured from, NULL without motion. */
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,

@@ -1,5 +1,7 @@
 #include "techniques/direct_chain.h"
 
+#include "base/base.h"
+
 static lsf_direct_light_use light_use(const lsf_pass_params *params,
                                       const lsf_direct_chain_use *use)
 {
@@ -17,10 +19,16 @@ void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const 
                            const lsf_direct_chain_use *use)
 {
     lsf_gbuffer_plan(plan);
-    if (lsf_light_any(plan, state)) {
+    bool sky = plan->sky_lights > 0;
+    if (state->light_count > 0 || (sky && use && use->voxels))
         lsf_shadow_map_plan(plan, &params->shadow_map, state);
+    else if (sky)
+        lsf_plan_omit(plan, "shadow_map", "no punctual light");
+    if (sky)
+        lsf_sky_map_plan(plan, lsf_shadow_map_cascade_side(plan, &params->shadow_map));
+    if (lsf_light_any(plan, state)) {
         lsf_direct_light_use light = light_use(params, use);
-        lsf_direct_light_plan(plan, &light);
+        lsf_direct_light_plan(plan, state->light_count, &light);
     } else {
         lsf_plan_omit(plan, "shadow_map", "no light but what surfaces emit");
         lsf_plan_omit(plan, "direct_light", "no light but what surfaces emit");
@@ -32,10 +40,14 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
                              const lsf_direct_chain_use *use, lsf_error *error)
 {
     lsf_direct_light_use light = light_use(params, use);
-    chain->lit = lsf_plan_find_pass(plan, "direct_light") != NULL;
+    chain->lit = lsf_plan_find(plan, "direct_light.radiance") != NULL;
     return lsf_gbuffer_create(&chain->gbuffer, context, plan, &params->gbuffer, scene, error) &&
-           (!chain->lit || (lsf_shadow_map_create(&chain->shadow_map, context, plan, error) &&
-                            lsf_direct_light_create(&chain->direct_light, context, plan, &light, error)));
+           (!lsf_plan_find_pass(plan, "shadow_map") ||
+            lsf_shadow_map_create(&chain->shadow_map, context, plan, error)) &&
+           (!lsf_plan_find_pass(plan, "sky_map") ||
+            lsf_sky_map_create(&chain->sky_map, context, plan, scene, error)) &&
+           (!chain->lit ||
+            lsf_direct_light_create(&chain->direct_light, context, plan, &light, error));
 }
 
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration)
@@ -60,17 +72,38 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
 }
 
+void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteration)
+{
+    const lsf_gbuffer_outputs *gbuffer = &chain->gbuffer.outputs;
+    const lsf_sky_map_outputs *maps = &chain->sky_map.outputs;
+    if (!chain->sky_map.timer)
+        return;
+    lsf_sky_map_begin(&chain->sky_map, iteration);
+    while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(&chain->sky_map, iteration)) {
+        lsf_direct_light_inputs inputs = {.depth = gbuffer->depth,
+                                          .surface = gbuffer->surface,
+                                          .gloss = gbuffer->gloss,
+                                          .shadow_depth = maps->map,
+                                          .shadow_tint = maps->tint,
+                                          .directions = maps->count};
+        lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
+    }
+}
+
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
 {
     lsf_direct_chain_begin(chain, iteration);
-    for (uint32_t i = 0; i < iteration->light_count && lsf_iteration_goes_on(iteration); i++)
+    uint32_t lights = iteration->state->light_count;
+    for (uint32_t i = 0; i < lights && lsf_iteration_goes_on(iteration); i++)
         lsf_direct_chain_light(chain, iteration, i);
+    lsf_direct_chain_sky(chain, iteration);
 }
 
 void lsf_direct_chain_destroy(lsf_direct_chain *chain)
 {
     lsf_direct_light_destroy(&chain->direct_light);
     lsf_shadow_map_destroy(&chain->shadow_map);
+    lsf_sky_map_destroy(&chain->sky_map);
     lsf_gbuffer_destroy(&chain->gbuffer);
 }
 
@@ -79,10 +112,14 @@ uint32_t lsf_direct_chain_report(lsf_direct_chain *chain, lsf_pass_report *repor
     uint32_t count = 0;
     reports[count++] = (lsf_pass_report){chain->gbuffer.timer, LSF_DRAW_COUNTS,
                                          lsf_draw_count_names, chain->gbuffer.counts};
-    if (chain->lit) {
-        reports[count++] = (lsf_pass_report){chain->shadow_map.timer, LSF_DRAW_COUNTS,
-                                             lsf_draw_count_names, chain->shadow_map.counts};
-        reports[count++] = (lsf_pass_report){.timer = chain->direct_light.timer};
-    }
+    const lsf_pass_report candidates[] = {
+        {chain->shadow_map.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, chain->shadow_map.counts},
+        {.timer = chain->direct_light.timer},
+        {chain->sky_map.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, chain->sky_map.counts},
+        {.timer = chain->direct_light.sky_timer},
+    };
+    for (size_t i = 0; i < LSF_COUNT(candidates); i++)
+        if (candidates[i].timer)
+            reports[count++] = candidates[i];
     return count;
 }

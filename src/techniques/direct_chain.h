@@ -5,19 +5,22 @@
 #include "passes/direct_light.h"
 #include "passes/gbuffer.h"
 #include "passes/shadow_map.h"
+#include "passes/sky_map.h"
 #include "techniques/technique.h"
 
 typedef struct lsf_direct_chain {
     lsf_gbuffer gbuffer;
     lsf_shadow_map shadow_map;
+    lsf_sky_map sky_map;
     lsf_direct_light direct_light;
-    bool lit; /* there are punctual lights */
+    bool lit; /* there are lights, punctual or of the environment */
 } lsf_direct_chain;
 
 /* What of a technique besides this chain finds the environment; NULL: nothing. */
 typedef struct lsf_direct_chain_use {
     lsf_sky_chance chance;
     float paths[2]; /* as in lsf_direct_light_use */
+    bool voxels;    /* they are lit by each light, too */
 } lsf_direct_chain_use;
 
 void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
@@ -26,11 +29,12 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
                              const lsf_direct_chain_use *use, lsf_error *error);
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration);
-/* The same in parts, for a technique that has a use of its own for each light's map: what is seen;
- * then each light. */
+/* The same in parts, for a technique that has a use of its own for each punctual light's map: what is
+ * seen; then each such light; then the environment. */
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration);
 void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration,
                             uint32_t light);
+void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteration);
 void lsf_direct_chain_destroy(lsf_direct_chain *chain);
 /* As lsf_technique's report. */
 uint32_t lsf_direct_chain_report(lsf_direct_chain *chain, lsf_pass_report *reports);

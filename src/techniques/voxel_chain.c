@@ -37,7 +37,9 @@ lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params 
 void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
                           const lsf_voxel_chain_use *use)
 {
-    lsf_direct_chain_plan(plan, params, state, &use->direct);
+    lsf_direct_chain_use direct = use->direct;
+    direct.voxels = lsf_voxel_chain_has_voxels(plan);
+    lsf_direct_chain_plan(plan, params, state, &direct);
     if (!lsf_voxel_chain_has_voxels(plan)) {
         lsf_plan_omit(plan, "voxelize", "the scene has no triangles");
         lsf_plan_omit(plan, "voxel_light", "the scene has no triangles");
@@ -128,10 +130,12 @@ void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iterati
     if (on_voxels)
         inputs = light_inputs(chain->voxels);
     for (uint32_t i = 0; i < iteration->light_count && lsf_iteration_goes_on(iteration); i++) {
-        lsf_direct_chain_light(&chain->direct, iteration, i);
+        if (i < iteration->state->light_count)
+            lsf_direct_chain_light(&chain->direct, iteration, i);
         if (on_voxels)
             light_voxels(chain, iteration, &inputs, i);
     }
+    lsf_direct_chain_sky(&chain->direct, iteration);
     lsf_voxel_chain_emit(chain); /* where no light has brought it along */
 }
 

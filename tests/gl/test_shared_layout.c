@@ -6,6 +6,7 @@
 #include "shared/emitter_data.h"
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
+#include "shared/sky_map_data.h"
 #include "shared/view.h"
 #include "shared/voxel_data.h"
 #include "shared/vpl_data.h"
@@ -102,6 +103,13 @@ static const shared_struct structs[] = {
      sizeof(struct lsf_emitter_point_data),
      {MEMBER(lsf_emitter_point_data, position), MEMBER(lsf_emitter_point_data, normal),
       MEMBER(lsf_emitter_point_data, radiance)}},
+    {"shared/sky_map_data.h",
+     "lsf_sky_map_data",
+     sizeof(struct lsf_sky_map_data),
+     {MEMBER(lsf_sky_map_data, right), MEMBER(lsf_sky_map_data, up),
+      MEMBER(lsf_sky_map_data, towards), MEMBER(lsf_sky_map_data, to_sky),
+      MEMBER(lsf_sky_map_data, irradiance), MEMBER(lsf_sky_map_data, texel),
+      MEMBER(lsf_sky_map_data, error), MEMBER(lsf_sky_map_data, unused)}},
     {"shared/vpl_data.h",
      "lsf_vpl_data",
      sizeof(struct lsf_vpl_data),

@@ -157,10 +157,12 @@ static void make_environment(lsf_scene *scene, lsf_material *material)
 static void environment(void **unused)
 {
     (void)unused;
-    const char *const names[] = {"shadow_map.sky_depth", "shadow_map.sky_gradient",
+    const char *const names[] = {"sky_map.map", "sky_map.depth", "sky_map.maps", "scene.triangles",
                                  "compose.radiance"};
-    check_feature(make_environment, 0, 3, names, (uint64_t)128 * 128 * (4 + 4) + PIXELS * 16,
-                  "direct_light.LSF_DIRECTIONAL_LIGHT ", 1);
+    /* Eight maps of 128 texels a side, which share a depth buffer; 16 slots of 128 bytes; two triangles */
+    check_feature(make_environment, 0, 5, names,
+                  (uint64_t)128 * 128 * (8 + 1) * 4 + 16 * 128 + 2 * 36 + PIXELS * 16,
+                  "direct_light.LSF_DIRECTIONAL_LIGHT ", 3);
 }
 
 static void make_textured(lsf_scene *scene, lsf_material *material)

@@ -1,0 +1,6 @@
+#include "lib/sky_map_texel.glsl"
+
+void main()
+{
+    draw_texel();
+}

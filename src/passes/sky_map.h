@@ -1,0 +1,42 @@
+/* Shadow maps of directions of the environment, a batch at a time. See sky_map.md. */
+#ifndef LSF_PASSES_SKY_MAP_H
+#define LSF_PASSES_SKY_MAP_H
+
+#include "plan/light_map.h"
+#include "plan/light_walls.h"
+#include "shared/sky_map_data.h"
+
+/* Layers of a batch, valid until the next run. */
+typedef struct lsf_sky_map_outputs {
+    GLuint map;    /* R32UI array: keys of lib/sky_map.glsl */
+    GLuint tint;   /* of light that passes what transmits; 0: nothing does */
+    GLuint buffer; /* struct lsf_sky_map_data, one for each direction of the iteration */
+    uint32_t first, count; /* directions of the batch */
+} lsf_sky_map_outputs;
+
+typedef struct lsf_sky_map {
+    lsf_context *context;
+    lsf_sky_map_outputs outputs;
+    struct lsf_sky_map_data *maps; /* of all directions of the iteration */
+    lsf_draw_region *regions;
+    GLuint depth, large_array, framebuffer, tint_framebuffers[LSF_SKY_MAPS_MAX];
+    GLuint small_program, large_program, map_program; /* the last for what is not listed */
+    GLuint straight_program, tint_program;            /* 0: no light passes surfaces */
+    bool masked;
+    uint32_t batch, side;
+    uint64_t counts[LSF_DRAW_COUNTS];
+    lsf_timer *timer;
+} lsf_sky_map;
+
+/* `side`: texels. */
+void lsf_sky_map_plan(lsf_plan *plan, uint32_t side);
+bool lsf_sky_map_create(lsf_sky_map *pass, lsf_context *context, const lsf_plan *plan,
+                        const lsf_scene_gpu *scene, lsf_error *error);
+/* Before the first batch of an iteration: projects its directions, each map randomly turned and
+ * shifted. */
+void lsf_sky_map_begin(lsf_sky_map *pass, const lsf_iteration *iteration);
+/* Draws the next batch; false when there is none. */
+bool lsf_sky_map_next(lsf_sky_map *pass, const lsf_iteration *iteration);
+void lsf_sky_map_destroy(lsf_sky_map *pass);
+
+#endif
