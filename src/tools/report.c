@@ -13,6 +13,7 @@
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static lsf_verbosity verbosity = LSF_VERBOSITY_NORMAL;
 static bool bar_is_drawn;
+static const char *subject;
 
 static void clear_bar(void)
 {
@@ -37,7 +38,9 @@ static void log_message(lsf_log_level level, const char *message, void *user)
         return;
     pthread_mutex_lock(&lock);
     clear_bar();
-    fprintf(stderr, "lightsheaf: %s%s\n", titles[level], message);
+    bool named = !subject || strstr(message, subject);
+    fprintf(stderr, "lightsheaf: %s%s%s%s\n", titles[level], named ? "" : subject,
+            named ? "" : ": ", message);
     pthread_mutex_unlock(&lock);
 }
 
@@ -45,6 +48,11 @@ void lsf_report_start(lsf_verbosity level)
 {
     verbosity = level;
     lsf_log_set_handler(log_message, NULL);
+}
+
+void lsf_report_about(const char *path)
+{
+    subject = path;
 }
 
 int lsf_report_error(const lsf_error *error)

@@ -13,6 +13,9 @@ typedef enum lsf_verbosity {
 /* Takes over the library's log. */
 void lsf_report_start(lsf_verbosity verbosity);
 
+/* Messages of the log that do not name that file begin with it from here on; NULL: with none. */
+void lsf_report_about(const char *path);
+
 /* Prints the error; returns the exit status that goes with it. */
 int lsf_report_error(const lsf_error *error);
 

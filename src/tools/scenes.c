@@ -94,14 +94,6 @@ static void add_failure(lsf_json *json, const char *path, const lsf_error *error
     lsf_json_end(json, '}');
 }
 
-/* Of several scenes, the message says which. */
-static void name_scene(lsf_error *error, const char *path)
-{
-    lsf_error cause = *error;
-    if (!strstr(cause.message, path))
-        lsf_error_set(error, cause.code, "%s: %s", path, cause.message);
-}
-
 int lsf_tool_for_each_scene(const lsf_settings *settings, lsf_tool_scene_function *run, void *user)
 {
     uint32_t count = lsf_tool_scene_count(settings);
@@ -114,18 +106,18 @@ int lsf_tool_for_each_scene(const lsf_settings *settings, lsf_tool_scene_functio
     for (uint32_t i = 0; i < count && !ended; i++) {
         char *path = lsf_tool_scene_path(settings, i, &error);
         bool interrupted = i > 0 && lsf_interrupted();
+        lsf_report_about(count > 1 ? path : NULL);
         bool good = path && !interrupted && run(user, i, path, &json, &error);
         if (path && interrupted)
             lsf_error_set(&error, LSF_ERROR_RENDER, "%s: interrupted before this scene%s", path,
                           i + 1 < count ? " and those behind it" : "");
-        if (!good && path && count > 1) {
-            name_scene(&error, path);
+        if (!good && path && count > 1)
             add_failure(&json, path, &error);
-        }
         if (!good && status == 0)
             status = (int)error.code;
         if (!good)
             lsf_report_error(&error);
+        lsf_report_about(NULL);
         ended = interrupted || (!good && error.code == LSF_ERROR_NO_GL); /* of no other, either */
         free(path);
     }

@@ -1,6 +1,7 @@
 """Signals: the first stops the iterations, the second the process; no file is ever torn."""
 import os
 import pty
+import re
 import signal
 import subprocess
 import unittest
@@ -17,8 +18,10 @@ def hear_signals():
 
 
 class Interrupt(CommandTest):
-    def start_and_interrupt(self, tool, *words, number=signal.SIGINT, again=False, output="a.exr"):
-        """Starts at a terminal, waits for the progress bar, and sends the signal."""
+    def start_and_interrupt(self, tool, *words, number=signal.SIGINT, again=False, output="a.exr",
+                            when=rb"[1-9]\d*/\d+ samples"):
+        """Starts at a terminal, waits until the bar shows a sample, or what `when` says, and sends the
+        signal."""
         mine, theirs = pty.openpty()
         scene = self.scene()
         process = subprocess.Popen([COMMAND, tool, scene, "-o", output, *ENDLESS, *words],
@@ -32,7 +35,7 @@ class Interrupt(CommandTest):
         try:
             for part in shown_by(mine):
                 seen += part
-                if not sent and b" samples" in seen:
+                if not sent and re.search(when, seen):
                     process.send_signal(number)
                     if again:
                         process.send_signal(signal.SIGTERM)
@@ -87,7 +90,7 @@ class Interrupt(CommandTest):
         self.assertEqual(self.files(), ["a.exr", "scene.gltf"])
 
     def test_reference_within_a_pass(self):
-        status, seen = self.start_and_interrupt("reference", "--resolution", "2048,1536")
+        status, seen = self.start_and_interrupt("reference", "--resolution", "2048,1536", when=b" 0/")
         self.assertEqual(status, RENDERING, seen)
         self.assertIn("before the first sample", seen)
         self.assertEqual(self.files(), ["scene.gltf"])

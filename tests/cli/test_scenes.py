@@ -29,6 +29,7 @@ class Several(CommandTest):
         self.assertEqual(png_size(self.read("folder/a_a.png")), (8, 8))
         self.assertEqual(done.text.count("error: "), 1, done.text)
         self.assertIn("error: bad.gltf: ", done.text)
+        self.assertIn("warning: folder/b.v2.gltf: the file has no light", done.text)
         good, bad, other = self.read_json("all.json")
         self.assertEqual((good["scene"], good["output"]), ("a.gltf", "folder/a_a.png"))
         self.assertEqual(bad["scene"], "bad.gltf")
