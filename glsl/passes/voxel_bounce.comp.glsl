@@ -3,12 +3,16 @@
 #include "lib/environment.glsl"
 #include "lib/sky.glsl"
 #include "lib/voxel_cone.glsl"
+#include "lib/voxel_reflect.glsl"
 #include "lib/voxel_sides.glsl"
 
 layout(binding = 1) uniform sampler3D base_texture;
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D point_texture;
+#if LSF_VOXEL_GLOSS
+layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D gloss_texture;
+#endif
 layout(location = 0) uniform bvec3 sum_of; /* what was there, the base, what is reflected */
 
 /* Voxels take the turns of a 4 x 4 x 4 pattern. */
@@ -18,8 +22,8 @@ float cell_turn(ivec3 cell)
     return float((c.x * 5u + c.y * 9u + c.z * 3u) & 15u) / 16.0;
 }
 
-/* The mean radiance that a side sees, weighted by the cosine to its shading normal. */
-vec3 gather(vec3 place, vec3 n, vec3 shading, float turn)
+/* The mean radiance that a side sees, weighted by the cosine to its shading normal and by what it reflects. */
+vec3 gather(voxel_material material, vec3 place, vec3 n, vec3 shading, float turn)
 {
     vec3 tangent, bitangent;
     orthonormal_basis(shading, tangent, bitangent);
@@ -31,11 +35,12 @@ vec3 gather(vec3 place, vec3 n, vec3 shading, float turn)
         if (dot(direction, n) <= 0.0)
             continue;
         cone_light light = cone_diffuse(place, n, direction, cone_set[i].w);
-        sum += light.radiance;
+        vec3 seen = light.radiance;
 #if LSF_ENVIRONMENT
-        sum += light.transmittance * grid.unit.y *
-               sky_left(environment_radiance(direction), cone_gather.z * local.z / LSF_PI);
+        seen += light.transmittance * grid.unit.y *
+                sky_left(environment_radiance(direction), cone_gather.z * local.z / LSF_PI);
 #endif
+        sum += voxel_reflectance(material, local.z) * seen;
     }
     return sum / cone_gather.z;
 }
@@ -58,10 +63,16 @@ void light_side(ivec3 cell, bool back)
     vec3 n = sign * voxel_normal_unpack(normals.x), shading = sign * voxel_shading_normal(normals);
     vec3 reflected = vec3(0.0);
     if (sum_of.z) {
-        vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
-        vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
-        if (max(albedo.r, max(albedo.g, albedo.b)) > 0.0)
-            reflected = albedo * gather(place, n, shading, cell_turn(cell));
+        uint point = texelFetch(point_texture, cell, 0).r;
+        uint gloss = 0u;
+#if LSF_VOXEL_GLOSS
+        gloss = texelFetch(gloss_texture, cell, 0).r;
+#endif
+        voxel_material material =
+            voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, gloss, 0.0);
+        if (!voxel_unlit(point))
+            reflected = gather(material, vec3(cell) + voxel_point_unpack(point), n, shading,
+                               cell_turn(cell));
     }
 #if LSF_VOXEL_SIDES == 1
     write(cell, 0, 1.0, reflected);

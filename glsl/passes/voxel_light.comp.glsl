@@ -1,5 +1,6 @@
 /* What each voxel sends out. Switches LSF_EMIT: what it emits, in the place of what was there, else what
  * follows is added; LSF_REFLECT: what it reflects of the light in turn, from the side that faces it. */
+#include "lib/voxel_reflect.glsl"
 #include "lib/voxel_sides.glsl"
 #include "shared/brdf.h"
 #if LSF_REFLECT
@@ -11,6 +12,9 @@
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
+#if LSF_REFLECT && LSF_VOXEL_GLOSS
+layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform usampler3D gloss_texture;
+#endif
 #if LSF_REFLECT && LSF_TRANSMISSION
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_texture;
 #endif
@@ -26,12 +30,25 @@ layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D emission_texture;
 layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 #endif
 
-/* Radiance of the side that faces the light. */
 #if LSF_REFLECT
+voxel_material material_at(ivec3 cell)
+{
+    uint gloss = 0u;
+    float transmission = 0.0;
+#if LSF_VOXEL_GLOSS
+    gloss = texelFetch(gloss_texture, cell, 0).r;
+#endif
+#if LSF_TRANSMISSION
+    transmission = voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
+#endif
+    return voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, gloss, transmission);
+}
+
+/* Radiance of the side that faces the light. */
 vec3 reflected(ivec3 cell, vec3 n, vec3 shading, out bool front)
 {
-    vec3 place = vec3(cell) + voxel_point_unpack(texelFetch(point_texture, cell, 0).r);
-    vec3 position = voxel_to_position(place);
+    uint point = texelFetch(point_texture, cell, 0).r;
+    vec3 position = voxel_to_position(vec3(cell) + voxel_point_unpack(point));
     vec3 irradiance;
     float distance2;
     vec3 to_light = light_direction(position, irradiance, distance2);
@@ -44,14 +61,15 @@ vec3 reflected(ivec3 cell, vec3 n, vec3 shading, out bool front)
         irradiance *= density / (density + sky_rays * cosine / LSF_PI);
 #endif
     float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
-    vec3 albedo = voxel_albedo_unpack(texelFetch(albedo_texture, cell, 0).r);
 #if LSF_SHADOW_TINT
     irradiance *= shadow_tint(position + LIFT * grid.origin.w * side, side, false);
 #endif
-#if LSF_TRANSMISSION
-    albedo *= 1.0 - voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
+#if LSF_EMISSION
+    if (voxel_unlit(point))
+        return vec3(0.0);
 #endif
-    return albedo * irradiance * (visibility * cosine / LSF_PI * grid.unit.y);
+    return voxel_reflectance(material_at(cell), cosine) * irradiance *
+           (visibility * cosine / LSF_PI * grid.unit.y);
 }
 #endif
 

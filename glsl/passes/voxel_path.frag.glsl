@@ -93,12 +93,13 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     uvec2 normals = texelFetch(voxel_normal, cell, 0).rg;
     vec3 n = voxel_normal_unpack(normals.x), shading = voxel_shading_normal(normals);
     side = dot(n, direction) <= 0.0 ? 0 : 1;
-    v.position = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
+    uint point = texelFetch(voxel_point, cell, 0).r;
+    v.position = vec3(cell) + voxel_point_unpack(point);
     v.view = -direction;
     v.s.geometric_normal = side == 0 ? n : -n;
     v.s.normal = side == 0 ? shading : -shading;
     v.s.base_color = voxel_albedo_unpack(texelFetch(voxel_albedo, cell, 0).r);
-    v.s.unlit = false;
+    v.s.unlit = voxel_unlit(point);
     v.s.metallic = 0.0;
     v.s.roughness = 1.0;
     v.s.f0 = 0.04; /* ior 1.5 */
@@ -292,6 +293,8 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
         add_light(through, grid.unit.x * emission, segment == 0);
 #endif
         add_light(through, grid.unit.x * radiance, false);
+        if (met.s.unlit)
+            return;
         v = met;
     }
 }

@@ -22,6 +22,10 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_voxel_bend_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
+                        "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_plan_find(plan, "voxelize.gloss") != NULL,
+                        "roughness or metallic vary between voxels");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     for (int i = 0; i < (of_own ? 2 : 1); i++)
@@ -102,6 +106,7 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
     lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
     lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, inputs->gloss);
     if (sum->source)
         lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
     lsf_scene_gpu_bind_environment(iteration->scene);

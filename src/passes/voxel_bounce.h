@@ -8,7 +8,7 @@
 /* The voxels: what voxelize hands out. */
 typedef struct lsf_voxel_bounce_inputs {
     GLuint occupancy[2]; /* the finest levels */
-    GLuint albedo, normal, point;
+    GLuint albedo, normal, point, gloss;
     GLuint bricks, previous_bricks;
     bool changed;
 } lsf_voxel_bounce_inputs;

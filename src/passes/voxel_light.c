@@ -41,6 +41,9 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
         lsf_voxel_bend_switch(plan);
         lsf_plan_switch_add(plan, "LSF_EMISSION", r->emissive || r->unlit,
                             "some material emits or is unlit");
+        lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+        lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_plan_find(plan, "voxelize.gloss") != NULL,
+                            "roughness or metallic vary between voxels");
         lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                             "light passes materials that transmit");
         lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
@@ -92,6 +95,7 @@ static void bind_voxels(const lsf_voxel_light_inputs *inputs)
     lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
     lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
     lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, inputs->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->gloss);
     lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, inputs->emission);
     lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, inputs->transmission);
 }

@@ -7,7 +7,7 @@
 
 /* The voxels to light: what voxelize hands out. */
 typedef struct lsf_voxel_light_inputs {
-    GLuint albedo, normal, point, emission, transmission;
+    GLuint albedo, normal, point, emission, gloss, transmission;
     GLuint bricks, previous_bricks;
     bool changed;
 } lsf_voxel_light_inputs;

@@ -155,6 +155,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
         .albedo = voxels->albedo,
         .normal = voxels->normal,
         .point = voxels->point,
+        .gloss = voxels->gloss,
         .bricks = voxels->bricks,
         .previous_bricks = voxels->previous_bricks,
         .changed = voxels->changed};

@@ -99,6 +99,7 @@ static lsf_voxel_light_inputs light_inputs(const lsf_voxelize_outputs *voxels)
                                     .normal = voxels->normal,
                                     .point = voxels->point,
                                     .emission = voxels->emission,
+                                    .gloss = voxels->gloss,
                                     .transmission = voxels->transmission,
                                     .bricks = voxels->bricks,
                                     .previous_bricks = voxels->previous_bricks,

@@ -7,6 +7,7 @@
 static lsf_scene *lit_floor(lsf_light_type type, float intensity)
 {
     lsf_scene *scene = build_scene();
+    scene->diffuse_only = true;
     build_material(scene, 0.5f, 0.25f, 0.75f);
     build_floor(scene, 0.0f, 2.0f);
     build_light(scene, type, lsf_f3(0.3f, 1.0f, 0.2f), lsf_f3(0.6f, -0.8f, 0.0f), intensity);
@@ -67,6 +68,73 @@ static void floor_in_closed_form(void **unused)
     /* The unit follows the light. */
     check_floor(LSF_LIGHT_POINT, 3e10f);
     check_floor(LSF_LIGHT_POINT, 3e-10f);
+}
+
+/* What a surface of f0 = `f0` at the front and 1 at grazing angles reflects of light under that
+ * cosine, by its specular lobe, and what it leaves of a diffuse one of 1: by quadrature over the
+ * other direction. */
+static void reflected_share(double f0, double roughness, double cosine, double *specular,
+                            double *diffuse)
+{
+    const int steps = 600;
+    double alpha = fmax(roughness * roughness, 0.001), sine = sqrt(1.0 - cosine * cosine);
+    *specular = *diffuse = 0.0;
+    for (int i = 0; i < steps; i++)
+        for (int k = 0; k < steps; k++) {
+            double nl = sqrt((i + 0.5) / steps), s = sqrt(1.0 - nl * nl);
+            double turn = 2.0 * M_PI * (k + 0.5) / steps;
+            double h[3] = {sine + s * cos(turn), s * sin(turn), cosine + nl};
+            double length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+            double nh = h[2] / length, vh = (sine * h[0] + cosine * h[2]) / length;
+            double fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
+            double d = (double)lsf_ggx_d((float)nh, (float)(1.0 - nh * nh), (float)alpha);
+            double v = (double)lsf_ggx_v((float)nl, (float)cosine, (float)alpha);
+            *specular += fresnel * d * v * M_PI / (steps * steps);
+            *diffuse += (1.0 - fresnel) / (steps * steps);
+        }
+}
+
+/* Of all their lobes, voxels send out what a surface reflects in all. */
+static void lobes_in_closed_form(void **unused)
+{
+    (void)unused;
+    static const struct {
+        float base, metallic, roughness;
+    } cases[] = {{0.8f, 1.0f, 1.0f},
+                 {0.8f, 1.0f, 0.5f},
+                 {0.0f, 0.0f, 0.4f},
+                 {0.6f, 0.0f, 0.7f},
+                 {0.9f, 0.4f, 0.55f}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        for (int slant = 0; slant < 2; slant++) {
+            lsf_scene *scene = build_scene();
+            lsf_material *m = build_material(scene, cases[i].base, cases[i].base, cases[i].base);
+            m->metallic = cases[i].metallic;
+            m->roughness = cases[i].roughness;
+            m->ior = 1.5f;
+            build_floor(scene, 0.0f, 2.0f);
+            float cosine = slant ? 0.28f : 0.8f, sine = slant ? 0.96f : 0.6f;
+            build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 1, 0), lsf_f3(sine, -cosine, 0),
+                        2.0f);
+            finish_gl_scene(scene);
+            voxel_rig v;
+            voxel_rig_init(&v, scene, 32, LSF_VOXELIZE_COMPUTE, false, LSF_VOXEL_SIDES_SURFACE);
+            voxel_rig_run(&v, 0);
+            float *radiance = voxel_rig_read_radiance(&v);
+            double base = (double)cases[i].base, metallic = (double)cases[i].metallic;
+            double specular, below, unused_share;
+            reflected_share(0.04, 1.0, (double)cosine, &unused_share, &below);
+            reflected_share(0.04 + (base - 0.04) * metallic, (double)cases[i].roughness,
+                            (double)cosine, &specular, &unused_share);
+            double expected =
+                2.0 * (double)cosine / M_PI * (specular + (1.0 - metallic) * base * below);
+            double found = (double)radiance[4 * voxel_rig_voxel_at(&v, lsf_f3(0.1f, 0.0f, 0.3f))];
+            print_message("%g of %g\n", found, expected);
+            assert_true(fabs(found / expected - 1.0) < 0.015);
+            free(radiance);
+            voxel_rig_finish(&v);
+            destroy_scene(scene);
+        }
 }
 
 /* A closed box of zero thickness with a light in it: its inside is lit, its outside is not; lobes
@@ -144,6 +212,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floor_in_closed_form),
+        cmocka_unit_test(lobes_in_closed_form),
         cmocka_unit_test(walls_have_two_sides),
         cmocka_unit_test(emitters_and_leftovers),
     };

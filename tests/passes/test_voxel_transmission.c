@@ -167,8 +167,8 @@ static void diffuse_share(void **unused)
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         double ratio = rgb[mirrored][0][0] / rgb[mirrored][1][0];
         print_message("%s: %.4f of the opaque floor\n", mirrored ? "in the mirror" : "seen", ratio);
-        /* Of the seen floor's light a part is its reflection, which stays. */
-        assert_true(fabs(ratio - (1.0 - 191.0 / 255.0)) < (mirrored ? 0.01 : 0.06));
+        /* Of the floor's light a part is its reflection, which stays. */
+        assert_true(fabs(ratio - (1.0 - 191.0 / 255.0)) < 0.02);
     }
 }
 

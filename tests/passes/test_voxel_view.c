@@ -7,6 +7,7 @@
 static lsf_scene *lit_floor(void)
 {
     lsf_scene *scene = build_scene();
+    scene->diffuse_only = true;
     build_material(scene, 0.5f, 0.25f, 0.75f);
     build_floor(scene, 0.0f, 1.0f);
     build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 1, 0), lsf_f3(0.6f, -0.8f, 0.0f), 2.0f);

@@ -65,6 +65,7 @@ static void run_light(voxel_rig *rig)
                                            .normal = o->normal,
                                            .point = o->point,
                                            .emission = o->emission,
+                                           .gloss = o->gloss,
                                            .bricks = o->bricks,
                                            .previous_bricks = o->previous_bricks,
                                            .changed = o->changed};
