@@ -5,6 +5,7 @@
 #include <lightsheaf/bench.h>
 #include <lightsheaf/compare.h>
 #include <lightsheaf/context.h>
+#include <lightsheaf/edit.h>
 #include <lightsheaf/error.h>
 #include <lightsheaf/image.h>
 #include <lightsheaf/log.h>

@@ -50,6 +50,16 @@ typedef enum lsf_background {
                                  * share of the pixel that they cover, which is channel A */
 } lsf_background;
 
+/* A camera that a program places. */
+typedef struct lsf_view {
+    double position[3]; /* scene units */
+    float forward[3];   /* the way it looks; any length */
+    float up[3];        /* what is up in the picture, not along `forward`; any length */
+    float fov_y;        /* degrees, of a perspective camera */
+    float height;       /* that the picture shows, scene units: makes it orthographic; else 0 */
+    float near_plane;   /* scene units; 0: a thousandth of the scene's half extent */
+} lsf_view;
+
 /* Called between iterations, and within long ones about ten times a second: `done` of `total`
  * iterations. Return false to stop early: an iteration in progress is dropped, so that there may be
  * no picture yet. */
@@ -127,6 +137,30 @@ lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
 void lsf_renderer_destroy(lsf_renderer *renderer); /* NULL allowed */
 const lsf_plan *lsf_renderer_plan(const lsf_renderer *renderer);
 
+/* What another frame than the first one has otherwise. Whatever was edited of the scene (edit.h)
+ * since the frame before is seen as well. */
+typedef struct lsf_frame {
+    double time;           /* seconds, where animations are sampled */
+    const lsf_view *view;  /* NULL: the camera of lsf_render_params */
+    uint32_t first_sample; /* its iterations take the random numbers of this one and those that
+                            * follow. A frame depends on nothing else of the frames before it: it
+                            * has the bits of a new renderer's */
+    bool cut;              /* motion is measured as in a new renderer, not from the frame before */
+} lsf_frame;
+
+#define LSF_FRAME_DEFAULTS .time = 0.0, .view = NULL, .first_sample = 0, .cut = false
+
+/* Goes over to a frame: the mean begins anew, and lsf_renderer_iterate or lsf_renderer_run follow.
+ * Where the scene requires what it did before, nothing is allocated, compiled or waited for;
+ * otherwise there is a new plan (lsf_renderer_plan), and what fits it stays. After LSF_ERROR_USAGE
+ * (a view or a time that cannot be) the frame before is still the one in progress; after
+ * LSF_ERROR_RENDER there is none. A new renderer is in the frame of its lsf_render_params, at
+ * first_sample 0. */
+bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, lsf_error *error);
+/* Makes pictures of another size, from a frame on that begins anew. */
+bool lsf_renderer_resize(lsf_renderer *renderer, uint32_t width, uint32_t height,
+                         const lsf_frame *frame, lsf_error *error);
+
 /* Runs one iteration and adds it to the running mean. Allocates and synchronises nothing. */
 bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error);
 /* Runs params->samples iterations, within the time limit, calling params->progress. */
@@ -149,7 +183,7 @@ typedef struct lsf_pass_stats {
 } lsf_pass_stats;
 
 typedef struct lsf_renderer_stats {
-    uint32_t samples;                                   /* iterations done */
+    uint32_t samples; /* iterations done, of the frame in progress */
     double compile_seconds, upload_seconds, render_seconds;
     double lost_share; /* of the picture's luminance: what an option such as
                         * bidirectional.clamp_distance took away, 0..1 */

@@ -48,8 +48,13 @@ bool lsf_distribution_init(lsf_distribution *distribution, const float *weights,
     if (distribution->cumulative == NULL)
         return false;
     distribution->count = count;
-    distribution->sum = accumulate(distribution->cumulative, weights, count);
+    lsf_distribution_set(distribution, weights);
     return true;
+}
+
+void lsf_distribution_set(lsf_distribution *distribution, const float *weights)
+{
+    distribution->sum = accumulate(distribution->cumulative, weights, distribution->count);
 }
 
 void lsf_distribution_finish(lsf_distribution *distribution)

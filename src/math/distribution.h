@@ -15,6 +15,8 @@ typedef struct lsf_distribution {
 /* Weights must be finite and not negative. False without memory. When all weights are zero, `sum`
  * is 0 and nothing may be drawn. */
 bool lsf_distribution_init(lsf_distribution *distribution, const float *weights, uint64_t count);
+/* Replaces the weights by as many others. Allocates nothing. */
+void lsf_distribution_set(lsf_distribution *distribution, const float *weights);
 void lsf_distribution_finish(lsf_distribution *distribution);
 
 static inline double lsf_distribution_probability(const lsf_distribution *d, uint64_t index)

@@ -69,7 +69,7 @@ void lsf_accumulate_run(lsf_accumulate *pass, const lsf_iteration *iteration,
             continue;
         lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                              pass->programs[pass->sources[i]]);
-        glUniform1f(0, 1.0f / ((float)iteration->index + 1.0f));
+        glUniform1f(0, 1.0f / ((float)iteration->done + 1.0f));
         lsf_bind_texture(0, textures[i]);
         lsf_bind_texture(1, depth);
         glBindImageTexture(0, pass->means[i], 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);

@@ -60,7 +60,7 @@ static void send(lsf_ray_bundle *pass)
 
 void lsf_ray_bundle_end(lsf_ray_bundle *pass, const lsf_iteration *iteration)
 {
-    tally(pass, true, iteration->index + 1);
+    tally(pass, true, iteration->serial);
     if (!pass->sent)
         send(pass);
 }

@@ -131,6 +131,11 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
     return pass->framebuffer && pass->program && pass->timer;
 }
 
+bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited)
+{
+    return !pass->emitters.buffer || lsf_emitters_update(&pass->emitters.list, materials_edited);
+}
+
 static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs)
 {

@@ -75,6 +75,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
 bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_voxel_path_params *params, const lsf_voxel_path_use *use,
                            const lsf_scene *scene, const lsf_state *state, lsf_error *error);
+/* Follows emitters to what the state has become. False without memory. */
+bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited);
 /* The grid of voxels must be bound. */
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs);

@@ -492,12 +492,22 @@ static void begin_run(lsf_voxelize *pass)
     o->previous_bricks = pass->bricks[(pass->runs + 1) % 2];
 }
 
+void lsf_voxelize_follow(lsf_voxelize *pass, const lsf_voxel_grid *grid, bool anew)
+{
+    const lsf_voxel_grid *g = &pass->grid;
+    pass->stale = pass->stale || anew || g->side != grid->side || g->unit != grid->unit ||
+                  memcmp(g->origin, grid->origin, sizeof g->origin) != 0;
+    pass->grid = *grid;
+}
+
 const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration)
 {
     struct lsf_voxel_grid_data data = lsf_voxel_grid_data(&pass->grid, iteration);
     lsf_voxelize_outputs *o = &pass->outputs;
     bool moved = lsf_voxelize_still_moved(pass, iteration->state);
-    bool anew = pass->runs == 0 || lsf_voxelize_always_anew(iteration->plan, pass->grid.jitter);
+    bool anew = pass->runs == 0 || pass->stale ||
+                lsf_voxelize_always_anew(iteration->plan, pass->grid.jitter);
+    pass->stale = false;
     o->changed = anew || moved;
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, o->grid_buffer);
     if (!o->changed)

@@ -47,6 +47,8 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
 bool lsf_voxelize_create(lsf_voxelize **pass, lsf_context *context, const lsf_plan *plan,
                          const lsf_voxelize_params *params, const lsf_voxel_grid *grid,
                          const lsf_scene *scene, lsf_error *error);
+/* Goes over to a grid of the same size and, with `anew`, to what materials have become. */
+void lsf_voxelize_follow(lsf_voxelize *pass, const lsf_voxel_grid *grid, bool anew);
 /* Voxelises what moved since the last run, and with a grid that is shifted all. Binds the grid at
  * LSF_BINDING_VOXEL. */
 const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration);

@@ -26,6 +26,7 @@ struct lsf_voxelize {
     GLuint draws, won;  /* the same with the voxels that they have won, and these */
     GLuint bricks[2];   /* lists of this run and of the run before */
     uint32_t runs;
+    bool stale; /* what stands still is otherwise than in the run before */
     GLuint clear_program, count_program, sum_program, place_program, write_program;
     /* Bids: an instance's small triangles, then its large ones; or all on the raster pipeline. */
     GLuint small_program, large_program, raster_program;

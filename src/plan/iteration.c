@@ -114,8 +114,6 @@ static bool create_lights(lsf_iteration *iteration, lsf_error *error)
     iteration->shares = lsf_alloc(count, sizeof *iteration->shares);
     if (!iteration->lights || !iteration->shares)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights", count);
-    if (state->light_count > 0)
-        memcpy(iteration->lights, state->lights, state->light_count * sizeof *state->lights);
     for (uint32_t i = 0; i < count; i++)
         iteration->shares[i] = (lsf_sky_share){.shares = {1.0f, 1.0f}};
     return iteration->plan->sky_lights == 0 ||
@@ -130,11 +128,23 @@ bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_pl
 {
     *iteration = (lsf_iteration){
         .context = context, .plan = plan, .state = state, .scene = scene, .seed = seed};
-    set_view(&iteration->view, plan, state);
-    iteration->previous_camera = previous ? previous->camera : state->camera;
-    return create_lights(iteration, error) &&
-           lsf_plan_create_buffer(plan, context, "view", NULL, GL_DYNAMIC_STORAGE_BIT,
+    if (!create_lights(iteration, error))
+        return false;
+    lsf_iteration_frame(iteration, state, previous, 0);
+    return lsf_plan_create_buffer(plan, context, "view", NULL, GL_DYNAMIC_STORAGE_BIT,
                                   &iteration->view_buffer, error);
+}
+
+void lsf_iteration_frame(lsf_iteration *iteration, const lsf_state *state,
+                         const lsf_state *previous, uint32_t first_index)
+{
+    iteration->state = state;
+    iteration->first_index = first_index;
+    iteration->serial_before = iteration->serial;
+    set_view(&iteration->view, iteration->plan, state);
+    iteration->previous_camera = previous ? previous->camera : state->camera;
+    if (state->light_count > 0)
+        memcpy(iteration->lights, state->lights, state->light_count * sizeof *state->lights);
 }
 
 void lsf_iteration_destroy(lsf_iteration *iteration)
@@ -149,7 +159,7 @@ void lsf_iteration_destroy(lsf_iteration *iteration)
 float lsf_iteration_expected(const lsf_iteration *iteration)
 {
     uint32_t samples = iteration->plan->samples;
-    return samples == UINT32_MAX ? (float)iteration->index + 1.0f : (float)samples;
+    return samples == UINT32_MAX ? (float)iteration->done + 1.0f : (float)samples;
 }
 
 static void draw_sky_lights(lsf_iteration *iteration)
@@ -196,11 +206,13 @@ uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose)
     return lsf_hash(iteration->seed, purpose);
 }
 
-void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index)
+void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done)
 {
     float point[2];
-    iteration->index = index;
-    lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_PIXEL), point);
+    iteration->done = done;
+    iteration->index = iteration->first_index + done;
+    iteration->serial = iteration->serial_before + done + 1;
+    lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_PIXEL), point);
     float x = (2.0f * point[0] - 1.0f) * iteration->view.size.z;
     float y = (2.0f * point[1] - 1.0f) * iteration->view.size.w;
     iteration->view.jitter = (lsf_vec4){x, y, 0.0f, 0.0f};

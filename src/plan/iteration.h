@@ -15,7 +15,12 @@ typedef struct lsf_iteration {
     const lsf_state *state;
     lsf_scene_gpu *scene;
     uint64_t seed;
-    uint32_t index;     /* from 0 */
+    uint32_t index;       /* of the random numbers it takes */
+    uint32_t done;        /* iterations of the frame before it */
+    uint32_t serial;      /* iterations of all frames up to and with it; one that is run again keeps
+                           * its number */
+    uint32_t first_index; /* of the frame's first iteration */
+    uint32_t serial_before; /* of the iteration before that */
     GLuint view_buffer; /* struct lsf_view_data */
     struct lsf_view_data view;
     lsf_camera_state previous_camera; /* for motion */
@@ -52,9 +57,14 @@ bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_pl
                           uint64_t seed, lsf_error *error);
 void lsf_iteration_destroy(lsf_iteration *iteration);
 
-/* Jitters the pixel for iteration `index` (uniform over the pixel: a box filter), uploads the view
- * and draws the directions from which the environment lights. */
-void lsf_iteration_begin(lsf_iteration *iteration, uint32_t index);
+/* Goes over to a frame of that state, whose iterations take random numbers from `first_index` on.
+ * It has as many lights as the one before. `previous` as for lsf_iteration_create. */
+void lsf_iteration_frame(lsf_iteration *iteration, const lsf_state *state,
+                         const lsf_state *previous, uint32_t first_index);
+
+/* Begins the frame's iteration number `done`: jitters the pixel (uniform over the pixel: a box
+ * filter), uploads the view and draws the directions from which the environment lights. */
+void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done);
 
 /* Iterations that the picture will have; those so far when that is open. */
 float lsf_iteration_expected(const lsf_iteration *iteration);

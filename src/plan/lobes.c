@@ -1,10 +1,6 @@
 /* Lobes that few materials have: their table, and where the G-buffer keeps them. */
 #include "plan/lobes.h"
 
-#include <stdlib.h>
-
-#include "base/base.h"
-
 bool lsf_scene_gpu_has_lobes(const lsf_requirements *r)
 {
     return r->specular_varied || r->coated || r->sheened;
@@ -68,23 +64,22 @@ static struct lsf_lobe_data lobe_data(const lsf_material *m)
         .specular_color_slot = lsf_scene_gpu_slot(&m->specular_color_texture)};
 }
 
-bool lsf_scene_gpu_upload_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+bool lsf_scene_gpu_create_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
 {
-    const lsf_scene *scene = gpu->scene;
-    if (!lsf_plan_find(plan, "scene.lobes"))
-        return true;
-    struct lsf_lobe_data *data = lsf_alloc(scene->material_count, sizeof *data);
-    if (!data)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u materials",
-                             scene->material_count);
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        data[i] = lobe_data(&scene->materials[i]);
-    bool ok =
-        lsf_plan_create_buffer(plan, gpu->context, "scene.lobes", data, 0, &gpu->lobes, error);
-    free(data);
-    if (!ok)
+    if (!lsf_plan_create_buffer(plan, gpu->context, "scene.lobes", NULL, GL_DYNAMIC_STORAGE_BIT,
+                                &gpu->lobes, error))
         return false;
+    if (!gpu->lobes)
+        return true;
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &gpu->lobe_table);
     glTextureBuffer(gpu->lobe_table, GL_RGBA32F, gpu->lobes);
     return true;
+}
+
+void lsf_scene_gpu_update_lobes(lsf_scene_gpu *gpu)
+{
+    for (uint32_t i = 0; gpu->lobes && i < gpu->scene->material_count; i++) {
+        const struct lsf_lobe_data data = lobe_data(&gpu->scene->materials[i]);
+        glNamedBufferSubData(gpu->lobes, (GLintptr)(i * sizeof data), sizeof data, &data);
+    }
 }

@@ -8,8 +8,9 @@
 bool lsf_scene_gpu_has_lobes(const lsf_requirements *r);
 /* Adds LSF_COAT and LSF_SHEEN. */
 void lsf_scene_gpu_word_switches(lsf_plan *plan, bool gloss);
-/* The table, where the plan lists it. */
-bool lsf_scene_gpu_upload_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error);
+/* The table, where the plan lists it, and what it holds. */
+bool lsf_scene_gpu_create_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error);
+void lsf_scene_gpu_update_lobes(lsf_scene_gpu *gpu);
 /* As shaders have it. */
 struct lsf_texture_slot_data lsf_scene_gpu_slot(const lsf_texture_slot *slot);
 

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "math/vector.h"
 #include "plan/lobes.h"
+#include "plan/scene_dynamic.h"
 #include "plan/texture_upload.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
@@ -196,136 +196,6 @@ struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t
         .transmission_slot = lsf_scene_gpu_slot(&m->transmission_texture)};
 }
 
-static bool upload_materials(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
-{
-    const lsf_scene *scene = gpu->scene;
-    material_data *data = lsf_alloc(scene->material_count, sizeof *data);
-    if (!data)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u materials",
-                             scene->material_count);
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        data[i] = lsf_scene_gpu_material(scene, i);
-    }
-    bool ok = lsf_plan_create_buffer(plan, gpu->context, "scene.materials", data, 0,
-                                     &gpu->materials, error);
-    free(data);
-    return ok;
-}
-
-static bool upload_instances(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
-                             const lsf_state *previous, lsf_error *error)
-{
-    uint32_t count = gpu->scene->instance_count;
-    instance_data *data = lsf_alloc(count, sizeof *data);
-    float *transforms = lsf_alloc(count, 12 * sizeof *transforms);
-    bool ok = data && transforms;
-    if (!ok)
-        lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances", count);
-    for (uint32_t i = 0; ok && i < count; i++) {
-        const lsf_instance_state *instance = &state->instances[i];
-        const float *t = instance->transform, *n = instance->normal_transform;
-        data[i] = (instance_data){{t[0], t[1], t[2], t[3]},
-                                  {t[4], t[5], t[6], t[7]},
-                                  {t[8], t[9], t[10], t[11]},
-                                  {n[0], n[1], n[2], (float)instance->material},
-                                  {n[3], n[4], n[5], instance->mirrored},
-                                  {n[6], n[7], n[8], (float)i}};
-        if (previous)
-            memcpy(transforms + 12 * (size_t)i, previous->instances[i].transform, 48);
-    }
-    ok = ok &&
-         lsf_plan_create_buffer(plan, gpu->context, "scene.instances", data, 0, &gpu->instances,
-                                error) &&
-         lsf_plan_create_buffer(plan, gpu->context, "scene.previous_transforms", transforms, 0,
-                                &gpu->previous_transforms, error);
-    free(data);
-    free(transforms);
-    return ok;
-}
-
-static bool is_listed(const lsf_scene_gpu *gpu, const lsf_instance_state *instance)
-{
-    const lsf_material *material = &gpu->scene->materials[instance->material];
-    return !instance->skipped && material->alpha_mode == LSF_ALPHA_OPAQUE &&
-           !(gpu->straight && material->transmission > 0.0f);
-}
-
-/* In normalised space. */
-static void place_triangle(float corners[9], const lsf_scene *scene,
-                           const lsf_instance_state *instance, uint32_t triangle)
-{
-    const lsf_primitive *primitive = &scene->primitives[instance->primitive];
-    const uint32_t *indices = scene->indices + primitive->first_index + 3 * (size_t)triangle;
-    for (int corner = 0; corner < 3; corner++) {
-        const float *v = scene->vertices.position + 3 * (size_t)indices[corner];
-        const float *m = instance->transform;
-        for (int row = 0; row < 3; row++, m += 4)
-            corners[3 * corner + row] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2] + m[3];
-    }
-}
-
-/* Two classes for each power of two of a squared length, the longest first. */
-static uint32_t length_class(float squared)
-{
-    uint32_t bits;
-    memcpy(&bits, &squared, sizeof bits);
-    return LSF_SCENE_GPU_LENGTHS - 1 - (bits >> 22);
-}
-
-/* Of its longest edge. */
-static uint32_t triangle_class(const float corners[9])
-{
-    float longest = 0.0f;
-    for (int corner = 0; corner < 3; corner++) {
-        lsf_float3 edge = lsf_f3_sub(lsf_f3_load(corners + 3 * corner),
-                                     lsf_f3_load(corners + 3 * ((corner + 1) % 3)));
-        longest = fmaxf(longest, lsf_f3_dot(edge, edge));
-    }
-    return length_class(longest);
-}
-
-uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length)
-{
-    return gpu->triangles_to[length_class(length * length)];
-}
-
-/* Sorted by classes of length (a counting sort), in the order of instances within one. */
-static bool upload_triangles(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
-                             lsf_error *error)
-{
-    const lsf_plan_resource *resource = lsf_plan_find(plan, "scene.triangles");
-    if (!resource)
-        return true;
-    float(*data)[9] = lsf_alloc(resource->bytes, 1);
-    if (!data)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u triangles",
-                             (uint32_t)plan->requirements.triangles);
-    for (int placing = 0; placing < 2; placing++) {
-        for (uint32_t i = 0; i < state->instance_count; i++) {
-            const lsf_instance_state *instance = &state->instances[i];
-            if (!is_listed(gpu, instance))
-                continue;
-            uint32_t count = gpu->scene->primitives[instance->primitive].index_count / 3;
-            for (uint32_t k = 0; k < count; k++) {
-                float corners[9];
-                place_triangle(corners, gpu->scene, instance, k);
-                uint32_t at = gpu->triangles_to[triangle_class(corners)]++;
-                if (placing)
-                    memcpy(data[at], corners, sizeof corners);
-            }
-        }
-        for (uint32_t c = 0; !placing && c < LSF_SCENE_GPU_LENGTHS; c++) {
-            uint32_t count = gpu->triangles_to[c];
-            gpu->triangles_to[c] = gpu->triangle_count;
-            gpu->triangle_count += count;
-        }
-    }
-    bool ok = lsf_plan_create_buffer(plan, gpu->context, "scene.triangles", data, 0,
-                                     &gpu->triangles, error);
-    free(data);
-    return ok;
-}
-
 static void add_attribute(GLuint array, GLuint location, GLuint buffer, GLint components)
 {
     if (!buffer)
@@ -398,20 +268,9 @@ static bool order_draws(lsf_scene_gpu *gpu, const lsf_state *state, lsf_error *e
     return true;
 }
 
-bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
-                          const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
-                          lsf_error *error)
+static bool upload_streams(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
 {
-    const lsf_vertices *v = &scene->vertices;
-    memset(gpu, 0, sizeof *gpu);
-    gpu->context = context;
-    gpu->scene = scene;
-    gpu->transmission = plan->transmission;
-    gpu->straight = plan->straight;
-    if (!lsf_texture_upload_create(gpu, plan, error))
-        return false;
-    if (!lsf_plan_find(plan, "scene.positions"))
-        return true;
+    const lsf_vertices *v = &gpu->scene->vertices;
     const struct {
         const char *name;
         const void *data;
@@ -423,38 +282,100 @@ bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_pl
         {"scene.uv0", v->uv0, &gpu->uv0},
         {"scene.uv1", v->uv1, &gpu->uv1},
         {"scene.colors", v->color, &gpu->colors},
-        {"scene.indices", scene->indices, &gpu->indices},
+        {"scene.indices", gpu->scene->indices, &gpu->indices},
     };
     for (size_t i = 0; i < LSF_COUNT(streams); i++)
-        if (!lsf_plan_create_buffer(plan, context, streams[i].name, streams[i].data, 0,
+        if (!lsf_plan_create_buffer(plan, gpu->context, streams[i].name, streams[i].data, 0,
                                     streams[i].buffer, error))
             return false;
-    if (!upload_instances(gpu, plan, state, previous, error) ||
-        !upload_materials(gpu, plan, error) || !lsf_scene_gpu_upload_lobes(gpu, plan, error) ||
-        !upload_triangles(gpu, plan, state, error) || !order_draws(gpu, state, error))
+    return true;
+}
+
+/* What a plan of the same scene may have otherwise, but for streams and textures. */
+static bool create_followers(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
+                             const lsf_state *previous, lsf_error *error)
+{
+    gpu->transmission = plan->transmission;
+    gpu->straight = plan->straight;
+    if (!gpu->positions)
+        return true;
+    if (!lsf_scene_dynamic_create(gpu, plan, error) ||
+        !lsf_scene_gpu_create_lobes(gpu, plan, error))
         return false;
-    if (!lsf_clusters_init(&gpu->clusters, scene))
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the bounds of triangles");
     gpu->shading_array = create_array(gpu, "scene.shading_array", true, false);
     gpu->position_array =
         create_array(gpu, "scene.position_array", false, cuts_out(&plan->requirements));
+    lsf_scene_gpu_update(gpu, state, previous);
     return true;
+}
+
+static void destroy_followers(lsf_scene_gpu *gpu)
+{
+    lsf_scene_dynamic_destroy(gpu);
+    lsf_buffer_destroy(gpu->context, &gpu->lobes);
+    glDeleteTextures(1, &gpu->lobe_table);
+    glDeleteVertexArrays(1, &gpu->shading_array);
+    glDeleteVertexArrays(1, &gpu->position_array);
+    gpu->lobe_table = gpu->shading_array = gpu->position_array = 0;
+}
+
+bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
+                          const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
+                          lsf_error *error)
+{
+    memset(gpu, 0, sizeof *gpu);
+    gpu->context = context;
+    gpu->scene = scene;
+    gpu->transmission = plan->transmission;
+    if (!lsf_texture_upload_create(gpu, plan, error))
+        return false;
+    if (lsf_plan_find(plan, "scene.positions") &&
+        (!upload_streams(gpu, plan, error) || !order_draws(gpu, state, error)))
+        return false;
+    if (gpu->positions && !lsf_clusters_init(&gpu->clusters, scene))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the bounds of triangles");
+    return create_followers(gpu, plan, state, previous, error);
+}
+
+/* Whether two plans list the same streams and textures of a scene. */
+static bool same_streams(const lsf_plan *a, const lsf_plan *b)
+{
+    const lsf_plan *plans[2] = {a, b};
+    for (int p = 0; p < 2; p++)
+        for (uint64_t i = 0; i < plans[p]->resource_count; i++) {
+            const lsf_plan_resource *mine = &plans[p]->resources[i];
+            if (strncmp(mine->name, "scene.", 6) != 0 || lsf_scene_gpu_follows(mine->name))
+                continue;
+            const lsf_plan_resource *other = lsf_plan_find(plans[1 - p], mine->name);
+            if (!other || other->bytes != mine->bytes)
+                return false;
+        }
+    return true;
+}
+
+bool lsf_scene_gpu_replan(lsf_scene_gpu *gpu, const lsf_plan *old, const lsf_plan *plan,
+                          const lsf_state *state, const lsf_state *previous, lsf_error *error)
+{
+    if (same_streams(old, plan)) {
+        destroy_followers(gpu);
+        return create_followers(gpu, plan, state, previous, error);
+    }
+    lsf_context *context = gpu->context;
+    const lsf_scene *scene = gpu->scene;
+    lsf_scene_gpu_destroy(gpu);
+    return lsf_scene_gpu_create(gpu, context, plan, scene, state, previous, error);
 }
 
 void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
 {
     if (!gpu->context)
         return;
-    GLuint *buffers[] = {&gpu->positions, &gpu->normals,   &gpu->tangents,
-                         &gpu->uv0,       &gpu->uv1,       &gpu->colors,
-                         &gpu->indices,   &gpu->materials, &gpu->lobes,
-                         &gpu->instances, &gpu->triangles, &gpu->previous_transforms};
+    destroy_followers(gpu);
+    GLuint *buffers[] = {&gpu->positions, &gpu->normals, &gpu->tangents, &gpu->uv0,
+                         &gpu->uv1,       &gpu->colors,  &gpu->indices};
     for (size_t i = 0; i < LSF_COUNT(buffers); i++)
         lsf_buffer_destroy(gpu->context, buffers[i]);
     lsf_texture_upload_destroy(gpu);
-    glDeleteTextures(1, &gpu->lobe_table);
-    glDeleteVertexArrays(1, &gpu->shading_array);
-    glDeleteVertexArrays(1, &gpu->position_array);
     free(gpu->draw_order);
     lsf_clusters_finish(&gpu->clusters);
     memset(gpu, 0, sizeof *gpu);

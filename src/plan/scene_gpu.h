@@ -1,5 +1,5 @@
 /* The scene's GL resources: vertex streams, instances, materials, textures, environment. Only
- * what the scene requires exists; everything is uploaded once. */
+ * what the scene requires exists; what neither moves nor is edited is uploaded once. */
 #ifndef LSF_PLAN_SCENE_GPU_H
 #define LSF_PLAN_SCENE_GPU_H
 
@@ -32,6 +32,12 @@ typedef struct lsf_scene_gpu {
     lsf_clusters clusters;
     uint32_t *draw_order; /* instances, grouped by material */
     uint32_t draw_count;
+    /* What was uploaded of each instance, to tell what has changed. */
+    struct lsf_instance_data *placed;
+    float (*placed_before)[12]; /* NULL without motion */
+    float (*corners)[9];        /* of `triangles`, while something moves; else NULL */
+    uint64_t material_edits;    /* of the scene, when materials were uploaded */
+    bool anew;                  /* nothing was uploaded yet */
 } lsf_scene_gpu;
 
 /* Lists what lsf_scene_gpu_create will create. */
@@ -72,6 +78,13 @@ uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length);
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
                           const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
                           lsf_error *error);
+/* Brings up to date what of it depends on the state: instances that moved, their triangles, and
+ * materials that were edited. Allocates nothing. `state` has to fit the plan. */
+void lsf_scene_gpu_update(lsf_scene_gpu *gpu, const lsf_state *state, const lsf_state *previous);
+/* Goes over from the plan `old` to another of the same scene; streams and textures that both list
+ * stay where they are. On failure it can only be destroyed. */
+bool lsf_scene_gpu_replan(lsf_scene_gpu *gpu, const lsf_plan *old, const lsf_plan *plan,
+                          const lsf_state *state, const lsf_state *previous, lsf_error *error);
 void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
 
 typedef enum lsf_draw_mode {

@@ -28,13 +28,13 @@ static void fit(lsf_voxel_grid *grid, const lsf_state *state, uint32_t resolutio
 {
     float longest = 0.0f;
     for (int axis = 0; axis < 3; axis++)
-        longest = fmaxf(longest, state->bounds_max[axis] - state->bounds_min[axis]);
+        longest = fmaxf(longest, state->reach_max[axis] - state->reach_min[axis]);
     grid->resolution = resolution;
     grid->side = longest > 0.0f ? longest / (float)(resolution > 3 ? resolution - 2 : 1) : 1.0f;
-    bool empty = state->bounds_min[0] > state->bounds_max[0];
+    bool empty = state->reach_min[0] > state->reach_max[0];
     for (int axis = 0; axis < 3; axis++) {
-        float low = empty ? 0.0f : state->bounds_min[axis];
-        float high = empty ? 0.0f : state->bounds_max[axis];
+        float low = empty ? 0.0f : state->reach_min[axis];
+        float high = empty ? 0.0f : state->reach_max[axis];
         float extent = high - low;
         uint32_t voxels = (uint32_t)ceilf(extent / grid->side - 1e-3f) + 2;
         grid->size[axis] = (voxels + BLOCK - 1) / BLOCK * BLOCK;

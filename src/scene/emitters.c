@@ -101,18 +101,24 @@ static float mean_luminance(const lsf_emitters *e, uint64_t at)
     return fmaxf(sum / MEAN_POINTS, MEAN_FLOOR * factor);
 }
 
-static void list_triangles(lsf_emitters *e, float *power)
+static float weight_of(const lsf_emitters *e, uint64_t at)
+{
+    uint32_t instance = e->instance[at];
+    float sides = material_of(e, instance)->double_sided ? 2.0f : 1.0f;
+    double area = lsf_place_triangle(e->scene, e->state, instance, e->triangle[at]).area;
+    return sides * (float)area * e->mean[at];
+}
+
+static void list_triangles(lsf_emitters *e)
 {
     uint64_t at = 0;
     for (uint32_t i = 0; i < e->state->instance_count; i++) {
         uint32_t count = triangle_count(e, i);
-        float sides = count && material_of(e, i)->double_sided ? 2.0f : 1.0f;
         for (uint32_t t = 0; t < count; t++, at++) {
             e->instance[at] = i;
             e->triangle[at] = t;
             e->mean[at] = mean_luminance(e, at);
-            double area = lsf_place_triangle(e->scene, e->state, i, t).area;
-            power[at] = sides * (float)area * e->mean[at];
+            e->weight[at] = weight_of(e, at);
         }
     }
 }
@@ -125,14 +131,38 @@ bool lsf_emitters_init(lsf_emitters *e, const lsf_scene *scene, const lsf_state 
     e->instance = lsf_alloc(e->count, sizeof *e->instance);
     e->triangle = lsf_alloc(e->count, sizeof *e->triangle);
     e->mean = lsf_alloc(e->count, sizeof *e->mean);
-    float *power = lsf_alloc(e->count, sizeof *power);
-    bool good = e->instance && e->triangle && e->mean && power;
-    if (good) {
-        list_triangles(e, power);
-        good = lsf_distribution_init(&e->power, power, e->count);
+    e->weight = lsf_alloc(e->count, sizeof *e->weight);
+    if (!e->instance || !e->triangle || !e->mean || !e->weight)
+        return false;
+    list_triangles(e);
+    return lsf_distribution_init(&e->power, e->weight, e->count);
+}
+
+/* Whether the list holds the triangles of those instances that the state draws now. */
+static bool lists_all(const lsf_emitters *e)
+{
+    uint64_t at = 0;
+    for (uint32_t i = 0; i < e->state->instance_count; i++) {
+        uint32_t count = triangle_count(e, i);
+        if (count > 0 && (at + count > e->count || e->instance[at] != i))
+            return false;
+        at += count;
     }
-    free(power);
-    return good;
+    return at == e->count;
+}
+
+bool lsf_emitters_update(lsf_emitters *e, bool materials_edited)
+{
+    if (materials_edited || !lists_all(e)) {
+        const lsf_scene *scene = e->scene;
+        const lsf_state *state = e->state;
+        lsf_emitters_finish(e);
+        return lsf_emitters_init(e, scene, state);
+    }
+    for (uint64_t at = 0; at < e->count; at++)
+        e->weight[at] = weight_of(e, at);
+    lsf_distribution_set(&e->power, e->weight);
+    return true;
 }
 
 void lsf_emitters_finish(lsf_emitters *e)
@@ -140,6 +170,7 @@ void lsf_emitters_finish(lsf_emitters *e)
     free(e->instance);
     free(e->triangle);
     free(e->mean);
+    free(e->weight);
     lsf_distribution_finish(&e->power);
     memset(e, 0, sizeof *e);
 }

@@ -12,7 +12,8 @@ typedef struct lsf_emitters {
     uint64_t count;
     uint32_t *instance, *triangle; /* of each */
     float *mean;                   /* luminance of its emission over its area */
-    lsf_distribution power;        /* sides * area * mean */
+    float *weight;                 /* sides * area * mean */
+    lsf_distribution power;        /* by these */
 } lsf_emitters;
 
 /* A point on one side of an emissive triangle, in normalised space. */
@@ -28,6 +29,9 @@ typedef struct lsf_emitter_sample {
 
 /* Lists the triangles as `state` places them; both must outlive the list. False without memory. */
 bool lsf_emitters_init(lsf_emitters *emitters, const lsf_scene *scene, const lsf_state *state);
+/* Follows the state to what it has become: areas, and where materials were edited all. Allocates
+ * nothing while the same triangles emit. False without memory. */
+bool lsf_emitters_update(lsf_emitters *emitters, bool materials_edited);
 void lsf_emitters_finish(lsf_emitters *emitters);
 
 /* Radiant power, as lsf_light_power states that of lights. */

@@ -14,7 +14,7 @@
 #include "base/base.h"
 #include "scene/hierarchy.h"
 
-enum { MOMENTS = 65, SUPPORTS = 4 };
+enum { SUPPORTS = 4 };
 
 /* Vertices visited for exact supports. Beyond that many, instances count with the corners of their
  * boxes, which can only move the camera back. */
@@ -93,30 +93,15 @@ static void add_instance(frame *f, const lsf_scene *scene, const lsf_primitive *
     }
 }
 
-/* First and last key of all channels; equal when nothing is animated. */
-static void animated_times(const lsf_scene *scene, double *first, double *last)
-{
-    *first = *last = 0.0;
-    for (uint32_t i = 0; i < scene->channel_count; i++) {
-        const lsf_animation_channel *channel = &scene->channels[i];
-        double from = (double)channel->times[0],
-               to = (double)channel->times[channel->key_count - 1];
-        *first = i == 0 ? from : fmin(*first, from);
-        *last = i == 0 ? to : fmax(*last, to);
-    }
-}
-
 static bool add_moments(frame *f, const lsf_scene *scene)
 {
     double first, last;
-    animated_times(scene, &first, &last);
+    uint32_t moments = lsf_scene_moments(scene, &first, &last);
     double *matrices = lsf_alloc(scene->node_count, 16 * sizeof *matrices);
     if (!matrices)
         return false;
-    int moments = last > first ? MOMENTS : 1;
-    for (int moment = 0; moment < moments; moment++) {
-        double t = moments > 1 ? (double)moment / (moments - 1) : 0.0;
-        lsf_scene_world_matrices(scene, first + t * (last - first), matrices);
+    for (uint32_t moment = 0; moment < moments; moment++) {
+        lsf_scene_world_matrices(scene, lsf_moment(moment, moments, first, last), matrices);
         for (uint32_t i = 0; i < scene->instance_count; i++) {
             const lsf_primitive *primitive = &scene->primitives[scene->instances[i].primitive];
             if (primitive->index_count > 0)

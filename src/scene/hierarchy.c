@@ -121,17 +121,31 @@ static void multiply(const double a[16], const double b[16], double result[16])
     }
 }
 
+static void begin_scratch(const lsf_node *node, double scratch[10])
+{
+    memcpy(scratch + TRANSLATION, node->translation, sizeof(node->translation));
+    memcpy(scratch + ROTATION, node->rotation, sizeof(node->rotation));
+    memcpy(scratch + SCALE, node->scale, sizeof(node->scale));
+}
+
+void lsf_node_matrix(const lsf_node *node, double matrix[16])
+{
+    double scratch[10];
+    begin_scratch(node, scratch);
+    if (node->has_matrix)
+        memcpy(matrix, node->matrix, sizeof(node->matrix));
+    else
+        compose(scratch, matrix);
+}
+
 void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matrices)
 {
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        const lsf_node *node = &scene->nodes[i];
-        double *scratch = matrices + (size_t)16 * i;
-        memcpy(scratch + TRANSLATION, node->translation, sizeof(node->translation));
-        memcpy(scratch + ROTATION, node->rotation, sizeof(node->rotation));
-        memcpy(scratch + SCALE, node->scale, sizeof(node->scale));
-    }
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        begin_scratch(&scene->nodes[i], matrices + (size_t)16 * i);
     for (uint32_t i = 0; i < scene->channel_count; i++) {
         const lsf_animation_channel *channel = &scene->channels[i];
+        if (scene->nodes[channel->node].has_matrix)
+            continue;
         static const int offsets[] = {[LSF_PATH_TRANSLATION] = TRANSLATION,
                                       [LSF_PATH_ROTATION] = ROTATION,
                                       [LSF_PATH_SCALE] = SCALE};
@@ -151,6 +165,25 @@ void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matri
         else
             multiply(matrices + (size_t)16 * node->parent, local, world);
     }
+}
+
+uint32_t lsf_scene_moments(const lsf_scene *scene, double *first, double *last)
+{
+    *first = *last = 0.0;
+    for (uint32_t i = 0; i < scene->channel_count; i++) {
+        const lsf_animation_channel *channel = &scene->channels[i];
+        double from = (double)channel->times[0],
+               to = (double)channel->times[channel->key_count - 1];
+        *first = i == 0 ? from : fmin(*first, from);
+        *last = i == 0 ? to : fmax(*last, to);
+    }
+    return *last > *first ? 65 : 1;
+}
+
+double lsf_moment(uint32_t index, uint32_t moments, double first, double last)
+{
+    double t = moments > 1 ? (double)index / (moments - 1) : 0.0;
+    return first + t * (last - first);
 }
 
 void lsf_transform_point(const double matrix[16], const double point[3], double result[3])

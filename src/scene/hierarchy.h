@@ -13,6 +13,14 @@ extern "C" {
  * scene space. A long chain of large scales can overflow: check for finite results. */
 void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matrices);
 
+/* The first and the last key of all animations, and at how many moments from one to the other to
+ * look where the whole of them counts: 1 where nothing is animated. */
+uint32_t lsf_scene_moments(const lsf_scene *scene, double *first, double *last);
+double lsf_moment(uint32_t index, uint32_t moments, double first, double last);
+
+/* A node's own transform as the file or a program gives it, column-major, without animations. */
+void lsf_node_matrix(const lsf_node *node, double matrix[16]);
+
 /* Samples one channel: 3 doubles, or a unit quaternion x,y,z,w for rotations. */
 void lsf_animation_sample(const lsf_animation_channel *channel, double time, double *value);
 

@@ -83,6 +83,13 @@ static void visit(part *p, const lsf_scene *scene, const lsf_state *state, part_
         const lsf_primitive *primitive = &scene->primitives[instance->primitive];
         const uint32_t *indices = scene->indices + primitive->first_index;
         float bounds[6];
+        if (scene->requirements.moving && !instance->skipped) {
+            memcpy(bounds, instance->bounds_min, sizeof instance->bounds_min);
+            memcpy(bounds + 3, instance->bounds_max, sizeof instance->bounds_max);
+            if (inside(p->region, bounds))
+                triangle(p, bounds, user);
+            continue;
+        }
         for (uint32_t k = 0; !instance->skipped && k + 2 < primitive->index_count; k += 3) {
             bound_triangle(scene, instance, indices + k, bounds);
             if (inside(p->region, bounds))

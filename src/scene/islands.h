@@ -13,7 +13,8 @@ typedef struct lsf_islands {
 } lsf_islands;
 
 /* Divides the scene across its axes, where nothing lies on a share of a part's length that is wide
- * enough, until there are LSF_ISLANDS_MAX parts. */
+ * enough, until there are LSF_ISLANDS_MAX parts. Of a scene that moves instances are taken whole,
+ * for it is divided anew for each frame. */
 void lsf_islands_find(lsf_islands *islands, const lsf_scene *scene, const lsf_state *state);
 
 /* Bounds along an axis of one island. */

@@ -98,16 +98,18 @@ void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves)
 {
     for (uint32_t i = 0; i < scene->channel_count; i++)
         moves[scene->channels[i].node] = true;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        moves[i] = moves[i] || scene->nodes[i].edited;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         uint32_t parent = scene->nodes[i].parent;
         moves[i] = moves[i] || (parent != LSF_NONE && moves[parent]);
     }
 }
 
-/* Finds whether an animation moves a node that carries something. False without memory. */
+/* Finds whether a node moves that carries something. False without memory. */
 static bool find_moving(const lsf_scene *scene, lsf_requirements *r)
 {
-    if (scene->channel_count == 0)
+    if (scene->channel_count == 0 && scene->edits.nodes == 0)
         return true;
     bool *moves = lsf_alloc(scene->node_count, sizeof(bool));
     if (!moves)
@@ -265,10 +267,9 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
 {
     double *matrices = lsf_alloc(scene->node_count, 16 * sizeof(double));
     bool *primitive_seen = lsf_alloc(scene->primitive_count, sizeof(bool));
-    bool *material_seen = lsf_alloc(scene->material_count, sizeof(bool));
     /* By a list's first triangle: primitives may share one. */
     bool *list_seen = lsf_alloc(scene->index_count / 3, sizeof(bool));
-    bool enough = matrices && primitive_seen && material_seen && list_seen;
+    bool enough = matrices && primitive_seen && list_seen;
     uint64_t visits = 0;
     if (enough)
         lsf_scene_world_matrices(scene, 0.0, matrices);
@@ -290,17 +291,40 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
             r->degenerate_triangles += count_degenerate(scene, primitive);
             r->smooth = r->smooth || is_smooth(scene, primitive);
         }
-        if (!material_seen[primitive->material]) {
-            material_seen[primitive->material] = true;
-            r->materials++;
-            add_material(r, &scene->materials[primitive->material], scene->diffuse_only);
-        }
     }
     free(matrices);
     free(primitive_seen);
-    free(material_seen);
     free(list_seen);
     return enough;
+}
+
+/* False without memory. */
+static bool add_materials(const lsf_scene *scene, lsf_requirements *r)
+{
+    bool *seen = lsf_alloc(scene->material_count, sizeof(bool));
+    for (uint32_t i = 0; seen && i < scene->instance_count; i++) {
+        const lsf_primitive *primitive = &scene->primitives[scene->instances[i].primitive];
+        if (primitive->index_count == 0 || seen[primitive->material])
+            continue;
+        seen[primitive->material] = true;
+        r->materials++;
+        add_material(r, &scene->materials[primitive->material], scene->diffuse_only);
+    }
+    free(seen);
+    /* Every crossing of a surface is a bounce. Seen through a vase or a bottle, the world lies behind
+     * two walls of glass with two sides each; through solid bodies, behind two of them. */
+    r->bounces = r->transmissive ? 5 : 1;
+    return seen != NULL;
+}
+
+static void add_environment(const lsf_scene *scene, lsf_requirements *r)
+{
+    const lsf_environment *environment = &scene->environment;
+    r->environment_map = environment->present && environment->width > 0;
+    r->environment = r->environment_map ||
+                     (environment->present &&
+                      (environment->radiance[0] > 0.0f || environment->radiance[1] > 0.0f ||
+                       environment->radiance[2] > 0.0f));
 }
 
 bool lsf_scene_compute_requirements(lsf_scene *scene)
@@ -309,21 +333,38 @@ bool lsf_scene_compute_requirements(lsf_scene *scene)
     memset(r, 0, sizeof(*r));
     clear_bounds(r);
     add_lights(scene, r);
-    if (!add_instances(scene, r) || !find_moving(scene, r))
+    if (!add_instances(scene, r) || !add_materials(scene, r) || !find_moving(scene, r))
         return false;
     find_center(r);
-    /* Every crossing of a surface is a bounce. Seen through a vase or a bottle, the world lies behind
-     * two walls of glass with two sides each; through solid bodies, behind two of them. */
-    r->bounces = r->transmissive ? 5 : 1;
-
-    const lsf_environment *environment = &scene->environment;
-    r->environment_map = environment->present && environment->width > 0;
-    r->environment = r->environment_map ||
-                     (environment->present &&
-                      (environment->radiance[0] > 0.0f || environment->radiance[1] > 0.0f ||
-                       environment->radiance[2] > 0.0f));
+    add_environment(scene, r);
     r->vertex_colored = scene->vertices.color != NULL && r->instances > 0;
     r->vertices = scene->vertices.count;
     r->textures = scene->texture_count;
+    return true;
+}
+
+bool lsf_scene_update_requirements(lsf_scene *scene)
+{
+    const lsf_requirements old = scene->requirements;
+    lsf_requirements r;
+    memset(&r, 0, sizeof r); /* padding, too: requirements are compared as bytes */
+    add_lights(scene, &r);
+    if (!add_materials(scene, &r) || !find_moving(scene, &r))
+        return false;
+    add_environment(scene, &r);
+    r.smooth = old.smooth;
+    r.vertex_colored = old.vertex_colored;
+    r.triangles = old.triangles;
+    r.unique_triangles = old.unique_triangles;
+    r.degenerate_triangles = old.degenerate_triangles;
+    r.vertices = old.vertices;
+    r.instances = old.instances;
+    r.primitives = old.primitives;
+    r.textures = old.textures;
+    r.scale = old.scale;
+    memcpy(r.center, old.center, sizeof r.center);
+    memcpy(r.bounds_min, old.bounds_min, sizeof r.bounds_min);
+    memcpy(r.bounds_max, old.bounds_max, sizeof r.bounds_max);
+    memcpy(&scene->requirements, &r, sizeof r);
     return true;
 }

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lightsheaf/edit.h>
 #include <lightsheaf/scene.h>
 
 #ifdef __cplusplus
@@ -52,6 +53,7 @@ typedef struct lsf_node {
     bool has_matrix;  /* local transform is `matrix`, else T * R * S */
     double matrix[16]; /* column-major */
     double translation[3], rotation[4] /* x,y,z,w unit */, scale[3];
+    bool edited; /* a program has set `matrix` (edit.c): animations leave it alone */
 } lsf_node;
 
 /* One primitive placed by one node. Instances of nodes outside the file's scene do not exist. */
@@ -87,8 +89,6 @@ typedef struct lsf_texture_slot {
     float transform[6]; /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 (KHR_texture_transform) */
 } lsf_texture_slot;
 
-typedef enum lsf_alpha_mode { LSF_ALPHA_OPAQUE, LSF_ALPHA_MASK, LSF_ALPHA_BLEND } lsf_alpha_mode;
-
 /* glTF 2.0 metallic-roughness with the extensions that Lightsheaf reads. */
 typedef struct lsf_material {
     char *name;
@@ -114,8 +114,6 @@ typedef struct lsf_material {
         specular_texture, specular_color_texture, coat_texture, coat_roughness_texture,
         coat_normal_texture, sheen_color_texture, sheen_roughness_texture;
 } lsf_material;
-
-typedef enum lsf_light_type { LSF_LIGHT_POINT, LSF_LIGHT_SPOT, LSF_LIGHT_DIRECTIONAL } lsf_light_type;
 
 /* KHR_lights_punctual. Placed by nodes; shines along the node's -z. */
 typedef struct lsf_light {
@@ -186,6 +184,13 @@ typedef struct lsf_extension {
     bool honoured; /* read as far as it has an effect on the picture */
 } lsf_extension;
 
+/* How often a program has edited what kind of thing: who keeps something made of the scene knows by
+ * it whether that is stale. */
+typedef struct lsf_edits {
+    uint64_t nodes, lights, materials;
+    uint64_t movable; /* nodes that were set at all: that many may move */
+} lsf_edits;
+
 /* Only what the chosen scene of the file uses: its nodes, the lights and cameras they carry, the
  * primitives of the meshes they place (other meshes are listed without any), the materials of
  * those, and the textures and images that those read. Primitives that share accessors share
@@ -218,6 +223,7 @@ struct lsf_scene {
     bool note_lost; /* for want of memory: loading fails */
     bool diffuse_only, show_back_faces;
     lsf_requirements requirements;
+    lsf_edits edits; /* made since it was loaded */
 };
 
 /* Logs a warning and keeps it as a note. The same text is kept once, and a few hundred texts in
@@ -225,8 +231,8 @@ struct lsf_scene {
 void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Sets which nodes an animation moves, by themselves or with an ancestor. `moves`: one for each node,
- * all false. */
+/* Sets which nodes an animation or a program moves, by themselves or with an ancestor. `moves`: one
+ * for each node, all false. */
 void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves);
 
 /* Whether the camera sees only its front: of single-sided materials, as glTF asks (2.0,
@@ -248,6 +254,9 @@ void lsf_scene_settle_alpha(lsf_scene *scene);
 
 /* Fills scene->requirements from what the instances use (requirements.c). False without memory. */
 bool lsf_scene_compute_requirements(lsf_scene *scene);
+/* The same after lights, materials or nodes were edited. What geometry says stays, and so does
+ * normalised space: it is that of loading. */
+bool lsf_scene_update_requirements(lsf_scene *scene);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,7 @@
 #include "math/vector.h"
 #include "scene/framing.h"
 #include "scene/hierarchy.h"
+#include "scene/reach.h"
 #include "shared/brdf.h"
 
 typedef struct vec3d {
@@ -253,13 +254,20 @@ static void scene_depths(const lsf_state *state, vec3d forward, double *nearest,
 
 /* The camera as placed for a picture of that aspect. A field of view that is given zooms from
  * there. */
-static bool frame_scene(const lsf_scene *scene, lsf_camera *camera, float aspect)
+static bool frame_scene(lsf_state *state, const lsf_scene *scene, lsf_camera *camera, float aspect)
 {
+    if (state->framed_aspect == aspect && state->framed_edits == scene->edits.nodes) {
+        *camera = state->framed;
+        return true;
+    }
     /* Of the picture's width and height, what the scene may fill. */
     static const double filled = 0.95;
     double tangent = filled * tan(0.5 * (double)camera->fov_y);
     double distance = lsf_frame_scene(scene, tangent * (double)aspect, tangent, camera->matrix);
     camera->near_plane = fmaxf((float)(1e-3 * distance), FLT_MIN);
+    state->framed = *camera;
+    state->framed_aspect = distance >= 0.0 ? aspect : 0.0f;
+    state->framed_edits = scene->edits.nodes;
     return distance >= 0.0;
 }
 
@@ -295,11 +303,12 @@ static bool update_camera(lsf_state *state, const lsf_camera *camera, const doub
     vec3d position = column(world, 3);
     vec3d forward = unit(scaled(column(world, 2), -1.0), (vec3d){0, 0, -1});
     vec3d up = column(world, 1);
-    if (params->position) {
+    bool overridden = !params->view;
+    if (overridden && params->position) {
         const float *p = params->position;
         position = (vec3d){p[0], p[1], p[2]};
     }
-    if (params->target) {
+    if (overridden && params->target) {
         const float *t = params->target;
         forward = unit((vec3d){t[0] - position.x, t[1] - position.y, t[2] - position.z}, forward);
         up = (vec3d){0, 1, 0};
@@ -315,7 +324,7 @@ static bool update_camera(lsf_state *state, const lsf_camera *camera, const doub
             "than %.3g: move it closer",
             distance, FARTHEST_CAMERA);
 
-    bool fov_given = !isnan(params->fov_y);
+    bool fov_given = overridden && !isnan(params->fov_y);
     memset(out, 0, sizeof *out);
     out->orthographic = camera->orthographic && !fov_given;
     store(out->forward, forward);
@@ -345,55 +354,119 @@ static bool is_point(const float *point)
     return !point || (isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2]));
 }
 
-static bool check_view(const lsf_view_params *params, lsf_error *error)
+static bool is_field_of_view(float degrees)
 {
+    return degrees > 0.0f && degrees < 180.0f;
+}
+
+static bool check_params(const lsf_view_params *params, lsf_error *error)
+{
+    if (!isfinite(params->time))
+        return lsf_error_set(error, LSF_ERROR_USAGE, "time %g: must be finite", params->time);
+    if (params->view)
+        return true;
     if (!is_point(params->position) || !is_point(params->target))
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "the camera's position and target must be finite numbers");
-    if (!isfinite(params->time))
-        return lsf_error_set(error, LSF_ERROR_USAGE, "time %g: must be finite", params->time);
-    if (!isnan(params->fov_y) && !(params->fov_y > 0.0f && params->fov_y < 180.0f))
-        return lsf_error_set(error, LSF_ERROR_USAGE, "fov_y %g: must lie between 0 and 180 degrees",
-                             (double)params->fov_y);
+    return isnan(params->fov_y) || is_field_of_view(params->fov_y) ||
+           lsf_error_set(error, LSF_ERROR_USAGE, "fov_y %g: must lie between 0 and 180 degrees",
+                         (double)params->fov_y);
+}
+
+/* The camera that a program has placed, as one of a file that stands alone. */
+static bool place_view(lsf_camera *camera, const lsf_scene *scene, const lsf_view *view,
+                       lsf_error *error)
+{
+    vec3d nowhere = {0};
+    vec3d forward = unit((vec3d){view->forward[0], view->forward[1], view->forward[2]}, nowhere);
+    vec3d up = unit((vec3d){view->up[0], view->up[1], view->up[2]}, nowhere);
+    vec3d right = unit(cross(forward, up), nowhere);
+    const double *p = view->position;
+    if (dot(right, right) == 0.0 || !isfinite(p[0] + p[1] + p[2]))
+        return lsf_error_set(
+            error, LSF_ERROR_USAGE,
+            "the view's position must be finite, and its directions forward and up "
+            "finite, not 0, and not parallel");
+    if (!(view->height >= 0.0f && isfinite(view->height)) ||
+        (view->height == 0.0f && !is_field_of_view(view->fov_y)))
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "the view needs a fov_y between 0 and 180 degrees, or a height above "
+                             "0: they are %g and %g",
+                             (double)view->fov_y, (double)view->height);
+    if (!(view->near_plane >= 0.0f && isfinite(view->near_plane)))
+        return lsf_error_set(error, LSF_ERROR_USAGE, "the view's near_plane %g: must be 0 or more",
+                             (double)view->near_plane);
+    up = cross(right, forward);
+    *camera = (lsf_camera){.node = LSF_NONE,
+                           .matrix = {right.x, right.y, right.z, 0, up.x, up.y, up.z, 0, -forward.x,
+                                      -forward.y, -forward.z, 0, p[0], p[1], p[2], 1},
+                           .orthographic = view->height > 0.0f,
+                           .fov_y = (float)((double)view->fov_y * (M_PI / 180.0)),
+                           .y_magnification = 0.5f * view->height,
+                           .near_plane = view->near_plane > 0.0f
+                                             ? view->near_plane
+                                             : (float)(1e-3 / scene->requirements.scale)};
+    return true;
+}
+
+static bool choose_camera(lsf_state *state, lsf_camera *camera, const lsf_scene *scene,
+                          const lsf_view_params *params, lsf_error *error)
+{
+    if (params->view)
+        return place_view(camera, scene, params->view, error);
+    int index = find_camera(scene, params->camera);
+    if (index < 0)
+        return no_such_camera(scene, params->camera, error);
+    *camera = scene->cameras[index];
+    return !camera->frames_scene || frame_scene(state, scene, camera, params->aspect) ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u nodes", scene->node_count);
+}
+
+/* Whether instances and lights are already those of the scene at that time. */
+static bool is_current(const lsf_state *state, const lsf_scene *scene, double time)
+{
+    return state->worlds && memcmp(&state->edits, &scene->edits, sizeof state->edits) == 0 &&
+           (state->time == time || scene->channel_count == 0);
+}
+
+static bool update_scene(lsf_state *state, const lsf_scene *scene, double time)
+{
+    if (is_current(state, scene, time))
+        return true;
+    if (!state->worlds)
+        state->worlds = lsf_alloc(scene->node_count, 16 * sizeof *state->worlds);
+    if (!state->instances)
+        state->instances = lsf_alloc(scene->instance_count, sizeof *state->instances);
+    if (!state->worlds || !state->instances)
+        return false;
+    state->instance_count = scene->instance_count;
+    memcpy(state->center, scene->requirements.center, sizeof state->center);
+    state->scale = scene->requirements.scale;
+    lsf_scene_world_matrices(scene, time, state->worlds);
+    for (uint32_t i = 0; i < scene->instance_count; i++)
+        update_instance(&state->instances[i], state, scene, &scene->instances[i],
+                        state->worlds + 16 * (size_t)scene->instances[i].node);
+    update_bounds(state);
+    if (!lsf_state_update_reach(state, scene) || !update_lights(state, scene, state->worlds))
+        return false;
+    state->time = time;
+    state->edits = scene->edits;
     return true;
 }
 
 bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_params *params,
                       lsf_error *error)
 {
-    if (!check_view(params, error))
+    lsf_camera camera;
+    if (!check_params(params, error) || !choose_camera(state, &camera, scene, params, error))
         return false;
-    int camera_index = find_camera(scene, params->camera);
-    if (camera_index < 0)
-        return no_such_camera(scene, params->camera, error);
-    double *worlds = lsf_alloc(scene->node_count, 16 * sizeof *worlds);
-    if (!state->instances)
-        state->instances = lsf_alloc(scene->instance_count, sizeof *state->instances);
-    if (!worlds || !state->instances)
-        goto no_memory;
-    state->instance_count = scene->instance_count;
-    memcpy(state->center, scene->requirements.center, sizeof state->center);
-    state->scale = scene->requirements.scale;
-    lsf_scene_world_matrices(scene, params->time, worlds);
-    for (uint32_t i = 0; i < scene->instance_count; i++)
-        update_instance(&state->instances[i], state, scene, &scene->instances[i],
-                        worlds + 16 * (size_t)scene->instances[i].node);
-    update_bounds(state);
-    if (!update_lights(state, scene, worlds))
-        goto no_memory;
-    lsf_camera camera = scene->cameras[camera_index];
-    if (camera.frames_scene && !frame_scene(scene, &camera, params->aspect))
-        goto no_memory;
-    bool drawable = update_camera(
-        state, &camera,
-        camera.node == LSF_NONE ? camera.matrix : worlds + 16 * (size_t)camera.node, params, error);
-    free(worlds);
-    return drawable;
-
-no_memory:
-    free(worlds);
-    return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances",
-                         scene->instance_count);
+    if (!update_scene(state, scene, params->time))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances",
+                             scene->instance_count);
+    return update_camera(state, &camera,
+                         camera.node == LSF_NONE ? camera.matrix
+                                                 : state->worlds + 16 * (size_t)camera.node,
+                         params, error);
 }
 
 bool lsf_state_bounds_along(const lsf_state *state, const lsf_float3 axes[3], float low[3],
@@ -426,6 +499,7 @@ void lsf_state_finish(lsf_state *state)
 {
     free(state->instances);
     free(state->lights);
+    free(state->worlds);
     memset(state, 0, sizeof *state);
 }
 

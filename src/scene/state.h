@@ -9,6 +9,7 @@
 
 #include "math/vector.h"
 #include "scene/scene.h"
+#include <lightsheaf/renderer.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -53,19 +54,31 @@ typedef struct lsf_state {
     lsf_light_state *lights;       /* one for each node that carries a light, then the key light */
     lsf_camera_state camera;
     float bounds_min[3], bounds_max[3]; /* normalised space; min > max when empty */
+    float reach_min[3], reach_max[3];   /* what the bounds stay within while animations play */
     double center[3], scale;
+    double
+        *worlds; /* node to scene, 16 of each node; with `time` and `edits`, of the last update */
+    double time;
+    lsf_edits edits;
+    lsf_camera framed; /* that was found for `framed_aspect` and edited nodes; 0: none was */
+    float framed_aspect;
+    uint64_t framed_edits;
+    float hull_min[3], hull_max[3]; /* of all moments, for as many edited nodes */
+    uint64_t hull_edits;
 } lsf_state;
 
 typedef struct lsf_view_params {
     double time;                    /* seconds */
+    const struct lsf_view *view;    /* replaces all below but the aspect; NULL: they count */
     const char *camera;             /* name or index; NULL: the first */
     const float *position, *target; /* scene units, three floats; NULL: the camera's own */
     float fov_y;                    /* degrees; NAN: the camera's own */
     float aspect; /* width / height of the picture; the vertical field of view is kept */
 } lsf_view_params;
 
-/* Evaluates animations, the hierarchy and the camera. Reuses the arrays in `state`, which must be
- * zeroed before the first call. LSF_ERROR_USAGE when the camera does not exist. */
+/* Evaluates animations, the hierarchy and the camera; of what has neither moved nor been edited
+ * since the last call, nothing. Reuses the arrays in `state`, which must be zeroed before the first
+ * call and go with one scene. LSF_ERROR_USAGE when the camera does not exist, or cannot be. */
 bool lsf_state_update(lsf_state *state, const lsf_scene *scene, const lsf_view_params *params,
                       lsf_error *error);
 /* Bounds of the scene along three axes; false, and nothing set, when it is empty. */

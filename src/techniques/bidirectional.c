@@ -35,6 +35,7 @@ typedef struct bidirectional {
     lsf_compose compose;
     lsf_emitters emitters; /* empty unless they shine as VPLs */
     lsf_distribution light_picks;
+    float *light_weights;  /* of which it was made */
     float sky_probability; /* that a light picked stands for the environment */
     uint32_t *lights; /* that each sample of the iteration takes */
     lsf_bidirectional_shade_params shade_params;
@@ -50,33 +51,48 @@ static uint32_t sample_count(const lsf_bidirectional_sampling *s)
 /* Half of the samples by power, half evenly among the lights that shine, the environment one of them:
  * one with much power may do little in view, as a sun outside does, and must not take all from those
  * that do. */
-static bool create_light_picks(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
-                               const lsf_state *state, lsf_error *error)
+static void weigh_lights(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
+                         const lsf_state *state)
 {
     bool sky_bounces = plan->sky_lights > 0 && plan->requirements.environment_map;
     uint32_t count = state->light_count + plan->sky_lights, shining = sky_bounces;
-    float *weights = lsf_alloc(count, sizeof *weights), sum = 0.0f;
+    float *weights = b->light_weights, sum = 0.0f;
     float sky = sky_bounces
                     ? (float)lsf_sky_fluence(&scene->environment) / (float)plan->sky_lights
                     : 0.0f;
     const lsf_light_state sky_light = {.type = LSF_LIGHT_DIRECTIONAL, .intensity = {sky, sky, sky}};
-    for (uint32_t i = 0; weights && i < count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         bool punctual = i < state->light_count;
         weights[i] = lsf_light_power(punctual ? &state->lights[i] : &sky_light);
         sum += weights[i];
         shining += punctual && weights[i] > 0.0f;
     }
-    for (uint32_t i = 0; weights && i < count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         float parts = i < state->light_count ? 1.0f : (float)plan->sky_lights;
         if (weights[i] > 0.0f)
             weights[i] = weights[i] / sum + 1.0f / ((float)shining * parts);
     }
-    bool good = weights && lsf_distribution_init(&b->light_picks, weights, count);
-    free(weights);
-    for (uint32_t i = state->light_count; good && i < count; i++)
+}
+
+static void set_light_picks(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
+                            const lsf_state *state)
+{
+    weigh_lights(b, plan, scene, state);
+    lsf_distribution_set(&b->light_picks, b->light_weights);
+    b->sky_probability = 0.0f;
+    for (uint64_t i = state->light_count; i < b->light_picks.count; i++)
         b->sky_probability += (float)lsf_distribution_probability(&b->light_picks, i);
-    return good ||
-           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights", count);
+}
+
+static bool create_light_picks(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
+                               const lsf_state *state, lsf_error *error)
+{
+    uint32_t count = state->light_count + plan->sky_lights;
+    b->light_weights = lsf_alloc(count, sizeof *b->light_weights);
+    if (!b->light_weights || !lsf_distribution_init(&b->light_picks, b->light_weights, count))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights", count);
+    set_light_picks(b, plan, scene, state);
+    return true;
 }
 
 static bool create_emitters(bidirectional *b, const lsf_scene *scene, const lsf_state *state,
@@ -134,6 +150,18 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
            (s.interleave == 1 ||
             lsf_interleave_create(&b->interleave, context, plan, &params->interleave, error)) &&
            lsf_compose_create(&b->compose, context, plan, error);
+}
+
+static lsf_update update_bidirectional(void *self, const lsf_pass_params *params,
+                                       const lsf_iteration *iteration, const lsf_changes *changes)
+{
+    (void)params;
+    bidirectional *b = self;
+    if (changes->lights && b->light_weights)
+        set_light_picks(b, iteration->plan, iteration->scene->scene, iteration->state);
+    bool emitters = b->sampling.vpl_emitter && (changes->moved || changes->materials);
+    return !emitters || lsf_emitters_update(&b->emitters, changes->materials) ? LSF_UPDATE_DONE
+                                                                              : LSF_UPDATE_FAILED;
 }
 
 /* Each sample takes the light of one punctual light. A path beyond the VPLs goes with one of
@@ -498,6 +526,7 @@ static void destroy_bidirectional(void *self)
     lsf_reflective_shadow_map_destroy(&b->rsm);
     lsf_direct_chain_destroy(&b->chain);
     lsf_distribution_finish(&b->light_picks);
+    free(b->light_weights);
     lsf_emitters_finish(&b->emitters);
     free(b->lights);
     free(b->aims);
@@ -541,6 +570,7 @@ const lsf_technique lsf_technique_bidirectional = {
     .maps_scene = true,
     .plan = lsf_bidirectional_plan,
     .create = create_bidirectional,
+    .update = update_bidirectional,
     .run = run_bidirectional,
     .settle = settle_bidirectional,
     .destroy = destroy_bidirectional,

@@ -132,6 +132,16 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
            lsf_compose_create(&c->compose, context, plan, error);
 }
 
+static lsf_update update_cone(void *self, const lsf_pass_params *params,
+                              const lsf_iteration *iteration, const lsf_changes *changes)
+{
+    cone *c = self;
+    lsf_voxel_chain_use use = chain_use(params, &c->way);
+    lsf_update update = lsf_voxel_chain_update(&c->chain, params, iteration, &use, changes);
+    c->mip.grid = c->bounce.grid = c->trace.grid = c->chain.grid;
+    return update;
+}
+
 static void build_pyramid(cone *c, GLuint radiance)
 {
     const lsf_voxelize_outputs *voxels = c->chain.voxels;
@@ -303,6 +313,7 @@ const lsf_technique lsf_technique_cone = {
     .draws_lobes = true,
     .plan = plan_cone,
     .create = create_cone,
+    .update = update_cone,
     .run = run_cone,
     .destroy = destroy_cone,
     .report = report_cone,

@@ -89,10 +89,29 @@ static bool tessellate(lsf_setup *setup, const lsf_scene *scene, lsf_error *erro
     return setup->tessellated != NULL;
 }
 
-static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params)
+static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
 {
+    const lsf_state *state = &setup->state;
+    memset(basis, 0, sizeof *basis); /* padding, too: it is compared as bytes */
+    memcpy(&basis->requirements, &setup->scene->requirements, sizeof basis->requirements);
+    for (uint32_t i = 0; i < state->light_count; i++) {
+        basis->lights[state->lights[i].type]++;
+        basis->shines = basis->shines || lsf_light_power(&state->lights[i]) > 0.0f;
+    }
+    basis->movable = setup->scene->edits.movable;
+    basis->orthographic = state->camera.orthographic;
+    basis->divided = setup->plan->islands.count > 1;
+    basis->width = setup->params.width;
+    basis->height = setup->params.height;
+}
+
+static bool begin_plan(lsf_setup *setup, lsf_error *error)
+{
+    const lsf_render_params *params = &setup->params;
     const lsf_technique *technique = lsf_technique_find(params->technique);
-    lsf_plan *plan = setup->plan;
+    lsf_plan *plan = setup->plan = lsf_alloc(1, sizeof *plan);
+    if (!plan)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
     plan->requirements = setup->scene->requirements;
     plan->transmission = plan->requirements.transmissive;
     plan->straight = plan->transmission && technique && !technique->refracts;
@@ -108,7 +127,7 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);
     plan->orthographic = setup->state.camera.orthographic;
-    plan->background = lsf_background_resolve(scene, params);
+    plan->background = lsf_background_resolve(setup->source, params);
     lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);
     if (by_scene && plan->bounces > 0 && plan->requirements.transmissive)
@@ -120,45 +139,78 @@ static void begin_plan(lsf_setup *setup, const lsf_scene *scene, const lsf_rende
     if (setup->tessellated)
         lsf_plan_remark(plan, "tessellation.factor=%d: %llu triangles became %llu",
                         setup->pass_params.tessellation.factor,
-                        (unsigned long long)scene->requirements.triangles,
+                        (unsigned long long)setup->source->requirements.triangles,
                         (unsigned long long)setup->tessellated->requirements.triangles);
+    set_basis(&setup->basis, setup);
+    return true;
+}
+
+static const float *keep_point(float kept[3], const float *point)
+{
+    if (!point)
+        return NULL;
+    memcpy(kept, point, 3 * sizeof *kept);
+    return kept;
+}
+
+/* Options are read once; what else `params` points to is needed for each frame. */
+static bool keep_params(lsf_setup *setup, const lsf_render_params *params, lsf_error *error)
+{
+    lsf_render_params *kept = &setup->params;
+    *kept = *params;
+    kept->options = NULL;
+    kept->option_count = 0;
+    kept->camera_position = keep_point(setup->camera_position, params->camera_position);
+    kept->camera_target = keep_point(setup->camera_target, params->camera_target);
+    kept->camera = params->camera ? strdup(params->camera) : NULL;
+    return !params->camera || kept->camera ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+}
+
+static lsf_view_params view_of(const lsf_setup *setup, double time, const lsf_view *view)
+{
+    const lsf_render_params *params = &setup->params;
+    return (lsf_view_params){.time = time,
+                             .view = view,
+                             .camera = params->camera,
+                             .position = params->camera_position,
+                             .target = params->camera_target,
+                             .fov_y = params->fov_y,
+                             .aspect = (float)params->width / (float)params->height};
+}
+
+/* Where no frame went before, motion is that of the animation. */
+static bool update_previous(lsf_setup *setup, double time, const lsf_view *view, lsf_error *error)
+{
+    lsf_view_params params =
+        view_of(setup, time - (double)setup->pass_params.gbuffer.frame_time, view);
+    return !(setup->params.aovs & LSF_AOV_MOTION) ||
+           lsf_state_update(&setup->previous, setup->scene, &params, error);
 }
 
 bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
                      lsf_error *error)
 {
-    *setup = (lsf_setup){.pass_params = {LSF_PASS_PARAMS_DEFAULTS}};
+    *setup = (lsf_setup){.pass_params = {LSF_PASS_PARAMS_DEFAULTS}, .source = scene};
     if (!check_params(params, error))
         return false;
     for (uint32_t i = 0; i < params->option_count; i++)
         if (!lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count,
                             &setup->pass_params, params->options[i], error))
             return false;
-    if (!tessellate(setup, scene, error))
+    if (!keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
-    lsf_view_params view = {.time = params->time,
-                            .camera = params->camera,
-                            .position = params->camera_position,
-                            .target = params->camera_target,
-                            .fov_y = params->fov_y,
-                            .aspect = (float)params->width / (float)params->height};
-    if (!lsf_state_update(&setup->state, setup->scene, &view, error))
-        return false;
-    view.time = params->time - (double)setup->pass_params.gbuffer.frame_time;
-    if ((params->aovs & LSF_AOV_MOTION) &&
-        !lsf_state_update(&setup->previous, setup->scene, &view, error))
-        return false;
-    setup->plan = lsf_alloc(1, sizeof *setup->plan);
-    if (!setup->plan)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
-    begin_plan(setup, scene, params);
-    return true;
+    lsf_view_params view = view_of(setup, params->time, NULL);
+    return lsf_state_update(&setup->state, setup->scene, &view, error) &&
+           update_previous(setup, params->time, NULL, error) && begin_plan(setup, error);
 }
 
-static void plan_technique(lsf_setup *setup, const lsf_render_params *params)
+static bool plan_technique(lsf_setup *setup, lsf_error *error)
 {
+    const lsf_render_params *params = &setup->params;
     lsf_plan *plan = setup->plan;
     plan->technique = setup->technique->name;
+    setup->layer_count = 0;
     set_layers(setup, params->aovs);
     setup->technique->plan(plan, &setup->pass_params, &setup->state);
     if (plan->straight)
@@ -169,6 +221,8 @@ static void plan_technique(lsf_setup *setup, const lsf_render_params *params)
         lsf_tonemap_plan(plan);
     else
         lsf_plan_omit(plan, "tonemap", "no 8-bit output is asked for");
+    return !plan->failed ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
 }
 
 bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
@@ -181,10 +235,57 @@ bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_p
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "technique '%s' does not exist; --list-techniques shows all",
                              params->technique);
-    plan_technique(setup, params);
-    if (setup->plan->failed)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
-    return true;
+    setup->params.technique = setup->technique->name;
+    return plan_technique(setup, error);
+}
+
+/* A tessellated copy borrows what edits change, but for what follows from it. */
+static bool follow_edits(lsf_setup *setup, lsf_error *error)
+{
+    lsf_scene *copy = setup->tessellated;
+    if (!copy || memcmp(&copy->edits, &setup->source->edits, sizeof copy->edits) == 0)
+        return true;
+    copy->edits = setup->source->edits;
+    return lsf_scene_update_requirements(copy) ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for an edit of the scene");
+}
+
+bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error)
+{
+    lsf_state *state = &setup->previous; /* the oldest */
+    lsf_view_params view = view_of(setup, frame->time, frame->view);
+    if (!follow_edits(setup, error) || !lsf_state_update(state, setup->scene, &view, error))
+        return false;
+    lsf_state before = setup->state;
+    setup->state = *state;
+    setup->previous = before;
+    const lsf_edits *now = &setup->scene->edits;
+    bool animated = before.time != frame->time && setup->scene->channel_count > 0;
+    setup->changes = (lsf_changes){.moved = animated || before.edits.nodes != now->nodes,
+                                   .lights = before.edits.lights != now->lights,
+                                   .materials = before.edits.materials != now->materials};
+    if (setup->changes.moved && setup->plan && setup->plan->islands.count > 0)
+        lsf_islands_find(&setup->plan->islands, setup->scene, &setup->state);
+    return !frame->cut || update_previous(setup, frame->time, frame->view, error);
+}
+
+bool lsf_setup_fits(const lsf_setup *setup)
+{
+    lsf_plan_basis now;
+    set_basis(&now, setup);
+    return memcmp(&now, &setup->basis, sizeof now) == 0;
+}
+
+bool lsf_setup_replan(lsf_setup *setup, lsf_plan **old, lsf_error *error)
+{
+    *old = setup->plan;
+    setup->plan = NULL;
+    return begin_plan(setup, error) && plan_technique(setup, error);
+}
+
+const lsf_state *lsf_setup_previous(const lsf_setup *setup)
+{
+    return setup->params.aovs & LSF_AOV_MOTION ? &setup->previous : NULL;
 }
 
 void lsf_setup_finish(lsf_setup *setup)
@@ -193,8 +294,8 @@ void lsf_setup_finish(lsf_setup *setup)
     lsf_state_finish(&setup->previous);
     lsf_plan_destroy(setup->plan);
     lsf_scene_tessellated_destroy(setup->tessellated);
-    setup->plan = NULL;
-    setup->tessellated = NULL;
+    free((char *)setup->params.camera);
+    *setup = (lsf_setup){0};
 }
 
 lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params, lsf_error *error)

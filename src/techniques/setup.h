@@ -9,13 +9,29 @@
 /* The layer of coverage, beside those of lsf_aov: channel A of the picture. */
 #define LSF_LAYER_COVERAGE (1u << 31)
 
+/* What of the scene and its state decides on a plan, beside the parameters. */
+typedef struct lsf_plan_basis {
+    lsf_requirements requirements;
+    uint32_t lights[LSF_LIGHT_DIRECTIONAL + 1]; /* of each type */
+    bool shines;                                /* one of them, at all */
+    uint64_t movable;                           /* nodes that were edited */
+    bool divided;                               /* into islands, for maps over all of it */
+    bool orthographic;
+    uint32_t width, height;
+} lsf_plan_basis;
+
 typedef struct lsf_setup {
     const lsf_technique *technique;
+    lsf_render_params params; /* its camera, and what that points to, are owned */
+    float camera_position[3], camera_target[3];
     lsf_pass_params pass_params;
-    const lsf_scene *scene; /* that is drawn: the caller's, or `tessellated` */
-    lsf_scene *tessellated; /* NULL unless tessellation.factor is above 1 */
+    const lsf_scene *source; /* the caller's */
+    const lsf_scene *scene;  /* that is drawn: the caller's, or `tessellated` */
+    lsf_scene *tessellated;  /* NULL unless tessellation.factor is above 1 */
     lsf_state state;
-    lsf_state previous; /* that motion is measured from; only when motion is asked for */
+    lsf_state previous;  /* of the frame before, from which motion is measured */
+    lsf_changes changes; /* from that one */
+    lsf_plan_basis basis;
     lsf_plan *plan;
     uint32_t layer_count; /* of the result; the first is the picture */
     const char *layer_names[LSF_ACCUMULATE_MAX_LAYERS]; /* "picture", "albedo", ... */
@@ -29,6 +45,15 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
 /* The same with the technique's whole plan. */
 bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
                     lsf_error *error);
+/* Goes over to the state of another frame, and sets what has changed. The plan stays: whether it
+ * still fits is what lsf_setup_fits says. On failure the state is that of the frame before. */
+bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error);
+bool lsf_setup_fits(const lsf_setup *setup);
+/* Makes a plan for the state as it is, and sets `old` to the one before, which the caller destroys.
+ */
+bool lsf_setup_replan(lsf_setup *setup, lsf_plan **old, lsf_error *error);
+/* The state that motion is measured from; NULL where nothing asks for motion. */
+const lsf_state *lsf_setup_previous(const lsf_setup *setup);
 void lsf_setup_finish(lsf_setup *setup);
 
 #endif

@@ -73,6 +73,20 @@ typedef struct lsf_pass_report {
 
 #define LSF_TECHNIQUE_MAX_PASSES 32
 
+/* What is otherwise than in the frame before. */
+typedef struct lsf_changes {
+    bool moved;     /* instances or lights */
+    bool lights;    /* were edited */
+    bool materials; /* ... likewise */
+} lsf_changes;
+
+/* What becomes of a technique that goes over to another frame. */
+typedef enum lsf_update {
+    LSF_UPDATE_DONE,
+    LSF_UPDATE_REPLAN, /* the plan's resources do not fit the state */
+    LSF_UPDATE_FAILED, /* for want of memory */
+} lsf_update;
+
 typedef struct lsf_technique {
     const char *name, *help;
     bool bounces; /* follows light from surface to surface, as often as the plan's bounces say */
@@ -88,10 +102,15 @@ typedef struct lsf_technique {
     bool (*create)(void **self, lsf_context *context, const lsf_plan *plan,
                    const lsf_pass_params *params, const lsf_scene_gpu *scene,
                    const lsf_state *state, lsf_error *error);
+    /* Brings up to date what it made of the state, which stays where it was for `create`. NULL: it
+     * made nothing. */
+    lsf_update (*update)(void *self, const lsf_pass_params *params, const lsf_iteration *iteration,
+                         const lsf_changes *changes);
     void (*run)(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs);
     /* Learns what the GPU found out about iterations that were run, all of it only with `wait`.
      * False: buffers were too small, their gate let no picture through and now they are larger; to
-     * be run again from iteration `iterations_done` on. NULL: no buffer is ever too small. */
+     * be run again are those of a serial number above `iterations_done`. NULL: no buffer is ever
+     * too small. */
     bool (*settle)(void *self, const lsf_iteration *iteration, bool wait,
                    uint32_t *iterations_done);
     void (*destroy)(void *self); /* NULL allowed */

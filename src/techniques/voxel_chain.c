@@ -1,5 +1,7 @@
 #include "techniques/voxel_chain.h"
 
+#include <string.h>
+
 /* Texels of a directional light's map to a voxel's side: shadow borders are then finer than voxels.
  */
 #define MAP_TEXELS 4
@@ -78,6 +80,23 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
            lsf_voxel_light_create(&chain->light, context, plan, &light, error) &&
            (!lsf_voxel_view_needed(plan) ||
             lsf_voxel_view_create(&chain->view, context, plan, error));
+}
+
+lsf_update lsf_voxel_chain_update(lsf_voxel_chain *chain, const lsf_pass_params *params,
+                                  const lsf_iteration *iteration, const lsf_voxel_chain_use *use,
+                                  const lsf_changes *changes)
+{
+    if (!chain->voxelize || !(changes->moved || changes->lights || changes->materials))
+        return LSF_UPDATE_DONE;
+    lsf_voxel_grid grid = lsf_voxel_chain_grid(iteration->plan, params, iteration->state, use);
+    if (memcmp(grid.size, chain->grid.size, sizeof grid.size) != 0)
+        return LSF_UPDATE_REPLAN;
+    grid.unit = chain->grid.unit;
+    if (changes->lights || changes->materials)
+        lsf_voxel_grid_set_unit(&grid, iteration->scene->scene, iteration->state);
+    chain->grid = grid;
+    lsf_voxelize_follow(chain->voxelize, &grid, changes->materials);
+    return LSF_UPDATE_DONE;
 }
 
 /* The map that the camera's points were lit with serves voxels too, but for that of a directional

@@ -35,6 +35,10 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
                             const lsf_pass_params *params, const lsf_scene_gpu *scene,
                             const lsf_state *state, const lsf_voxel_chain_use *use,
                             lsf_error *error);
+/* As lsf_technique's update. */
+lsf_update lsf_voxel_chain_update(lsf_voxel_chain *chain, const lsf_pass_params *params,
+                                  const lsf_iteration *iteration, const lsf_voxel_chain_use *use,
+                                  const lsf_changes *changes);
 void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 /* The same in parts: what is seen, and voxels; what voxels emit, for who has a use for that alone; then
  * the punctual lights, on voxels only where asked for. */

@@ -108,6 +108,17 @@ static bool create_voxel_path(void **self, lsf_context *context, const lsf_plan 
            lsf_compose_create(&v->compose, context, plan, error);
 }
 
+static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
+                                    const lsf_iteration *iteration, const lsf_changes *changes)
+{
+    voxel_path *v = self;
+    lsf_voxel_chain_use use = chain_use(params);
+    if (v->width > 0 && (changes->moved || changes->materials) &&
+        !lsf_voxel_path_follow(&v->path, changes->materials))
+        return LSF_UPDATE_FAILED;
+    return lsf_voxel_chain_update(&v->chain, params, iteration, &use, changes);
+}
+
 /* Irradiance and specular of the picture's size, in `parts`. */
 static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose_inputs *parts)
 {
@@ -217,6 +228,7 @@ const lsf_technique lsf_technique_voxel_path = {
     .draws_lobes = true,
     .plan = plan_voxel_path,
     .create = create_voxel_path,
+    .update = update_voxel_path,
     .run = run_voxel_path,
     .destroy = destroy_voxel_path,
     .report = report_voxel_path,

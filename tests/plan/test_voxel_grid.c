@@ -12,7 +12,7 @@
 
 static lsf_state box(float x, float y, float z)
 {
-    return (lsf_state){.bounds_min = {-x, -y, -z}, .bounds_max = {x, y, z}};
+    return (lsf_state){.reach_min = {-x, -y, -z}, .reach_max = {x, y, z}};
 }
 
 static void holds_the_scene(void **unused)

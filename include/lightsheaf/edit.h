@@ -1,0 +1,90 @@
+/* Edits of a scene: what a program moves and changes between frames. Every renderer of the scene
+ * sees an edit from its next frame on (lsf_renderer_frame); a scene that renders on another thread
+ * must not be edited meanwhile. Indices name things for as long as the scene lives. */
+#ifndef LIGHTSHEAF_EDIT_H
+#define LIGHTSHEAF_EDIT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lightsheaf/error.h>
+#include <lightsheaf/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#if defined(__GNUC__)
+#pragma GCC visibility push(default)
+#endif
+
+typedef enum lsf_kind {
+    LSF_KIND_NODE,
+    LSF_KIND_LIGHT,
+    LSF_KIND_MATERIAL, /* the last one is of surfaces to which the file gives none */
+    LSF_KIND_CAMERA,
+} lsf_kind;
+
+#define LSF_NOT_FOUND UINT32_MAX
+
+uint32_t lsf_scene_count(const lsf_scene *scene, lsf_kind kind);
+/* "" where the file gives no name; NULL past the end. */
+const char *lsf_scene_name(const lsf_scene *scene, lsf_kind kind, uint32_t index);
+/* The first of that name, or LSF_NOT_FOUND. */
+uint32_t lsf_scene_find(const lsf_scene *scene, lsf_kind kind, const char *name);
+
+/* A node's transform, column-major, from the node to its parent, in scene units; what the file
+ * gives it, without animations, until it is set. */
+bool lsf_scene_get_node(const lsf_scene *scene, uint32_t node, double matrix[16], lsf_error *error);
+/* From then on animations leave the node alone; its children follow it. The matrix must be finite
+ * and affine: its last row 0, 0, 0, 1. */
+bool lsf_scene_set_node(lsf_scene *scene, uint32_t node, const double matrix[16], lsf_error *error);
+
+typedef enum lsf_light_type {
+    LSF_LIGHT_POINT,
+    LSF_LIGHT_SPOT,
+    LSF_LIGHT_DIRECTIONAL
+} lsf_light_type;
+
+/* A punctual light, which shines from each node that carries it, along the node's -z. */
+typedef struct lsf_light_desc {
+    lsf_light_type type;
+    float intensity[3];           /* W/sr; directional: W/m^2; 0 switches it off */
+    float range;                  /* scene units; INFINITY: none */
+    float inner_cone, outer_cone; /* radians from the axis, spot lights only */
+} lsf_light_desc;
+
+bool lsf_scene_get_light(const lsf_scene *scene, uint32_t light, lsf_light_desc *desc,
+                         lsf_error *error);
+/* LSF_ERROR_USAGE names the value that is out of range. */
+bool lsf_scene_set_light(lsf_scene *scene, uint32_t light, const lsf_light_desc *desc,
+                         lsf_error *error);
+
+typedef enum lsf_alpha_mode { LSF_ALPHA_OPAQUE, LSF_ALPHA_MASK, LSF_ALPHA_BLEND } lsf_alpha_mode;
+
+/* A material's factors, by which its textures, where it has some, are multiplied. */
+typedef struct lsf_material_desc {
+    float base_color[4];       /* linear, and alpha; 0..1 */
+    float metallic, roughness; /* 0..1 */
+    float emission[3];         /* radiance [W/(m^2 sr)] */
+    lsf_alpha_mode alpha_mode;
+    float alpha_cutoff;
+    bool double_sided;
+    float ior;                  /* at least 1, or 0 as KHR_materials_ior has it */
+    float transmission;         /* 0..1 */
+    float coat, coat_roughness; /* 0..1 */
+} lsf_material_desc;
+
+bool lsf_scene_get_material(const lsf_scene *scene, uint32_t material, lsf_material_desc *desc,
+                            lsf_error *error);
+/* LSF_ERROR_USAGE names the value that is out of range. */
+bool lsf_scene_set_material(lsf_scene *scene, uint32_t material, const lsf_material_desc *desc,
+                            lsf_error *error);
+
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+#ifdef __cplusplus
+}
+#endif
+#endif

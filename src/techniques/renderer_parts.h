@@ -1,0 +1,38 @@
+/* What the files of the renderer share. */
+#ifndef LSF_TECHNIQUES_RENDERER_PARTS_H
+#define LSF_TECHNIQUES_RENDERER_PARTS_H
+
+#include "passes/accumulate.h"
+#include "passes/tonemap.h"
+#include "techniques/setup.h"
+
+#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 2)
+
+struct lsf_renderer {
+    lsf_context *context;
+    lsf_setup setup;
+    lsf_scene_gpu scene;
+    lsf_iteration iteration;
+    void *technique;
+    lsf_technique_outputs outputs;
+    lsf_accumulate accumulate;
+    lsf_tonemap tonemap;
+    bool broken; /* no frame is in progress: going over to another plan has failed */
+    bool grain_checked;
+    uint32_t samples;    /* iterations of the frame that were asked for so far */
+    uint32_t next;       /* iteration of it to run next: fewer, where some have to be run again */
+    uint64_t iterations; /* asked for in all frames */
+    double deadline, next_question; /* in seconds as lsf_now counts them */
+    bool stopped;                   /* the iteration in progress is to be dropped */
+    double compile_seconds, upload_seconds, render_seconds;
+    lsf_pass_stats pass_stats[LSF_RENDERER_MAX_PASSES];
+};
+
+/* Binds the renderer's context. Each function that reaches GL begins with it. */
+bool lsf_renderer_bind(lsf_renderer *renderer, lsf_error *error);
+/* Runs until what was asked for went into the means; without `wait`, as far as it is known. */
+bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error);
+/* The texture of a layer; 0 when the technique has none, and the layer stays black. */
+GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov);
+
+#endif

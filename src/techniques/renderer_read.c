@@ -1,0 +1,207 @@
+/* Reading a renderer's pictures and statistics. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "math/vector.h"
+#include "techniques/renderer_parts.h"
+
+/* Names of an image's channels: those of the picture, then of each layer. */
+static uint32_t name_channels(const lsf_setup *setup, char (*names)[LSF_CHANNEL_NAME_SIZE])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < setup->layer_count; i++) {
+        const char *letters = "RGB";
+        if (setup->layer_aovs[i] & (LSF_AOV_NORMAL | LSF_AOV_VOXEL_NORMAL))
+            letters = "XYZ";
+        else if (setup->layer_aovs[i] == LSF_AOV_MOTION)
+            letters = "XY";
+        else if (setup->layer_aovs[i] == LSF_AOV_DEPTH)
+            letters = "Z";
+        else if (setup->layer_aovs[i] == LSF_LAYER_COVERAGE)
+            letters = "A";
+        for (; *letters; letters++)
+            if (i == 0 || setup->layer_aovs[i] == LSF_LAYER_COVERAGE)
+                snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%c", *letters);
+            else
+                snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%s.%c", setup->layer_names[i],
+                         *letters);
+    }
+    return count;
+}
+
+/* Textures are read back in strips of whole rows of about this size: OpenGL's sizes are signed
+ * 32-bit numbers, and after a long rendering memory may be short. */
+enum { STRIP_BYTES = 1 << 18 };
+
+static uint32_t strip_rows(uint32_t width, uint32_t texel_bytes)
+{
+    uint32_t rows = STRIP_BYTES / (width * texel_bytes);
+    return rows > 0 ? rows : 1;
+}
+
+/* Calls `take` with rows of R, G, B and alpha, bottom row first. */
+static bool read_strips(GLuint texture, uint32_t width, uint32_t height,
+                        void (*take)(const float *texels, uint32_t first_row, uint32_t rows,
+                                     void *user),
+                        void *user)
+{
+    uint32_t most = strip_rows(width, 16);
+    float *texels = lsf_alloc((uint64_t)most * width, 16);
+    for (uint32_t y = 0; texels && y < height; y += most) {
+        uint32_t rows = height - y < most ? height - y : most;
+        glGetTextureSubImage(texture, 0, 0, (GLint)y, 0, (GLsizei)width, (GLsizei)rows, 1, GL_RGBA,
+                             GL_FLOAT, (GLsizei)(rows * width * 16), texels);
+        take(texels, y, rows, user);
+    }
+    free(texels);
+    return texels != NULL;
+}
+
+/* Where a layer goes in an image, whose rows run from the top. */
+typedef struct layer_target {
+    lsf_image *image;
+    uint32_t first_channel, channels;
+} layer_target;
+
+static void copy_layer(const float *texels, uint32_t first_row, uint32_t rows, void *user)
+{
+    const layer_target *target = user;
+    lsf_image *image = target->image;
+    for (uint32_t row = 0; row < rows; row++)
+        for (uint32_t x = 0; x < image->width; x++) {
+            size_t y = image->height - 1 - (first_row + row);
+            float *pixel = image->pixels + (y * image->width + x) * image->channel_count;
+            memcpy(pixel + target->first_channel, texels + ((size_t)row * image->width + x) * 4,
+                   target->channels * sizeof(float));
+        }
+}
+
+static uint32_t channels_of(uint32_t aov)
+{
+    switch (aov) {
+    case LSF_AOV_DEPTH:
+    case LSF_LAYER_COVERAGE:
+        return 1;
+    case LSF_AOV_MOTION:
+        return 2;
+    default:
+        return 3;
+    }
+}
+
+lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
+{
+    const lsf_setup *setup = &renderer->setup;
+    const lsf_plan *plan = setup->plan;
+    char names[3 * LSF_ACCUMULATE_MAX_LAYERS][LSF_CHANNEL_NAME_SIZE];
+    const char *name_list[3 * LSF_ACCUMULATE_MAX_LAYERS];
+    uint32_t channel_count = name_channels(setup, names);
+    for (uint32_t i = 0; i < channel_count; i++)
+        name_list[i] = names[i];
+    if (!lsf_renderer_bind(renderer, error) || !lsf_renderer_catch_up(renderer, true, error))
+        return NULL;
+    lsf_image *image = lsf_image_create(plan->width, plan->height, channel_count, name_list, error);
+    bool good = image != NULL;
+    for (uint32_t i = 0, channel = 0; good && i < setup->layer_count; i++) {
+        uint32_t channels = channels_of(setup->layer_aovs[i]);
+        bool present = lsf_renderer_layer(&renderer->outputs, setup->layer_aovs[i]) != 0;
+        layer_target target = {image, channel, channels};
+        if (present && !read_strips(renderer->accumulate.means[i], plan->width, plan->height,
+                                    copy_layer, &target))
+            good =
+                lsf_error_set(error, LSF_ERROR_RENDER, "no memory left to read the picture back");
+        channel += channels;
+    }
+    if (!good || !lsf_context_check(renderer->context, error)) {
+        lsf_image_destroy(image);
+        return NULL;
+    }
+    return image;
+}
+
+bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_curve curve,
+                            uint8_t *rgb, lsf_error *error)
+{
+    if (!renderer->tonemap.display)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "8-bit output was not asked for; set rgb8 in lsf_render_params");
+    const lsf_plan *plan = renderer->setup.plan;
+    if (!lsf_renderer_bind(renderer, error) || !lsf_renderer_catch_up(renderer, true, error))
+        return false;
+    lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure, curve);
+    uint32_t most = strip_rows(plan->width, 3);
+    for (uint32_t y = 0; y < plan->height; y += most) {
+        uint32_t rows = plan->height - y < most ? plan->height - y : most;
+        glGetTextureSubImage(renderer->tonemap.display, 0, 0, (GLint)y, 0, (GLsizei)plan->width,
+                             (GLsizei)rows, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                             (GLsizei)(rows * plan->width * 3),
+                             rgb + (uint64_t)y * plan->width * 3);
+    }
+    return lsf_context_check(renderer->context, error);
+}
+
+typedef struct pixel_tally {
+    uint32_t width;
+    double lost, kept;    /* luminance */
+    uint64_t lost_pixels; /* those that are not finite */
+} pixel_tally;
+
+static void tally_rows(const float *texels, uint32_t first_row, uint32_t rows, void *user)
+{
+    (void)first_row;
+    pixel_tally *tally = user;
+    for (const float *t = texels; t < texels + (size_t)4 * tally->width * rows; t += 4) {
+        tally->lost += (double)t[3];
+        tally->kept += (double)lsf_f3_luminance(lsf_f3_load(t));
+        tally->lost_pixels += !isfinite(t[0]) || !isfinite(t[1]) || !isfinite(t[2]);
+    }
+}
+
+/* Goes over the picture: how much of its luminance bounds took away,
+ * which alpha holds, and how many pixels are not finite. */
+static void look_at_pixels(const lsf_renderer *renderer, double *lost_share, uint64_t *lost_pixels)
+{
+    const lsf_plan *plan = renderer->setup.plan;
+    pixel_tally tally = {.width = plan->width};
+    read_strips(renderer->accumulate.means[0], plan->width, plan->height, tally_rows, &tally);
+    bool lost = renderer->outputs.bounded && tally.lost > 0.0;
+    *lost_share = lost ? tally.lost / (tally.lost + tally.kept) : 0.0;
+    *lost_pixels = tally.lost_pixels;
+}
+
+lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
+{
+    lsf_pass_report reports[LSF_RENDERER_MAX_PASSES];
+    lsf_error ignored = {0}; /* whoever reads the picture meets it again */
+    if (!lsf_renderer_bind(renderer, &ignored))
+        return (lsf_renderer_stats){0};
+    lsf_renderer_catch_up(renderer, true, &ignored);
+    uint32_t count = renderer->setup.technique->report(renderer->technique, reports);
+    reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
+    if (renderer->tonemap.timer)
+        reports[count++] = (lsf_pass_report){.timer = renderer->tonemap.timer};
+    double iterations = renderer->iterations ? (double)renderer->iterations : 1.0;
+    for (uint32_t i = 0; i < count; i++)
+        renderer->pass_stats[i] = (lsf_pass_stats){
+            .name = lsf_timer_name(reports[i].timer),
+            .runs = lsf_timer_runs(reports[i].timer),
+            .milliseconds = lsf_timer_milliseconds(reports[i].timer) / iterations,
+            .count_count = reports[i].count_count,
+            .count_names = reports[i].count_names,
+            .counts = reports[i].counts,
+        };
+    double lost_share;
+    uint64_t lost_pixels;
+    look_at_pixels(renderer, &lost_share, &lost_pixels);
+    return (lsf_renderer_stats){.samples = renderer->samples,
+                                .compile_seconds = renderer->compile_seconds,
+                                .upload_seconds = renderer->upload_seconds,
+                                .render_seconds = renderer->render_seconds,
+                                .lost_share = lost_share,
+                                .lost_pixels = lost_pixels,
+                                .pass_count = count,
+                                .passes = renderer->pass_stats};
+}

@@ -1,0 +1,238 @@
+/* A renderer that goes from frame to frame has in each the bits of one that was made for it. */
+#include <math.h>
+
+#include "base/base.h"
+#include "render_gl.h"
+
+#include <lightsheaf/edit.h>
+
+enum { SIZE = 16, SAMPLES = 2 };
+
+static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+
+/* --- a scene that moves -------------------------------------------------------------------------
+ */
+
+enum { NODE_BOX, NODE_LAMP, NODE_LIGHT, NODE_SPINNING, NODES };
+
+typedef struct world {
+    lsf_scene *scene;
+    uint32_t nodes[NODES];
+    uint32_t lamp, sheet; /* materials */
+} world;
+
+/* Half a turn about y in a second. */
+static void spin(lsf_scene *scene, uint32_t node)
+{
+    static const float times[] = {0, 1}, values[] = {0, 0, 0, 1, 0, 1, 0, 0};
+    scene->channels = calloc(1, sizeof *scene->channels);
+    scene->channel_count = 1;
+    scene->channels[0] = (lsf_animation_channel){.node = node,
+                                                 .path = LSF_PATH_ROTATION,
+                                                 .interpolation = LSF_LINEAR,
+                                                 .key_count = 2,
+                                                 .times = malloc(sizeof times),
+                                                 .values = malloc(sizeof values)};
+    memcpy(scene->channels[0].times, times, sizeof times);
+    memcpy(scene->channels[0].values, values, sizeof values);
+}
+
+static world build_world(bool animated)
+{
+    world w = {.scene = build_scene()};
+    lsf_scene *scene = w.scene;
+    build_corner(scene);
+    build_material(scene, 0.9f, 0.4f, 0.2f);
+    build_box(scene, lsf_f3(-0.3f, 0, 0.2f), lsf_f3(0.2f, 0.6f, 0.7f), false);
+    w.nodes[NODE_BOX] = scene->node_count - 1;
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    w.lamp = scene->material_count - 1;
+    build_quad(scene, lsf_f3(-1, 2, -1), lsf_f3(0, 2, -1), lsf_f3(0, 2, 0), lsf_f3(-1, 2, 0));
+    w.nodes[NODE_LAMP] = scene->node_count - 1;
+    build_material(scene, 0.3f, 0.8f, 0.4f);
+    w.sheet = scene->material_count - 1;
+    build_quad(scene, lsf_f3(0.4f, 0, 0), lsf_f3(1, 0, 0), lsf_f3(1, 0.8f, 0),
+               lsf_f3(0.4f, 0.8f, 0));
+    w.nodes[NODE_SPINNING] = scene->node_count - 1;
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
+    w.nodes[NODE_LIGHT] = scene->node_count - 1;
+    build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(-0.4f, -0.8f, -0.5f), 1.0f);
+    if (animated)
+        spin(scene, w.nodes[NODE_SPINNING]);
+    finish_gl_scene(scene);
+    return w;
+}
+
+static void translate(const world *w, int node, double x, double y, double z)
+{
+    lsf_error error = {0};
+    const double matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
+    if (!lsf_scene_set_node(w->scene, w->nodes[node], matrix, &error))
+        fail_msg("%s", error.message);
+}
+
+static void edit_material(const world *w, uint32_t material, lsf_material_desc desc)
+{
+    lsf_error error = {0};
+    if (!lsf_scene_set_material(w->scene, material, &desc, &error))
+        fail_msg("%s", error.message);
+}
+
+static lsf_material_desc material_of(const world *w, uint32_t material)
+{
+    lsf_material_desc desc;
+    lsf_error error = {0};
+    assert_true(lsf_scene_get_material(w->scene, material, &desc, &error));
+    return desc;
+}
+
+static void set_light(const world *w, lsf_light_type type, float intensity)
+{
+    lsf_error error = {0};
+    const lsf_light_desc desc = {.type = type,
+                                 .intensity = {intensity, intensity, 0.8f * intensity},
+                                 .range = INFINITY,
+                                 .outer_cone = 0.6f};
+    if (!lsf_scene_set_light(w->scene, 0, &desc, &error))
+        fail_msg("%s", error.message);
+}
+
+/* --- what happens in frame k: a little in each, and now and then what asks for another plan */
+
+enum { FRAMES = 12 };
+
+static lsf_view view_at(int k)
+{
+    float angle = 0.6f + 0.05f * (float)k;
+    return (lsf_view){.position = {4.0 * sin((double)angle), 2.0, 4.0 * cos((double)angle)},
+                      .forward = {-sinf(angle), -0.3f, -cosf(angle)},
+                      .up = {0, 1, 0},
+                      .fov_y = 50.0f,
+                      .height = k == 10 ? 3.0f : 0.0f};
+}
+
+static void edit_frame(const world *w, int k)
+{
+    lsf_material_desc lamp = material_of(w, w->lamp), sheet = material_of(w, w->sheet);
+    if (k > 0)
+        translate(w, NODE_BOX, 0.05 * k, 0.0, 0.02 * k);
+    if (k == 2 || k == 4)
+        translate(w, NODE_LIGHT, 1.0, 2.0 - 0.1 * k, 0.8);
+    if (k == 3)
+        set_light(w, LSF_LIGHT_SPOT, 9.0f);
+    if (k == 5) { /* the first emitter */
+        lamp.emission[0] = lamp.emission[1] = 3.0f;
+        edit_material(w, w->lamp, lamp);
+    }
+    if (k == 6)
+        translate(w, NODE_LAMP, 0.3, -0.2, 0.0);
+    if (k == 7) {
+        sheet.alpha_mode = LSF_ALPHA_MASK;
+        sheet.alpha_cutoff = 0.5f;
+        sheet.base_color[3] = 0.4f;
+        edit_material(w, w->sheet, sheet);
+    }
+    if (k == 8) {
+        sheet.alpha_mode = LSF_ALPHA_OPAQUE;
+        sheet.roughness = 0.2f;
+        edit_material(w, w->sheet, sheet);
+    }
+    if (k == 9) /* out of what voxels held so far */
+        translate(w, NODE_BOX, 2.5, 0.5, 0.0);
+    if (k == 11)
+        set_light(w, LSF_LIGHT_POINT, 0.0f);
+}
+
+static lsf_render_params params_of(const char *technique, const char *const *options,
+                                   uint32_t option_count)
+{
+    return (lsf_render_params){
+        LSF_RENDER_PARAMS_DEFAULTS,  .technique = technique, .width = SIZE, .height = SIZE,
+        .samples = SAMPLES,          .bounces = 2,           .seed = 5,     .options = options,
+        .option_count = option_count};
+}
+
+static lsf_image *run_frame(lsf_renderer *renderer, const lsf_frame *frame)
+{
+    lsf_error error = {0};
+    lsf_image *image = NULL;
+    if (lsf_renderer_begin_frame(renderer, frame, &error) && lsf_renderer_run(renderer, &error))
+        image = lsf_renderer_read(renderer, &error);
+    if (!image)
+        fail_msg("%s", error.message);
+    return image;
+}
+
+static lsf_renderer *create(lsf_context *context, const lsf_scene *scene,
+                            const lsf_render_params *params)
+{
+    lsf_error error = {0};
+    lsf_renderer *renderer = lsf_renderer_create(context, scene, params, &error);
+    if (!renderer)
+        fail_msg("%s", error.message);
+    return renderer;
+}
+
+static void assert_frames_are_those_of_new_renderers(const world *w,
+                                                     const lsf_render_params *params)
+{
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_renderer *renderer = create(context, w->scene, params);
+    const size_t bytes = (size_t)SIZE * SIZE * 3 * sizeof(float);
+    float before[SIZE * SIZE * 3] = {0};
+    for (int k = 0; k < FRAMES; k++) {
+        lsf_view view = view_at(k);
+        const lsf_frame frame = {
+            .time = 0.07 * k, .view = &view, .first_sample = (uint32_t)k * SAMPLES};
+        edit_frame(w, k);
+        lsf_image *image = run_frame(renderer, &frame);
+        assert_int_equal(lsf_context_get_info(context).gl_bytes,
+                         lsf_plan_bytes(lsf_renderer_plan(renderer)));
+        lsf_renderer *fresh = create(context, w->scene, params);
+        lsf_image *expected = run_frame(fresh, &frame);
+        assert_memory_not_equal(image->pixels, before, bytes);
+        memcpy(before, image->pixels, bytes);
+        if (memcmp(image->pixels, expected->pixels, bytes) != 0)
+            fail_msg("%s: frame %d differs from that of a new renderer", params->technique, k);
+        lsf_image_destroy(image);
+        lsf_image_destroy(expected);
+        lsf_renderer_destroy(fresh);
+    }
+    lsf_renderer_destroy(renderer);
+    assert_int_equal(lsf_context_get_info(context).gl_bytes, 0);
+    gl_test_check(context);
+    lsf_context_destroy(context);
+}
+
+static void every_technique(void **unused)
+{
+    (void)unused;
+    static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=64",
+                                          "bundle.resolution=64", "vpl.shadow_resolution=64"};
+    for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
+        world w = build_world(true);
+        lsf_render_params params = params_of(techniques[t], options, LSF_COUNT(options));
+        assert_frames_are_those_of_new_renderers(&w, &params);
+        lsf_scene_destroy(w.scene);
+    }
+}
+
+/* A grid that does not shift keeps voxels of what stands still from frame to frame. */
+static void voxels_that_are_kept(void **unused)
+{
+    (void)unused;
+    static const char *const options[] = {"voxel.jitter=off", "voxel.resolution=32"};
+    world w = build_world(false);
+    lsf_render_params params = params_of("voxel_path", options, LSF_COUNT(options));
+    assert_frames_are_those_of_new_renderers(&w, &params);
+    lsf_scene_destroy(w.scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_technique),
+        cmocka_unit_test(voxels_that_are_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
