@@ -37,7 +37,7 @@ static void spin(lsf_scene *scene, uint32_t node)
     memcpy(scene->channels[0].values, values, sizeof values);
 }
 
-static world build_world(bool animated)
+static world build_world(bool animated, bool sky)
 {
     world w = {.scene = build_scene()};
     lsf_scene *scene = w.scene;
@@ -57,6 +57,8 @@ static world build_world(bool animated)
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
     w.nodes[NODE_LIGHT] = scene->node_count - 1;
     build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(-0.4f, -0.8f, -0.5f), 1.0f);
+    if (sky)
+        build_environment(scene, 0.3f);
     if (animated)
         spin(scene, w.nodes[NODE_SPINNING]);
     finish_gl_scene(scene);
@@ -210,7 +212,7 @@ static void every_technique(void **unused)
     static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=64",
                                           "bundle.resolution=64", "vpl.shadow_resolution=64"};
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
-        world w = build_world(true);
+        world w = build_world(true, t < 2);
         lsf_render_params params = params_of(techniques[t], options, LSF_COUNT(options));
         assert_frames_are_those_of_new_renderers(&w, &params);
         lsf_scene_destroy(w.scene);
@@ -222,7 +224,7 @@ static void voxels_that_are_kept(void **unused)
 {
     (void)unused;
     static const char *const options[] = {"voxel.jitter=off", "voxel.resolution=32"};
-    world w = build_world(false);
+    world w = build_world(false, false);
     lsf_render_params params = params_of("voxel_path", options, LSF_COUNT(options));
     assert_frames_are_those_of_new_renderers(&w, &params);
     lsf_scene_destroy(w.scene);
