@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#define STANDARD_INPUT "standard input" /* as messages call it */
+
 /* The operand that is the first scene. */
 static uint32_t first_scene(const lsf_settings *settings)
 {
@@ -65,7 +67,7 @@ static lsf_scene *load_standard_input(lsf_scene_params *params, lsf_error *error
                       "the path of a scene");
         return NULL;
     }
-    params->name = "standard input";
+    params->name = STANDARD_INPUT;
     size_t length;
     char *content = lsf_file_read_standard_input(params->memory_limit, &length, error);
     lsf_scene *scene = content ? lsf_scene_load_memory(content, length, NULL, params, error) : NULL;
@@ -106,7 +108,8 @@ int lsf_tool_for_each_scene(const lsf_settings *settings, lsf_tool_scene_functio
     for (uint32_t i = 0; i < count && !ended; i++) {
         char *path = lsf_tool_scene_path(settings, i, &error);
         bool interrupted = i > 0 && lsf_interrupted();
-        lsf_report_about(count > 1 ? path : NULL);
+        bool standard_input = path && strcmp(path, "-") == 0;
+        lsf_report_about(count == 1 ? NULL : standard_input ? STANDARD_INPUT : path);
         bool good = path && !interrupted && run(user, i, path, &json, &error);
         if (path && interrupted)
             lsf_error_set(&error, LSF_ERROR_RENDER, "%s: interrupted before this scene%s", path,

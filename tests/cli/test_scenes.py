@@ -123,6 +123,11 @@ class StandardInput(CommandTest):
         self.scene("a.gltf")
         self.run_command("render", "a.gltf", "-", "-o", "%s.png", *SMALL, input=self.glb())
         self.assertIn("stdin.png", self.files())
+        done = self.run_command("info", "a.gltf", "-", input=b"no", status=FILE)
+        self.assertIn("error: standard input: only", done.text)
+        done = self.run_command("render", "-", "a.gltf", "-o", "%s.png", "-c", "Back", *SMALL, input=self.glb(),
+                                status=USAGE)
+        self.assertIn("error: standard input: camera 'Back'", done.text)
         self.run_command("render", "-", "-", "-o", "%s.png", *SMALL, input=self.glb(), status=USAGE)
 
     def test_bad_content(self):
