@@ -9,7 +9,7 @@
  * number of samples of the strategy at hand. */
 layout(location = LSF_LOCATION_STRATEGY) uniform vec4 strategy;
 /* x: m' over the iterations that the picture will have, 0: no suppression; y: squared distance below
- * which 1/d^2 is held, 0: never; z: m'/d of the samples that came to the vertex from the one before,
+ * which 1/d^2 is held, times the density of VPLs by area, 0: never; z: m'/d of the samples that came to the vertex from the one before,
  * 0 for the eye's pinhole; w: probability of having picked the light in turn. */
 layout(location = LSF_LOCATION_SUPPRESSION) uniform vec4 suppression;
 

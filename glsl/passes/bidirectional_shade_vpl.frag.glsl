@@ -24,6 +24,7 @@ layout(location = 1) out vec4 specular_out;
 struct vpl_light {
     vec3 power;
     float kernel_3; /* of suppression, at the vertex */
+    float density;  /* of VPLs by area */
 };
 
 #if LSF_PUNCTUAL
@@ -52,6 +53,7 @@ vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, floa
     vpl_light l;
     l.power = vec3(0.0);
     l.kernel_3 = 0.0;
+    l.density = 1.0;
     surface x1 = vpl_surface(vpl);
     float cosine_0 = dot(x1.geometric_normal, vpl.to_light.xyz);
     float shading_cosine_0 = dot(x1.normal, vpl.to_light.xyz);
@@ -60,6 +62,7 @@ vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, floa
     float p_e = vpl.geometric_normal.w;
     path_density p = path_density_at(cosine_0, vpl.to_light.w, cosine_3, distance2, p_e,
                                      bundle_pdf(direction) * suppression.w);
+    l.density = p.vpl;
     float density = p.vpl + p.bundle;
     l.kernel_3 = suppression_kernel(density, cosine_3, distance2);
     /* The rays of a directional light do not part. */
@@ -81,6 +84,7 @@ vpl_light emitted_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float 
         emitter_density_at(vpl.intensity.w, cosine_3, distance2, bundle_pdf(direction));
     vpl_light l;
     l.kernel_3 = suppression_kernel(p.vpl + p.bundle, cosine_3, distance2);
+    l.density = p.vpl;
     l.power = vpl.intensity.rgb * (mis_weight(p.vpl, p.bundle) / vpl.geometric_normal.w);
     return l;
 }
@@ -125,7 +129,7 @@ void main()
     power *= shadow_tint(v.position, v.s.geometric_normal, v.s.transmission > 0.0);
 #endif
     float geometry = cosine_3 / distance2;
-    float bounded = cosine_3 / max(distance2, suppression.y);
+    float bounded = cosine_3 / max(distance2, suppression.y / max(l.density, 1e-30));
     vec3 irradiance = f_3.irradiance * power;
     irradiance_out = vec4(irradiance * bounded, luminance(irradiance) * (geometry - bounded));
 #if LSF_SPECULAR

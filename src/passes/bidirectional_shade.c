@@ -25,10 +25,10 @@ const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPT
      "that suppression spreads a glossy lobe over; fewer: sharper and spikier"},
     {"mis.beta", LSF_OPTION_FLOAT, offsetof(lsf_bidirectional_shade_params, mis_beta), 0.0, 100.0,
      NULL, "", "exponent of the power heuristic; 0: equal weights"},
-    {"bidirectional.clamp_distance", LSF_OPTION_FLOAT,
-     offsetof(lsf_bidirectional_shade_params, clamp_distance), 0.0, 1.0, NULL,
-     "half extents of the scene",
-     "where VPLs alone end a path, they count as no nearer than this; 0: exact, with spikes"},
+    {"bidirectional.bound", LSF_OPTION_FLOAT, offsetof(lsf_bidirectional_shade_params, bound), 0.0,
+     1e6, NULL, "disc radii",
+     "where VPLs alone end a path, they count as no nearer than this, of the disc of the area that "
+     "one stands for; 0: exact, with spikes"},
 };
 
 static const char *const vpl_names[2] = {"bidirectional_shade_vpl", "bidirectional_shade_vpl_deep"};
@@ -262,8 +262,7 @@ static void set_sample(const lsf_bidirectional_shade *pass, const lsf_bidirectio
         before = kernel / (sample->path_count * sample->arrival_pdf);
     glUniform4f(LSF_LOCATION_STRATEGY, sample->vpl_count, sample->bundle_count,
                 pass->params.mis_beta, sample->weight);
-    glUniform4f(LSF_LOCATION_SUPPRESSION, kernel, sample->clamp_distance * sample->clamp_distance,
-                before, sample->light_probability);
+    glUniform4f(LSF_LOCATION_SUPPRESSION, kernel, sample->bound, before, sample->light_probability);
 }
 
 /* Balance heuristic between the bundle and directions drawn by the environment's radiance. */

@@ -29,14 +29,14 @@ typedef struct lsf_bidirectional_shade_params {
     int32_t suppression;  /* lsf_glossy_suppression */
     float kernel_samples; /* m': samples that a glossy lobe is to be spread over */
     float mis_beta;       /* exponent of the power heuristic */
-    float clamp_distance; /* 1/d^2 is held below it where only VPLs join a path [half extents of the
-                           * scene]; 0: never */
+    float bound; /* distance below which 1/d^2 is held, where only VPLs join a path [radii of a
+                  * disc of the area that a VPL stands for]; 0: never */
 } lsf_bidirectional_shade_params;
 
 #define LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS                                                    \
     .strategy = LSF_BIDIRECTIONAL_BOTH, .sequence = LSF_BIDIRECTIONAL_SOBOL,                       \
     .suppression = LSF_GLOSSY_SUPPRESSION_ROUGHNESS, .kernel_samples = 16.0f, .mis_beta = 1.0f,    \
-    .clamp_distance = 0.0f
+    .bound = 1.0f
 
 #define LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT 6
 extern const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT];
@@ -63,9 +63,10 @@ typedef struct lsf_bidirectional_sample {
     float emitter_weight; /* hits: density by area, for weights, with which VPLs find what emits,
                            * for each unit of its luminance; 0: they do not */
     bool emitter;         /* VPLs: the one in turn is on an emissive surface */
-    float clamp_distance; /* 0: no bound */
-    /* Hits: densities with which directions drawn by the environment's radiance join the vertex to it
-     * along the bundle and against it, and that of the bundle [1/sr], per path. */
+    float bound; /* squared distance below which 1/d^2 is held times the VPLs' density by area; 0:
+                    never */
+    /* Hits: densities with which directions drawn by the environment's radiance join the vertex to
+     * it along the bundle and against it, and that of the bundle [1/sr], per path. */
     float sky_pdf[2], bundle_pdf;
     /* The bundle that found the vertices, for deep ones: its direction and density [1/sr]. */
     const float *arrival;
@@ -81,7 +82,7 @@ typedef struct lsf_bidirectional_shade_inputs {
     GLuint bundle_pdf;              /* 0: uniform */
 } lsf_bidirectional_shade_inputs;
 
-/* RGBA32F; alpha of irradiance and specular: luminance that clamp_distance took away. */
+/* RGBA32F; alpha of irradiance and specular: luminance that the bound took away. */
 typedef struct lsf_bidirectional_shade_outputs {
     GLuint irradiance, specular;               /* specular 0 without specular lobes */
     GLuint direct_irradiance, direct_specular; /* 0 unless split_direct */

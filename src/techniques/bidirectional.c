@@ -15,6 +15,7 @@
 #include "passes/vpl.h"
 #include "plan/purpose.h"
 #include "scene/environment.h"
+#include "shared/brdf.h"
 #include "shared/scene_data.h"
 #include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
@@ -283,6 +284,16 @@ static void connect_visible(sample_turn *turn, bool emitter)
     connect_vpl(turn, false, emitter ? turn->emitter : turn->vpl, &sample);
 }
 
+/* A VPL found with the density a by area stands for 1 / (n a) of it, n being those that a pixel's
+ * vertices are joined to over all iterations. No disc of that area can shed more than as many times
+ * its radiance as there are in the half sphere above, pi: its 1/d^2 is held where d is the disc's
+ * radius. */
+static float bound(const sample_turn *turn, float vertices)
+{
+    float radii = turn->b->shade_params.bound;
+    return radii * radii / (LSF_PI * vertices * lsf_iteration_expected(turn->iteration));
+}
+
 /* Joins the vertices that the segment found to the VPL of either kind. */
 static void connect_deep(sample_turn *turn, lsf_bidirectional_sample sample, uint32_t segment,
                          bool emitter)
@@ -297,7 +308,7 @@ static void connect_deep(sample_turn *turn, lsf_bidirectional_sample sample, uin
     bool shared = emitter ? s->bundle_emitter : s->bundle_light;
     bool alone = !shared || segment == s->segments;
     sample.bundle_count = alone ? 0.0f : 1.0f;
-    sample.clamp_distance = alone ? turn->b->shade_params.clamp_distance : 0.0f;
+    sample.bound = alone ? bound(turn, sample.path_count) : 0.0f;
     sample.emitter = emitter;
     connect_vpl(turn, true, vpl, &sample);
 }
@@ -490,7 +501,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     lsf_compose_run(&b->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
         .picture = b->compose.radiance,
-        .bounded = b->shade_params.clamp_distance > 0.0f,
+        .bounded = b->shade_params.bound > 0.0f,
         .depth = gbuffer->depth,
         .surface = gbuffer->surface,
         .emission = b->compose.seen,
