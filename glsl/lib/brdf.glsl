@@ -5,6 +5,7 @@
 #define LSF_LIB_BRDF
 
 #include "lib/gbuffer.glsl"
+#include "shared/albedo.h"
 #if LSF_SHEEN
 #include "shared/sheen.h"
 #endif
@@ -107,6 +108,14 @@ float coat_passes(surface s, vec3 view, vec3 light)
 #endif
 }
 
+/* The least alpha for samples that are `kernel` apart, see brdf_evaluate; 1 is the roughest: a kernel that stays too
+ * narrow then has too few samples anyhow. Of the view's mirror image, by what it reflects and by `spread`,
+ * sqrt(alpha^2 + (1 - alpha^2) nv^2): V nl is 1 / (4 spread) there. */
+float kernel_alpha(float kernel, float reflects, float spread)
+{
+    return min(sqrt(kernel * reflects / (4.0 * LSF_PI * spread)), 1.0);
+}
+
 #if LSF_COAT
 /* What the coat itself reflects, for light that comes at the cosine `nl` to the surface's own normal. `kernel` as
  * below. */
@@ -119,8 +128,13 @@ float coat_reflects(surface s, vec3 view_direction, vec3 light, float nl, float 
     float nv = max(dot(n, view), LSF_COSINE_MIN), alpha = lsf_alpha_from_roughness(s.coat_roughness);
     vec3 h = normalize(view + light);
     float reflects = s.coat * lsf_fresnel_schlick(LSF_COAT_F0, clamp(dot(view, h), 0.0, 1.0));
-    float sharpest = kernel * reflects * lsf_ggx_v(coat_nl, nv, alpha) * coat_nl / LSF_PI;
-    alpha = max(alpha, min(sqrt(sharpest), 1.0));
+    float spread = sqrt(mix(nv * nv, 1.0, alpha * alpha));
+    float wide = kernel_alpha(kernel, s.coat * lsf_fresnel_schlick(LSF_COAT_F0, nv), spread);
+    if (wide > alpha) {
+        reflects *= lsf_specular_albedo(LSF_COAT_F0, 1.0, nv, sqrt(alpha)) /
+                    lsf_specular_albedo(LSF_COAT_F0, 1.0, nv, sqrt(wide));
+        alpha = wide;
+    }
     vec3 nxh = cross(n, h);
     float d = lsf_ggx_d(clamp(dot(n, h), 0.0, 1.0), dot(nxh, nxh), alpha);
     return reflects * d * lsf_ggx_v(coat_nl, nv, alpha) * (coat_nl / nl);
@@ -145,6 +159,16 @@ float lobe_distribution(specular_lobe l, float alpha_t, float alpha)
 #endif
 }
 
+/* As kernel_alpha wants it; with two alphas, by the axes. */
+float mirror_spread(specular_lobe l, float alpha_t, float alpha)
+{
+#if LSF_ANISOTROPY
+    return length(vec3(alpha_t * dot(l.tangent, l.view), alpha * dot(l.bitangent, l.view), l.nv));
+#else
+    return sqrt(mix(l.nv * l.nv, 1.0, alpha * alpha));
+#endif
+}
+
 float lobe_visibility(specular_lobe l, float alpha_t, float alpha)
 {
 #if LSF_ANISOTROPY
@@ -156,13 +180,25 @@ float lobe_visibility(specular_lobe l, float alpha_t, float alpha)
 }
 #endif
 
+#if LSF_SPECULAR
+/* What the lobe reflects of light from all sides, by the product of both alphas; of those at an angle to the
+ * tangent, nearly. */
+vec3 lobe_albedo(vec3 f0, float f90, float nv, float alpha2)
+{
+    float roughness = sqrt(sqrt(alpha2));
+    return f0 * lsf_specular_albedo(1.0, 0.0, nv, roughness) + f90 * lsf_specular_albedo(0.0, 1.0, nv, roughness);
+}
+#endif
+
 /* Both directions are unit vectors that point away from the surface; the specular lobe is zero
  * where light comes from behind the normal.
  *
  * `kernel` is m'/d [sr]: light comes in samples of density d, and the distribution D, taken as a
  * density kernel over m = m' F V nl of them, must not exceed d / m (Tokuyoshi and Ogaki 2012,
- * equation 9). For GGX, whose peak is 1 / (pi alpha_t alpha_b), roughness is raised to that; with
- * LSF_CLAMP_RADIANCE, D is cut off there instead. 0: exact light. */
+ * equation 9). For GGX, whose peak is 1 / (pi alpha_t alpha_b), roughness is raised to that, with F V nl of the
+ * view's mirror image, so that the lobe is one for all samples of a density; it is then scaled to reflect, of light
+ * from all sides, as much as the narrow one. With LSF_CLAMP_RADIANCE, D is cut off at the bound instead. 0: exact
+ * light. */
 brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kernel)
 {
     brdf_value f;
@@ -193,17 +229,23 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
         vec3 fresnel = vec3(surface_fresnel(s, f0.r, f90, vh), surface_fresnel(s, f0.g, f90, vh),
                             surface_fresnel(s, f0.b, f90, vh));
         float v = lobe_visibility(l, alpha_t, alpha);
-        float sharpest = kernel * max(fresnel.r, max(fresnel.g, fresnel.b)) * v * l.nl / LSF_PI;
 #if defined(LSF_CLAMP_RADIANCE) && LSF_CLAMP_RADIANCE
+        float sharpest = kernel * largest(fresnel) * v * l.nl / LSF_PI;
         float d = lobe_distribution(l, alpha_t, alpha);
         d = sharpest > 0.0 ? min(d, 1.0 / (LSF_PI * sharpest)) : d;
 #else
-        /* 1 is the roughest; a kernel that stays too narrow then has too few samples anyhow. */
-        float floor_alpha = min(sqrt(sharpest), 1.0);
-        if (floor_alpha > min(alpha, alpha_t)) {
-            alpha = max(alpha, floor_alpha);
-            alpha_t = max(alpha_t, floor_alpha);
+        vec3 mirrored = vec3(surface_fresnel(s, f0.r, f90, l.nv), surface_fresnel(s, f0.g, f90, l.nv),
+                             surface_fresnel(s, f0.b, f90, l.nv));
+        float wide = kernel_alpha(kernel, largest(mirrored), mirror_spread(l, alpha_t, alpha));
+        if (wide > min(alpha, alpha_t)) {
+            vec3 narrow_albedo = lobe_albedo(f0, f90, l.nv, alpha * alpha_t);
+            alpha = max(alpha, wide);
+            alpha_t = max(alpha_t, wide);
             v = lobe_visibility(l, alpha_t, alpha);
+#if LSF_TRANSMISSION
+            if (s.eta >= 1.0) /* from within, the albedo is another */
+#endif
+                fresnel *= narrow_albedo / max(lobe_albedo(f0, f90, l.nv, alpha * alpha_t), 1e-6);
         }
         float d = lobe_distribution(l, alpha_t, alpha);
 #endif

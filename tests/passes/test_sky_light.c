@@ -6,6 +6,7 @@
 #include "render_gl.h"
 #include "scene/environment.h"
 #include "scene/sky.h"
+#include "shared/brdf.h"
 
 enum { WIDTH = 32, HEIGHT = 16, SUN_COLUMN = 20, SUN_ROW = 4 };
 
@@ -128,6 +129,69 @@ static void plane_under_a_constant(void **unused)
     destroy_scene(scene);
 }
 
+/* The integral of F D V cos over the hemisphere, by half vectors: tan^2 of their angle is alpha^2 u
+ * / (1 - u). */
+static double specular_albedo(double f0, double roughness, double nv)
+{
+    enum { SIDE = 400 };
+    double alpha = roughness * roughness, sum = 0.0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double u = (i % SIDE + 0.5) / SIDE, phi = 2.0 * M_PI * (i / SIDE + 0.5) / SIDE;
+        double nh = sqrt((1.0 - u) / (1.0 - u + alpha * alpha * u));
+        double vh = sqrt(1.0 - nv * nv) * sqrt(1.0 - nh * nh) * cos(phi) + nv * nh;
+        double nl = 2.0 * vh * nh - nv;
+        if (vh <= 0.0 || nl <= 0.0)
+            continue;
+        double fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
+        sum += fresnel * (double)lsf_ggx_v((float)nl, (float)nv, (float)alpha) * nl * 4.0 * vh / nh;
+    }
+    return sum / (SIDE * SIDE);
+}
+
+/* A lobe that is widened for few directions reflects as much as the narrow one: a black dielectric
+ * and white metal, seen from 75 degrees. */
+static void glossy_plane_under_a_constant(void **unused)
+{
+    (void)unused;
+    enum { SEEDS = 4 };
+    const struct {
+        float f0;
+        double allowed;
+    } cases[] = {{0.04f, 0.1}, {1.0f, 0.05}};
+    const float cosine = 0.26f, roughness = 0.2f;
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        lsf_scene *scene = build_scene();
+        float metallic = cases[i].f0 < 1.0f ? 0.0f : 1.0f;
+        lsf_material *material = build_material(scene, metallic, 0, 0);
+        material->roughness = roughness;
+        material->metallic = metallic;
+        build_floor(scene, 0.0f, 1.0f);
+        build_environment(scene, 1.0f);
+        finish_gl_scene(scene);
+        const char *const techniques[] = {"direct", "bidirectional"};
+        for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
+            double mean = 0.0;
+            double expected =
+                specular_albedo((double)cases[i].f0, (double)roughness, (double)cosine);
+            for (uint64_t seed = 0; seed < SEEDS; seed++) {
+                lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+                params.technique = techniques[t];
+                params.samples = 64;
+                params.bounces = 0;
+                params.fov_y = 1.0f;
+                params.seed = seed;
+                lsf_float3 eye = lsf_f3(0.1f, 3.0f * cosine, 3.0f * sqrtf(1.0f - cosine * cosine));
+                lsf_image *image = render_gl_from(scene, params, 2, eye, lsf_f3(0.1f, 0, 0));
+                mean += (double)image->pixels[0] / SEEDS;
+                lsf_image_destroy(image);
+            }
+            print_message("%s: %.5f, expected %.5f\n", techniques[t], mean, expected);
+            assert_true(fabs(mean / expected - 1.0) <= cases[i].allowed);
+        }
+        destroy_scene(scene);
+    }
+}
+
 /* A quarter turn, anticlockwise seen from above, takes what was at +x to -z. */
 static void quarter_turn(void **unused)
 {
@@ -244,9 +308,13 @@ static void corner_in_each_technique(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plane_under_a_map), cmocka_unit_test(plane_under_a_constant),
-        cmocka_unit_test(quarter_turn),      cmocka_unit_test(drawn_as_dense),
-        cmocka_unit_test(black_map),         cmocka_unit_test(corner_in_each_technique),
+        cmocka_unit_test(plane_under_a_map),
+        cmocka_unit_test(plane_under_a_constant),
+        cmocka_unit_test(glossy_plane_under_a_constant),
+        cmocka_unit_test(quarter_turn),
+        cmocka_unit_test(drawn_as_dense),
+        cmocka_unit_test(black_map),
+        cmocka_unit_test(corner_in_each_technique),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
