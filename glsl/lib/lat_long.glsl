@@ -1,5 +1,6 @@
 /* Where a direction lies on a map of all directions, 0..1: u = 0.5 + atan(z, x) / 2 pi, v = acos(y) / pi
- * from the top. */
+ * from the top. The arc cosine is taken by the arc tangent: drivers' own is off by up to 2e-4, a thirtieth of a texel
+ * of a map of 512 rows. */
 #ifndef LSF_LIB_LAT_LONG
 #define LSF_LIB_LAT_LONG
 
@@ -8,7 +9,7 @@
 vec2 lat_long(vec3 direction)
 {
     return vec2(0.5 + atan(direction.z, direction.x) / (2.0 * LSF_PI),
-                acos(clamp(direction.y, -1.0, 1.0)) / LSF_PI);
+                atan(length(direction.xz), direction.y) / LSF_PI);
 }
 
 #endif

@@ -246,6 +246,29 @@ static void drawn_as_dense(void **unused)
     destroy_scene(scene);
 }
 
+/* Rows of black and white, seen through a needle, as the host interpolates them. */
+static void seen_where_it_is(void **unused)
+{
+    (void)unused;
+    enum { COLUMNS = 4, ROWS = 512 };
+    lsf_scene *scene = build_scene();
+    lsf_environment *sky = &scene->environment;
+    *sky = (lsf_environment){.present = true, .width = COLUMNS, .height = ROWS};
+    sky->texels = calloc(3 * COLUMNS * ROWS, sizeof(float));
+    for (int i = 0; i < 3 * COLUMNS * ROWS; i++)
+        sky->texels[i] = (float)(i / (3 * COLUMNS) % 2);
+    finish_gl_scene(scene);
+    for (int i = 0; i < 8; i++) {
+        float elevation = 0.37f * (float)i - 1.3f, rgb[3];
+        lsf_float3 d = lsf_f3(cosf(elevation), sinf(elevation), 0.1f);
+        render_gl_point(scene, lsf_f3(0, 0, 0), d, 1, rgb);
+        lsf_float3 expected = lsf_environment_radiance(sky, lsf_f3_normalize(d));
+        print_message("%.4f, expected %.4f\n", (double)rgb[0], (double)expected.x);
+        assert_true(fabsf(rgb[0] - expected.x) <= 0.003f);
+    }
+    destroy_scene(scene);
+}
+
 /* Black maps draw nothing and light nothing. */
 static void black_map(void **unused)
 {
@@ -311,6 +334,7 @@ int main(void)
         cmocka_unit_test(plane_under_a_map),
         cmocka_unit_test(plane_under_a_constant),
         cmocka_unit_test(glossy_plane_under_a_constant),
+        cmocka_unit_test(seen_where_it_is),
         cmocka_unit_test(quarter_turn),
         cmocka_unit_test(drawn_as_dense),
         cmocka_unit_test(black_map),
