@@ -42,6 +42,10 @@ static bool load_functions(lsf_context *context, lsf_error *error)
 {
     int version = gladLoadGLUserPtr(load_function, context);
     loaded_context = NULL;
+    if (version == 0)
+        return lsf_error_set(error, LSF_ERROR_NO_GL,
+                             "%s: the driver's functions were not found, or no memory is left",
+                             context->ops->name);
     if (version < GLAD_MAKE_VERSION(4, 5))
         return lsf_error_set(error, LSF_ERROR_NO_GL, "%s: the driver gives OpenGL %d.%d, not 4.5",
                              context->ops->name, GLAD_VERSION_MAJOR(version),
