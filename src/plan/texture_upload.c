@@ -41,16 +41,17 @@ static uint32_t level_count(uint32_t width, uint32_t height)
     return levels;
 }
 
-/* Numbers the distinct pairs of image and colour space that materials in use read; returns their
- * count. `of` (per scene texture, LSF_NONE when unused) and `representative` (per pair, a scene
- * texture) may be NULL. */
-static uint32_t number_textures(const lsf_scene *scene, const lsf_plan *plan, uint32_t *of,
-                                uint32_t *representative)
+/* Numbers the distinct pairs of image and colour space that materials in use read, and counts them;
+ * false without memory. `of` (per scene texture, LSF_NONE when unused; NULL allowed) and
+ * `representative` (per pair, a scene texture) are filled in. */
+static bool number_textures(const lsf_scene *scene, const lsf_plan *plan, uint32_t *of,
+                            uint32_t *representative, uint32_t *count)
 {
-    uint32_t count = 0;
+    *count = 0;
     uint32_t *pair_of = lsf_alloc((uint64_t)scene->image_count * 2, sizeof *pair_of);
     bool *used = lsf_alloc(scene->texture_count, sizeof *used);
-    if (!pair_of || !used)
+    bool good = pair_of && used;
+    if (!good)
         goto done;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const lsf_material *m =
@@ -75,9 +76,8 @@ static uint32_t number_textures(const lsf_scene *scene, const lsf_plan *plan, ui
             continue;
         uint32_t *pair = &pair_of[2 * scene->textures[t].image + scene->textures[t].srgb];
         if (*pair == 0) {
-            if (representative)
-                representative[count] = t;
-            *pair = ++count; /* one-based; 0 is "not numbered yet" */
+            representative[*count] = t;
+            *pair = ++*count; /* one-based; 0 is "not numbered yet" */
         }
         if (of)
             of[t] = *pair - 1;
@@ -85,7 +85,7 @@ static uint32_t number_textures(const lsf_scene *scene, const lsf_plan *plan, ui
 done:
     free(pair_of);
     free(used);
-    return count;
+    return good;
 }
 
 static void texture_name(char name[64], uint32_t index)
@@ -96,11 +96,9 @@ static void texture_name(char name[64], uint32_t index)
 void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
 {
     uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
-    if (!representative) {
+    uint32_t count = 0;
+    if (!representative || !number_textures(scene, plan, NULL, representative, &count))
         plan->failed = true;
-        return;
-    }
-    uint32_t count = number_textures(scene, plan, NULL, representative);
     for (uint32_t i = 0; i < count; i++) {
         const lsf_texture *texture = &scene->textures[representative[i]];
         const lsf_texture_image *image = &scene->images[texture->image];
@@ -257,10 +255,9 @@ bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_err
     uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
     gpu->texture_of = lsf_alloc(scene->texture_count, sizeof *gpu->texture_of);
     gpu->textures = lsf_alloc(scene->texture_count, sizeof *gpu->textures);
-    bool ok = representative && gpu->texture_of && gpu->textures;
-    if (ok)
-        gpu->gl_texture_count = number_textures(scene, plan, gpu->texture_of, representative);
-    else
+    bool ok = representative && gpu->texture_of && gpu->textures &&
+              number_textures(scene, plan, gpu->texture_of, representative, &gpu->gl_texture_count);
+    if (!ok)
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u textures",
                       scene->texture_count);
     for (uint32_t i = 0; ok && i < gpu->gl_texture_count; i++)
