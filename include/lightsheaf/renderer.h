@@ -100,6 +100,11 @@ typedef struct lsf_render_params {
     .background = LSF_BACKGROUND_AUTO, .background_radiance = {0}, .time = 0.0, .aovs = 0,         \
     .rgb8 = false, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
 
+/* The view of the camera that these parameters choose, at their time: where a program may go on
+ * from. LSF_ERROR_USAGE where there is no such camera. */
+bool lsf_render_params_view(const lsf_scene *scene, const lsf_render_params *params, lsf_view *view,
+                            lsf_error *error);
+
 /* Registered techniques; NULL past the end. */
 const char *lsf_technique_name(uint32_t index);
 const char *lsf_technique_help(uint32_t index);

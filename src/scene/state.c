@@ -324,14 +324,20 @@ static bool update_camera(lsf_state *state, const lsf_camera *camera, const doub
             "than %.3g: move it closer",
             distance, FARTHEST_CAMERA);
 
+    state->view = (lsf_view){.position = {position.x, position.y, position.z},
+                             .forward = {(float)forward.x, (float)forward.y, (float)forward.z},
+                             .up = {(float)up.x, (float)up.y, (float)up.z},
+                             .near_plane = camera->near_plane};
     bool fov_given = overridden && !isnan(params->fov_y);
     memset(out, 0, sizeof *out);
     out->orthographic = camera->orthographic && !fov_given;
     store(out->forward, forward);
     place_planes(out, state, camera->near_plane * state->scale, origin, forward);
     double half_height = camera->y_magnification * state->scale, farthest_shown = 1.0;
+    state->view.height = out->orthographic ? 2.0f * camera->y_magnification : 0.0f;
     if (!out->orthographic) {
         double fov_y = fov_given ? params->fov_y * (M_PI / 180.0) : camera->fov_y;
+        state->view.fov_y = (float)(fov_y * (180.0 / M_PI));
         half_height = tan(0.5 * fov_y);
         store(out->forward_dx, scaled(right, half_height * params->aspect));
         store(out->forward_dy, scaled(up, half_height));

@@ -53,6 +53,7 @@ typedef struct lsf_state {
     lsf_instance_state *instances; /* index as in scene->instances */
     lsf_light_state *lights;       /* one for each node that carries a light, then the key light */
     lsf_camera_state camera;
+    lsf_view view;                      /* the same, as a program would place it */
     float bounds_min[3], bounds_max[3]; /* normalised space; min > max when empty */
     float reach_min[3], reach_max[3];   /* what the bounds stay within while animations play */
     double center[3], scale;

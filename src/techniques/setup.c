@@ -298,6 +298,21 @@ void lsf_setup_finish(lsf_setup *setup)
     *setup = (lsf_setup){0};
 }
 
+bool lsf_render_params_view(const lsf_scene *scene, const lsf_render_params *params, lsf_view *view,
+                            lsf_error *error)
+{
+    lsf_setup setup = {0};
+    bool good = check_params(params, error) && keep_params(&setup, params, error);
+    if (good) {
+        lsf_view_params wanted = view_of(&setup, params->time, NULL);
+        good = lsf_state_update(&setup.state, scene, &wanted, error);
+    }
+    if (good)
+        *view = setup.state.view;
+    lsf_setup_finish(&setup);
+    return good;
+}
+
 lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params, lsf_error *error)
 {
     lsf_setup setup;

@@ -142,7 +142,22 @@ static const lsf_command_option options[] = {
     {"fov-y", 0, "DEG", STAGING, "Camera", LSF_VALUE_FLOAT, AT(fov_y), 0.01, 179, NULL, NULL,
      "vertical field of view in degrees; without it, the camera's own"},
     {"time", 0, "S", STAGING, "Camera", LSF_VALUE_DOUBLE, AT(time), -1e9, 1e9, NULL, "0",
-     "the moment at which animations are sampled, in seconds"},
+     "the moment at which animations are sampled, in seconds; with --frames, that of frame 0"},
+
+    {"frames", 0, "A-B", LSF_COMMAND_RENDER, "Sequence", LSF_VALUE_FRAMES, AT(frames), 0, 999999999,
+     NULL, NULL,
+     "render the frames from A to B, each to a picture of its own: %d in OUT, or %04d for leading "
+     "zeros, is its number. A frame depends on its number and the seed alone, so that several "
+     "machines can share a sequence; --time-limit is that of each frame"},
+    {"fps", 0, "X", LSF_COMMAND_RENDER, "Sequence", LSF_VALUE_DOUBLE, AT(fps), 1e-6, 1e6, NULL,
+     "24", "frames a second, in the time of animations"},
+    {"turntable", 0, "N", LSF_COMMAND_RENDER, "Sequence", LSF_VALUE_COUNT, AT(turntable), 1,
+     1000000, NULL, NULL,
+     "carry the camera around the scene's centre, about the vertical axis, once in N frames; "
+     "without "
+     "--frames, these"},
+    {"resume", 0, NULL, LSF_COMMAND_RENDER, "Sequence", LSF_VALUE_FLAG, AT(resume), 0, 0, NULL,
+     NULL, "leave out frames whose picture is there already"},
 
     {"environment", 'e', "FILE|R,G,B", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_ENVIRONMENT,
      AT(environment), 0, 1e30, NULL, NULL,
@@ -246,6 +261,9 @@ char *lsf_command_option_range(const lsf_command_option *option)
                        : lsf_format("a number from %.9g", low);
     case LSF_VALUE_VECTOR:
         return lsf_format("three finite numbers separated by commas, such as 0,1.5,-2");
+    case LSF_VALUE_FRAMES:
+        return lsf_format("the first and the last frame, such as 0-47, from %.0f to %.0f", low,
+                          high);
     case LSF_VALUE_RESOLUTION:
         return lsf_format("two whole numbers in %.0f..%.0f separated by a comma or x, such as "
                           "1024,768",

@@ -40,6 +40,7 @@ typedef enum lsf_value_type {
     LSF_VALUE_DOUBLE,      /* double in minimum..maximum */
     LSF_VALUE_FLOAT,       /* float in minimum..maximum */
     LSF_VALUE_VECTOR,      /* lsf_vector_setting, each in minimum..maximum */
+    LSF_VALUE_FRAMES,      /* lsf_frames_setting, each in minimum..maximum */
     LSF_VALUE_RESOLUTION,  /* uint32_t[2], each in minimum..maximum */
     LSF_VALUE_TEXT,        /* const char *, not empty */
     LSF_VALUE_TEXTS,       /* lsf_list_setting of texts, not empty */
@@ -84,6 +85,11 @@ typedef struct lsf_vector_setting {
     bool given;
     float value[3];
 } lsf_vector_setting;
+
+typedef struct lsf_frames_setting {
+    bool given;
+    uint32_t first, last;
+} lsf_frames_setting;
 
 typedef struct lsf_list_setting {
     const char **items; /* point into argv */
@@ -133,6 +139,11 @@ typedef struct lsf_settings {
     lsf_vector_setting camera_position, camera_target; /* scene units */
     float fov_y;                                       /* degrees; NAN: the camera's own */
     double time;                                       /* seconds */
+
+    lsf_frames_setting frames;
+    double fps;
+    uint32_t turntable; /* frames of a turn; 0: none */
+    bool resume;
 
     lsf_environment_setting environment;
     float environment_rotation, environment_strength;

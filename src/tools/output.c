@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "tools/report.h"
 #include "tools/scenes.h"
+#include "tools/sequence.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -115,17 +116,38 @@ static char *fill_in(const char *output, const char *scene)
     return path.text;
 }
 
+static float exposure_of(const lsf_settings *settings)
+{
+    return settings->exposure.automatic ? NAN : settings->exposure.ev;
+}
+
+bool lsf_destination_go_to(lsf_destination *destination, const lsf_settings *settings,
+                           uint32_t frame, lsf_error *error)
+{
+    free(destination->path);
+    destination->path = lsf_sequence_path(destination->output, frame);
+    if (destination->format == LSF_IMAGE_FORMAT_PNG)
+        destination->exposure = exposure_of(settings);
+    return destination->path || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+}
+
 static bool prepare(lsf_destination *destination, const lsf_settings *settings, uint32_t scene,
                     lsf_error *error)
 {
     char *scene_path = lsf_tool_scene_path(settings, scene, error);
     if (!scene_path)
         return false;
-    *destination =
-        (lsf_destination){.path = fill_in(settings->output, scene_path),
-                          .exposure = settings->exposure.automatic ? NAN : settings->exposure.ev,
-                          .curve = (lsf_tone_curve)settings->tonemap};
+    const lsf_sequence sequence = lsf_sequence_of(settings);
+    *destination = (lsf_destination){.output = fill_in(settings->output, scene_path),
+                                     .exposure = exposure_of(settings),
+                                     .curve = (lsf_tone_curve)settings->tonemap};
     free(scene_path);
+    if (!destination->output)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    if (!lsf_sequence_check_output(&sequence, settings->output, error))
+        return false;
+    destination->path = sequence.wanted ? lsf_sequence_path(destination->output, sequence.first)
+                                        : strdup(destination->output);
     if (!destination->path)
         return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
     if (!check_format(destination, settings, error) ||
@@ -191,6 +213,7 @@ lsf_destination *lsf_destinations_create(const lsf_settings *settings, uint32_t 
 void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count)
 {
     for (uint32_t i = 0; destinations && i < count; i++) {
+        free(destinations[i].output);
         free(destinations[i].path);
         free(destinations[i].half_paths[0]);
         free(destinations[i].half_paths[1]);

@@ -6,7 +6,8 @@
 #include "tools/options.h"
 
 typedef struct lsf_destination {
-    char *path;              /* "-": standard output */
+    char *output;            /* the path, of a sequence with a place for the frame's number */
+    char *path;              /* "-": standard output; of a sequence that of the frame in turn */
     lsf_image_format format; /* never AUTO */
     char *half_paths[2];     /* --halves: OUT_a and OUT_b; else NULL */
     float exposure;          /* EV; NAN: chosen by lsf_destination_expose, or none is used */
@@ -17,6 +18,9 @@ typedef struct lsf_destination {
  * can be written where the settings want them. NULL: LSF_ERROR_USAGE or LSF_ERROR_FILE. */
 lsf_destination *lsf_destinations_create(const lsf_settings *settings, uint32_t count,
                                          lsf_error *error);
+/* Goes over to a frame of a sequence; the exposure is to be chosen again. */
+bool lsf_destination_go_to(lsf_destination *destination, const lsf_settings *settings,
+                           uint32_t frame, lsf_error *error);
 void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count); /* NULL allowed */
 
 /* Where --exposure auto asks for it, chooses the exposure that suits the picture, and says which.

@@ -128,6 +128,7 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
         .environment_strength = scene.environment_strength,
         .memory_limit = (double)scene.memory_limit / 0x1p30,
         .time = render.time,
+        .fps = 24,
         .difference_gain = 4,
         .epsilon = NAN,
     };

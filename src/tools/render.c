@@ -4,11 +4,13 @@
 #include "tools/output.h"
 #include "tools/report.h"
 #include "tools/scenes.h"
+#include "tools/sequence.h"
 #include "tools/summary.h"
 #include "tools/tools.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 typedef struct render_job {
     const lsf_settings *settings;
@@ -22,6 +24,7 @@ typedef struct render_job {
     lsf_renderer_stats stats;
     double start;
     double load_seconds, context_seconds, save_seconds;
+    double rendered_before; /* seconds of the frames before */
 } render_job;
 
 static bool load(render_job *job, lsf_error *error)
@@ -39,7 +42,7 @@ static bool start_gl(render_job *job, lsf_error *error)
     return job->context != NULL;
 }
 
-static bool converge(render_job *job, lsf_error *error)
+static bool start_renderer(render_job *job, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(job->settings);
     job->maps_on_gpu = job->destination->format == LSF_IMAGE_FORMAT_PNG &&
@@ -49,14 +52,20 @@ static bool converge(render_job *job, lsf_error *error)
     params.progress = lsf_interrupt_progress;
     params.progress_user = &job->bar;
     job->renderer = lsf_renderer_create(job->context, job->scene, &params, error);
-    if (!job->renderer)
-        return false;
+    return job->renderer != NULL;
+}
+
+static bool converge(render_job *job, const char *label, lsf_error *error)
+{
+    lsf_render_params params = lsf_settings_render_params(job->settings);
     lsf_interrupt_begin_iterations();
-    lsf_progress_bar_start(&job->bar, "render", params.samples, params.time_limit);
+    lsf_progress_bar_start(&job->bar, label, params.samples, params.time_limit);
     bool good = lsf_renderer_run(job->renderer, error);
     lsf_interrupt_end_iterations();
     lsf_progress_bar_clear();
     job->stats = lsf_renderer_get_stats(job->renderer);
+    job->stats.render_seconds -= job->rendered_before;
+    job->rendered_before += job->stats.render_seconds;
     return good && lsf_context_check(job->context, error);
 }
 
@@ -171,6 +180,57 @@ typedef struct render_run {
     double start; /* of what has not been counted for a scene before */
 } render_run;
 
+static bool exists(const char *path)
+{
+    return access(path, F_OK) == 0;
+}
+
+/* One frame of a sequence. Of one that is interrupted nothing is kept: those that are there are
+ * whole. */
+static bool render_frame(render_job *job, const lsf_sequence *sequence, uint32_t number,
+                         const lsf_view *camera, lsf_json *json, lsf_error *error)
+{
+    char label[32];
+    lsf_view turned;
+    const lsf_view *view = lsf_sequence_view(sequence, job->scene, camera, number, &turned);
+    lsf_render_params params = lsf_settings_render_params(job->settings);
+    lsf_frame frame = lsf_sequence_frame(sequence, number, params.samples, view);
+    snprintf(label, sizeof label, "frame %u", number);
+    job->start = lsf_now();
+    if (!lsf_renderer_begin_frame(job->renderer, &frame, error) || !converge(job, label, error))
+        return false;
+    if (lsf_interrupted())
+        return lsf_error_set(error, LSF_ERROR_RENDER,
+                             "interrupted in frame %u of %u to %u; --resume goes on with it",
+                             number, sequence->first, sequence->last);
+    if (!save(job, error))
+        return false;
+    report(job, json);
+    return true;
+}
+
+static bool render_sequence(render_job *job, const lsf_sequence *sequence, lsf_json *json,
+                            lsf_error *error)
+{
+    lsf_render_params params = lsf_settings_render_params(job->settings);
+    lsf_view camera;
+    uint64_t there = 0;
+    bool good = lsf_render_params_view(job->scene, &params, &camera, error);
+    lsf_json_begin(json, NULL, '[');
+    for (uint64_t number = sequence->first; good && number <= sequence->last; number++) {
+        good = lsf_destination_go_to(job->destination, job->settings, (uint32_t)number, error);
+        bool skipped = good && sequence->resume && exists(job->destination->path);
+        there += skipped;
+        if (good && !skipped)
+            good = render_frame(job, sequence, (uint32_t)number, &camera, json, error);
+    }
+    lsf_json_end(json, ']');
+    if (good && there > 0)
+        lsf_report_line("%llu frame%s %s there already", (unsigned long long)there,
+                        lsf_plural(there), there == 1 ? "was" : "were");
+    return good;
+}
+
 static bool render_scene(void *user, uint32_t index, const char *path, lsf_json *json,
                          lsf_error *error)
 {
@@ -179,10 +239,15 @@ static bool render_scene(void *user, uint32_t index, const char *path, lsf_json 
                       .destination = &run->destinations[index],
                       .scene_path = path,
                       .start = run->start};
-    bool good =
-        load(&job, error) && start_gl(&job, error) && converge(&job, error) && save(&job, error);
-    if (good)
-        report(&job, json);
+    const lsf_sequence sequence = lsf_sequence_of(&run->settings);
+    bool good = load(&job, error) && start_gl(&job, error) && start_renderer(&job, error);
+    if (good && sequence.wanted) {
+        good = render_sequence(&job, &sequence, json, error);
+    } else if (good) {
+        good = converge(&job, "render", error) && save(&job, error);
+        if (good)
+            report(&job, json);
+    }
     lsf_renderer_destroy(job.renderer);
     lsf_context_destroy(job.context);
     lsf_scene_destroy(job.scene);

@@ -86,6 +86,23 @@ static bool set_json(const char **place, const char *text)
     return *text != '\0';
 }
 
+static bool set_frames(lsf_frames_setting *place, const lsf_command_option *option,
+                       const char *text)
+{
+    size_t length = strcspn(text, "-");
+    char first[16];
+    uint64_t values[2], most = (uint64_t)option->maximum;
+    if (text[length] == '\0' || length >= sizeof first)
+        return false;
+    memcpy(first, text, length);
+    first[length] = '\0';
+    if (!lsf_parse_integer(first, most, &values[0]) ||
+        !lsf_parse_integer(text + length + 1, most, &values[1]) || values[0] > values[1])
+        return false;
+    *place = (lsf_frames_setting){true, (uint32_t)values[0], (uint32_t)values[1]};
+    return true;
+}
+
 static bool set_resolution(uint32_t *place, const lsf_command_option *option, const char *text)
 {
     size_t length = strcspn(text, ",xX");
@@ -243,6 +260,9 @@ bool lsf_settings_set(lsf_settings *settings, const lsf_command_option *option, 
             *(lsf_vector_setting *)place = vector;
         break;
     }
+    case LSF_VALUE_FRAMES:
+        good = set_frames(place, option, text);
+        break;
     case LSF_VALUE_RESOLUTION:
         good = set_resolution(place, option, text);
         break;

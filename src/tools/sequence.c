@@ -1,0 +1,117 @@
+#include "tools/sequence.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+
+/* Random numbers from one frame to the next where a time limit leaves the samples open. */
+#define OPEN_SAMPLES 65536u
+
+lsf_sequence lsf_sequence_of(const lsf_settings *settings)
+{
+    uint32_t turn = settings->turntable;
+    lsf_sequence sequence = {.wanted = settings->frames.given || turn > 0,
+                             .first = settings->frames.first,
+                             .last = settings->frames.last,
+                             .start = settings->time,
+                             .step = 1.0 / settings->fps,
+                             .turntable = turn,
+                             .resume = settings->resume};
+    if (!settings->frames.given)
+        sequence.last = turn > 0 ? turn - 1 : 0;
+    return sequence;
+}
+
+/* The length of a conversion as %d or %04d at the start of `text`; 0: it begins with none. */
+static size_t conversion_length(const char *text)
+{
+    size_t length = 1;
+    if (text[0] != '%')
+        return 0;
+    while (text[length] >= '0' && text[length] <= '9' && length < 4)
+        length++;
+    return text[length] == 'd' ? length + 1 : 0;
+}
+
+static uint32_t count_conversions(const char *output)
+{
+    uint32_t count = 0;
+    for (const char *c = output; *c; c++)
+        count += conversion_length(c) > 0;
+    return count;
+}
+
+bool lsf_sequence_check_output(const lsf_sequence *sequence, const char *output, lsf_error *error)
+{
+    uint32_t count = count_conversions(output);
+    if (sequence->wanted && count != 1)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--output %s: write %%d, or %%04d for leading zeros, once where the "
+                             "number of a frame is to be, as in -o 'frame_%%04d.png'",
+                             output);
+    if (!sequence->wanted && count > 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--output %s: holds the place of a frame's number, and there are no "
+                             "frames; say which with --frames or --turntable",
+                             output);
+    return sequence->wanted || !sequence->resume ||
+           lsf_error_set(error, LSF_ERROR_USAGE,
+                         "--resume: there are no frames; say which with --frames or --turntable");
+}
+
+char *lsf_sequence_path(const char *output, uint32_t frame)
+{
+    lsf_string path = {0};
+    for (const char *c = output; *c; c++) {
+        size_t length = conversion_length(c);
+        if (length == 0) {
+            lsf_string_add_bytes(&path, c, 1);
+            continue;
+        }
+        lsf_string_add(&path, "%0*u", atoi(c + 1), frame);
+        c += length - 1;
+    }
+    return path.text;
+}
+
+static void turn(double *x, double *z, double angle)
+{
+    double turned = cos(angle) * *x + sin(angle) * *z;
+    *z = -sin(angle) * *x + cos(angle) * *z;
+    *x = turned;
+}
+
+static void turn_direction(float direction[3], double angle)
+{
+    double x = (double)direction[0], z = (double)direction[2];
+    turn(&x, &z, angle);
+    direction[0] = (float)x;
+    direction[2] = (float)z;
+}
+
+const lsf_view *lsf_sequence_view(const lsf_sequence *sequence, const lsf_scene *scene,
+                                  const lsf_view *view, uint32_t frame, lsf_view *turned)
+{
+    const double *center = lsf_scene_get_requirements(scene)->center;
+    if (sequence->turntable == 0)
+        return NULL;
+    double angle = 2.0 * 3.14159265358979323846 * frame / sequence->turntable;
+    double x = view->position[0] - center[0], z = view->position[2] - center[2];
+    turn(&x, &z, angle);
+    *turned = *view;
+    turned->position[0] = center[0] + x;
+    turned->position[2] = center[2] + z;
+    turn_direction(turned->forward, angle);
+    turn_direction(turned->up, angle);
+    return turned;
+}
+
+lsf_frame lsf_sequence_frame(const lsf_sequence *sequence, uint32_t frame, uint32_t samples,
+                             const lsf_view *view)
+{
+    return (lsf_frame){.time = sequence->start + frame * sequence->step,
+                       .view = view,
+                       .first_sample = frame * (samples == UINT32_MAX ? OPEN_SAMPLES : samples)};
+}
