@@ -40,8 +40,13 @@ typedef struct lsf_context_params {
 /* Makes a context and makes it current on the calling thread. `params` NULL means the defaults.
  * LSF_ERROR_NO_GL names what was tried and which package to install.
  *
- * Several contexts may live at once, but only one thread of a process may use them: OpenGL's
- * functions are looked up for one context at a time.
+ * Several contexts may live at once, on one thread or on several that render at the same time. A
+ * context, and what was made with it, is used by one thread at a time: the one that made it, until
+ * lsf_context_release_current lets another take it. Every function that needs a context makes it
+ * current and leaves it so: a program with a GL context of its own on the same thread makes that
+ * current again. A thread that was given an OSMesa context by the program itself has to release it
+ * before it uses an EGL one of the library: the two do not know of each other. GLFW wants its
+ * windows made and destroyed on the main thread.
  *
  * The environment can decide what no option did: LIGHTSHEAF_BACKEND=egl|osmesa|glfw replaces
  * LSF_BACKEND_AUTO, and LIGHTSHEAF_EGL_LIBRARY, LIGHTSHEAF_OSMESA_LIBRARY and
@@ -51,6 +56,8 @@ lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *err
 void lsf_context_destroy(lsf_context *context); /* NULL allowed */
 
 bool lsf_context_make_current(lsf_context *context, lsf_error *error);
+/* Then another thread may use it. LSF_ERROR_USAGE where this thread did not use it last. */
+bool lsf_context_release_current(lsf_context *context, lsf_error *error);
 
 /* Fails with LSF_ERROR_RENDER when the context was lost, or, with fail_on_gl_error, when any GL
  * error or high-severity message was seen since the last call. */

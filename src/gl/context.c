@@ -9,9 +9,8 @@
     "On Debian: apt-get install libegl1 libgl1-mesa-dri (EGL, a GPU or software), or "             \
     "libosmesa6 (software)"
 
-/* glad's function pointers are global: they belong to this context. */
-static lsf_context *loaded_context;
-/* The context current on this thread, so that another backend's can be released first. */
+/* The context that this library made current on this thread last: another backend's is released
+ * before one is bound. Whether it still is current, the platform knows. */
 static _Thread_local lsf_context *current_context;
 
 void *lsf_library_open(const char *variable, const char *const *names, lsf_error *error)
@@ -40,8 +39,7 @@ static GLADapiproc load_function(void *user, const char *name)
 
 static bool load_functions(lsf_context *context, lsf_error *error)
 {
-    int version = gladLoadGLUserPtr(load_function, context);
-    loaded_context = NULL;
+    int version = gladLoadGLContextUserPtr(&context->functions, load_function, context);
     if (version == 0)
         return lsf_error_set(error, LSF_ERROR_NO_GL,
                              "%s: the driver's functions were not found, or no memory is left",
@@ -50,15 +48,21 @@ static bool load_functions(lsf_context *context, lsf_error *error)
         return lsf_error_set(error, LSF_ERROR_NO_GL, "%s: the driver gives OpenGL %d.%d, not 4.5",
                              context->ops->name, GLAD_VERSION_MAJOR(version),
                              GLAD_VERSION_MINOR(version));
-    loaded_context = context;
     return true;
 }
 
+static void set_current(lsf_context *context)
+{
+    current_context = context;
+    glad_current = context ? &context->functions : NULL;
+}
+
+/* What the application has made current since is its own. */
 static void release_current(void)
 {
-    if (current_context)
+    if (current_context && current_context->ops->is_current(current_context->platform))
         current_context->ops->release(current_context->platform);
-    current_context = NULL;
+    set_current(NULL);
 }
 
 static const lsf_backend_ops *backend_ops(lsf_backend backend)
@@ -207,7 +211,7 @@ lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *err
         free(context);
         return NULL;
     }
-    current_context = context;
+    set_current(context);
     if (!initialise(context, params, error)) {
         lsf_context_destroy(context);
         return NULL;
@@ -229,9 +233,8 @@ void lsf_context_destroy(lsf_context *context)
                     (unsigned long long)context->allocation_count,
                     (unsigned long long)context->gl_bytes);
     }
-    release_current();
-    if (loaded_context == context)
-        loaded_context = NULL;
+    if (current_context == context)
+        release_current();
     context->ops->destroy(context->platform);
     free(context->programs);
     free(context->allocations);
@@ -244,13 +247,24 @@ void lsf_context_destroy(lsf_context *context)
 
 bool lsf_context_make_current(lsf_context *context, lsf_error *error)
 {
-    if (current_context != context) {
+    if (current_context != context)
         release_current();
-        if (!context->ops->make_current(context->platform, error))
-            return false;
-        current_context = context;
-    }
-    return loaded_context == context || load_functions(context, error);
+    if (!context->ops->is_current(context->platform) &&
+        !context->ops->make_current(context->platform, error))
+        return false;
+    set_current(context);
+    return true;
+}
+
+bool lsf_context_release_current(lsf_context *context, lsf_error *error)
+{
+    if (current_context != context)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "the context is not current on this thread; release it on the thread "
+                             "that used it last");
+    glFlush();
+    release_current();
+    return true;
 }
 
 static const char *reset_description(GLenum status)

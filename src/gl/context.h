@@ -16,6 +16,7 @@ typedef struct lsf_backend_ops {
     void *(*create)(const lsf_context_params *params, lsf_error *error);
     void (*destroy)(void *platform); /* not current any more */
     bool (*make_current)(void *platform, lsf_error *error);
+    bool (*is_current)(void *platform); /* on this thread, as the platform says */
     void (*release)(void *platform); /* after it no context of this backend is current */
     GLADapiproc (*get_proc_address)(void *platform, const char *name);
 } lsf_backend_ops;
@@ -44,6 +45,7 @@ typedef struct lsf_cached_program {
 struct lsf_context {
     const lsf_backend_ops *ops;
     void *platform;
+    GladGLContext functions;
     char *vendor, *renderer, *version;
     bool software, robust;
     char *shader_dir; /* NULL: the embedded files */

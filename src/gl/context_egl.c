@@ -7,14 +7,14 @@
 #include <EGL/eglext.h>
 
 #include <dlfcn.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define DEVICES_MAX 32
 
-/* Of the library, the same for every context. */
-static struct {
+typedef struct egl_functions {
     PFNEGLGETPROCADDRESSPROC get_proc_address;
     PFNEGLQUERYSTRINGPROC query_string;
     PFNEGLGETERRORPROC get_error;
@@ -24,10 +24,15 @@ static struct {
     PFNEGLCREATECONTEXTPROC create_context;
     PFNEGLDESTROYCONTEXTPROC destroy_context;
     PFNEGLMAKECURRENTPROC make_current;
+    PFNEGLGETCURRENTCONTEXTPROC get_current_context;
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display;
     PFNEGLQUERYDEVICESEXTPROC query_devices;
     PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string;
-} egl;
+} egl_functions;
+
+/* Of the library, the same for every context of every thread. */
+static egl_functions egl;
+static pthread_mutex_t egl_lock = PTHREAD_MUTEX_INITIALIZER; /* of writing it */
 
 typedef struct egl_platform {
     EGLDisplay display;
@@ -44,20 +49,22 @@ typedef struct candidate {
 
 static bool load(lsf_error *error)
 {
+    egl_functions found = {0};
     static const char *const names[] = {"libEGL.so.1", "libEGL.so", NULL};
-    static const struct {
+    const struct {
         void **function;
         const char *name;
     } functions[] = {
-        {(void **)&egl.get_proc_address, "eglGetProcAddress"},
-        {(void **)&egl.query_string, "eglQueryString"},
-        {(void **)&egl.get_error, "eglGetError"},
-        {(void **)&egl.initialize, "eglInitialize"},
-        {(void **)&egl.bind_api, "eglBindAPI"},
-        {(void **)&egl.choose_config, "eglChooseConfig"},
-        {(void **)&egl.create_context, "eglCreateContext"},
-        {(void **)&egl.destroy_context, "eglDestroyContext"},
-        {(void **)&egl.make_current, "eglMakeCurrent"},
+        {(void **)&found.get_proc_address, "eglGetProcAddress"},
+        {(void **)&found.query_string, "eglQueryString"},
+        {(void **)&found.get_error, "eglGetError"},
+        {(void **)&found.initialize, "eglInitialize"},
+        {(void **)&found.bind_api, "eglBindAPI"},
+        {(void **)&found.choose_config, "eglChooseConfig"},
+        {(void **)&found.create_context, "eglCreateContext"},
+        {(void **)&found.destroy_context, "eglDestroyContext"},
+        {(void **)&found.make_current, "eglMakeCurrent"},
+        {(void **)&found.get_current_context, "eglGetCurrentContext"},
     };
     void *library = lsf_library_open("LIGHTSHEAF_EGL_LIBRARY", names, error);
     if (!library)
@@ -67,13 +74,18 @@ static bool load(lsf_error *error)
         if (!*functions[i].function)
             return lsf_error_set(error, LSF_ERROR_NO_GL, "the library lacks %s", functions[i].name);
     }
-    egl.get_platform_display =
-        (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl.get_proc_address("eglGetPlatformDisplayEXT");
-    egl.query_devices = (PFNEGLQUERYDEVICESEXTPROC)egl.get_proc_address("eglQueryDevicesEXT");
-    egl.query_device_string =
-        (PFNEGLQUERYDEVICESTRINGEXTPROC)egl.get_proc_address("eglQueryDeviceStringEXT");
-    if (!egl.get_platform_display)
+    found.get_platform_display =
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)found.get_proc_address("eglGetPlatformDisplayEXT");
+    found.query_devices = (PFNEGLQUERYDEVICESEXTPROC)found.get_proc_address("eglQueryDevicesEXT");
+    found.query_device_string =
+        (PFNEGLQUERYDEVICESTRINGEXTPROC)found.get_proc_address("eglQueryDeviceStringEXT");
+    if (!found.get_platform_display)
         return lsf_error_set(error, LSF_ERROR_NO_GL, "EGL_EXT_platform_base is missing");
+    /* A thread that renders reads it meanwhile: what stays the same is not written. */
+    pthread_mutex_lock(&egl_lock);
+    if (memcmp(&egl, &found, sizeof egl) != 0)
+        egl = found;
+    pthread_mutex_unlock(&egl_lock);
     return true;
 }
 
@@ -161,6 +173,11 @@ static bool egl_make_current(void *platform, lsf_error *error)
         return lsf_error_set(error, LSF_ERROR_NO_GL, "eglMakeCurrent failed (EGL error 0x%04x)",
                              (unsigned)egl.get_error());
     return true;
+}
+
+static bool egl_is_current(void *platform)
+{
+    return egl.get_current_context() == ((egl_platform *)platform)->context;
 }
 
 /* The display is left initialised: eglTerminate would end every context on it, another's too, and
@@ -259,6 +276,7 @@ const lsf_backend_ops lsf_backend_egl = {
     .create = egl_create,
     .destroy = egl_destroy,
     .make_current = egl_make_current,
+    .is_current = egl_is_current,
     .release = egl_release,
     .get_proc_address = egl_get_proc_address,
 };

@@ -90,10 +90,15 @@ static void *glfw_create(const lsf_context_params *params, lsf_error *error)
     return window;
 }
 
+static bool glfw_is_current(void *platform)
+{
+    return glfw.get_current_context() == platform;
+}
+
 static bool glfw_make_current(void *platform, lsf_error *error)
 {
     glfw.make_context_current(platform);
-    return glfw.get_current_context() == platform || fail(error, "glfwMakeContextCurrent");
+    return glfw_is_current(platform) || fail(error, "glfwMakeContextCurrent");
 }
 
 static void glfw_release(void *platform)
@@ -118,6 +123,7 @@ const lsf_backend_ops lsf_backend_glfw = {
     .create = glfw_create,
     .destroy = glfw_destroy,
     .make_current = glfw_make_current,
+    .is_current = glfw_is_current,
     .release = glfw_release,
     .get_proc_address = glfw_get_proc_address,
 };

@@ -23,6 +23,7 @@ typedef struct osmesa_platform {
     void (*destroy)(void *context);
     GLboolean (*make_current)(void *context, void *buffer, GLenum type, GLsizei width,
                               GLsizei height);
+    void *(*get_current_context)(void);
     GLADapiproc (*get_proc_address)(const char *name);
     uint32_t dummy[DUMMY_SIZE * DUMMY_SIZE];
 } osmesa_platform;
@@ -36,8 +37,10 @@ static bool load(osmesa_platform *osmesa, lsf_error *error)
     *(void **)&osmesa->create = dlsym(library, "OSMesaCreateContextAttribs");
     *(void **)&osmesa->destroy = dlsym(library, "OSMesaDestroyContext");
     *(void **)&osmesa->make_current = dlsym(library, "OSMesaMakeCurrent");
+    *(void **)&osmesa->get_current_context = dlsym(library, "OSMesaGetCurrentContext");
     *(void **)&osmesa->get_proc_address = dlsym(library, "OSMesaGetProcAddress");
-    if (!osmesa->create || !osmesa->destroy || !osmesa->make_current || !osmesa->get_proc_address)
+    if (!osmesa->create || !osmesa->destroy || !osmesa->make_current ||
+        !osmesa->get_current_context || !osmesa->get_proc_address)
         return lsf_error_set(error, LSF_ERROR_NO_GL,
                              "the library lacks OSMesaCreateContextAttribs or another function");
     return true;
@@ -50,6 +53,12 @@ static bool osmesa_make_current(void *platform, lsf_error *error)
                               DUMMY_SIZE))
         return lsf_error_set(error, LSF_ERROR_NO_GL, "OSMesaMakeCurrent failed");
     return true;
+}
+
+static bool osmesa_is_current(void *platform)
+{
+    const osmesa_platform *osmesa = platform;
+    return osmesa->get_current_context() == osmesa->handle;
 }
 
 static void osmesa_release(void *platform)
@@ -114,6 +123,7 @@ const lsf_backend_ops lsf_backend_osmesa = {
     .create = osmesa_create,
     .destroy = osmesa_destroy,
     .make_current = osmesa_make_current,
+    .is_current = osmesa_is_current,
     .release = osmesa_release,
     .get_proc_address = osmesa_get_proc_address,
 };

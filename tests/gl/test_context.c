@@ -60,7 +60,7 @@ static void test_backend(void **state)
     lsf_context_destroy(context);
 }
 
-/* glad's functions are global, and two Mesa platforms share one dispatch table per thread. */
+/* Two Mesa platforms share one dispatch table per thread. */
 static void test_two_platforms_take_turns(void **state)
 {
     (void)state;

@@ -249,13 +249,13 @@ static void hostile_buffer_storage(GLuint buffer, GLsizeiptr size, const void *d
 static void set_hostile_memory(bool hostile)
 {
     if (hostile) {
-        storage_2d = glad_glTextureStorage2D;
-        storage_3d = glad_glTextureStorage3D;
-        buffer_storage = glad_glNamedBufferStorage;
+        storage_2d = glad_current->TextureStorage2D;
+        storage_3d = glad_current->TextureStorage3D;
+        buffer_storage = glad_current->NamedBufferStorage;
     }
-    glad_glTextureStorage2D = hostile ? hostile_storage_2d : storage_2d;
-    glad_glTextureStorage3D = hostile ? hostile_storage_3d : storage_3d;
-    glad_glNamedBufferStorage = hostile ? hostile_buffer_storage : buffer_storage;
+    glad_current->TextureStorage2D = hostile ? hostile_storage_2d : storage_2d;
+    glad_current->TextureStorage3D = hostile ? hostile_storage_3d : storage_3d;
+    glad_current->NamedBufferStorage = hostile ? hostile_buffer_storage : buffer_storage;
 }
 
 static lsf_image *render_hostile(const lsf_scene *scene, const lsf_render_params *params)
@@ -268,10 +268,10 @@ static lsf_image *render_hostile(const lsf_scene *scene, const lsf_render_params
     if (!renderer)
         fail_msg("%s", error.message);
     make_hostile_objects();
-    push_group = glad_glPushDebugGroup;
-    glad_glPushDebugGroup = push_hostile_group;
+    push_group = glad_current->PushDebugGroup;
+    glad_current->PushDebugGroup = push_hostile_group;
     bool good = lsf_renderer_run(renderer, &error);
-    glad_glPushDebugGroup = push_group;
+    glad_current->PushDebugGroup = push_group;
     if (!good)
         fail_msg("%s", error.message);
     lsf_image *image = lsf_renderer_read(renderer, &error);
