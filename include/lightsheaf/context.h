@@ -1,4 +1,5 @@
-/* GL contexts: OpenGL 4.5 core, offscreen through EGL or OSMesa, or in a window through GLFW. */
+/* GL contexts: OpenGL 4.5 core, offscreen through EGL or OSMesa, in a window through GLFW, or
+ * an application's own. */
 #ifndef LIGHTSHEAF_CONTEXT_H
 #define LIGHTSHEAF_CONTEXT_H
 
@@ -55,8 +56,47 @@ typedef struct lsf_context_params {
 lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *error);
 void lsf_context_destroy(lsf_context *context); /* NULL allowed */
 
+/* --- an application's own context --- */
+
+typedef struct lsf_context_wrap_params {
+    void (*(*get_proc_address)(void *user, const char *name))(void); /* of OpenGL's functions */
+    bool (*make_current)(void *user); /* called at the start of each call; NULL: the application
+                                       * keeps its context current */
+    void *user;
+} lsf_context_wrap_params;
+
+#define LSF_CONTEXT_WRAP_PARAMS_DEFAULTS                                                           \
+    .get_proc_address = NULL, .make_current = NULL, .user = NULL
+
+/* Renders in a context that the application made: OpenGL 4.5 or later, core profile. The library's
+ * objects live beside the application's until lsf_context_destroy, which leaves the context itself
+ * to the application and comes before its end. What follows is agreed.
+ *
+ * On entry to a call, nothing of the context's state matters but this: conditional rendering is not
+ * begun, transform feedback is not active unless paused (else LSF_ERROR_USAGE). Queries that are
+ * begun count what the library draws. Errors that glGetError holds are lost.
+ *
+ * On return from a call that reaches GL, this state is as in a new context, whatever it was before:
+ *   - switches (glEnable): all of OpenGL 4.5 but GL_DEBUG_OUTPUT and GL_DEBUG_OUTPUT_SYNCHRONOUS;
+ *   - clip control, depth range, front face, cull face, polygon mode and offset, patch vertices,
+ *     primitive restart index, provoking vertex, the hint on derivatives;
+ *   - blending, color mask, depth function and mask, logic operation, stencil;
+ *   - pixel storage (glPixelStore) but for blocks of compressed formats;
+ *   - bindings: nothing is bound as a buffer (numbered bindings as well; those of transform
+ *     feedback stay), texture, sampler, image, framebuffer, renderbuffer, vertex array, program or
+ *     program pipeline, and texture unit 0 is active.
+ * Viewport and scissor box are left undefined: set them. All other state of the context stays as it
+ * was, and so does every object of the application that no call was told to change. Debug groups
+ * are pushed and popped.
+ *
+ * Functions that the library calls back (lsf_progress, log handlers) make no GL calls. */
+lsf_context *lsf_context_wrap(const lsf_context_wrap_params *params, lsf_error *error);
+
+/* --- which context is current --- */
+
 bool lsf_context_make_current(lsf_context *context, lsf_error *error);
-/* Then another thread may use it. LSF_ERROR_USAGE where this thread did not use it last. */
+/* Then another thread may use it; an application's own it has to take from this thread by itself.
+ * LSF_ERROR_USAGE where this thread did not use it last. */
 bool lsf_context_release_current(lsf_context *context, lsf_error *error);
 
 /* Fails with LSF_ERROR_RENDER when the context was lost, or, with fail_on_gl_error, when any GL
@@ -64,7 +104,7 @@ bool lsf_context_release_current(lsf_context *context, lsf_error *error);
 bool lsf_context_check(lsf_context *context, lsf_error *error);
 
 typedef struct lsf_context_info {
-    const char *backend;  /* "egl", "osmesa", "glfw" */
+    const char *backend;                     /* "egl", "osmesa", "glfw", "application" */
     const char *vendor, *renderer, *version; /* GL strings */
     bool software;        /* llvmpipe or softpipe */
     bool robust;          /* reset notification is available */

@@ -62,7 +62,7 @@ typedef struct lsf_view {
 
 /* Called between iterations, and within long ones about ten times a second: `done` of `total`
  * iterations. Return false to stop early: an iteration in progress is dropped, so that there may be
- * no picture yet. */
+ * no picture yet. It makes no GL calls. */
 typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 
 /* As many bounces as the scene's materials need: lsf_requirements.bounces. */

@@ -304,9 +304,9 @@ bool lsf_ray_bench_run(lsf_ray_bench *bench, uint32_t width, uint32_t height, ui
     bench->params.width = width;
     bench->params.height = height;
     choose_directions(r, directions + WARM_UP, bench->params.seed);
-    bool good = lsf_context_make_current(bench->context, error) &&
-                create_run(r, bench, bundle, directions, error) && draw_screen(r, error) &&
-                run_directions(r, bench, directions, error);
+    LSF_LEAVE lsf_context *entered = lsf_context_enter(bench->context, error);
+    bool good = entered && create_run(r, bench, bundle, directions, error) &&
+                draw_screen(r, error) && run_directions(r, bench, directions, error);
     if (good)
         fill_row(r, directions, bundle, row);
     destroy_run(r);

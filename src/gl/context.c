@@ -152,17 +152,7 @@ static char *copy_gl_string(GLenum name)
     return strdup(text ? (const char *)text : "unknown");
 }
 
-/* What every pass relies on and none changes. */
-static void set_conventions(void)
-{
-    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); /* reverse-Z keeps its precision */
-    glDisable(GL_FRAMEBUFFER_SRGB);
-    glDisable(GL_DITHER);
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-}
-
+/* The context is current. A wrapped one keeps the application's way with debug messages. */
 static bool initialise(lsf_context *context, const lsf_context_params *params, lsf_error *error)
 {
     context->vendor = copy_gl_string(GL_VENDOR);
@@ -180,8 +170,11 @@ static bool initialise(lsf_context *context, const lsf_context_params *params, l
     /* Some drivers leave an error behind for queries of the loader or of the strategy. */
     for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; i++)
         ;
-    lsf_debug_install(context, params->debug || params->fail_on_gl_error);
-    set_conventions();
+    if (context->wrapped)
+        lsf_state_count_bindings(context);
+    else
+        lsf_debug_install(context, params->debug || params->fail_on_gl_error);
+    lsf_state_set_conventions();
     glCreateVertexArrays(1, &context->empty_vertex_array);
     lsf_log(LSF_LOG_DEBUG, "OpenGL by %s: %s, %s, %s%s%s", context->ops->name, context->vendor,
             context->renderer, context->version, context->software ? ", software" : "",
@@ -220,11 +213,53 @@ lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *err
     return context;
 }
 
+/* A version, and a profile without the fixed functions' state, of which there is more. */
+static bool check_wrapped(lsf_error *error)
+{
+    GLint profile = 0;
+    glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+    return (profile & GL_CONTEXT_CORE_PROFILE_BIT) ||
+           lsf_error_set(error, LSF_ERROR_NO_GL,
+                         "the application's context is not of OpenGL's core profile; ask for that "
+                         "when making it");
+}
+
+lsf_context *lsf_context_wrap(const lsf_context_wrap_params *params, lsf_error *error)
+{
+    static const lsf_context_params none = {LSF_CONTEXT_PARAMS_DEFAULTS};
+    if (!params || !params->get_proc_address) {
+        lsf_error_set(error, LSF_ERROR_USAGE,
+                      "lsf_context_wrap_params.get_proc_address is missing: it finds the functions "
+                      "of the application's context");
+        return NULL;
+    }
+    lsf_context *context = lsf_alloc(1, sizeof *context);
+    lsf_context_wrap_params *platform = lsf_alloc(1, sizeof *platform);
+    if (!context || !platform) {
+        lsf_error_set(error, LSF_ERROR_RENDER, "out of memory while wrapping a GL context");
+        free(context);
+        free(platform);
+        return NULL;
+    }
+    *platform = *params;
+    *context = (lsf_context){.ops = &lsf_backend_wrap, .platform = platform, .wrapped = true};
+    release_current();
+    bool good = context->ops->make_current(platform, error) && load_functions(context, error);
+    if (good)
+        set_current(context);
+    if (!good || !check_wrapped(error) || !initialise(context, &none, error)) {
+        lsf_context_destroy(context);
+        return NULL;
+    }
+    lsf_state_reset(context);
+    return context;
+}
+
 void lsf_context_destroy(lsf_context *context)
 {
     if (!context)
         return;
-    if (lsf_context_make_current(context, NULL)) {
+    if (context->functions.GetString && lsf_context_make_current(context, NULL)) {
         for (uint64_t i = 0; i < context->program_count; i++)
             glDeleteProgram(context->programs[i].program);
         glDeleteVertexArrays(1, &context->empty_vertex_array);
@@ -254,6 +289,40 @@ bool lsf_context_make_current(lsf_context *context, lsf_error *error)
         return false;
     set_current(context);
     return true;
+}
+
+/* Draws that are captured would be the library's, and the binding of what captures cannot be
+ * changed. */
+static bool check_entry(lsf_error *error)
+{
+    GLboolean active = GL_FALSE, paused = GL_FALSE;
+    glGetBooleanv(GL_TRANSFORM_FEEDBACK_ACTIVE, &active);
+    glGetBooleanv(GL_TRANSFORM_FEEDBACK_PAUSED, &paused);
+    return !active || paused ||
+           lsf_error_set(error, LSF_ERROR_USAGE,
+                         "transform feedback is active in the application's context; end or pause "
+                         "it first");
+}
+
+lsf_context *lsf_context_enter(lsf_context *context, lsf_error *error)
+{
+    if (!lsf_context_make_current(context, error))
+        return NULL;
+    if (context->wrapped && context->entered == 0) {
+        if (!check_entry(error))
+            return NULL;
+        lsf_state_reset(context);
+        lsf_state_set_conventions();
+    }
+    context->entered++;
+    return context;
+}
+
+void lsf_context_leave(lsf_context **entered)
+{
+    lsf_context *context = *entered;
+    if (context && --context->entered == 0 && context->wrapped)
+        lsf_state_reset(context);
 }
 
 bool lsf_context_release_current(lsf_context *context, lsf_error *error)
@@ -287,6 +356,8 @@ void lsf_context_fail(lsf_context *context, const lsf_error *error)
 
 bool lsf_context_check(lsf_context *context, lsf_error *error)
 {
+    if (context->entered == 0 && !lsf_context_make_current(context, error))
+        return false;
     GLenum status = context->robust ? glGetGraphicsResetStatus() : GL_NO_ERROR;
     if (status != GL_NO_ERROR)
         return lsf_error_set(error, LSF_ERROR_RENDER,

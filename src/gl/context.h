@@ -21,7 +21,8 @@ typedef struct lsf_backend_ops {
     GLADapiproc (*get_proc_address)(void *platform, const char *name);
 } lsf_backend_ops;
 
-extern const lsf_backend_ops lsf_backend_egl, lsf_backend_osmesa, lsf_backend_glfw;
+extern const lsf_backend_ops lsf_backend_egl, lsf_backend_osmesa, lsf_backend_glfw,
+    lsf_backend_wrap;
 
 /* Opens the first of `names` (NULL-terminated) that loads, or only the file that the environment
  * variable `variable` names. Never closed again: drivers do not survive being unloaded. */
@@ -40,12 +41,20 @@ typedef struct lsf_cached_program {
     GLuint program;
 } lsf_cached_program;
 
+/* Numbered bindings that the device has. */
+typedef struct lsf_binding_counts {
+    GLint textures, images, atomic_counter_buffers, shader_storage_buffers, uniform_buffers;
+} lsf_binding_counts;
+
 #define LSF_GROUP_DEPTH_MAX 16
 
 struct lsf_context {
     const lsf_backend_ops *ops;
     void *platform;
     GladGLContext functions;
+    bool wrapped;              /* the application's */
+    lsf_binding_counts counts; /* of a wrapped one */
+    uint32_t entered;          /* functions in progress: lsf_context_enter */
     char *vendor, *renderer, *version;
     bool software, robust;
     char *shader_dir; /* NULL: the embedded files */
@@ -68,6 +77,14 @@ struct lsf_context {
     uint64_t program_count, program_capacity;
     GLuint empty_vertex_array;
 };
+
+/* --- state --- */
+
+/* What every pass relies on and none changes. */
+void lsf_state_set_conventions(void);
+/* All state that passes rely on or change, as GL has it in a new context. */
+void lsf_state_reset(const lsf_context *context);
+void lsf_state_count_bindings(lsf_context *context);
 
 /* --- messages --- */
 

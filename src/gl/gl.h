@@ -10,6 +10,16 @@
 
 #include <lightsheaf/context.h>
 
+/* --- entering a context --- */
+
+/* A function of the public API that needs a context begins with
+ *     LSF_LEAVE lsf_context *entered = lsf_context_enter(context, error);
+ * and fails where that gives NULL. The context is current from there on; an application's own gets
+ * the state that passes rely on, and GL's when the outermost such function ends. */
+#define LSF_LEAVE __attribute__((cleanup(lsf_context_leave)))
+lsf_context *lsf_context_enter(lsf_context *context, lsf_error *error);
+void lsf_context_leave(lsf_context **entered); /* *entered NULL allowed */
+
 /* --- memory: every byte of GL storage goes through these and is counted --- */
 
 typedef struct lsf_texture_desc {

@@ -10,13 +10,15 @@
 /* Seconds between two questions whether a long iteration shall go on. */
 #define QUESTION_EVERY 0.1
 
-bool lsf_renderer_bind(lsf_renderer *renderer, lsf_error *error)
+lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error)
 {
-    if (renderer->broken)
-        return lsf_error_set(error, LSF_ERROR_RENDER,
-                             "the renderer has no frame since going over to one has failed; begin "
-                             "another frame or destroy it");
-    return lsf_context_make_current(renderer->context, error);
+    if (renderer->broken) {
+        lsf_error_set(error, LSF_ERROR_RENDER,
+                      "the renderer has no frame since going over to one has failed; begin "
+                      "another frame or destroy it");
+        return NULL;
+    }
+    return lsf_context_enter(renderer->context, error);
 }
 
 /* --- making, and going over to another plan --- */
@@ -78,8 +80,9 @@ lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
         return NULL;
     }
     renderer->context = context;
+    LSF_LEAVE lsf_context *entered = NULL;
     if (!lsf_setup_init(&renderer->setup, scene, params, error) ||
-        !lsf_context_make_current(context, error) || !create_resources(renderer, error)) {
+        !(entered = lsf_context_enter(context, error)) || !create_resources(renderer, error)) {
         lsf_renderer_destroy(renderer);
         return NULL;
     }
@@ -92,7 +95,8 @@ void lsf_renderer_destroy(lsf_renderer *renderer)
     if (!renderer)
         return;
     /* Without its context nothing of GL can be given back. */
-    if (lsf_context_make_current(renderer->context, NULL)) {
+    LSF_LEAVE lsf_context *entered = lsf_context_enter(renderer->context, NULL);
+    if (entered) {
         destroy_technique(renderer);
         lsf_scene_gpu_destroy(&renderer->scene);
     }
@@ -153,8 +157,8 @@ static bool follow_state(lsf_renderer *renderer, const lsf_frame *frame, lsf_err
 
 bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, lsf_error *error)
 {
-    if (!lsf_context_make_current(renderer->context, error) ||
-        !lsf_setup_frame(&renderer->setup, frame, error))
+    LSF_LEAVE lsf_context *entered = lsf_context_enter(renderer->context, error);
+    if (!entered || !lsf_setup_frame(&renderer->setup, frame, error))
         return false;
     renderer->samples = renderer->next = 0;
     renderer->broken = !follow_state(renderer, frame, error);
@@ -263,7 +267,8 @@ bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error)
 
 bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
 {
-    if (!lsf_renderer_bind(renderer, error))
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered)
         return false;
     renderer->stopped = false;
     renderer->samples++;
@@ -321,7 +326,8 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
 
 bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
 {
-    if (!lsf_renderer_bind(renderer, error))
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered)
         return false;
     renderer->deadline = lsf_now() + renderer->setup.params.time_limit;
     renderer->iteration.question = goes_on;

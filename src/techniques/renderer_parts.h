@@ -28,8 +28,8 @@ struct lsf_renderer {
     lsf_pass_stats pass_stats[LSF_RENDERER_MAX_PASSES];
 };
 
-/* Binds the renderer's context. Each function that reaches GL begins with it. */
-bool lsf_renderer_bind(lsf_renderer *renderer, lsf_error *error);
+/* lsf_context_enter for a function that needs a frame. */
+lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error);
 /* Runs until what was asked for went into the means; without `wait`, as far as it is known. */
 bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error);
 /* The texture of a layer; 0 when the technique has none, and the layer stays black. */

@@ -101,7 +101,8 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
     uint32_t channel_count = name_channels(setup, names);
     for (uint32_t i = 0; i < channel_count; i++)
         name_list[i] = names[i];
-    if (!lsf_renderer_bind(renderer, error) || !lsf_renderer_catch_up(renderer, true, error))
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered || !lsf_renderer_catch_up(renderer, true, error))
         return NULL;
     lsf_image *image = lsf_image_create(plan->width, plan->height, channel_count, name_list, error);
     bool good = image != NULL;
@@ -129,7 +130,8 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_cur
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "8-bit output was not asked for; set rgb8 in lsf_render_params");
     const lsf_plan *plan = renderer->setup.plan;
-    if (!lsf_renderer_bind(renderer, error) || !lsf_renderer_catch_up(renderer, true, error))
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered || !lsf_renderer_catch_up(renderer, true, error))
         return false;
     lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure, curve);
     uint32_t most = strip_rows(plan->width, 3);
@@ -176,7 +178,8 @@ lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
 {
     lsf_pass_report reports[LSF_RENDERER_MAX_PASSES];
     lsf_error ignored = {0}; /* whoever reads the picture meets it again */
-    if (!lsf_renderer_bind(renderer, &ignored))
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, &ignored);
+    if (!entered)
         return (lsf_renderer_stats){0};
     lsf_renderer_catch_up(renderer, true, &ignored);
     uint32_t count = renderer->setup.technique->report(renderer->technique, reports);

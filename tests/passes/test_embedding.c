@@ -1,101 +1,10 @@
 /* Renderers in a program that has other contexts and other threads. */
 #include <pthread.h>
 
-#include "gl/context.h"
-#include "render_gl.h"
-
-enum { SIZE = 24 };
-
-/* --- pictures ----------------------------------------------------------------------------------
- */
-
-static lsf_scene *lit_corner(float intensity)
-{
-    lsf_scene *scene = build_scene();
-    build_corner(scene);
-    build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), intensity);
-    finish_gl_scene(scene);
-    return scene;
-}
-
-static lsf_render_params params_of(const char *technique)
-{
-    static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=32",
-                                          "vpl.shadow_resolution=32", "bundle.resolution=32"};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    params.technique = technique;
-    params.samples = 2;
-    params.options = options;
-    params.option_count = 4;
-    return corner_params(params, SIZE);
-}
-
-static lsf_renderer *create(lsf_context *context, const lsf_scene *scene, const char *technique)
-{
-    lsf_error error = {0};
-    const lsf_render_params params = params_of(technique);
-    lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
-    if (!renderer)
-        fail_msg("%s", error.message);
-    return renderer;
-}
-
-static void run(lsf_renderer *renderer)
-{
-    lsf_error error = {0};
-    if (!lsf_renderer_run(renderer, &error))
-        fail_msg("%s", error.message);
-}
-
-static void check_picture(lsf_renderer *renderer, const lsf_image *expected)
-{
-    lsf_error error = {0};
-    lsf_image *image = lsf_renderer_read(renderer, &error);
-    if (!image)
-        fail_msg("%s", error.message);
-    assert_same_pixels(image, expected);
-    lsf_image_destroy(image);
-}
-
-static lsf_image *alone(lsf_backend backend, const lsf_scene *scene, const char *technique)
-{
-    const lsf_render_params params = params_of(technique);
-    return render_gl(backend, scene, &params);
-}
+#include "embedding_rig.h"
 
 /* --- another context on the same thread --------------------------------------------------------
  */
-
-/* The program's own context, which the library knows nothing of. */
-typedef struct foreign {
-    const lsf_backend_ops *ops;
-    void *platform;
-    GladGLContext functions;
-} foreign;
-
-static GLADapiproc foreign_function(void *user, const char *name)
-{
-    const foreign *f = user;
-    return f->ops->get_proc_address(f->platform, name);
-}
-
-static foreign open_foreign(const lsf_backend_ops *ops)
-{
-    lsf_error error = {0};
-    const lsf_context_params params = {LSF_CONTEXT_PARAMS_DEFAULTS};
-    foreign f = {.ops = ops, .platform = ops->create(&params, &error)};
-    if (!f.platform)
-        fail_msg("%s", error.message);
-    assert_int_not_equal(gladLoadGLContextUserPtr(&f.functions, foreign_function, &f), 0);
-    return f;
-}
-
-static void close_foreign(foreign *f)
-{
-    if (f->ops->is_current(f->platform))
-        f->ops->release(f->platform);
-    f->ops->destroy(f->platform);
-}
 
 /* Names of objects start from 1 in every context: what the library took for its own would be some
  * of these. */
@@ -105,15 +14,15 @@ static void foreign_context_between_calls(void **state)
 {
     lsf_backend backend = *(const lsf_backend *)*state;
     lsf_context *context = gl_test_context(backend, NULL);
-    lsf_scene *scene = lit_corner(5.0f);
-    lsf_renderer *renderer = create(context, scene, "direct");
-    foreign f = open_foreign(context->ops);
+    lsf_scene *scene = rig_scene(5.0f);
+    lsf_renderer *renderer = rig_renderer(context, scene, "direct");
+    rig_foreign f = rig_open_foreign(context->ops);
     lsf_error error = {0};
     GLuint textures[FOREIGN_TEXTURES];
     f.functions.CreateTextures(GL_TEXTURE_2D, FOREIGN_TEXTURES, textures);
 
     assert_true(f.ops->make_current(f.platform, &error));
-    run(renderer);
+    rig_run(renderer);
     assert_true(f.ops->make_current(f.platform, &error));
     lsf_image *picture = lsf_renderer_read(renderer, &error);
     assert_non_null(picture);
@@ -129,9 +38,9 @@ static void foreign_context_between_calls(void **state)
     for (int i = 0; i < FOREIGN_TEXTURES; i++)
         assert_true(f.functions.IsTexture(textures[i]));
     assert_int_equal(f.functions.GetError(), GL_NO_ERROR);
-    close_foreign(&f);
+    rig_close_foreign(&f);
 
-    lsf_image *expected = alone(backend, scene, "direct");
+    lsf_image *expected = rig_alone(backend, scene, "direct");
     assert_same_pixels(picture, expected);
     lsf_image_destroy(picture);
     lsf_image_destroy(expected);
@@ -144,21 +53,21 @@ static void two_contexts_on_a_thread(void **state)
     (void)state;
     static const lsf_backend backends[2][2] = {{LSF_BACKEND_OSMESA, LSF_BACKEND_OSMESA},
                                                {LSF_BACKEND_OSMESA, LSF_BACKEND_EGL}};
-    lsf_scene *scenes[2] = {lit_corner(5.0f), lit_corner(2.0f)};
+    lsf_scene *scenes[2] = {rig_scene(5.0f), rig_scene(2.0f)};
     for (int pair = 0; pair < 2; pair++) {
         lsf_context *contexts[2];
         lsf_renderer *renderers[2];
         lsf_image *expected[2];
         for (int i = 0; i < 2; i++)
-            expected[i] = alone(backends[pair][i], scenes[i], "direct");
+            expected[i] = rig_alone(backends[pair][i], scenes[i], "direct");
         for (int i = 0; i < 2; i++) {
             contexts[i] = gl_test_context(backends[pair][i], NULL);
-            renderers[i] = create(contexts[i], scenes[i], "direct");
+            renderers[i] = rig_renderer(contexts[i], scenes[i], "direct");
         }
-        run(renderers[0]);
-        run(renderers[1]);
-        check_picture(renderers[0], expected[0]);
-        check_picture(renderers[1], expected[1]);
+        rig_run(renderers[0]);
+        rig_run(renderers[1]);
+        rig_check_picture(renderers[0], expected[0]);
+        rig_check_picture(renderers[1], expected[1]);
         assert_int_equal(lsf_renderer_get_stats(renderers[0]).samples, 2);
         for (int i = 0; i < 2; i++) {
             lsf_renderer_destroy(renderers[i]);
@@ -191,7 +100,7 @@ static void *work(void *user)
     job *j = user;
     const lsf_context_params context_params = {LSF_CONTEXT_PARAMS_DEFAULTS,
                                                .backend = LSF_BACKEND_OSMESA};
-    const lsf_render_params params = params_of(j->technique);
+    const lsf_render_params params = rig_params(j->technique);
     bool own = !j->context;
     if (own)
         j->context = lsf_context_create(&context_params, &j->error);
@@ -221,12 +130,12 @@ static void threads_with_a_context_each(void **state)
     (void)state;
     static const char *const techniques[] = {"direct", "bidirectional", "voxel_path"};
     enum { THREADS = LSF_COUNT(techniques) };
-    lsf_scene *scene = lit_corner(5.0f);
+    lsf_scene *scene = rig_scene(5.0f);
     lsf_image *expected[THREADS];
     pthread_t threads[THREADS];
     job jobs[THREADS];
     for (int i = 0; i < THREADS; i++) {
-        expected[i] = alone(LSF_BACKEND_OSMESA, scene, techniques[i]);
+        expected[i] = rig_alone(LSF_BACKEND_OSMESA, scene, techniques[i]);
         jobs[i] = (job){.scene = scene, .technique = techniques[i]};
     }
     for (int i = 0; i < THREADS; i++)
@@ -243,12 +152,12 @@ static void threads_with_a_context_each(void **state)
 static void context_goes_to_another_thread(void **state)
 {
     lsf_backend backend = *(const lsf_backend *)*state;
-    lsf_scene *scene = lit_corner(5.0f);
-    lsf_image *expected = alone(backend, scene, "direct");
+    lsf_scene *scene = rig_scene(5.0f);
+    lsf_image *expected = rig_alone(backend, scene, "direct");
     lsf_context *context = gl_test_context(backend, NULL);
     lsf_error error = {0};
     job j = {.context = context, .scene = scene, .technique = "direct"};
-    j.renderer = create(context, scene, "direct");
+    j.renderer = rig_renderer(context, scene, "direct");
     assert_true(lsf_context_release_current(context, &error));
     assert_false(lsf_context_release_current(context, &error));
     assert_int_equal(error.code, LSF_ERROR_USAGE);
@@ -256,7 +165,7 @@ static void context_goes_to_another_thread(void **state)
     assert_int_equal(pthread_create(&thread, NULL, work, &j), 0);
     pthread_join(thread, NULL);
     finish_job(&j, expected);
-    check_picture(j.renderer, expected);
+    rig_check_picture(j.renderer, expected);
     lsf_renderer_destroy(j.renderer);
     gl_test_check(context);
     lsf_context_destroy(context);
