@@ -59,6 +59,9 @@ void bundle_rig_run(bundle_rig *rig, const lsf_scene *scene, const lsf_render_pa
 
 void bundle_rig_finish(bundle_rig *rig)
 {
+    lsf_error error = {0};
+    if (!lsf_context_make_current(rig->context, &error)) /* rigs may stand beside others */
+        fail_msg("%s", error.message);
     lsf_ray_bundle_destroy(rig->bundle);
     lsf_gbuffer_destroy(&rig->gbuffer);
     lsf_iteration_destroy(&rig->iteration);

@@ -88,8 +88,6 @@ static void coarse_maps_are_told(void **unused)
         {"bidirectional", 2, 3, false, 0},   {"bidirectional", 2, 3, true, 0},
         {"bidirectional", 2, 300, false, 1}, {"bidirectional", 1, 300, false, 0},
         {"voxel_path", 1, 3, false, 0},      {"voxel_path", 1, 3, true, 1},
-        {"voxel_path", 0, 3, true, 0},       {"cone", 1, 300, false, 1},
-        {"direct", 1, 300, true, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         assert_int_equal(
