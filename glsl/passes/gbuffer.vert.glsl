@@ -3,6 +3,11 @@
 
 #if LSF_MOTION
 layout(location = LSF_ATTRIBUTE_PREVIOUS_TRANSFORM) in vec4 previous_rows[3];
+#ifdef LSF_DEFORMED_MOTION
+layout(location = LSF_ATTRIBUTE_PREVIOUS_POSITION) in vec3 previous_position;
+#else
+#define previous_position position
+#endif
 out vec4 vertex_clip, vertex_previous_clip;
 #endif
 
@@ -15,7 +20,7 @@ void main()
     gl_Position = view.clip * vec4(p, 1.0);
     material_vertex(p);
 #if LSF_MOTION
-    vec4 object = vec4(position, 1.0);
+    vec4 object = vec4(previous_position, 1.0);
     vec3 previous = vec3(dot(previous_rows[0], object), dot(previous_rows[1], object),
                          dot(previous_rows[2], object));
     vertex_clip = gl_Position;

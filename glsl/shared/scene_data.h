@@ -59,6 +59,7 @@ struct lsf_lobe_data {
 #define LSF_ATTRIBUTE_TRANSFORM 6           /* 3 rows */
 #define LSF_ATTRIBUTE_NORMAL_TRANSFORM 9    /* 3 rows */
 #define LSF_ATTRIBUTE_PREVIOUS_TRANSFORM 12 /* 3 rows */
+#define LSF_ATTRIBUTE_PREVIOUS_POSITION 15
 
 /* Bindings: storage buffers and texture units of the scene, the same in every pass. */
 #define LSF_BINDING_MATERIALS 0

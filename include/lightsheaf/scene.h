@@ -97,7 +97,8 @@ typedef struct lsf_requirements {
     bool texture_transformed;    /* KHR_texture_transform other than identity */
     bool second_uv;              /* some texture in use reads TEXCOORD_1 */
     bool vertex_colored;
-    bool moving;                 /* some node that carries geometry, a light or a camera is animated */
+    bool skinned, morphed;       /* some vertices follow joints; morph targets */
+    bool moving;                 /* some geometry, light or camera is animated */
     uint64_t triangles;          /* of all instances */
     uint64_t unique_triangles;   /* stored once each */
     uint64_t degenerate_triangles; /* of those, without area: nothing is drawn of them */

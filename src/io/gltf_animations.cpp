@@ -22,6 +22,8 @@ static bool path_of(const std::string &name, lsf_animation_path &path)
         path = LSF_PATH_ROTATION;
     else if (name == "scale")
         path = LSF_PATH_SCALE;
+    else if (name == "weights")
+        path = LSF_PATH_WEIGHTS;
     else
         return false;
     return true;
@@ -64,15 +66,17 @@ static void read_values(gltf_import &import, const channel_source &source,
                         lsf_animation_channel &channel)
 {
     const tinygltf::Accessor &accessor = import.model.accessors[(size_t)source.output];
-    bool rotation = channel.path == LSF_PATH_ROTATION;
+    bool rotation = channel.path == LSF_PATH_ROTATION, weights = channel.path == LSF_PATH_WEIGHTS;
     bool is_float = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
-    if (accessor.type != (rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3) ||
-        !(is_float || (rotation && accessor.normalized)))
+    int type = rotation ? TINYGLTF_TYPE_VEC4 : weights ? TINYGLTF_TYPE_SCALAR : TINYGLTF_TYPE_VEC3;
+    if (accessor.type != type || !(is_float || ((rotation || weights) && accessor.normalized)))
         fail("ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT", source.location,
              "values are %s; %s", accessor_format(accessor).c_str(),
-             rotation ? "rotations must be VEC4 of FLOAT or normalised integers"
-                      : "translations and scales must be VEC3 of FLOAT");
-    uint64_t wanted = (uint64_t)channel.key_count * (channel.interpolation == LSF_CUBIC ? 3 : 1);
+             rotation  ? "rotations must be VEC4 of FLOAT or normalised integers"
+             : weights ? "weights must be SCALAR of FLOAT or normalised integers"
+                       : "translations and scales must be VEC3 of FLOAT");
+    uint64_t wanted = (uint64_t)channel.key_count * (channel.interpolation == LSF_CUBIC ? 3 : 1) *
+                      (weights ? channel.weight_count : 1);
     if (accessor.count != wanted)
         fail("ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT", source.location,
              "%zu values for %u keys; there must be %llu", accessor.count, channel.key_count,
@@ -84,7 +88,7 @@ static std::vector<channel_source> find_channels(gltf_import &import)
 {
     std::vector<channel_source> channels;
     std::set<std::pair<uint32_t, int>> taken;
-    bool weights = false, other = false, overlapping = false;
+    bool other = false, overlapping = false;
     for (size_t a = 0; a < import.model.animations.size(); a++) {
         if (!import.scene->animations.items[a].chosen)
             continue;
@@ -97,13 +101,19 @@ static std::vector<channel_source> find_channels(gltf_import &import)
                 fail("UNRESOLVED_REFERENCE", location, "there is no sampler %d", source.sampler);
             channel_source found = {};
             if (!path_of(source.target_path, found.channel.path)) {
-                (source.target_path == "weights" ? weights : other) = true;
+                other = true;
                 continue;
             }
             uint32_t node = import.node_of[(size_t)source.target_node];
             if (node == LSF_NONE)
                 continue;
-            if (import.scene->nodes[node].has_matrix)
+            const lsf_node &target = import.scene->nodes[node];
+            bool weights = found.channel.path == LSF_PATH_WEIGHTS;
+            if (weights && target.weight_count == 0) {
+                import.repairs.weights_animated++;
+                continue;
+            }
+            if (!weights && target.has_matrix)
                 fail("ANIMATION_CHANNEL_TARGET_NODE_MATRIX", location,
                      "node %d has a matrix; animated nodes need translation, rotation and scale",
                      source.target_node);
@@ -116,6 +126,7 @@ static std::vector<channel_source> find_channels(gltf_import &import)
             }
             const tinygltf::AnimationSampler &sampler = animation.samplers[(size_t)source.sampler];
             found.channel.node = node;
+            found.channel.weight_count = target.weight_count;
             found.channel.interpolation = sampler.interpolation == "STEP"          ? LSF_STEP
                                           : sampler.interpolation == "CUBICSPLINE" ? LSF_CUBIC
                                                                                    : LSF_LINEAR;
@@ -125,11 +136,9 @@ static std::vector<channel_source> find_channels(gltf_import &import)
             channels.push_back(found);
         }
     }
-    if (weights)
-        lsf_scene_add_note(import.scene, "animations of morph target weights are ignored");
     if (other)
         lsf_scene_add_note(import.scene, "animations of anything but a node's translation, "
-                                         "rotation and scale are ignored");
+                                         "rotation, scale and weights are ignored");
     if (overlapping)
         lsf_scene_add_note(import.scene, "several animations move the same node: the first one is "
                                          "used, the others where they move other nodes; "

@@ -1,4 +1,4 @@
-#include "io/gltf_primitive.hpp"
+#include "io/gltf_deform.hpp"
 
 #include "io/mesh_frame.h"
 
@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <set>
 
 /* The primitives of the meshes that the scene uses, each stored once however many nodes place it.
  */
@@ -26,23 +27,40 @@ class stream
     }
     /* Appends `count` vertices at `first`; the default where the file has none. */
     void append(uint64_t first, uint64_t count, const std::vector<float> &values);
+    /* Appends copies of `count` vertices from `source` on. */
+    void repeat(uint64_t first, uint64_t count, uint64_t source);
 
   private:
+    float *grow(uint64_t first, uint64_t count);
+
     float **array_;
     uint64_t width_, capacity_ = 0;
     std::array<float, 4> otherwise_;
     bool present_;
 };
 
-void stream::append(uint64_t first, uint64_t count, const std::vector<float> &values)
+float *stream::grow(uint64_t first, uint64_t count)
 {
-    if (!present_)
-        return;
     void *grown = *array_;
     if (!lsf_grow(&grown, &capacity_, (first + count) * width_, sizeof(float)))
         throw std::bad_alloc();
     *array_ = static_cast<float *>(grown);
-    float *out = *array_ + first * width_;
+    return *array_ + first * width_;
+}
+
+void stream::repeat(uint64_t first, uint64_t count, uint64_t source)
+{
+    if (!present_)
+        return;
+    float *out = grow(first, count);
+    std::copy_n(*array_ + source * width_, count * width_, out);
+}
+
+void stream::append(uint64_t first, uint64_t count, const std::vector<float> &values)
+{
+    if (!present_)
+        return;
+    float *out = grow(first, count);
     if (!values.empty())
         std::copy_n(values.data(), count * width_, out);
     else
@@ -59,14 +77,21 @@ class geometry_importer
 
   private:
     /* What primitives that share vertices or indices have in common: accessors. */
-    using vertex_key = std::array<int, 6>;
+    using vertex_key = std::vector<int>;
     using index_key = std::array<int, 3>;
 
-    void add_primitive(const tinygltf::Primitive &source, const std::string &location);
-    void add_shared(const tinygltf::Primitive &source, const std::string &location,
+    void add_primitive(const tinygltf::Primitive &source, size_t mesh, const std::string &location);
+    vertex_key key_of(const tinygltf::Primitive &source, size_t mesh) const;
+    void add_shared(const tinygltf::Primitive &source, size_t mesh, const std::string &location,
                     lsf_primitive &primitive);
-    void add_computed(const tinygltf::Primitive &source, const std::string &location, bool flat,
-                      bool tangents, lsf_primitive &primitive);
+    void add_computed(const tinygltf::Primitive &source, size_t mesh, const std::string &location,
+                      bool flat, bool tangents, lsf_primitive &primitive);
+    void add_shape(const tinygltf::Primitive &source, size_t mesh, bool flat,
+                   const vertex_arrays &arrays, const std::string &location,
+                   const lsf_primitive &primitive);
+    uint32_t place(uint32_t node, uint32_t primitive);
+    uint32_t deformer_of(uint32_t node, uint32_t primitive, uint32_t shape, uint32_t skin);
+    void find_uses();
     void repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles, memory_loan &loan);
     void make_flat(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
                    const std::string &location, memory_loan &loan);
@@ -74,7 +99,9 @@ class geometry_importer
                           const lsf_material &material, const std::string &location,
                           memory_loan &loan);
     void append_vertices(const vertex_arrays &arrays, lsf_primitive &primitive);
+    void repeat_vertices(uint64_t source, uint64_t count);
     void append_indices(const std::vector<uint32_t> &triangles, lsf_primitive &primitive);
+    uint32_t *grow_indices(uint64_t count);
     void find_bounds(lsf_primitive &primitive) const;
     void count_left_out(const tinygltf::Primitive &source);
     void count_ignored(const tinygltf::Primitive &source, const lsf_material &material);
@@ -87,6 +114,13 @@ class geometry_importer
     std::vector<lsf_primitive> primitives_;
     std::map<vertex_key, lsf_primitive> known_vertices_;
     std::map<index_key, lsf_primitive> known_indices_;
+
+    std::vector<bool> skinned_,
+        unskinned_; /* by file's mesh: some node uses it with a skin; without */
+    std::map<uint64_t, uint32_t> shape_of_; /* by first vertex */
+    std::vector<lsf_deformer> deformers_;
+    std::map<std::pair<uint32_t, uint64_t>, uint32_t> known_deformers_; /* by node, first vertex */
+    std::set<uint64_t> taken_; /* first vertices that a node deforms where they are */
 };
 
 geometry_importer::geometry_importer(gltf_import &import, const stream_choice &streams)
@@ -98,6 +132,7 @@ geometry_importer::geometry_importer(gltf_import &import, const stream_choice &s
       uv1_(&scene_->vertices.uv1, 2, {0, 0, 0, 0}, streams.uv1),
       color_(&scene_->vertices.color, 4, {1, 1, 1, 1}, streams.color)
 {
+    find_uses();
 }
 
 /* --- what materials ask for --- */
@@ -185,7 +220,6 @@ void geometry_importer::count_ignored(const tinygltf::Primitive &source,
                                       const lsf_material &material)
 {
     gltf_repairs &repairs = import_.repairs;
-    repairs.morph_targets += !source.targets.empty();
     repairs.further_vertex_colors += find_attribute(source, "COLOR_1") >= 0;
     repairs.further_uv_sets += find_attribute(source, "TEXCOORD_2") >= 0;
     repairs.missing_uv_sets +=
@@ -232,7 +266,7 @@ void geometry_importer::make_flat(vertex_arrays &arrays, std::vector<uint32_t> &
                                   const std::string &location, memory_loan &loan)
 {
     import_.repairs.normals_missing_primitives++;
-    loan.take(triangles.size(), vertex_bytes(streams_));
+    loan.take(triangles.size(), vertex_bytes(streams_) + sizeof(uint32_t));
     if (triangles.size() > arrays.count)
         import_.budget.take(triangles.size() - arrays.count, vertex_bytes(streams_), location);
     arrays.gather(triangles);
@@ -248,7 +282,7 @@ void geometry_importer::compute_tangents(vertex_arrays &arrays, std::vector<uint
 {
     const std::vector<float> &uvs = tangent_uv_set(material) == 0 ? arrays.uv0 : arrays.uv1;
     /* For lsf_split_mirrored, and for the largest stream while it grows. */
-    loan.take(arrays.count, 1 + sizeof(uint32_t) + 4 * sizeof(float));
+    loan.take(arrays.count, 1 + 2 * sizeof(uint32_t) + 4 * sizeof(float));
     if (uvs.empty()) {
         import_.repairs.tangents_without_uv++;
     } else {
@@ -288,20 +322,35 @@ void geometry_importer::append_vertices(const vertex_arrays &arrays, lsf_primiti
         fail("MEMORY_LIMIT", "/meshes", "the scene has more than 4294967295 vertices");
 }
 
+void geometry_importer::repeat_vertices(uint64_t source, uint64_t count)
+{
+    uint64_t first = scene_->vertices.count;
+    for (stream *each : {&position_, &normal_, &tangent_, &uv0_, &uv1_, &color_})
+        each->repeat(first, count, source);
+    scene_->vertices.count += count;
+    if (scene_->vertices.count > UINT32_MAX)
+        fail("MEMORY_LIMIT", "/meshes", "the scene has more than 4294967295 vertices");
+}
+
+/* Room for that many more; they count from then on. */
+uint32_t *geometry_importer::grow_indices(uint64_t count)
+{
+    void *grown = scene_->indices;
+    if (!lsf_grow(&grown, &index_capacity_, scene_->index_count + count, sizeof(uint32_t)))
+        throw std::bad_alloc();
+    scene_->indices = static_cast<uint32_t *>(grown);
+    scene_->index_count += count;
+    return scene_->indices + scene_->index_count - count;
+}
+
 void geometry_importer::append_indices(const std::vector<uint32_t> &triangles,
                                        lsf_primitive &primitive)
 {
     primitive.first_index = scene_->index_count;
     primitive.index_count = (uint32_t)triangles.size();
-    void *grown = scene_->indices;
-    if (!lsf_grow(&grown, &index_capacity_, scene_->index_count + triangles.size(),
-                  sizeof(uint32_t)))
-        throw std::bad_alloc();
-    scene_->indices = static_cast<uint32_t *>(grown);
+    uint32_t *indices = grow_indices(triangles.size());
     for (size_t i = 0; i < triangles.size(); i++)
-        scene_->indices[scene_->index_count + i] =
-            (uint32_t)(primitive.first_vertex + triangles[i]);
-    scene_->index_count += triangles.size();
+        indices[i] = (uint32_t)(primitive.first_vertex + triangles[i]);
 }
 
 void geometry_importer::find_bounds(lsf_primitive &primitive) const
@@ -320,13 +369,34 @@ void geometry_importer::find_bounds(lsf_primitive &primitive) const
     }
 }
 
-/* Vertices and indices as the file has them: primitives that name the same accessors share. */
-void geometry_importer::add_shared(const tinygltf::Primitive &source, const std::string &location,
-                                   lsf_primitive &primitive)
+/* Accessors of what a vertex is made of; what is deformed is shared within its mesh alone. */
+geometry_importer::vertex_key geometry_importer::key_of(const tinygltf::Primitive &source,
+                                                        size_t mesh) const
 {
     vertex_key key = {find_attribute(source, "POSITION"),   find_attribute(source, "NORMAL"),
                       find_attribute(source, "TANGENT"),    find_attribute(source, "TEXCOORD_0"),
                       find_attribute(source, "TEXCOORD_1"), find_attribute(source, "COLOR_0")};
+    if (!has_shape(source, skinned_[mesh]))
+        return key;
+    key.push_back((int)mesh);
+    for (const auto &attribute : source.attributes)
+        if (attribute.first.rfind("JOINTS_", 0) == 0 || attribute.first.rfind("WEIGHTS_", 0) == 0)
+            key.push_back(attribute.second);
+    for (const auto &target : source.targets) {
+        key.push_back(-1);
+        for (const char *name : {"POSITION", "NORMAL", "TANGENT"}) {
+            auto found = target.find(name);
+            key.push_back(found == target.end() ? -1 : found->second);
+        }
+    }
+    return key;
+}
+
+/* Vertices and indices as the file has them: primitives that name the same accessors share. */
+void geometry_importer::add_shared(const tinygltf::Primitive &source, size_t mesh,
+                                   const std::string &location, lsf_primitive &primitive)
+{
+    vertex_key key = key_of(source, mesh);
     auto vertices = known_vertices_.find(key);
     bool known = vertices != known_vertices_.end();
     memory_loan loan(import_.budget, location);
@@ -353,6 +423,7 @@ void geometry_importer::add_shared(const tinygltf::Primitive &source, const std:
     if (!known) {
         repair(arrays, triangles, loan);
         append_vertices(arrays, primitive);
+        add_shape(source, mesh, false, arrays, location, primitive);
         known_vertices_[key] = primitive;
     }
     append_indices(triangles, primitive);
@@ -360,8 +431,19 @@ void geometry_importer::add_shared(const tinygltf::Primitive &source, const std:
     known_indices_[indices_key] = primitive;
 }
 
-void geometry_importer::add_computed(const tinygltf::Primitive &source, const std::string &location,
-                                     bool flat, bool tangents, lsf_primitive &primitive)
+/* Of vertices that were just appended. */
+void geometry_importer::add_shape(const tinygltf::Primitive &source, size_t mesh, bool flat,
+                                  const vertex_arrays &arrays, const std::string &location,
+                                  const lsf_primitive &primitive)
+{
+    if (has_shape(source, skinned_[mesh]))
+        shape_of_[primitive.first_vertex] =
+            shape_import(import_, source, skinned_[mesh], flat, arrays, location);
+}
+
+void geometry_importer::add_computed(const tinygltf::Primitive &source, size_t mesh,
+                                     const std::string &location, bool flat, bool tangents,
+                                     lsf_primitive &primitive)
 {
     memory_loan loan(import_.budget, location);
     vertex_arrays arrays = read_vertices(import_, source, streams_, location, loan);
@@ -372,11 +454,12 @@ void geometry_importer::add_computed(const tinygltf::Primitive &source, const st
     if (tangents)
         compute_tangents(arrays, triangles, material_of(import_, source), location, loan);
     append_vertices(arrays, primitive);
+    add_shape(source, mesh, flat, arrays, location, primitive);
     append_indices(triangles, primitive);
     find_bounds(primitive);
 }
 
-void geometry_importer::add_primitive(const tinygltf::Primitive &source,
+void geometry_importer::add_primitive(const tinygltf::Primitive &source, size_t mesh,
                                       const std::string &location)
 {
     if (!mode_is_triangles(source.mode)) {
@@ -389,14 +472,16 @@ void geometry_importer::add_primitive(const tinygltf::Primitive &source,
     }
     const lsf_material &material = material_of(import_, source);
     count_ignored(source, material);
+    import_.repairs.joints_missing += skinned_[mesh] && find_attribute(source, "JOINTS_0") < 0;
     lsf_primitive primitive = {};
+    primitive.deformer = LSF_NONE;
     primitive.material = (uint32_t)(&material - scene_->materials);
     bool flat = find_attribute(source, "NORMAL") < 0;
     bool tangents = wants_tangents(material) && (flat || find_attribute(source, "TANGENT") < 0);
     if (flat || tangents)
-        add_computed(source, location, flat, tangents, primitive);
+        add_computed(source, mesh, location, flat, tangents, primitive);
     else
-        add_shared(source, location, primitive);
+        add_shared(source, mesh, location, primitive);
     primitives_.push_back(primitive);
 }
 
@@ -409,16 +494,84 @@ void geometry_importer::add_mesh(size_t index)
     mesh.first_primitive = (uint32_t)primitives_.size();
     if (import_.mesh_used[index])
         for (size_t i = 0; i < source.primitives.size(); i++)
-            add_primitive(source.primitives[i],
+            add_primitive(source.primitives[i], index,
                           location_of("meshes", index) + "/primitives/" + std::to_string(i));
     mesh.primitive_count = (uint32_t)(primitives_.size() - mesh.first_primitive);
 }
 
+/* --- what nodes deform --- */
+
+void geometry_importer::find_uses()
+{
+    skinned_.assign(import_.model.meshes.size(), false);
+    unskinned_.assign(import_.model.meshes.size(), false);
+    for (uint32_t i = 0; i < scene_->node_count; i++) {
+        if (scene_->nodes[i].mesh == LSF_NONE)
+            continue;
+        bool skin = import_.model.nodes[import_.source_of[i]].skin >= 0;
+        (skin ? skinned_ : unskinned_)[scene_->nodes[i].mesh] = true;
+    }
+}
+
+/* The node's own of the primitive's vertices: those that were read where nobody else has them, else
+ * copies. */
+uint32_t geometry_importer::deformer_of(uint32_t node, uint32_t index, uint32_t shape,
+                                        uint32_t skin)
+{
+    const lsf_primitive &primitive = primitives_[index];
+    auto key = std::make_pair(node, primitive.first_vertex);
+    auto known = known_deformers_.find(key);
+    if (known != known_deformers_.end())
+        return known->second;
+    std::string location = location_of("nodes", import_.source_of[node]);
+    if (skin != LSF_NONE)
+        check_joints(import_, shape, skin, location);
+    bool as_read = scene_->shapes[shape].target_count == 0 && unskinned_[scene_->nodes[node].mesh];
+    uint64_t first = primitive.first_vertex;
+    if (as_read || !taken_.insert(first).second) {
+        import_.budget.take(primitive.vertex_count, vertex_bytes(streams_), location);
+        first = scene_->vertices.count;
+        repeat_vertices(primitive.first_vertex, primitive.vertex_count);
+    }
+    import_.budget.take(1, sizeof(lsf_deformer) + sizeof(lsf_primitive), location);
+    deformers_.push_back({shape, node, skin, first});
+    return known_deformers_[key] = (uint32_t)deformers_.size() - 1;
+}
+
+/* The primitive as the node shows it: another one where the node deforms it. */
+uint32_t geometry_importer::place(uint32_t node, uint32_t index)
+{
+    auto found = shape_of_.find(primitives_[index].first_vertex);
+    if (found == shape_of_.end())
+        return index;
+    const lsf_shape &shape = scene_->shapes[found->second];
+    int skin = import_.model.nodes[import_.source_of[node]].skin;
+    bool skinned = skin >= 0 && shape.influences > 0;
+    if (!skinned && shape.target_count == 0)
+        return index;
+    uint32_t deformer =
+        deformer_of(node, index, found->second, skinned ? skin_import(import_, skin) : LSF_NONE);
+    lsf_primitive placed = primitives_[index];
+    placed.deformer = deformer;
+    uint64_t from = placed.first_vertex, to = deformers_[deformer].first_vertex;
+    if (from == to) {
+        primitives_[index] = placed;
+        return index;
+    }
+    std::string location = location_of("nodes", import_.source_of[node]);
+    import_.budget.take(placed.index_count, sizeof(uint32_t), location);
+    uint32_t *indices = grow_indices(placed.index_count);
+    for (uint32_t i = 0; i < placed.index_count; i++)
+        indices[i] = (uint32_t)(scene_->indices[placed.first_index + i] - from + to);
+    placed.first_vertex = to;
+    placed.first_index = scene_->index_count - placed.index_count;
+    import_.budget.take(1, sizeof(lsf_primitive), location);
+    primitives_.push_back(placed);
+    return (uint32_t)primitives_.size() - 1;
+}
+
 void geometry_importer::finish()
 {
-    scene_->primitives = copy_array(primitives_);
-    scene_->primitive_count = (uint32_t)primitives_.size();
-
     uint64_t count = 0;
     for (uint32_t i = 0; i < scene_->node_count; i++)
         if (scene_->nodes[i].mesh != LSF_NONE)
@@ -432,12 +585,17 @@ void geometry_importer::finish()
             continue;
         const lsf_mesh &mesh = scene_->meshes[scene_->nodes[i].mesh];
         for (uint32_t p = 0; p < mesh.primitive_count; p++)
-            scene_->instances[scene_->instance_count++] = {i, mesh.first_primitive + p};
+            scene_->instances[scene_->instance_count++] = {i, place(i, mesh.first_primitive + p)};
     }
+    scene_->primitives = copy_array(primitives_);
+    scene_->primitive_count = (uint32_t)primitives_.size();
+    scene_->deformers = copy_array(deformers_);
+    scene_->deformer_count = (uint32_t)deformers_.size();
 }
 
 void gltf_geometry_import(gltf_import &import)
 {
+    weights_import(import);
     geometry_importer importer(import, choose_streams(import));
     import.scene->meshes =
         static_cast<lsf_mesh *>(allocate(import.model.meshes.size(), sizeof(lsf_mesh)));

@@ -155,7 +155,8 @@ file_content file_read(const std::string &path, const memory_budget &budget);
 struct gltf_repairs {
     uint64_t normals_missing_primitives = 0, normals_scaled = 0, normals_zero = 0;
     uint64_t tangents_scaled = 0, tangents_without_uv = 0, rotations_scaled = 0;
-    uint64_t trailing_indices = 0, no_position = 0, morph_targets = 0;
+    uint64_t trailing_indices = 0, no_position = 0;
+    uint64_t weights_scaled = 0, joints_missing = 0, weights_animated = 0;
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
     uint64_t textures_without_image = 0, negative_colors = 0;
@@ -178,7 +179,10 @@ struct gltf_import {
 
     size_t chosen_scene = 0;           /* by file's index; no meaning without scenes */
     std::vector<uint32_t> node_of;     /* file's node -> scene's node, LSF_NONE outside the scene */
+    std::vector<uint32_t> source_of;   /* scene's node -> file's node */
     std::vector<bool> mesh_used;       /* by file's index */
+    std::vector<uint32_t> skin_of;     /* file's skin -> scene's; LSF_NONE: not used yet */
+    uint64_t shape_capacity = 0;
     std::vector<uint32_t> material_of; /* file's material -> scene's; LSF_NONE: not used */
 };
 

@@ -87,7 +87,7 @@ static void add_instances(gltf_import &import, uint32_t parent, const tinygltf::
     uint64_t count = count_instances(import, attributes);
     if (count == 0)
         return;
-    import.budget.take(count, node_bytes(scene->nodes[parent].name), location);
+    import.budget.take(count, node_bytes(scene->nodes[parent].name) + sizeof(uint32_t), location);
     memory_loan loan(import.budget, location);
     std::vector<float> translations =
         read_attribute(import, attributes, translation_attribute, count, location, loan);
@@ -112,6 +112,7 @@ static void add_instances(gltf_import &import, uint32_t parent, const tinygltf::
         node.name = copy_text(scene->nodes[parent].name);
         scene->node_count++;
         node.parent = parent;
+        import.source_of.push_back(import.source_of[parent]);
         node.mesh = scene->nodes[parent].mesh;
         node.camera = node.light = LSF_NONE;
         set_trs(import, translation, rotation, scale, node);

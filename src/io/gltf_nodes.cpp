@@ -130,8 +130,11 @@ void gltf_nodes_import(gltf_import &import)
     std::vector<uint32_t> order = walk(model, scene_roots(model, import.chosen_scene, parents));
 
     import.node_of.assign(model.nodes.size(), LSF_NONE);
+    import.source_of = order;
+    import.skin_of.assign(model.skins.size(), LSF_NONE);
     import.mesh_used.assign(model.meshes.size(), false);
-    import.budget.take(order.size(), node_bytes(""), "/nodes"); /* names are part of the document */
+    import.budget.take(order.size(), node_bytes("") + sizeof(uint32_t),
+                       "/nodes"); /* names are part of the document */
     scene->nodes = static_cast<lsf_node *>(allocate(order.size(), sizeof(lsf_node)));
     for (size_t i = 0; i < order.size(); i++) {
         const tinygltf::Node &source = model.nodes[order[i]];

@@ -48,16 +48,16 @@ void gltf_notes_add(gltf_import &import)
     const gltf_repairs &repairs = import.repairs;
     note_extensions(import);
 
-    uint64_t skinned = 0;
-    for (size_t i = 0; i < import.model.nodes.size(); i++)
-        skinned += import.model.nodes[i].skin >= 0 && import.node_of[i] != LSF_NONE;
-    note_count(import, skinned, "skinned node", ": skins are ignored, and meshes shown undeformed");
+    note_count(import, repairs.joints_missing, "primitive",
+               " without joints, of a node with a skin: placed by the node");
+    note_count(import, repairs.weights_scaled, "vertex weight sum",
+               " of joints other than 1: scaled");
+    note_count(import, repairs.weights_animated, "animation channel",
+               " of the weights of a node without morph targets: ignored");
     note_count(import, repairs.negative_colors, "component",
                " of vertex colours below 0: set to 0");
     note_count(import, repairs.textures_without_image, "texture",
                " without a PNG, JPEG or WebP image: materials are shown without");
-    note_count(import, repairs.morph_targets, "primitive",
-               " with morph targets: the targets are ignored");
     note_left_out(import, repairs.point_primitives, repairs.points, "points");
     note_left_out(import, repairs.line_primitives, repairs.lines, "lines");
     note_count(import, repairs.no_position, "primitive", " without POSITION: ignored");

@@ -31,15 +31,19 @@ static void gather_stream(std::vector<float> &stream, size_t width,
     stream = std::move(gathered);
 }
 
-void vertex_arrays::gather(const std::vector<uint32_t> &sources)
+void vertex_arrays::gather(const std::vector<uint32_t> &from)
 {
-    gather_stream(position, 3, sources);
-    gather_stream(normal, 3, sources);
-    gather_stream(tangent, 4, sources);
-    gather_stream(uv0, 2, sources);
-    gather_stream(uv1, 2, sources);
-    gather_stream(color, 4, sources);
-    count = sources.size();
+    gather_stream(position, 3, from);
+    gather_stream(normal, 3, from);
+    gather_stream(tangent, 4, from);
+    gather_stream(uv0, 2, from);
+    gather_stream(uv1, 2, from);
+    gather_stream(color, 4, from);
+    std::vector<uint32_t> gathered(from.size());
+    for (size_t i = 0; i < from.size(); i++)
+        gathered[i] = source(from[i]);
+    sources = std::move(gathered);
+    count = from.size();
 }
 
 static void append_stream(std::vector<float> &stream, size_t width, const uint32_t *sources,
@@ -53,14 +57,21 @@ static void append_stream(std::vector<float> &stream, size_t width, const uint32
         std::copy_n(&stream[sources[i] * width], width, &stream[first + i * width]);
 }
 
-void vertex_arrays::append_copies(const uint32_t *sources, uint64_t copies)
+void vertex_arrays::append_copies(const uint32_t *from, uint64_t copies)
 {
-    append_stream(position, 3, sources, copies);
-    append_stream(normal, 3, sources, copies);
-    append_stream(tangent, 4, sources, copies);
-    append_stream(uv0, 2, sources, copies);
-    append_stream(uv1, 2, sources, copies);
-    append_stream(color, 4, sources, copies);
+    append_stream(position, 3, from, copies);
+    append_stream(normal, 3, from, copies);
+    append_stream(tangent, 4, from, copies);
+    append_stream(uv0, 2, from, copies);
+    append_stream(uv1, 2, from, copies);
+    append_stream(color, 4, from, copies);
+    if (sources.empty()) {
+        sources.resize(count);
+        for (uint64_t i = 0; i < count; i++)
+            sources[i] = (uint32_t)i;
+    }
+    for (uint64_t i = 0; i < copies; i++)
+        sources.push_back(sources[from[i]]);
     count += copies;
 }
 

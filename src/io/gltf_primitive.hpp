@@ -15,10 +15,16 @@ struct stream_choice {
 struct vertex_arrays {
     uint64_t count = 0;
     std::vector<float> position, normal, tangent, uv0, uv1, color; /* empty: not in the file */
+    std::vector<uint32_t> sources; /* the file's vertex of each; empty: the same */
 
-    /* Makes vertex i a copy of what was vertex sources[i]. */
-    void gather(const std::vector<uint32_t> &sources);
-    void append_copies(const uint32_t *sources, uint64_t count);
+    uint32_t source(uint64_t vertex) const
+    {
+        return sources.empty() ? (uint32_t)vertex : sources[vertex];
+    }
+
+    /* Makes vertex i a copy of what was vertex from[i]. */
+    void gather(const std::vector<uint32_t> &from);
+    void append_copies(const uint32_t *from, uint64_t copies);
 };
 
 /* Index of the accessor that the attribute names, or -1. */

@@ -24,6 +24,8 @@ static void plan_switches(lsf_plan *plan)
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_scene_gpu_material_switches(plan, gloss, emission);
     lsf_plan_switch_add(plan, "LSF_MOTION", motion, "motion is asked for");
+    if (lsf_plan_find(plan, "scene.previous_positions"))
+        lsf_plan_switch_add(plan, "LSF_DEFORMED_MOTION", true, "vertices are deformed");
     /* Colour attachments are numbered without gaps. */
     int target = 1;
     if (gloss)

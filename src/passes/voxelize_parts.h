@@ -12,6 +12,8 @@ typedef struct lsf_voxelize_still {
     bool *moves;             /* of each instance; NULL: nothing is kept */
     float (*transforms)[12]; /* of each instance, as of the last run */
     uint32_t instance_count;
+    const lsf_scene *scene;
+    float *values;                          /* of the pose, as of the last run */
     GLuint textures[LSF_VOXELIZE_TEXTURES]; /* as lsf_voxelize_textures lists them */
     GLuint bricks;
 } lsf_voxelize_still;

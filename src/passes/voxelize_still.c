@@ -55,18 +55,13 @@ void lsf_voxelize_still_plan(lsf_plan *plan, const lsf_voxel_grid *grid)
 
 static bool find_moving(lsf_voxelize_still *still, const lsf_scene *scene)
 {
-    bool *nodes = lsf_alloc(scene->node_count, sizeof *nodes);
+    still->scene = scene;
     still->instance_count = scene->instance_count;
     still->moves = lsf_alloc(scene->instance_count, sizeof *still->moves);
     still->transforms = lsf_alloc(scene->instance_count, sizeof *still->transforms);
-    if (nodes && still->moves) {
-        lsf_scene_moving_nodes(scene, nodes);
-        for (uint32_t i = 0; i < scene->instance_count; i++)
-            still->moves[i] = nodes[scene->instances[i].node];
-    }
-    bool good = nodes && still->moves && still->transforms;
-    free(nodes);
-    return good;
+    still->values = lsf_alloc(lsf_pose_value_count(scene), sizeof *still->values);
+    return still->moves && still->transforms && still->values &&
+           lsf_scene_moving_instances(scene, still->moves);
 }
 
 bool lsf_voxelize_still_create(lsf_voxelize *pass, const lsf_plan *plan, const lsf_scene *scene,
@@ -97,6 +92,12 @@ bool lsf_voxelize_still_moved(lsf_voxelize *pass, const lsf_state *state)
         const float *now = state->instances[i].transform;
         moved = moved || memcmp(still->transforms[i], now, sizeof still->transforms[i]) != 0;
         memcpy(still->transforms[i], now, sizeof still->transforms[i]);
+    }
+    const float *values = state->pose.values;
+    size_t bytes = values ? lsf_pose_value_count(still->scene) * sizeof *values : 0;
+    if (still->moves && bytes > 0) {
+        moved = moved || memcmp(still->values, values, bytes) != 0;
+        memcpy(still->values, values, bytes);
     }
     return moved;
 }
@@ -150,4 +151,5 @@ void lsf_voxelize_still_destroy(lsf_voxelize *pass)
     lsf_buffer_destroy(pass->context, &still->bricks);
     free(still->moves);
     free(still->transforms);
+    free(still->values);
 }

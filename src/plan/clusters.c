@@ -19,8 +19,8 @@ static uint64_t cluster_count(const lsf_primitive *primitive)
     return ((uint64_t)primitive->index_count + CLUSTER_INDICES - 1) / CLUSTER_INDICES;
 }
 
-static void bound(float bounds[6], const lsf_scene *scene, const lsf_primitive *primitive,
-                  uint64_t first)
+static void bound(float bounds[6], const lsf_scene *scene, const lsf_vertices *vertices,
+                  const lsf_primitive *primitive, uint64_t first)
 {
     uint64_t end = first + CLUSTER_INDICES;
     if (end > primitive->index_count)
@@ -31,7 +31,7 @@ static void bound(float bounds[6], const lsf_scene *scene, const lsf_primitive *
     }
     for (uint64_t i = first; i < end; i++) {
         const float *p =
-            scene->vertices.position + 3 * (size_t)scene->indices[primitive->first_index + i];
+            vertices->position + 3 * (size_t)scene->indices[primitive->first_index + i];
         for (int axis = 0; axis < 3; axis++) {
             bounds[axis] = fminf(bounds[axis], p[axis]);
             bounds[3 + axis] = fmaxf(bounds[3 + axis], p[axis]);
@@ -55,10 +55,17 @@ bool lsf_clusters_init(lsf_clusters *clusters, const lsf_scene *scene)
     if (!clusters->bounds)
         return false;
     for (uint32_t i = 0; i < scene->primitive_count; i++)
-        for (uint64_t c = clusters->first[i]; c < clusters->first[i + 1]; c++)
-            bound(clusters->bounds[c], scene, &scene->primitives[i],
-                  (c - clusters->first[i]) * CLUSTER_INDICES);
+        lsf_clusters_update(clusters, scene, &scene->vertices, i);
     return true;
+}
+
+void lsf_clusters_update(lsf_clusters *clusters, const lsf_scene *scene,
+                         const lsf_vertices *vertices, uint32_t primitive)
+{
+    uint64_t first = clusters->first[primitive];
+    for (uint64_t c = first; c < clusters->first[primitive + 1]; c++)
+        bound(clusters->bounds[c], scene, vertices, &scene->primitives[primitive],
+              (c - first) * CLUSTER_INDICES);
 }
 
 void lsf_clusters_finish(lsf_clusters *clusters)

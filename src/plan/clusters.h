@@ -19,6 +19,9 @@ typedef struct lsf_clusters {
 
 /* False without memory. Finish it in either case. */
 bool lsf_clusters_init(lsf_clusters *clusters, const lsf_scene *scene);
+/* Bounds those of a primitive anew, of vertices that were deformed. */
+void lsf_clusters_update(lsf_clusters *clusters, const lsf_scene *scene,
+                         const lsf_vertices *vertices, uint32_t primitive);
 void lsf_clusters_finish(lsf_clusters *clusters);
 
 /* Whether an instance's bounds reach into the region. */

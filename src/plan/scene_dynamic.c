@@ -13,8 +13,12 @@ typedef struct lsf_material_data material_data;
 
 bool lsf_scene_gpu_follows(const char *resource)
 {
-    static const char *const names[] = {"scene.instances", "scene.previous_transforms",
-                                        "scene.materials", "scene.lobes", "scene.triangles"};
+    static const char *const names[] = {"scene.instances",
+                                        "scene.previous_transforms",
+                                        "scene.previous_positions",
+                                        "scene.materials",
+                                        "scene.lobes",
+                                        "scene.triangles"};
     for (size_t i = 0; i < LSF_COUNT(names); i++)
         if (strcmp(names[i], resource) == 0)
             return true;
@@ -31,11 +35,21 @@ bool lsf_scene_dynamic_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_erro
     if (!gpu->placed || (!gpu->placed_before && lsf_plan_find(plan, "scene.previous_transforms")))
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances",
                              scene->instance_count);
+    if (scene->deformer_count > 0) {
+        uint64_t values = lsf_pose_value_count(scene);
+        gpu->posed = lsf_alloc(values, sizeof *gpu->posed);
+        gpu->posed_before = lsf_alloc(values, sizeof *gpu->posed_before);
+        if (!gpu->posed || !gpu->posed_before)
+            return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for joints and weights");
+    }
     gpu->anew = true;
     return lsf_plan_create_buffer(plan, gpu->context, "scene.instances", NULL, dynamic,
                                   &gpu->instances, error) &&
            lsf_plan_create_buffer(plan, gpu->context, "scene.previous_transforms", NULL, dynamic,
                                   &gpu->previous_transforms, error) &&
+           lsf_plan_create_buffer(plan, gpu->context, "scene.previous_positions",
+                                  scene->vertices.position, dynamic, &gpu->previous_positions,
+                                  error) &&
            lsf_plan_create_buffer(plan, gpu->context, "scene.materials", NULL, dynamic,
                                   &gpu->materials, error) &&
            lsf_plan_create_buffer(plan, gpu->context, "scene.triangles", NULL, dynamic,
@@ -46,11 +60,15 @@ void lsf_scene_dynamic_destroy(lsf_scene_gpu *gpu)
 {
     lsf_buffer_destroy(gpu->context, &gpu->instances);
     lsf_buffer_destroy(gpu->context, &gpu->previous_transforms);
+    lsf_buffer_destroy(gpu->context, &gpu->previous_positions);
     lsf_buffer_destroy(gpu->context, &gpu->materials);
     lsf_buffer_destroy(gpu->context, &gpu->triangles);
     free(gpu->placed);
     free(gpu->placed_before);
+    free(gpu->posed);
+    free(gpu->posed_before);
     free(gpu->corners);
+    gpu->posed = gpu->posed_before = NULL;
     gpu->placed = NULL;
     gpu->placed_before = NULL;
     gpu->corners = NULL;
@@ -76,13 +94,13 @@ static bool is_listed(const lsf_scene_gpu *gpu, const lsf_instance_state *instan
 }
 
 /* In normalised space. */
-static void place_triangle(float corners[9], const lsf_scene *scene,
+static void place_triangle(float corners[9], const lsf_scene *scene, const lsf_state *state,
                            const lsf_instance_state *instance, uint32_t triangle)
 {
     const lsf_primitive *primitive = &scene->primitives[instance->primitive];
     const uint32_t *indices = scene->indices + primitive->first_index + 3 * (size_t)triangle;
     for (int corner = 0; corner < 3; corner++) {
-        const float *v = scene->vertices.position + 3 * (size_t)indices[corner];
+        const float *v = state->pose.vertices.position + 3 * (size_t)indices[corner];
         const float *m = instance->transform;
         for (int row = 0; row < 3; row++, m += 4)
             corners[3 * corner + row] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2] + m[3];
@@ -127,7 +145,7 @@ static void sort_triangles(lsf_scene_gpu *gpu, const lsf_state *state)
             uint32_t count = gpu->scene->primitives[instance->primitive].index_count / 3;
             for (uint32_t k = 0; k < count; k++) {
                 float corners[9];
-                place_triangle(corners, gpu->scene, instance, k);
+                place_triangle(corners, gpu->scene, state, instance, k);
                 uint32_t at = gpu->triangles_to[triangle_class(corners)]++;
                 if (placing)
                     memcpy(gpu->corners[at], corners, sizeof corners);
@@ -191,8 +209,58 @@ static bool update_instances(lsf_scene_gpu *gpu, const lsf_state *state)
     return any;
 }
 
+static void upload_vertices(GLuint buffer, const float *stream, GLsizeiptr width, uint64_t first,
+                            uint64_t count)
+{
+    GLsizeiptr bytes = width * (GLsizeiptr)sizeof *stream;
+    if (buffer)
+        glNamedBufferSubData(buffer, (GLintptr)first * bytes, (GLsizeiptr)count * bytes,
+                             stream + first * (uint64_t)width);
+}
+
+/* Whether some vertex moved in its instance. */
+static bool update_vertices(lsf_scene_gpu *gpu, const lsf_pose *pose)
+{
+    const lsf_scene *scene = gpu->scene;
+    bool any = false;
+    for (uint32_t i = 0; i < scene->primitive_count; i++) {
+        uint32_t deformer = scene->primitives[i].deformer;
+        if (deformer != LSF_NONE &&
+            (gpu->anew || !lsf_pose_is_same(scene, deformer, pose->values, gpu->posed)))
+            lsf_clusters_update(&gpu->clusters, scene, &pose->vertices, i);
+    }
+    for (uint32_t i = 0; i < scene->deformer_count; i++) {
+        const lsf_deformer *d = &scene->deformers[i];
+        uint64_t count = scene->shapes[d->shape].vertex_count;
+        if (!gpu->anew && lsf_pose_is_same(scene, i, pose->values, gpu->posed))
+            continue;
+        any = true;
+        upload_vertices(gpu->positions, pose->vertices.position, 3, d->first_vertex, count);
+        upload_vertices(gpu->normals, pose->vertices.normal, 3, d->first_vertex, count);
+        upload_vertices(gpu->tangents, pose->vertices.tangent, 4, d->first_vertex, count);
+    }
+    if (any)
+        memcpy(gpu->posed, pose->values, lsf_pose_value_count(scene) * sizeof *gpu->posed);
+    return any;
+}
+
+static void update_previous_vertices(lsf_scene_gpu *gpu, const lsf_pose *pose)
+{
+    const lsf_scene *scene = gpu->scene;
+    for (uint32_t i = 0; gpu->previous_positions && i < scene->deformer_count; i++) {
+        const lsf_deformer *d = &scene->deformers[i];
+        if (gpu->anew || !lsf_pose_is_same(scene, i, pose->values, gpu->posed_before))
+            upload_vertices(gpu->previous_positions, pose->vertices.position, 3, d->first_vertex,
+                            scene->shapes[d->shape].vertex_count);
+    }
+    if (gpu->previous_positions)
+        memcpy(gpu->posed_before, pose->values,
+               lsf_pose_value_count(scene) * sizeof *gpu->posed_before);
+}
+
 static void update_previous(lsf_scene_gpu *gpu, const lsf_state *previous, bool anew)
 {
+    update_previous_vertices(gpu, &previous->pose);
     for (uint32_t i = 0; gpu->placed_before && i < previous->instance_count; i++) {
         const float *transform = previous->instances[i].transform;
         float *before = gpu->placed_before[i];
@@ -212,6 +280,7 @@ void lsf_scene_gpu_update(lsf_scene_gpu *gpu, const lsf_state *state, const lsf_
     if (edited)
         update_materials(gpu);
     bool moved = update_instances(gpu, state);
+    moved |= update_vertices(gpu, &state->pose);
     if (gpu->triangles && (moved || edited))
         update_triangles(gpu, state);
     if (previous)

@@ -77,6 +77,9 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
         if (plan->aovs & LSF_AOV_MOTION)
             lsf_plan_buffer_add(plan, "scene.previous_transforms",
                                 (uint64_t)scene->instance_count * 48, "motion is asked for");
+        if ((plan->aovs & LSF_AOV_MOTION) && (r->skinned || r->morphed))
+            lsf_plan_buffer_add(plan, "scene.previous_positions", vertices * 12,
+                                "motion is asked for, and vertices are deformed");
     }
     lsf_texture_upload_plan(plan, scene);
 }
@@ -243,6 +246,8 @@ static GLuint create_array(const lsf_scene_gpu *gpu, const char *label, bool sha
     if (shading && gpu->previous_transforms)
         add_instance_rows(array, LSF_ATTRIBUTE_PREVIOUS_TRANSFORM, gpu->previous_transforms,
                           12 * sizeof(float), 0);
+    if (shading)
+        add_attribute(array, LSF_ATTRIBUTE_PREVIOUS_POSITION, gpu->previous_positions, 3);
     return array;
 }
 
@@ -271,22 +276,24 @@ static bool order_draws(lsf_scene_gpu *gpu, const lsf_state *state, lsf_error *e
 static bool upload_streams(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
 {
     const lsf_vertices *v = &gpu->scene->vertices;
+    const GLbitfield deformed = gpu->scene->deformer_count > 0 ? GL_DYNAMIC_STORAGE_BIT : 0;
     const struct {
         const char *name;
         const void *data;
         GLuint *buffer;
+        GLbitfield flags;
     } streams[] = {
-        {"scene.positions", v->position, &gpu->positions},
-        {"scene.normals", v->normal, &gpu->normals},
-        {"scene.tangents", v->tangent, &gpu->tangents},
-        {"scene.uv0", v->uv0, &gpu->uv0},
-        {"scene.uv1", v->uv1, &gpu->uv1},
-        {"scene.colors", v->color, &gpu->colors},
-        {"scene.indices", gpu->scene->indices, &gpu->indices},
+        {"scene.positions", v->position, &gpu->positions, deformed},
+        {"scene.normals", v->normal, &gpu->normals, deformed},
+        {"scene.tangents", v->tangent, &gpu->tangents, deformed},
+        {"scene.uv0", v->uv0, &gpu->uv0, 0},
+        {"scene.uv1", v->uv1, &gpu->uv1, 0},
+        {"scene.colors", v->color, &gpu->colors, 0},
+        {"scene.indices", gpu->scene->indices, &gpu->indices, 0},
     };
     for (size_t i = 0; i < LSF_COUNT(streams); i++)
-        if (!lsf_plan_create_buffer(plan, gpu->context, streams[i].name, streams[i].data, 0,
-                                    streams[i].buffer, error))
+        if (!lsf_plan_create_buffer(plan, gpu->context, streams[i].name, streams[i].data,
+                                    streams[i].flags, streams[i].buffer, error))
             return false;
     return true;
 }

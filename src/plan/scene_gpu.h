@@ -16,7 +16,7 @@ typedef struct lsf_scene_gpu {
     const lsf_scene *scene;
     bool transmission, straight; /* as in the plan */
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
-    GLuint instances, previous_transforms, materials, environment;
+    GLuint instances, previous_transforms, previous_positions, materials, environment;
     GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */
     uint32_t triangle_count; /* in it: those of opaque materials, without what lets light
                               * straight through; from the longest class to the shortest */
@@ -35,6 +35,7 @@ typedef struct lsf_scene_gpu {
     /* What was uploaded of each instance, to tell what has changed. */
     struct lsf_instance_data *placed;
     float (*placed_before)[12]; /* NULL without motion */
+    float *posed, *posed_before; /* values of the pose; NULL: nothing deforms */
     float (*corners)[9];        /* of `triangles`, while something moves; else NULL */
     uint64_t material_edits;    /* of the scene, when materials were uploaded */
     bool anew;                  /* nothing was uploaded yet */
@@ -78,8 +79,9 @@ uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length);
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
                           const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
                           lsf_error *error);
-/* Brings up to date what of it depends on the state: instances that moved, their triangles, and
- * materials that were edited. Allocates nothing. `state` has to fit the plan. */
+/* Brings up to date what of it depends on the state: instances that moved, vertices that were
+ * deformed, their triangles, and materials that were edited. Allocates nothing. `state` has to fit
+ * the plan. */
 void lsf_scene_gpu_update(lsf_scene_gpu *gpu, const lsf_state *state, const lsf_state *previous);
 /* Goes over from the plan `old` to another of the same scene; streams and textures that both list
  * stay where they are. On failure it can only be destroyed. */

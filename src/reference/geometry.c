@@ -80,7 +80,7 @@ static void reject_hidden_backs(const struct RTCFilterFunctionNArguments *argume
 }
 
 static bool transform_positions(lsf_reference_mesh *mesh, const lsf_scene *scene,
-                                const lsf_instance_state *instance)
+                                const lsf_state *state, const lsf_instance_state *instance)
 {
     const lsf_primitive *primitive = &scene->primitives[instance->primitive];
     /* Embree reads the last vertex with a 16-byte load. */
@@ -89,7 +89,7 @@ static bool transform_positions(lsf_reference_mesh *mesh, const lsf_scene *scene
         return false;
     const float *m = instance->transform;
     for (uint32_t i = 0; i < primitive->vertex_count; i++) {
-        const float *p = scene->vertices.position + 3 * (primitive->first_vertex + i);
+        const float *p = state->pose.vertices.position + 3 * (primitive->first_vertex + i);
         for (int row = 0; row < 3; row++)
             mesh->positions[3 * (uint64_t)i + row] =
                 m[4 * row] * p[0] + m[4 * row + 1] * p[1] + m[4 * row + 2] * p[2] + m[4 * row + 3];
@@ -121,7 +121,7 @@ static bool add_instance(lsf_reference_geometry *geometry, uint32_t index, lsf_r
     mesh->instance = index;
     if (instance->skipped)
         return true;
-    if (!transform_positions(mesh, scene, instance) ||
+    if (!transform_positions(mesh, scene, geometry->state, instance) ||
         !local_indices(geometry, instance->primitive))
         return false;
     const lsf_primitive *primitive = &scene->primitives[instance->primitive];

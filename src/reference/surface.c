@@ -142,7 +142,7 @@ static lsf_basis vertex_frame(const lsf_reference_geometry *geometry,
                               const lsf_instance_state *instance, const corner_weights *at,
                               lsf_float3 front_normal)
 {
-    const lsf_vertices *vertices = &geometry->scene->vertices;
+    const lsf_vertices *vertices = &geometry->state->pose.vertices;
     float n[3];
     interpolate(vertices->normal, 3, at, n);
     lsf_float3 normal = lsf_f3_normalize_or(

@@ -40,7 +40,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 35 };
+enum { FLAG_COUNT = 37 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -78,6 +78,8 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"texture_transformed", r->texture_transformed},
         {"second_uv", r->second_uv},
         {"vertex_colored", r->vertex_colored},
+        {"skinned", r->skinned},
+        {"morphed", r->morphed},
         {"moving", r->moving},
         {"bounded", r->bounds_min[0] <= r->bounds_max[0]},
     };
@@ -267,6 +269,12 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
                    (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
                    (unsigned long long)r->degenerate_triangles);
     lsf_string_add(out, "vertices     %llu\n", (unsigned long long)r->vertices);
+    if (scene->skin_count > 0)
+        lsf_string_add(out, "skins        %u, %u joint%s\n", scene->skin_count, scene->joint_count,
+                       lsf_plural(scene->joint_count));
+    if (scene->weight_count > 0)
+        lsf_string_add(out, "morphed by   %u weight%s\n", scene->weight_count,
+                       lsf_plural(scene->weight_count));
     lsf_string_add(out, "materials    %u in use\n", r->materials);
     add_images_text(out, scene);
     lsf_string_add(out, "lights       %u point, %u spot, %u directional\n",

@@ -13,6 +13,7 @@
 
 #include "base/base.h"
 #include "scene/hierarchy.h"
+#include "scene/pose.h"
 
 enum { SUPPORTS = 4 };
 
@@ -70,8 +71,8 @@ static void box_supports(const frame *f, const lsf_primitive *primitive, const d
     }
 }
 
-static void add_instance(frame *f, const lsf_scene *scene, const lsf_primitive *primitive,
-                         const double *matrix)
+static void add_instance(frame *f, const lsf_scene *scene, const lsf_pose *pose,
+                         const lsf_primitive *primitive, const double *matrix)
 {
     double box[SUPPORTS];
     box_supports(f, primitive, matrix, box);
@@ -88,7 +89,7 @@ static void add_instance(frame *f, const lsf_scene *scene, const lsf_primitive *
     }
     for (uint32_t i = 0; i < primitive->index_count; i++) {
         const float *p =
-            scene->vertices.position + 3 * (size_t)scene->indices[primitive->first_index + i];
+            pose->vertices.position + 3 * (size_t)scene->indices[primitive->first_index + i];
         support(f, matrix, (const double[]){(double)p[0], (double)p[1], (double)p[2]}, f->supports);
     }
 }
@@ -98,18 +99,21 @@ static bool add_moments(frame *f, const lsf_scene *scene)
     double first, last;
     uint32_t moments = lsf_scene_moments(scene, &first, &last);
     double *matrices = lsf_alloc(scene->node_count, 16 * sizeof *matrices);
-    if (!matrices)
-        return false;
-    for (uint32_t moment = 0; moment < moments; moment++) {
-        lsf_scene_world_matrices(scene, lsf_moment(moment, moments, first, last), matrices);
-        for (uint32_t i = 0; i < scene->instance_count; i++) {
-            const lsf_primitive *primitive = &scene->primitives[scene->instances[i].primitive];
+    lsf_pose pose = {0};
+    bool enough = matrices != NULL;
+    for (uint32_t moment = 0; enough && moment < moments; moment++) {
+        double time = lsf_moment(moment, moments, first, last);
+        lsf_scene_world_matrices(scene, time, matrices);
+        enough = lsf_pose_update(&pose, scene, time, matrices);
+        for (uint32_t i = 0; enough && i < scene->instance_count; i++) {
+            const lsf_primitive *primitive = &pose.primitives[scene->instances[i].primitive];
             if (primitive->index_count > 0)
-                add_instance(f, scene, primitive, matrices + (size_t)16 * scene->instances[i].node);
+                add_instance(f, scene, &pose, primitive, lsf_pose_world(&pose, scene, matrices, i));
         }
     }
+    lsf_pose_finish(&pose);
     free(matrices);
-    return true;
+    return enough;
 }
 
 /* An empty scene, or one that is a single point, has no size to go by. */

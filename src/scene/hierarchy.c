@@ -34,12 +34,12 @@ static void slerp(const float *a, const float *b, double t, double q[4])
 
 /* Cubic Hermite spline, glTF 2.0 appendix C.5: a key is in-tangent, value, out-tangent; `length`
  * is the time between the keys. */
-static void hermite(const float *from, const float *to, int width, double t, double length,
+static void hermite(const float *from, const float *to, uint32_t width, double t, double length,
                     double *value)
 {
     double t2 = t * t, t3 = t2 * t;
-    for (int i = 0; i < width; i++) {
-        double v0 = from[width + i], b0 = from[2 * width + i];
+    for (uint32_t i = 0; i < width; i++) {
+        double v0 = from[width + i], b0 = from[2 * (size_t)width + i];
         double a1 = to[i], v1 = to[width + i];
         value[i] = (2.0 * t3 - 3.0 * t2 + 1.0) * v0 + length * (t3 - 2.0 * t2 + t) * b0 +
                    (3.0 * t2 - 2.0 * t3) * v1 + length * (t3 - t2) * a1;
@@ -63,17 +63,17 @@ static uint32_t find_key(const lsf_animation_channel *channel, double time)
 void lsf_animation_sample(const lsf_animation_channel *channel, double time, double *value)
 {
     bool rotation = channel->path == LSF_PATH_ROTATION;
-    int width = rotation ? 4 : 3;
+    uint32_t width = channel->path == LSF_PATH_WEIGHTS ? channel->weight_count : rotation ? 4 : 3;
     bool cubic = channel->interpolation == LSF_CUBIC;
-    uint32_t stride = (uint32_t)width * (cubic ? 3 : 1);
+    size_t stride = (size_t)width * (cubic ? 3 : 1);
     uint32_t key = find_key(channel, time);
-    const float *from = channel->values + (size_t)key * stride;
+    const float *from = channel->values + key * stride;
     double start = channel->times[key];
 
     bool held =
         key + 1 == channel->key_count || time <= start || channel->interpolation == LSF_STEP;
     if (held) {
-        for (int i = 0; i < width; i++)
+        for (uint32_t i = 0; i < width; i++)
             value[i] = from[(cubic ? width : 0) + i];
     } else {
         const float *to = from + stride;
@@ -84,7 +84,7 @@ void lsf_animation_sample(const lsf_animation_channel *channel, double time, dou
         else if (rotation)
             slerp(from, to, t, value);
         else
-            for (int i = 0; i < width; i++)
+            for (uint32_t i = 0; i < width; i++)
                 value[i] = (1.0 - t) * from[i] + t * to[i];
     }
     if (rotation)
@@ -109,8 +109,7 @@ static void compose(const double scratch[10], double matrix[16])
     matrix[15] = 1.0;
 }
 
-/* a * b of affine matrices. */
-static void multiply(const double a[16], const double b[16], double result[16])
+void lsf_multiply_affine(const double a[16], const double b[16], double result[16])
 {
     for (int column = 0; column < 4; column++) {
         const double *v = b + 4 * column;
@@ -144,7 +143,7 @@ void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matri
         begin_scratch(&scene->nodes[i], matrices + (size_t)16 * i);
     for (uint32_t i = 0; i < scene->channel_count; i++) {
         const lsf_animation_channel *channel = &scene->channels[i];
-        if (scene->nodes[channel->node].has_matrix)
+        if (channel->path == LSF_PATH_WEIGHTS || scene->nodes[channel->node].has_matrix)
             continue;
         static const int offsets[] = {[LSF_PATH_TRANSLATION] = TRANSLATION,
                                       [LSF_PATH_ROTATION] = ROTATION,
@@ -163,7 +162,18 @@ void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matri
         if (node->parent == LSF_NONE)
             memcpy(world, local, sizeof(local));
         else
-            multiply(matrices + (size_t)16 * node->parent, local, world);
+            lsf_multiply_affine(matrices + (size_t)16 * node->parent, local, world);
+    }
+}
+
+void lsf_scene_weights(const lsf_scene *scene, double time, double *weights)
+{
+    for (uint32_t i = 0; i < scene->weight_count; i++)
+        weights[i] = (double)scene->weights[i];
+    for (uint32_t i = 0; i < scene->channel_count; i++) {
+        const lsf_animation_channel *channel = &scene->channels[i];
+        if (channel->path == LSF_PATH_WEIGHTS)
+            lsf_animation_sample(channel, time, weights + scene->nodes[channel->node].first_weight);
     }
 }
 

@@ -13,6 +13,9 @@ extern "C" {
  * scene space. A long chain of large scales can overflow: check for finite results. */
 void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matrices);
 
+/* The weights of morph targets then: scene->weight_count of them. */
+void lsf_scene_weights(const lsf_scene *scene, double time, double *weights);
+
 /* The first and the last key of all animations, and at how many moments from one to the other to
  * look where the whole of them counts: 1 where nothing is animated. */
 uint32_t lsf_scene_moments(const lsf_scene *scene, double *first, double *last);
@@ -21,8 +24,12 @@ double lsf_moment(uint32_t index, uint32_t moments, double first, double last);
 /* A node's own transform as the file or a program gives it, column-major, without animations. */
 void lsf_node_matrix(const lsf_node *node, double matrix[16]);
 
-/* Samples one channel: 3 doubles, or a unit quaternion x,y,z,w for rotations. */
+/* Samples one channel: 3 doubles, a unit quaternion x,y,z,w for rotations, or
+ * as many weights as its node has. */
 void lsf_animation_sample(const lsf_animation_channel *channel, double time, double *value);
+
+/* a * b of affine column-major matrices. */
+void lsf_multiply_affine(const double a[16], const double b[16], double result[16]);
 
 /* point' = matrix * (point, 1) for an affine column-major matrix. */
 void lsf_transform_point(const double matrix[16], const double point[3], double result[3]);

@@ -56,7 +56,7 @@ static void count(part *p, const float triangle[6], void *user)
     }
 }
 
-static void bound_triangle(const lsf_scene *scene, const lsf_instance_state *instance,
+static void bound_triangle(const lsf_state *state, const lsf_instance_state *instance,
                            const uint32_t corners[3], float bounds[6])
 {
     const float *m = instance->transform;
@@ -65,7 +65,7 @@ static void bound_triangle(const lsf_scene *scene, const lsf_instance_state *ins
         bounds[3 + axis] = -INFINITY;
     }
     for (int i = 0; i < 3; i++) {
-        const float *p = scene->vertices.position + 3 * (size_t)corners[i];
+        const float *p = state->pose.vertices.position + 3 * (size_t)corners[i];
         for (int axis = 0; axis < 3; axis++) {
             const float *row = m + 4 * axis;
             float at = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
@@ -91,7 +91,7 @@ static void visit(part *p, const lsf_scene *scene, const lsf_state *state, part_
             continue;
         }
         for (uint32_t k = 0; !instance->skipped && k + 2 < primitive->index_count; k += 3) {
-            bound_triangle(scene, instance, indices + k, bounds);
+            bound_triangle(state, instance, indices + k, bounds);
             if (inside(p->region, bounds))
                 triangle(p, bounds, user);
         }

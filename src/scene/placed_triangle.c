@@ -2,14 +2,15 @@
 
 #include <math.h>
 
-static void place_corners(const lsf_scene *scene, const lsf_instance_state *instance,
+static void place_corners(const lsf_scene *scene, const lsf_state *state, uint32_t index,
                           uint32_t triangle, double corners[3][3])
 {
+    const lsf_instance_state *instance = &state->instances[index];
     const lsf_primitive *primitive = &scene->primitives[instance->primitive];
     const uint32_t *indices = scene->indices + primitive->first_index + 3 * (uint64_t)triangle;
     const float *m = instance->transform;
     for (int i = 0; i < 3; i++) {
-        const float *v = scene->vertices.position + 3 * (uint64_t)indices[i];
+        const float *v = state->pose.vertices.position + 3 * (uint64_t)indices[i];
         for (int row = 0; row < 3; row++)
             corners[i][row] = (double)m[4 * row] * v[0] + (double)m[4 * row + 1] * v[1] +
                               (double)m[4 * row + 2] * v[2] + m[4 * row + 3];
@@ -20,7 +21,7 @@ lsf_placed_triangle lsf_place_triangle(const lsf_scene *scene, const lsf_state *
                                        uint32_t instance, uint32_t triangle)
 {
     lsf_placed_triangle placed;
-    place_corners(scene, &state->instances[instance], triangle, placed.corners);
+    place_corners(scene, state, instance, triangle, placed.corners);
     double a[3], b[3], *n = placed.normal;
     for (int axis = 0; axis < 3; axis++) {
         a[axis] = placed.corners[1][axis] - placed.corners[0][axis];

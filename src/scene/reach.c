@@ -18,11 +18,12 @@ static void add_point(lsf_state *state, const double point[3])
     }
 }
 
-static void add_moment(lsf_state *state, const lsf_scene *scene, const double *worlds)
+static void add_moment(lsf_state *state, const lsf_scene *scene, const lsf_pose *pose,
+                       const double *worlds)
 {
     for (uint32_t i = 0; i < scene->instance_count; i++) {
-        const lsf_primitive *primitive = &scene->primitives[scene->instances[i].primitive];
-        const double *world = worlds + (size_t)16 * scene->instances[i].node;
+        const lsf_primitive *primitive = &pose->primitives[scene->instances[i].primitive];
+        const double *world = lsf_pose_world(pose, scene, worlds, i);
         for (int corner = 0; corner < 8 && primitive->index_count > 0; corner++) {
             double point[3], placed[3];
             for (int axis = 0; axis < 3; axis++)
@@ -40,21 +41,25 @@ static bool update_hull(lsf_state *state, const lsf_scene *scene)
     if (known && state->hull_edits == scene->edits.nodes)
         return true;
     double *worlds = lsf_alloc(scene->node_count, 16 * sizeof *worlds);
-    if (!worlds)
-        return false;
+    lsf_pose pose = {0};
+    bool enough = worlds != NULL;
     for (int axis = 0; axis < 3; axis++) {
         state->hull_min[axis] = INFINITY;
         state->hull_max[axis] = -INFINITY;
     }
     double first, last;
     uint32_t moments = lsf_scene_moments(scene, &first, &last);
-    for (uint32_t i = 0; i < moments; i++) {
-        lsf_scene_world_matrices(scene, lsf_moment(i, moments, first, last), worlds);
-        add_moment(state, scene, worlds);
+    for (uint32_t i = 0; enough && i < moments; i++) {
+        double time = lsf_moment(i, moments, first, last);
+        lsf_scene_world_matrices(scene, time, worlds);
+        enough = lsf_pose_update(&pose, scene, time, worlds);
+        if (enough)
+            add_moment(state, scene, &pose, worlds);
     }
+    lsf_pose_finish(&pose);
     free(worlds);
     state->hull_edits = scene->edits.nodes;
-    return true;
+    return enough;
 }
 
 bool lsf_state_update_reach(lsf_state *state, const lsf_scene *scene)

@@ -2,6 +2,7 @@
 
 #include "base/base.h"
 #include "scene/hierarchy.h"
+#include "scene/pose.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -94,35 +95,81 @@ static void add_lights(const lsf_scene *scene, lsf_requirements *r)
     r->directional_lights += scene->key_light.present;
 }
 
-void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves)
+/* By an animation or a program, by themselves or with an ancestor. */
+static bool *find_moving_nodes(const lsf_scene *scene)
 {
-    for (uint32_t i = 0; i < scene->channel_count; i++)
-        moves[scene->channels[i].node] = true;
-    for (uint32_t i = 0; i < scene->node_count; i++)
-        moves[i] = moves[i] || scene->nodes[i].edited;
-    for (uint32_t i = 0; i < scene->node_count; i++) {
+    bool *moves = lsf_alloc(scene->node_count, sizeof *moves);
+    for (uint32_t i = 0; moves && i < scene->channel_count; i++)
+        moves[scene->channels[i].node] |= scene->channels[i].path != LSF_PATH_WEIGHTS;
+    for (uint32_t i = 0; moves && i < scene->node_count; i++) {
         uint32_t parent = scene->nodes[i].parent;
-        moves[i] = moves[i] || (parent != LSF_NONE && moves[parent]);
+        moves[i] = moves[i] || scene->nodes[i].edited || (parent != LSF_NONE && moves[parent]);
     }
+    return moves;
 }
 
-/* Finds whether a node moves that carries something. False without memory. */
+/* Of each deformer, whether its joints move or its weights change. */
+static bool *find_moving_deformers(const lsf_scene *scene, const bool *nodes)
+{
+    bool *moves = lsf_alloc(scene->deformer_count, sizeof *moves);
+    bool *weights = lsf_alloc(scene->weight_count, sizeof *weights);
+    for (uint32_t i = 0; moves && weights && i < scene->channel_count; i++) {
+        const lsf_animation_channel *channel = &scene->channels[i];
+        if (channel->path == LSF_PATH_WEIGHTS)
+            weights[scene->nodes[channel->node].first_weight] = true;
+    }
+    for (uint32_t i = 0; moves && weights && i < scene->deformer_count; i++) {
+        const lsf_deformer *d = &scene->deformers[i];
+        const lsf_node *node = &scene->nodes[d->node];
+        moves[i] = node->weight_count > 0 && weights[node->first_weight];
+        if (d->skin == LSF_NONE) {
+            moves[i] = moves[i] || nodes[d->node];
+            continue;
+        }
+        const lsf_skin *skin = &scene->skins[d->skin];
+        for (uint32_t k = 0; k < skin->joint_count && !moves[i]; k++)
+            moves[i] = nodes[scene->joints[skin->first_joint + k].node];
+    }
+    if (!weights) {
+        free(moves);
+        return NULL;
+    }
+    free(weights);
+    return moves;
+}
+
+bool lsf_scene_moving_instances(const lsf_scene *scene, bool *moves)
+{
+    bool *nodes = find_moving_nodes(scene);
+    bool *deformers = nodes ? find_moving_deformers(scene, nodes) : NULL;
+    for (uint32_t i = 0; deformers && i < scene->instance_count; i++) {
+        uint32_t deformer = scene->primitives[scene->instances[i].primitive].deformer;
+        moves[i] = deformer == LSF_NONE ? nodes[scene->instances[i].node] : deformers[deformer];
+    }
+    bool enough = deformers != NULL;
+    free(nodes);
+    free(deformers);
+    return enough;
+}
+
+/* Finds whether an instance, a light or a camera moves. False without memory. */
 static bool find_moving(const lsf_scene *scene, lsf_requirements *r)
 {
     if (scene->channel_count == 0 && scene->edits.nodes == 0)
         return true;
-    bool *moves = lsf_alloc(scene->node_count, sizeof(bool));
-    if (!moves)
-        return false;
-    lsf_scene_moving_nodes(scene, moves);
-    for (uint32_t i = 0; i < scene->node_count && !r->moving; i++) {
+    bool *nodes = find_moving_nodes(scene);
+    bool *instances = lsf_alloc(scene->instance_count, sizeof *instances);
+    bool enough = nodes && instances && lsf_scene_moving_instances(scene, instances);
+    for (uint32_t i = 0; enough && i < scene->node_count; i++) {
         const lsf_node *node = &scene->nodes[i];
-        bool carries = node->light != LSF_NONE || node->camera != LSF_NONE ||
-                       (node->mesh != LSF_NONE && scene->meshes[node->mesh].primitive_count > 0);
-        r->moving = moves[i] && carries;
+        bool carries = node->light != LSF_NONE || node->camera != LSF_NONE;
+        r->moving = r->moving || (nodes[i] && carries);
     }
-    free(moves);
-    return true;
+    for (uint32_t i = 0; enough && i < scene->instance_count; i++)
+        r->moving = r->moving || instances[i];
+    free(nodes);
+    free(instances);
+    return enough;
 }
 
 /* --- bounds --- */
@@ -154,8 +201,8 @@ static void clear_bounds(lsf_requirements *r)
     }
 }
 
-static void add_bounds(const lsf_scene *scene, const lsf_primitive *primitive, const double *matrix,
-                       uint64_t *visits, lsf_requirements *r)
+static void add_bounds(const lsf_scene *scene, const lsf_pose *pose, const lsf_primitive *primitive,
+                       const double *matrix, uint64_t *visits, lsf_requirements *r)
 {
     lsf_requirements box;
     clear_bounds(&box);
@@ -177,7 +224,7 @@ static void add_bounds(const lsf_scene *scene, const lsf_primitive *primitive, c
     }
     for (uint64_t i = 0; i < primitive->index_count; i++) {
         const float *p =
-            scene->vertices.position + 3 * (size_t)scene->indices[primitive->first_index + i];
+            pose->vertices.position + 3 * (size_t)scene->indices[primitive->first_index + i];
         double point[3] = {p[0], p[1], p[2]};
         grow(r, matrix, point);
     }
@@ -262,6 +309,19 @@ static bool is_smooth(const lsf_scene *scene, const lsf_primitive *primitive)
     return !flat;
 }
 
+/* What is flat at rest is not when it is bent, but where normals are made anew. */
+static void note_deformer(lsf_requirements *r, const lsf_scene *scene,
+                          const lsf_primitive *primitive)
+{
+    if (primitive->deformer == LSF_NONE)
+        return;
+    const lsf_deformer *deformer = &scene->deformers[primitive->deformer];
+    const lsf_shape *shape = &scene->shapes[deformer->shape];
+    r->skinned = r->skinned || deformer->skin != LSF_NONE;
+    r->morphed = r->morphed || shape->target_count > 0;
+    r->smooth = r->smooth || !shape->flat;
+}
+
 /* False without memory. */
 static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
 {
@@ -270,17 +330,22 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
     /* By a list's first triangle: primitives may share one. */
     bool *list_seen = lsf_alloc(scene->index_count / 3, sizeof(bool));
     bool enough = matrices && primitive_seen && list_seen;
+    lsf_pose pose = {0};
     uint64_t visits = 0;
-    if (enough)
+    if (enough) {
         lsf_scene_world_matrices(scene, 0.0, matrices);
+        enough = lsf_pose_update(&pose, scene, 0.0, matrices);
+    }
     for (uint32_t i = 0; enough && i < scene->instance_count; i++) {
         const lsf_instance *instance = &scene->instances[i];
-        const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+        const lsf_primitive *primitive = &pose.primitives[instance->primitive];
         if (primitive->index_count == 0)
             continue;
         r->instances++;
         r->triangles += primitive->index_count / 3;
-        add_bounds(scene, primitive, matrices + (size_t)16 * instance->node, &visits, r);
+        if (isfinite(primitive->bounds_max[0]))
+            add_bounds(scene, &pose, primitive, lsf_pose_world(&pose, scene, matrices, i), &visits,
+                       r);
         if (!primitive_seen[instance->primitive]) {
             primitive_seen[instance->primitive] = true;
             r->primitives++;
@@ -290,8 +355,10 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
             r->unique_triangles += primitive->index_count / 3;
             r->degenerate_triangles += count_degenerate(scene, primitive);
             r->smooth = r->smooth || is_smooth(scene, primitive);
+            note_deformer(r, scene, primitive);
         }
     }
+    lsf_pose_finish(&pose);
     free(matrices);
     free(primitive_seen);
     free(list_seen);
@@ -353,6 +420,8 @@ bool lsf_scene_update_requirements(lsf_scene *scene)
         return false;
     add_environment(scene, &r);
     r.smooth = old.smooth;
+    r.skinned = old.skinned;
+    r.morphed = old.morphed;
     r.vertex_colored = old.vertex_colored;
     r.triangles = old.triangles;
     r.unique_triangles = old.unique_triangles;

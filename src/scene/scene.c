@@ -117,6 +117,13 @@ void lsf_scene_destroy(lsf_scene *scene)
         free(scene->channels[i].times);
         free(scene->channels[i].values);
     }
+    for (uint32_t i = 0; i < scene->shape_count; i++) {
+        free(scene->shapes[i].position_deltas);
+        free(scene->shapes[i].normal_deltas);
+        free(scene->shapes[i].tangent_deltas);
+        free(scene->shapes[i].joints);
+        free(scene->shapes[i].weights);
+    }
     for (uint32_t i = 0; i < scene->extension_count; i++)
         free(scene->extensions[i].name);
     for (uint32_t i = 0; i < scene->note_count; i++)
@@ -137,6 +144,11 @@ void lsf_scene_destroy(lsf_scene *scene)
     free(scene->lights);
     free(scene->cameras);
     free(scene->channels);
+    free(scene->skins);
+    free(scene->joints);
+    free(scene->shapes);
+    free(scene->deformers);
+    free(scene->weights);
     free(scene->environment.texels);
     free(scene->notes);
     free(scene->path);

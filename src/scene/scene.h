@@ -15,6 +15,8 @@
 extern "C" {
 #endif
 
+#define LSF_NONE UINT32_MAX /* no such index */
+
 /* Vertex streams of all primitives, one after the other. `position` and `normal` always exist.
  * Texture coordinates exist when some material reads that set, colours when some primitive has
  * them; where a primitive lacks them they hold the stated default. */
@@ -36,6 +38,7 @@ typedef struct lsf_primitive {
     uint64_t first_vertex;
     uint32_t vertex_count;
     uint32_t material;
+    uint32_t deformer;                  /* that moves its vertices, LSF_NONE: none does */
     float bounds_min[3], bounds_max[3]; /* object space, of the vertices that triangles use */
 } lsf_primitive;
 
@@ -44,8 +47,6 @@ typedef struct lsf_mesh {
     uint32_t first_primitive, primitive_count;
 } lsf_mesh;
 
-#define LSF_NONE UINT32_MAX /* no such index */
-
 typedef struct lsf_node {
     char *name;
     uint32_t parent; /* LSF_NONE: a root; otherwise smaller than the node's own index */
@@ -53,6 +54,7 @@ typedef struct lsf_node {
     bool has_matrix;  /* local transform is `matrix`, else T * R * S */
     double matrix[16]; /* column-major */
     double translation[3], rotation[4] /* x,y,z,w unit */, scale[3];
+    uint32_t first_weight, weight_count; /* of its mesh's morph targets, in scene->weights */
     bool edited; /* a program has set `matrix` (edit.c): animations leave it alone */
 } lsf_node;
 
@@ -60,6 +62,38 @@ typedef struct lsf_node {
 typedef struct lsf_instance {
     uint32_t node, primitive;
 } lsf_instance;
+
+/* Joints that vertices follow. A joint brings a point from the mesh to the scene by its node's
+ * transform times its inverse bind matrix (glTF 2.0, section 3.7.3). */
+typedef struct lsf_skin {
+    uint32_t first_joint, joint_count; /* in scene->joints; at least 1 */
+} lsf_skin;
+
+typedef struct lsf_joint {
+    uint32_t node;
+    float inverse_bind[16]; /* column-major, affine */
+} lsf_joint;
+
+/* How vertices at rest become others: by morph targets, then by joints. Deltas are those of one
+ * target after the other, 3 floats a vertex; NULL: no target has any. */
+typedef struct lsf_shape {
+    uint32_t vertex_count;
+    uint32_t target_count;
+    float *position_deltas, *normal_deltas, *tangent_deltas;
+    uint32_t influences; /* joints that each vertex follows; 0: no skin */
+    uint16_t *joints;    /* of the skin; `influences` a vertex, and so are the weights */
+    float *weights;      /* 0 or more, and 1 in all for each vertex */
+    bool
+        flat; /* each triangle has vertices of its own, and they its normal, however it is turned */
+} lsf_shape;
+
+/* Vertices that one node alone deforms. */
+typedef struct lsf_deformer {
+    uint32_t shape;
+    uint32_t node; /* that has the weights of the morph targets */
+    uint32_t skin; /* LSF_NONE: the node places the vertices, as any others */
+    uint64_t first_vertex;
+} lsf_deformer;
 
 typedef enum lsf_wrap { LSF_WRAP_REPEAT, LSF_WRAP_CLAMP, LSF_WRAP_MIRROR } lsf_wrap;
 
@@ -136,7 +170,12 @@ typedef struct lsf_camera {
     float near_plane;  /* scene units, > 0 (orthographic: >= 0) */
 } lsf_camera;
 
-typedef enum lsf_animation_path { LSF_PATH_TRANSLATION, LSF_PATH_ROTATION, LSF_PATH_SCALE } lsf_animation_path;
+typedef enum lsf_animation_path {
+    LSF_PATH_TRANSLATION,
+    LSF_PATH_ROTATION,
+    LSF_PATH_SCALE,
+    LSF_PATH_WEIGHTS, /* of all morph targets */
+} lsf_animation_path;
 typedef enum lsf_interpolation { LSF_STEP, LSF_LINEAR, LSF_CUBIC } lsf_interpolation;
 
 typedef struct lsf_animation_channel {
@@ -144,8 +183,10 @@ typedef struct lsf_animation_channel {
     lsf_animation_path path;
     lsf_interpolation interpolation;
     uint32_t key_count;
+    uint32_t weight_count; /* of the node, for its weights */
     float *times;  /* seconds, strictly increasing */
-    float *values; /* 3 (4 for rotation) a key; cubic: in-tangent, value, out-tangent */
+    float *values; /* 3 (4 for rotation, or the weights) a key; cubic: in-tangent, value,
+                      out-tangent */
 } lsf_animation_channel;
 
 /* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi + turn, v = acos(y) / pi
@@ -194,7 +235,7 @@ typedef struct lsf_edits {
 /* Only what the chosen scene of the file uses: its nodes, the lights and cameras they carry, the
  * primitives of the meshes they place (other meshes are listed without any), the materials of
  * those, and the textures and images that those read. Primitives that share accessors share
- * vertices and indices. */
+ * vertices and indices, unless they are deformed. */
 struct lsf_scene {
     char *path;
     lsf_vertices vertices;
@@ -213,6 +254,12 @@ struct lsf_scene {
     lsf_light *lights;
     lsf_camera *cameras;      /* at least 1 */
     lsf_animation_channel *channels;
+    uint32_t skin_count, joint_count, shape_count, deformer_count, weight_count;
+    lsf_skin *skins;
+    lsf_joint *joints;
+    lsf_shape *shapes;
+    lsf_deformer *deformers;
+    float *weights; /* of morph targets where no animation says otherwise; nodes may share them */
     lsf_environment environment;
     lsf_key_light key_light;
     lsf_choices scenes, animations, variants;
@@ -231,9 +278,9 @@ struct lsf_scene {
 void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Sets which nodes an animation or a program moves, by themselves or with an ancestor. `moves`: one
- * for each node, all false. */
-void lsf_scene_moving_nodes(const lsf_scene *scene, bool *moves);
+/* Sets which instances an animation or a program moves or deforms: one bool for each. False without
+ * memory. */
+bool lsf_scene_moving_instances(const lsf_scene *scene, bool *moves);
 
 /* Whether the camera sees only its front: of single-sided materials, as glTF asks (2.0,
  * section 3.9.6), but of none that transmits, whose far side is seen through the near one. Light

@@ -84,7 +84,7 @@ static void transform_bounds(lsf_instance_state *instance, const lsf_primitive *
     }
 }
 
-static void update_instance(lsf_instance_state *out, const lsf_state *state, const lsf_scene *scene,
+static void update_instance(lsf_instance_state *out, const lsf_state *state,
                             const lsf_instance *instance, const double *world)
 {
     vec3d x = column(world, 0), y = column(world, 1), z = column(world, 2);
@@ -111,7 +111,7 @@ static void update_instance(lsf_instance_state *out, const lsf_state *state, con
         out->normal_transform[3 + axis] = (float)(cofactor[axis].y * factor);
         out->normal_transform[6 + axis] = (float)(cofactor[axis].z * factor);
     }
-    const lsf_primitive *primitive = &scene->primitives[instance->primitive];
+    const lsf_primitive *primitive = &state->pose.primitives[instance->primitive];
     out->primitive = instance->primitive;
     out->material = primitive->material;
     out->mirrored = determinant < 0.0;
@@ -449,9 +449,11 @@ static bool update_scene(lsf_state *state, const lsf_scene *scene, double time)
     memcpy(state->center, scene->requirements.center, sizeof state->center);
     state->scale = scene->requirements.scale;
     lsf_scene_world_matrices(scene, time, state->worlds);
+    if (!lsf_pose_update(&state->pose, scene, time, state->worlds))
+        return false;
     for (uint32_t i = 0; i < scene->instance_count; i++)
-        update_instance(&state->instances[i], state, scene, &scene->instances[i],
-                        state->worlds + 16 * (size_t)scene->instances[i].node);
+        update_instance(&state->instances[i], state, &scene->instances[i],
+                        lsf_pose_world(&state->pose, scene, state->worlds, i));
     update_bounds(state);
     if (!lsf_state_update_reach(state, scene) || !update_lights(state, scene, state->worlds))
         return false;
@@ -506,6 +508,7 @@ void lsf_state_finish(lsf_state *state)
     free(state->instances);
     free(state->lights);
     free(state->worlds);
+    lsf_pose_finish(&state->pose);
     memset(state, 0, sizeof *state);
 }
 

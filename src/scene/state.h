@@ -8,6 +8,7 @@
 #define LSF_SCENE_STATE_H
 
 #include "math/vector.h"
+#include "scene/pose.h"
 #include "scene/scene.h"
 #include <lightsheaf/renderer.h>
 
@@ -51,6 +52,7 @@ typedef struct lsf_camera_state {
 typedef struct lsf_state {
     uint32_t instance_count, light_count;
     lsf_instance_state *instances; /* index as in scene->instances */
+    lsf_pose pose;                 /* their vertices */
     lsf_light_state *lights;       /* one for each node that carries a light, then the key light */
     lsf_camera_state camera;
     lsf_view view;                      /* the same, as a program would place it */

@@ -24,6 +24,8 @@
 
 #define MAX_POINTS ((LSF_TESSELLATE_MAX_FACTOR + 1) * (LSF_TESSELLATE_MAX_FACTOR + 2) / 2)
 
+#define UNPLACED UINT64_MAX /* a deformer's vertices, yet */
+
 static const struct {
     size_t offset; /* in lsf_vertices */
     uint32_t width;
@@ -352,6 +354,27 @@ static bool split_primitive(tessellation *t, const lsf_primitive *source, lsf_pr
     return true;
 }
 
+/* What deforms stays as it is: its vertices are not where they will be seen. Primitives of a
+ * deformer may share vertices. */
+static bool keep_primitive(tessellation *t, const lsf_primitive *source, lsf_primitive *target)
+{
+    lsf_deformer *deformer = &t->target->deformers[source->deformer];
+    if (deformer->first_vertex == UNPLACED) {
+        deformer->first_vertex = t->target->vertices.count;
+        if (!reserve(t, source->vertex_count))
+            return false;
+        for (uint32_t i = 0; i < source->vertex_count; i++)
+            copy_vertex(t, (uint32_t)(source->first_vertex + i));
+    }
+    target->first_vertex = deformer->first_vertex;
+    target->first_index = t->target->index_count;
+    for (uint32_t i = 0; i < source->index_count; i++)
+        t->target->indices[t->target->index_count++] =
+            (uint32_t)(t->source->indices[source->first_index + i] - source->first_vertex +
+                       target->first_vertex);
+    return true;
+}
+
 /* Primitives whose edges are one another's: those of a mesh. */
 static bool split_group(tessellation *t, uint32_t first, uint32_t count)
 {
@@ -359,11 +382,15 @@ static bool split_group(tessellation *t, uint32_t first, uint32_t count)
     lsf_key_map_clear(&t->edges);
     t->bend_count = 0;
     for (uint32_t p = first; p < first + count; p++)
-        if (!bend_edges(t, &t->source->primitives[p]))
+        if (t->source->primitives[p].deformer == LSF_NONE &&
+            !bend_edges(t, &t->source->primitives[p]))
             return false;
-    for (uint32_t p = first; p < first + count; p++)
-        if (!split_primitive(t, &t->source->primitives[p], &t->target->primitives[p]))
+    for (uint32_t p = first; p < first + count; p++) {
+        const lsf_primitive *from = &t->source->primitives[p];
+        lsf_primitive *to = &t->target->primitives[p];
+        if (!(from->deformer == LSF_NONE ? split_primitive : keep_primitive)(t, from, to))
             return false;
+    }
     return true;
 }
 
@@ -414,11 +441,16 @@ static lsf_scene *create_copy(const lsf_scene *scene, uint64_t index_count)
     copy->index_count = 0;
     copy->indices = lsf_alloc(index_count, sizeof *copy->indices);
     copy->primitives = lsf_alloc(scene->primitive_count, sizeof *copy->primitives);
-    if (!copy->indices || !copy->primitives) {
+    copy->deformers = lsf_alloc(scene->deformer_count, sizeof *copy->deformers);
+    if (!copy->indices || !copy->primitives || !copy->deformers) {
         lsf_scene_tessellated_destroy(copy);
         return NULL;
     }
     memcpy(copy->primitives, scene->primitives, scene->primitive_count * sizeof *copy->primitives);
+    for (uint32_t i = 0; i < scene->deformer_count; i++) {
+        copy->deformers[i] = scene->deformers[i];
+        copy->deformers[i].first_vertex = UNPLACED;
+    }
     return copy;
 }
 
@@ -454,5 +486,6 @@ void lsf_scene_tessellated_destroy(lsf_scene *tessellated)
         free(stream_of(&tessellated->vertices, s));
     free(tessellated->indices);
     free(tessellated->primitives);
+    free(tessellated->deformers);
     free(tessellated);
 }

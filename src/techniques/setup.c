@@ -141,6 +141,8 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
                         setup->pass_params.tessellation.factor,
                         (unsigned long long)setup->source->requirements.triangles,
                         (unsigned long long)setup->tessellated->requirements.triangles);
+    if (setup->tessellated && setup->scene->deformer_count > 0)
+        lsf_plan_remark(plan, "tessellation.factor leaves what skins and morph targets deform");
     set_basis(&setup->basis, setup);
     return true;
 }

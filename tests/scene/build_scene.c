@@ -139,6 +139,7 @@ lsf_node *build_triangles(lsf_scene *scene, const lsf_float3 *corners, uint32_t 
         .first_vertex = v->count,
         .vertex_count = count,
         .material = scene->material_count - 1,
+        .deformer = LSF_NONE,
         .bounds_min = {INFINITY, INFINITY, INFINITY},
         .bounds_max = {-INFINITY, -INFINITY, -INFINITY},
     };

@@ -1,0 +1,29 @@
+/* Skins and morph targets. */
+#ifndef LSF_IO_GLTF_DEFORM_HPP
+#define LSF_IO_GLTF_DEFORM_HPP
+
+#include "io/gltf_primitive.hpp"
+
+namespace lsf
+{
+
+/* Gives nodes the weights of their meshes' morph targets. */
+void weights_import(gltf_import &import);
+
+/* The scene's skin for the file's. */
+uint32_t skin_import(gltf_import &import, int skin);
+
+/* Whether a primitive has something to be deformed by. */
+bool has_shape(const tinygltf::Primitive &primitive, bool skinned);
+
+/* What deforms the vertices of a primitive, as another of the scene's shapes: its index. */
+uint32_t shape_import(gltf_import &import, const tinygltf::Primitive &primitive, bool skinned,
+                      bool flat, const vertex_arrays &arrays, const std::string &location);
+
+/* Fails unless a skin has all joints that the vertices of a shape follow. */
+void check_joints(const gltf_import &import, uint32_t shape, uint32_t skin,
+                  const std::string &location);
+
+} // namespace lsf
+
+#endif
