@@ -1,4 +1,5 @@
 #include "io/gltf_deform.hpp"
+#include "io/gltf_stream.hpp"
 
 #include "io/mesh_frame.h"
 
@@ -16,57 +17,6 @@
 
 namespace lsf
 {
-
-/* A stream of the scene that grows. */
-class stream
-{
-  public:
-    stream(float **array, uint64_t width, std::array<float, 4> otherwise, bool present)
-        : array_(array), width_(width), otherwise_(otherwise), present_(present)
-    {
-    }
-    /* Appends `count` vertices at `first`; the default where the file has none. */
-    void append(uint64_t first, uint64_t count, const std::vector<float> &values);
-    /* Appends copies of `count` vertices from `source` on. */
-    void repeat(uint64_t first, uint64_t count, uint64_t source);
-
-  private:
-    float *grow(uint64_t first, uint64_t count);
-
-    float **array_;
-    uint64_t width_, capacity_ = 0;
-    std::array<float, 4> otherwise_;
-    bool present_;
-};
-
-float *stream::grow(uint64_t first, uint64_t count)
-{
-    void *grown = *array_;
-    if (!lsf_grow(&grown, &capacity_, (first + count) * width_, sizeof(float)))
-        throw std::bad_alloc();
-    *array_ = static_cast<float *>(grown);
-    return *array_ + first * width_;
-}
-
-void stream::repeat(uint64_t first, uint64_t count, uint64_t source)
-{
-    if (!present_)
-        return;
-    float *out = grow(first, count);
-    std::copy_n(*array_ + source * width_, count * width_, out);
-}
-
-void stream::append(uint64_t first, uint64_t count, const std::vector<float> &values)
-{
-    if (!present_)
-        return;
-    float *out = grow(first, count);
-    if (!values.empty())
-        std::copy_n(values.data(), count * width_, out);
-    else
-        for (uint64_t i = 0; i < count; i++)
-            std::copy_n(otherwise_.data(), width_, out + i * width_);
-}
 
 class geometry_importer
 {
