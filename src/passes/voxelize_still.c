@@ -94,8 +94,8 @@ bool lsf_voxelize_still_moved(lsf_voxelize *pass, const lsf_state *state)
         memcpy(still->transforms[i], now, sizeof still->transforms[i]);
     }
     const float *values = state->pose.values;
-    size_t bytes = values ? lsf_pose_value_count(still->scene) * sizeof *values : 0;
-    if (still->moves && bytes > 0) {
+    if (still->moves && values) {
+        size_t bytes = lsf_pose_value_count(still->scene) * sizeof *values;
         moved = moved || memcmp(still->values, values, bytes) != 0;
         memcpy(still->values, values, bytes);
     }

@@ -18,23 +18,38 @@ enum { NODE_BOX, NODE_LAMP, NODE_LIGHT, NODE_SPINNING, NODES };
 typedef struct world {
     lsf_scene *scene;
     uint32_t nodes[NODES];
-    uint32_t lamp, sheet; /* materials */
+    uint32_t lamp, sheet, banner; /* materials */
 } world;
 
-/* Half a turn about y in a second. */
-static void spin(lsf_scene *scene, uint32_t node)
+/* From the one to the other within a second. */
+static void animate(lsf_scene *scene, uint32_t node, lsf_animation_path path, const float *values,
+                    size_t bytes)
 {
-    static const float times[] = {0, 1}, values[] = {0, 0, 0, 1, 0, 1, 0, 0};
-    scene->channels = calloc(1, sizeof *scene->channels);
-    scene->channel_count = 1;
-    scene->channels[0] = (lsf_animation_channel){.node = node,
-                                                 .path = LSF_PATH_ROTATION,
-                                                 .interpolation = LSF_LINEAR,
-                                                 .key_count = 2,
-                                                 .times = malloc(sizeof times),
-                                                 .values = malloc(sizeof values)};
-    memcpy(scene->channels[0].times, times, sizeof times);
-    memcpy(scene->channels[0].values, values, sizeof values);
+    static const float times[] = {0, 1};
+    scene->channels =
+        realloc(scene->channels, (scene->channel_count + 1) * sizeof *scene->channels);
+    lsf_animation_channel *channel = &scene->channels[scene->channel_count++];
+    *channel = (lsf_animation_channel){.node = node,
+                                       .path = path,
+                                       .interpolation = LSF_LINEAR,
+                                       .key_count = 2,
+                                       .weight_count = scene->nodes[node].weight_count,
+                                       .times = malloc(sizeof times),
+                                       .values = malloc(bytes)};
+    memcpy(channel->times, times, sizeof times);
+    memcpy(channel->values, values, bytes);
+}
+
+/* A banner that joints bend and a morph target shifts; it is of the last material. */
+static void build_banner(lsf_scene *scene)
+{
+    static const float turn[] = {0, 0, 0, 1, 0.6f, 0, 0, 0.8f}, weights[] = {0, 1};
+    build_quad(scene, lsf_f3(-1.6f, 0, 0.5f), lsf_f3(-0.9f, 0, 0.5f), lsf_f3(-0.9f, 1.8f, 0.5f),
+               lsf_f3(-1.6f, 1.8f, 0.5f));
+    uint32_t banner = scene->node_count - 1;
+    uint32_t joint = build_deformer(scene, lsf_f3(0.4f, 0.1f, 0.3f));
+    animate(scene, joint, LSF_PATH_ROTATION, turn, sizeof turn);
+    animate(scene, banner, LSF_PATH_WEIGHTS, weights, sizeof weights);
 }
 
 static world build_world(bool animated, bool sky)
@@ -54,13 +69,18 @@ static world build_world(bool animated, bool sky)
     build_quad(scene, lsf_f3(0.4f, 0, 0), lsf_f3(1, 0, 0), lsf_f3(1, 0.8f, 0),
                lsf_f3(0.4f, 0.8f, 0));
     w.nodes[NODE_SPINNING] = scene->node_count - 1;
+    build_material(scene, 0.8f, 0.8f, 0.2f);
+    w.banner = scene->material_count - 1;
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
     w.nodes[NODE_LIGHT] = scene->node_count - 1;
     build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(-0.4f, -0.8f, -0.5f), 1.0f);
     if (sky)
         build_environment(scene, 0.3f);
-    if (animated)
-        spin(scene, w.nodes[NODE_SPINNING]);
+    if (animated) {
+        static const float half_a_turn[] = {0, 0, 0, 1, 0, 1, 0, 0};
+        animate(scene, w.nodes[NODE_SPINNING], LSF_PATH_ROTATION, half_a_turn, sizeof half_a_turn);
+        build_banner(scene);
+    }
     finish_gl_scene(scene);
     return w;
 }
@@ -126,8 +146,12 @@ static void edit_frame(const world *w, int k)
         lamp.emission[0] = lamp.emission[1] = 3.0f;
         edit_material(w, w->lamp, lamp);
     }
-    if (k == 6)
+    if (k == 6) {
+        lsf_material_desc banner = material_of(w, w->banner);
         translate(w, NODE_LAMP, 0.3, -0.2, 0.0);
+        banner.emission[1] = 2.0f;
+        edit_material(w, w->banner, banner);
+    }
     if (k == 7) {
         sheet.alpha_mode = LSF_ALPHA_MASK;
         sheet.alpha_cutoff = 0.5f;
@@ -224,7 +248,7 @@ static void voxels_that_are_kept(void **unused)
 {
     (void)unused;
     static const char *const options[] = {"voxel.jitter=off", "voxel.resolution=32"};
-    world w = build_world(false, false);
+    world w = build_world(true, false);
     lsf_render_params params = params_of("voxel_path", options, LSF_COUNT(options));
     assert_frames_are_those_of_new_renderers(&w, &params);
     lsf_scene_destroy(w.scene);

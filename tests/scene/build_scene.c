@@ -49,6 +49,16 @@ void destroy_scene(lsf_scene *scene)
         free(scene->channels[i].times);
         free(scene->channels[i].values);
     }
+    for (uint32_t i = 0; i < scene->shape_count; i++) {
+        free(scene->shapes[i].position_deltas);
+        free(scene->shapes[i].joints);
+        free(scene->shapes[i].weights);
+    }
+    free(scene->shapes);
+    free(scene->skins);
+    free(scene->joints);
+    free(scene->deformers);
+    free(scene->weights);
     free(scene->channels);
     free(scene->cameras[0].name);
     free(scene->cameras);
@@ -234,6 +244,65 @@ lsf_node *build_sphere(lsf_scene *scene, uint32_t levels, bool inside)
     lsf_node *node = build_triangles(scene, corners, count / 3);
     free(corners);
     return node;
+}
+
+static void build_joint(lsf_scene *scene, lsf_float3 at)
+{
+    lsf_node *node = build_node(scene);
+    const double translation[3] = {(double)at.x, (double)at.y, (double)at.z};
+    memcpy(node->translation, translation, sizeof translation);
+    scene->joints[scene->joint_count++] =
+        (lsf_joint){.node = scene->node_count - 1,
+                    .inverse_bind = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -at.x, -at.y, -at.z, 1}};
+}
+
+static lsf_shape build_shape(const lsf_scene *scene, const lsf_primitive *primitive,
+                             lsf_float3 shift)
+{
+    uint32_t count = primitive->vertex_count;
+    lsf_shape shape = {.vertex_count = count,
+                       .target_count = 1,
+                       .position_deltas = grow(NULL, 3 * count, sizeof(float)),
+                       .influences = 2,
+                       .joints = grow(NULL, 2 * count, sizeof(uint16_t)),
+                       .weights = grow(NULL, 2 * count, sizeof(float))};
+    float low = primitive->bounds_min[1], height = primitive->bounds_max[1] - low;
+    for (uint32_t i = 0; i < count; i++) {
+        float y = scene->vertices.position[3 * (primitive->first_vertex + i) + 1];
+        lsf_f3_store(shape.position_deltas + 3 * (size_t)i, shift);
+        shape.joints[2 * i] = 0;
+        shape.joints[2 * i + 1] = 1;
+        shape.weights[2 * i + 1] = (y - low) / height;
+        shape.weights[2 * i] = 1.0f - shape.weights[2 * i + 1];
+    }
+    return shape;
+}
+
+uint32_t build_deformer(lsf_scene *scene, lsf_float3 shift)
+{
+    lsf_primitive *primitive = &scene->primitives[scene->primitive_count - 1];
+    const float *low = primitive->bounds_min, *high = primitive->bounds_max;
+    float x = 0.5f * (low[0] + high[0]), z = 0.5f * (low[2] + high[2]);
+    lsf_node *node = &scene->nodes[scene->node_count - 1];
+    primitive->deformer = scene->deformer_count;
+    node->first_weight = scene->weight_count;
+    node->weight_count = 1;
+    scene->weights = grow(scene->weights, ++scene->weight_count, sizeof *scene->weights);
+    scene->weights[scene->weight_count - 1] = 0.0f;
+    scene->shapes = grow(scene->shapes, scene->shape_count + 1, sizeof *scene->shapes);
+    scene->shapes[scene->shape_count++] = build_shape(scene, primitive, shift);
+    scene->deformers = grow(scene->deformers, scene->deformer_count + 1, sizeof *scene->deformers);
+    scene->deformers[scene->deformer_count++] =
+        (lsf_deformer){.shape = scene->shape_count - 1,
+                       .node = scene->node_count - 1,
+                       .skin = scene->skin_count,
+                       .first_vertex = primitive->first_vertex};
+    scene->skins = grow(scene->skins, scene->skin_count + 1, sizeof *scene->skins);
+    scene->skins[scene->skin_count++] = (lsf_skin){scene->joint_count, 2};
+    scene->joints = grow(scene->joints, scene->joint_count + 2, sizeof *scene->joints);
+    build_joint(scene, lsf_f3(x, low[1], z));
+    build_joint(scene, lsf_f3(x, 0.5f * (low[1] + high[1]), z));
+    return scene->node_count - 1;
 }
 
 lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 position,

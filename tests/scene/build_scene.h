@@ -28,6 +28,11 @@ lsf_node *build_sphere(lsf_scene *scene, uint32_t levels, bool inside);
 lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 position,
                        lsf_float3 direction, float intensity);
 
+/* Lets the vertices of the last triangles follow two joints, new nodes at their foot and at half
+ * their height along y: the higher the more the second one, whose number is returned. One morph
+ * target, with weight 0, shifts them by `shift`. */
+uint32_t build_deformer(lsf_scene *scene, lsf_float3 shift);
+
 /* A uniform environment. */
 void build_environment(lsf_scene *scene, float radiance);
 
