@@ -14,6 +14,9 @@
 extern "C" {
 #endif
 
+/* Whether an argument of a public function is there; else LSF_ERROR_USAGE calls it by its name. */
+bool lsf_given(const void *argument, const char *name, lsf_error *error);
+
 #define LSF_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 /* NULL when count * size overflows or memory is short; zeroed. Freed with free(). */

@@ -14,3 +14,11 @@ bool lsf_error_set(lsf_error *error, lsf_error_code code, const char *format, ..
     }
     return false;
 }
+
+bool lsf_given(const void *argument, const char *name, lsf_error *error)
+{
+    return argument || lsf_error_set(error, LSF_ERROR_USAGE,
+                                     "%s is NULL and must not be; the call that was to make it may "
+                                     "have failed",
+                                     name);
+}

@@ -29,7 +29,7 @@ static bool refuse_size(const char *path, uint64_t limit, lsf_error *error)
 {
     return lsf_error_set(error, LSF_ERROR_FILE,
                          "%s: is larger than the %llu bytes allowed here; give a smaller file, or "
-                         "raise --memory-limit if that is what allows no more",
+                         "raise the memory limit if that is what allows no more",
                          path, (unsigned long long)limit);
 }
 

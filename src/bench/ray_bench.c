@@ -49,6 +49,9 @@ typedef struct run {
 lsf_ray_bench *lsf_ray_bench_create(lsf_context *context, const lsf_scene *scene,
                                     const lsf_render_params *params, lsf_error *error)
 {
+    if (!lsf_given(context, "context", error) || !lsf_given(scene, "scene", error) ||
+        !lsf_given(params, "params", error))
+        return NULL;
     lsf_ray_bench *bench = lsf_alloc(1, sizeof *bench);
     if (!bench) {
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
@@ -80,6 +83,8 @@ void lsf_ray_bench_destroy(lsf_ray_bench *bench)
 
 const char *lsf_ray_bench_embree_function(const lsf_ray_bench *bench)
 {
+    if (!bench)
+        return "";
     return bench->traced ? bench->embree->kernel(bench->tracer) : "";
 }
 
@@ -295,6 +300,8 @@ static void fill_row(run *r, uint32_t directions, uint32_t bundle, lsf_ray_bench
 bool lsf_ray_bench_run(lsf_ray_bench *bench, uint32_t width, uint32_t height, uint32_t bundle,
                        uint32_t directions, lsf_ray_bench_row *row, lsf_error *error)
 {
+    if (!lsf_given(bench, "bench", error) || !lsf_given(row, "row", error))
+        return false;
     if (directions < 1 || directions > MAX_DIRECTIONS)
         return lsf_error_set(error, LSF_ERROR_USAGE, "%u directions: 1 to %u are possible",
                              directions, MAX_DIRECTIONS);

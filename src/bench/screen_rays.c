@@ -65,7 +65,7 @@ bool lsf_screen_rays_init(lsf_screen_rays *rays, const lsf_iteration *iteration,
     uint64_t pixels = (uint64_t)plan->width * plan->height;
     *rays = (lsf_screen_rays){0};
     if (pixels > INT32_MAX / 16)
-        return lsf_error_set(error, LSF_ERROR_USAGE, "--resolution %u,%u: too large to read back",
+        return lsf_error_set(error, LSF_ERROR_USAGE, "resolution %u,%u: too large to read back",
                              plan->width, plan->height);
     float *depths = lsf_alloc(pixels, sizeof *depths);
     uint32_t *surfaces = lsf_alloc(pixels, 4 * sizeof *surfaces);

@@ -282,6 +282,8 @@ void lsf_context_destroy(lsf_context *context)
 
 bool lsf_context_make_current(lsf_context *context, lsf_error *error)
 {
+    if (!lsf_given(context, "context", error))
+        return false;
     if (current_context != context)
         release_current();
     if (!context->ops->is_current(context->platform) &&
@@ -327,6 +329,8 @@ void lsf_context_leave(lsf_context **entered)
 
 bool lsf_context_release_current(lsf_context *context, lsf_error *error)
 {
+    if (!lsf_given(context, "context", error))
+        return false;
     if (current_context != context)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "the context is not current on this thread; release it on the thread "
@@ -356,6 +360,8 @@ void lsf_context_fail(lsf_context *context, const lsf_error *error)
 
 bool lsf_context_check(lsf_context *context, lsf_error *error)
 {
+    if (!lsf_given(context, "context", error))
+        return false;
     if (context->entered == 0 && !lsf_context_make_current(context, error))
         return false;
     GLenum status = context->robust ? glGetGraphicsResetStatus() : GL_NO_ERROR;
@@ -379,6 +385,8 @@ bool lsf_context_check(lsf_context *context, lsf_error *error)
 
 lsf_context_info lsf_context_get_info(const lsf_context *context)
 {
+    if (!context)
+        return (lsf_context_info){0};
     return (lsf_context_info){
         .backend = context->ops->name,
         .vendor = context->vendor,

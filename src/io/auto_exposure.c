@@ -26,6 +26,8 @@ static void read_pixel(const lsf_image *image, const pixel_channels *channels, u
 
 float lsf_image_auto_exposure(const lsf_image *image)
 {
+    if (!image)
+        return 0.0f;
     const pixel_channels channels = {lsf_image_channel(image, "R"), lsf_image_channel(image, "G"),
                                      lsf_image_channel(image, "B"), lsf_image_channel(image, "A")};
     if (channels.red < 0 || channels.green < 0 || channels.blue < 0)

@@ -52,10 +52,9 @@ class allowance
     {
         uint64_t bytes;
         if (__builtin_mul_overflow(count, size, &bytes) || bytes > limit_ - used_)
-            refuse(
-                "decoding it takes more than the %" PRIu64
-                " bytes that the memory limit leaves; raise --memory-limit or simplify the scene",
-                limit_);
+            refuse("decoding it takes more than the %" PRIu64
+                   " bytes that the memory limit leaves; raise the limit or simplify the scene",
+                   limit_);
         used_ += bytes;
     }
 

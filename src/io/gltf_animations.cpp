@@ -142,7 +142,7 @@ static std::vector<channel_source> find_channels(gltf_import &import)
     if (overlapping)
         lsf_scene_add_note(import.scene, "several animations move the same node: the first one is "
                                          "used, the others where they move other nodes; "
-                                         "--animation chooses among them");
+                                         "those that play can be chosen");
     return channels;
 }
 

@@ -37,7 +37,7 @@ void memory_budget::take(uint64_t count, uint64_t size, const std::string &locat
         fail("MEMORY_LIMIT", location,
              "%" PRIu64 " elements of %" PRIu64 " bytes do not fit into the %" PRIu64
              " bytes that are left of the memory limit of %" PRIu64
-             "; raise --memory-limit or simplify the scene",
+             "; raise the limit or simplify the scene",
              count, size, limit_ - used_, limit_);
     used_ = sum;
 }

@@ -82,7 +82,7 @@ uint32_t texture_importer::add(int index, bool srgb)
     if (ktx2 && !import_.params->lenient)
         fail("UNSUPPORTED_EXTENSION", location_of("images", (size_t)image),
              "the image is KTX2 (KHR_texture_basisu), which is not read; export the file with PNG, "
-             "JPEG or WebP textures, or see with --lenient how it looks without");
+             "JPEG or WebP textures, or load it leniently to see how it looks without");
     if (image < 0 || ktx2) {
         import_.repairs.textures_without_image++;
         return known_[{index, srgb}] = LSF_NONE;

@@ -394,7 +394,8 @@ static void check_required_extensions(const json &root, bool lenient)
         if (!extension_is_supported(name) && !(optional && lenient))
             fail("UNSUPPORTED_EXTENSION", "/extensionsRequired/" + std::to_string(i),
                  "the file requires %s, which is not supported; %s%s", name.c_str(),
-                 remedy_for(name), optional ? ", or see with --lenient how it looks without" : "");
+                 remedy_for(name),
+                 optional ? ", or load it leniently to see how it looks without" : "");
     }
 }
 

@@ -6,6 +6,8 @@
 lsf_image *lsf_image_create(uint32_t width, uint32_t height, uint32_t channel_count,
                             const char *const *channel_names, lsf_error *error)
 {
+    if (channel_count > 0 && !lsf_given(channel_names, "channel_names", error))
+        return NULL;
     lsf_image *image = lsf_alloc(1, sizeof *image);
     if (image) {
         image->width = width;
@@ -49,6 +51,8 @@ void lsf_image_destroy(lsf_image *image)
 
 int lsf_image_channel(const lsf_image *image, const char *name)
 {
+    if (!image || !name)
+        return -1;
     for (uint32_t c = 0; c < image->channel_count; c++)
         if (strcmp(image->channel_names[c], name) == 0)
             return (int)c;

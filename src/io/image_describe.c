@@ -21,6 +21,8 @@ static const char *const formats[] = {[LSF_IMAGE_FILE_PNG] = "png",
 
 bool lsf_image_recognise(const char *path)
 {
+    if (!path)
+        return false;
     static const struct {
         const char *magic;
         size_t length, at;
@@ -121,6 +123,8 @@ static void describe_text(const description *d, lsf_string *out)
 
 char *lsf_image_describe(const char *path, bool json, lsf_error *error)
 {
+    if (!lsf_given(path, "path", error))
+        return NULL;
     description d = {.path = path};
     d.bytes = (uint8_t *)lsf_file_read(path, LSF_IMAGE_MAX_BYTES, &d.length, error);
     if (!d.bytes)

@@ -109,12 +109,11 @@ bool lsf_image_header_read(lsf_image_header *header, const void *data, size_t le
                              name, header->width, header->height, length);
     uint64_t needed = length + pixels * header->channels * texel_bytes + header->working_bytes;
     if (needed > byte_limit)
-        return lsf_error_set(
-            error, LSF_ERROR_FILE,
-            "%s: to decode the image (%u x %u, %u channels) may take %llu bytes, "
-            "more than the %llu that the memory limit leaves; raise --memory-limit "
-            "or scale the image down",
-            name, header->width, header->height, header->channels, (unsigned long long)needed,
-            (unsigned long long)byte_limit);
+        return lsf_error_set(error, LSF_ERROR_FILE,
+                             "%s: to decode the image (%u x %u, %u channels) may take %llu bytes, "
+                             "more than the %llu that the memory limit leaves; raise the limit "
+                             "or scale the image down",
+                             name, header->width, header->height, header->channels,
+                             (unsigned long long)needed, (unsigned long long)byte_limit);
     return true;
 }

@@ -107,8 +107,9 @@ static lsf_image *linear_from_integers(const lsf_decoded_image *decoded, lsf_err
 }
 
 #define FLOATS_TOO_LARGE                                                                           \
-    "%s: %u x %u pixels as floats are more than the memory limit leaves; raise --memory-limit or " \
-    "scale the image down"
+    "%s: %u x %u pixels as floats are more than the memory limit leaves; raise the limit or "      \
+    "scale "                                                                                       \
+    "the image down"
 
 static lsf_image *image_from_memory(const void *bytes, size_t length, uint64_t byte_limit,
                                     const char *name, lsf_error *error)
@@ -158,6 +159,8 @@ static lsf_image *image_from_file(const char *path, uint64_t byte_limit, lsf_err
 
 lsf_image *lsf_image_load(const char *path, lsf_error *error)
 {
+    if (!lsf_given(path, "path", error))
+        return NULL;
     return image_from_file(path, UINT64_MAX, error);
 }
 

@@ -167,6 +167,8 @@ static const lsf_image_save_params defaults = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
 bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,
                          const lsf_image_save_params *params, lsf_error *error)
 {
+    if (!lsf_given(rgb, "rgb", error) || !lsf_given(path, "path", error))
+        return false;
     if (!params)
         params = &defaults;
     lsf_encode_request request = {.file = LSF_IMAGE_FILE_PNG,
@@ -238,6 +240,8 @@ static void warn_of_lost_pixels(const lsf_image *image, const char *path)
 bool lsf_image_can_save(uint32_t width, uint32_t height, const char *path,
                         const lsf_image_save_params *params, lsf_error *error)
 {
+    if (!lsf_given(path, "path", error))
+        return false;
     lsf_image_format format = params ? params->format : defaults.format;
     return find_format(&format, path, error) && check_size(width, height, path, error) &&
            get_module(path, error) != NULL;
@@ -246,6 +250,8 @@ bool lsf_image_can_save(uint32_t width, uint32_t height, const char *path,
 bool lsf_image_save(const lsf_image *image, const char *path, const lsf_image_save_params *params,
                     lsf_error *error)
 {
+    if (!lsf_given(image, "image", error) || !lsf_given(path, "path", error))
+        return false;
     if (!params)
         params = &defaults;
     lsf_image_format format = params->format;

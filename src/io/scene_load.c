@@ -162,6 +162,8 @@ static lsf_scene *load(const lsf_gltf_source *source, const lsf_scene_params *pa
 
 lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_error *error)
 {
+    if (!lsf_given(path, "path", error))
+        return NULL;
     const lsf_gltf_source source = {.path = path};
     return load(&source, params ? params : &defaults, error);
 }
@@ -169,6 +171,8 @@ lsf_scene *lsf_scene_load(const char *path, const lsf_scene_params *params, lsf_
 lsf_scene *lsf_scene_load_memory(const void *data, size_t size, const char *folder,
                                  const lsf_scene_params *params, lsf_error *error)
 {
+    if (size > 0 && !lsf_given(data, "data", error))
+        return NULL;
     if (!params)
         params = &defaults;
     const lsf_gltf_source source = {.path = params->name ? params->name : "memory",

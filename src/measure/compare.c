@@ -231,6 +231,9 @@ static bool measure(const comparison *c, const lsf_compare_params *params,
 bool lsf_compare(const lsf_image *test, const lsf_image *reference,
                  const lsf_compare_params *params, lsf_compare_result *result, lsf_error *error)
 {
+    if (!lsf_given(test, "test", error) || !lsf_given(reference, "reference", error) ||
+        !lsf_given(result, "result", error))
+        return false;
     static const lsf_compare_params defaults = {LSF_COMPARE_PARAMS_DEFAULTS};
     if (!params)
         params = &defaults;
@@ -255,6 +258,8 @@ bool lsf_compare(const lsf_image *test, const lsf_image *reference,
 lsf_image *lsf_compare_difference(const lsf_image *test, const lsf_image *reference, float gain,
                                   lsf_error *error)
 {
+    if (!lsf_given(test, "test", error) || !lsf_given(reference, "reference", error))
+        return NULL;
     static const char *const names[] = {"R", "G", "B"};
     rgb_view x, r;
     if (!open_view(&x, test, test, "test", error) ||

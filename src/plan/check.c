@@ -40,7 +40,7 @@ bool lsf_plan_check(const lsf_plan *plan, const lsf_context *context, lsf_error 
     if (plan->width > widest || plan->height > highest)
         return lsf_error_set(error, LSF_ERROR_RENDER,
                              "a picture of %ux%u is more than this device draws; the largest is "
-                             "--resolution %u,%u",
+                             "%u,%u pixels",
                              plan->width, plan->height, plan->width < widest ? plan->width : widest,
                              plan->height < highest ? plan->height : highest);
     double fixed = 0.0, scaling = 0.0; /* bytes that do not, and do, grow with the resolution */
@@ -66,10 +66,11 @@ bool lsf_plan_check(const lsf_plan *plan, const lsf_context *context, lsf_error 
                              "textures or less geometry (`lightsheaf plan` lists them)",
                              fixed / 1048576.0, available / 1048576.0);
     double factor = sqrt((available - fixed) / scaling);
-    return lsf_error_set(error, LSF_ERROR_RENDER,
-                         "%ux%u takes %.0f MiB of GL memory and %.0f are free; --resolution %u,%u "
-                         "would fit",
-                         plan->width, plan->height, (fixed + scaling) / 1048576.0,
-                         available / 1048576.0, (uint32_t)fmax(1.0, floor(plan->width * factor)),
-                         (uint32_t)fmax(1.0, floor(plan->height * factor)));
+    return lsf_error_set(
+        error, LSF_ERROR_RENDER,
+        "%ux%u takes %.0f MiB of GL memory and %.0f are free; a resolution of %u,%u "
+        "would fit",
+        plan->width, plan->height, (fixed + scaling) / 1048576.0, available / 1048576.0,
+        (uint32_t)fmax(1.0, floor(plan->width * factor)),
+        (uint32_t)fmax(1.0, floor(plan->height * factor)));
 }

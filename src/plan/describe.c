@@ -129,6 +129,8 @@ static void describe_json(const lsf_plan *plan, lsf_string *out)
 
 char *lsf_plan_describe(const lsf_plan *plan, bool json)
 {
+    if (!plan)
+        return NULL;
     lsf_string out = {0};
     if (json)
         describe_json(plan, &out);

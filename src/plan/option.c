@@ -89,7 +89,9 @@ bool lsf_option_set(const lsf_option_table *tables, uint32_t table_count, void *
         find_row(tables, table_count, assignment, (size_t)(equals - assignment), &offset);
     if (!row)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "-D %s: no such option; --list-options shows all", assignment);
+                             "%s: no such option of a pass; lsf_option_list has all (lightsheaf "
+                             "render --list-options)",
+                             assignment);
     if (set_value(row, (char *)params + offset, equals + 1))
         return true;
     char range[256];

@@ -132,11 +132,15 @@ void lsf_plan_destroy(lsf_plan *plan)
 
 uint32_t lsf_plan_bounces(const lsf_plan *plan)
 {
+    if (!plan)
+        return 0;
     return plan->bounces;
 }
 
 uint64_t lsf_plan_bytes(const lsf_plan *plan)
 {
+    if (!plan)
+        return 0;
     uint64_t bytes = 0;
     for (uint64_t i = 0; i < plan->resource_count; i++)
         bytes += plan->resources[i].bytes;

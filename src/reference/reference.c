@@ -41,12 +41,12 @@ static bool check_params(const lsf_render_params *params, uint32_t half, lsf_err
 {
     if (params->width == 0 || params->height == 0)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--resolution %u,%u: a picture needs at least 1 x 1 pixels",
+                             "resolution %u,%u: a picture needs at least 1 x 1 pixels",
                              params->width, params->height);
     if (params->samples == 0)
-        return lsf_error_set(error, LSF_ERROR_USAGE, "--samples 0: at least 1 is needed");
+        return lsf_error_set(error, LSF_ERROR_USAGE, "samples 0: at least 1 is needed");
     if (params->bounces > LSF_BOUNCES_MAX && params->bounces != LSF_BOUNCES_AUTO)
-        return lsf_error_set(error, LSF_ERROR_USAGE, "--bounces %u: at most %u", params->bounces,
+        return lsf_error_set(error, LSF_ERROR_USAGE, "bounces %u: at most %u", params->bounces,
                              LSF_BOUNCES_MAX);
     if (half > 1)
         return lsf_error_set(error, LSF_ERROR_USAGE, "there is no half %u, only 0 and 1", half);
@@ -68,14 +68,14 @@ static lsf_image *create_image(const lsf_render_params *params, lsf_reference_jo
     return lsf_image_create(params->width, params->height, count, names, error);
 }
 
-/* `--aov all` asks for motion too, which a single instant does not have. */
+/* LSF_AOV_ALL asks for motion too, which a single instant does not have. */
 static void warn_of_missing(const lsf_render_params *params)
 {
     if (params->aovs & LSF_AOV_MOTION)
-        lsf_log(LSF_LOG_WARNING, "--aov motion: the reference shows one instant and has no such "
+        lsf_log(LSF_LOG_WARNING, "layer motion: the reference shows one instant and has no such "
                                  "layer; it is left out");
     if (params->aovs & ~(uint32_t)LSF_AOV_ALL)
-        lsf_log(LSF_LOG_WARNING, "--aov %s: the reference has no voxels; it is left out",
+        lsf_log(LSF_LOG_WARNING, "layer %s: the reference has no voxels; it is left out",
                 lsf_aov_name(params->aovs & ~(uint32_t)LSF_AOV_ALL));
 }
 
@@ -104,6 +104,8 @@ const lsf_reference_ray_functions *lsf_reference_load_rays(lsf_error *error)
 lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params *params,
                                 uint32_t half, lsf_reference_result *result, lsf_error *error)
 {
+    if (!lsf_given(scene, "scene", error) || !lsf_given(params, "params", error))
+        return NULL;
     if (!check_params(params, half, error))
         return NULL;
     warn_of_missing(params);

@@ -45,14 +45,14 @@ static void note_why(lsf_scene *scene, float emitted)
 {
     if (!scene->requirements.emissive)
         lsf_scene_add_note(scene, "the file has no light and no environment was given: a default "
-                                  "sky and key light show it; --default-light never leaves it "
+                                  "sky and key light show it; without default light it stays "
                                   "dark");
     else
         lsf_scene_add_note(scene,
                            "the file has no light but emissive materials, which would leave half "
                            "of its surfaces, were they white, at a luminance of %.2g or less, "
-                           "below %g: a default sky and key light show it; --default-light never "
-                           "leaves it to them",
+                           "below %g: a default sky and key light show it; without default "
+                           "light it is left to them",
                            (double)emitted, (double)LSF_LIT_LUMINANCE_MIN);
 }
 

@@ -12,6 +12,8 @@ static const char *const kind_names[] = {"node", "light", "material", "camera"};
 
 uint32_t lsf_scene_count(const lsf_scene *scene, lsf_kind kind)
 {
+    if (!scene)
+        return 0;
     switch (kind) {
     case LSF_KIND_NODE:
         return scene->node_count;
@@ -27,6 +29,8 @@ uint32_t lsf_scene_count(const lsf_scene *scene, lsf_kind kind)
 
 const char *lsf_scene_name(const lsf_scene *scene, lsf_kind kind, uint32_t index)
 {
+    if (!scene)
+        return NULL;
     if (index >= lsf_scene_count(scene, kind))
         return NULL;
     const char *name = kind == LSF_KIND_NODE       ? scene->nodes[index].name
@@ -38,6 +42,8 @@ const char *lsf_scene_name(const lsf_scene *scene, lsf_kind kind, uint32_t index
 
 uint32_t lsf_scene_find(const lsf_scene *scene, lsf_kind kind, const char *name)
 {
+    if (!scene || !name)
+        return LSF_NOT_FOUND;
     for (uint32_t i = 0; i < lsf_scene_count(scene, kind); i++)
         if (strcmp(lsf_scene_name(scene, kind, i), name) == 0)
             return i;
@@ -56,6 +62,8 @@ static bool exists(const lsf_scene *scene, lsf_kind kind, uint32_t index, lsf_er
 
 bool lsf_scene_get_node(const lsf_scene *scene, uint32_t node, double matrix[16], lsf_error *error)
 {
+    if (!lsf_given(scene, "scene", error) || !lsf_given(matrix, "matrix", error))
+        return false;
     if (!exists(scene, LSF_KIND_NODE, node, error))
         return false;
     lsf_node_matrix(&scene->nodes[node], matrix);
@@ -64,6 +72,8 @@ bool lsf_scene_get_node(const lsf_scene *scene, uint32_t node, double matrix[16]
 
 bool lsf_scene_set_node(lsf_scene *scene, uint32_t node, const double matrix[16], lsf_error *error)
 {
+    if (!lsf_given(scene, "scene", error) || !lsf_given(matrix, "matrix", error))
+        return false;
     if (!exists(scene, LSF_KIND_NODE, node, error))
         return false;
     for (int i = 0; i < 16; i++)
@@ -123,6 +133,8 @@ static bool update_requirements(lsf_scene *scene, lsf_error *error)
 bool lsf_scene_get_light(const lsf_scene *scene, uint32_t light, lsf_light_desc *desc,
                          lsf_error *error)
 {
+    if (!lsf_given(scene, "scene", error) || !lsf_given(desc, "desc", error))
+        return false;
     if (!exists(scene, LSF_KIND_LIGHT, light, error))
         return false;
     const lsf_light *l = &scene->lights[light];
@@ -137,6 +149,8 @@ bool lsf_scene_get_light(const lsf_scene *scene, uint32_t light, lsf_light_desc 
 bool lsf_scene_set_light(lsf_scene *scene, uint32_t light, const lsf_light_desc *desc,
                          lsf_error *error)
 {
+    if (!lsf_given(scene, "scene", error) || !lsf_given(desc, "desc", error))
+        return false;
     const double half_pi = 1.5707963267948966, float_max = 3.4028234663852886e38;
     if (!exists(scene, LSF_KIND_LIGHT, light, error))
         return false;
@@ -165,6 +179,8 @@ bool lsf_scene_set_light(lsf_scene *scene, uint32_t light, const lsf_light_desc 
 bool lsf_scene_get_material(const lsf_scene *scene, uint32_t material, lsf_material_desc *desc,
                             lsf_error *error)
 {
+    if (!lsf_given(scene, "scene", error) || !lsf_given(desc, "desc", error))
+        return false;
     if (!exists(scene, LSF_KIND_MATERIAL, material, error))
         return false;
     const lsf_material *m = &scene->materials[material];
@@ -212,6 +228,8 @@ static bool check_material(uint32_t index, const lsf_material_desc *desc, lsf_er
 bool lsf_scene_set_material(lsf_scene *scene, uint32_t material, const lsf_material_desc *desc,
                             lsf_error *error)
 {
+    if (!lsf_given(scene, "scene", error) || !lsf_given(desc, "desc", error))
+        return false;
     if (!exists(scene, LSF_KIND_MATERIAL, material, error) ||
         !check_material(material, desc, error))
         return false;

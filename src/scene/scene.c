@@ -51,11 +51,15 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
 
 uint32_t lsf_scene_note_count(const lsf_scene *scene)
 {
+    if (!scene)
+        return 0;
     return scene->note_count;
 }
 
 const char *lsf_scene_note(const lsf_scene *scene, uint32_t index)
 {
+    if (!scene)
+        return NULL;
     return index < scene->note_count ? scene->notes[index] : NULL;
 }
 
@@ -63,16 +67,22 @@ const char *lsf_scene_note(const lsf_scene *scene, uint32_t index)
 
 uint32_t lsf_scene_camera_count(const lsf_scene *scene)
 {
+    if (!scene)
+        return 0;
     return scene->camera_count;
 }
 
 const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index)
 {
+    if (!scene)
+        return NULL;
     return index < scene->camera_count ? scene->cameras[index].name : NULL;
 }
 
 const lsf_requirements *lsf_scene_get_requirements(const lsf_scene *scene)
 {
+    if (!scene)
+        return NULL;
     return &scene->requirements;
 }
 

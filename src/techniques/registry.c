@@ -52,5 +52,7 @@ const char *lsf_technique_help(uint32_t index)
 
 bool lsf_option_list(uint32_t index, lsf_option *option)
 {
+    if (!option)
+        return false;
     return lsf_option_at(lsf_pass_option_tables, lsf_pass_option_table_count, index, option);
 }

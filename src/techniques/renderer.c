@@ -74,6 +74,8 @@ static bool create_resources(lsf_renderer *renderer, lsf_error *error)
 lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
                                   const lsf_render_params *params, lsf_error *error)
 {
+    if (!lsf_given(context, "context", error))
+        return NULL;
     lsf_renderer *renderer = lsf_alloc(1, sizeof *renderer);
     if (!renderer) {
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
@@ -157,6 +159,8 @@ static bool follow_state(lsf_renderer *renderer, const lsf_frame *frame, lsf_err
 
 bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, lsf_error *error)
 {
+    if (!lsf_given(renderer, "renderer", error) || !lsf_given(frame, "frame", error))
+        return false;
     LSF_LEAVE lsf_context *entered = lsf_context_enter(renderer->context, error);
     if (!entered || !lsf_setup_frame(&renderer->setup, frame, error))
         return false;
@@ -168,6 +172,8 @@ bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, ls
 bool lsf_renderer_resize(lsf_renderer *renderer, uint32_t width, uint32_t height,
                          const lsf_frame *frame, lsf_error *error)
 {
+    if (!lsf_given(renderer, "renderer", error) || !lsf_given(frame, "frame", error))
+        return false;
     lsf_render_params *params = &renderer->setup.params;
     const uint32_t old[2] = {params->width, params->height};
     if (width == 0 || height == 0)
@@ -185,6 +191,8 @@ bool lsf_renderer_resize(lsf_renderer *renderer, uint32_t width, uint32_t height
 
 const lsf_plan *lsf_renderer_plan(const lsf_renderer *renderer)
 {
+    if (!renderer)
+        return NULL;
     return renderer->setup.plan;
 }
 
@@ -267,6 +275,8 @@ bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error)
 
 bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
 {
+    if (!lsf_given(renderer, "renderer", error))
+        return false;
     LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
     if (!entered)
         return false;
@@ -326,6 +336,8 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
 
 bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
 {
+    if (!lsf_given(renderer, "renderer", error))
+        return false;
     LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
     if (!entered)
         return false;

@@ -94,6 +94,8 @@ static uint32_t channels_of(uint32_t aov)
 
 lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
 {
+    if (!lsf_given(renderer, "renderer", error))
+        return NULL;
     const lsf_setup *setup = &renderer->setup;
     const lsf_plan *plan = setup->plan;
     char names[3 * LSF_ACCUMULATE_MAX_LAYERS][LSF_CHANNEL_NAME_SIZE];
@@ -126,6 +128,8 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
 bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_curve curve,
                             uint8_t *rgb, lsf_error *error)
 {
+    if (!lsf_given(renderer, "renderer", error) || !lsf_given(rgb, "rgb", error))
+        return false;
     if (!renderer->tonemap.display)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "8-bit output was not asked for; set rgb8 in lsf_render_params");
@@ -176,6 +180,8 @@ static void look_at_pixels(const lsf_renderer *renderer, double *lost_share, uin
 
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
 {
+    if (!renderer)
+        return (lsf_renderer_stats){0};
     lsf_pass_report reports[LSF_RENDERER_MAX_PASSES];
     lsf_error ignored = {0}; /* whoever reads the picture meets it again */
     LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, &ignored);

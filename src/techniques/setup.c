@@ -28,6 +28,8 @@ static const struct {
 
 uint32_t lsf_aov_from_name(const char *name)
 {
+    if (!name)
+        return 0;
     for (size_t i = 0; i < LSF_COUNT(aov_names); i++)
         if (strcmp(aov_names[i].name, name) == 0)
             return aov_names[i].bit;
@@ -194,10 +196,14 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
                      lsf_error *error)
 {
     *setup = (lsf_setup){.pass_params = {LSF_PASS_PARAMS_DEFAULTS}, .source = scene};
-    if (!check_params(params, error))
+    if (!lsf_given(scene, "scene", error) || !lsf_given(params, "params", error) ||
+        !lsf_given(params->technique, "lsf_render_params.technique", error) ||
+        !check_params(params, error))
         return false;
     for (uint32_t i = 0; i < params->option_count; i++)
-        if (!lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count,
+        if (!lsf_given(params->options, "lsf_render_params.options", error) ||
+            !lsf_given(params->options[i], "one of lsf_render_params.options", error) ||
+            !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count,
                             &setup->pass_params, params->options[i], error))
             return false;
     if (!keep_params(setup, params, error) || !tessellate(setup, scene, error))
@@ -235,7 +241,7 @@ bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_p
     setup->technique = lsf_technique_find(params->technique);
     if (!setup->technique)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "technique '%s' does not exist; --list-techniques shows all",
+                             "technique '%s' does not exist; lsf_technique_name has all",
                              params->technique);
     setup->params.technique = setup->technique->name;
     return plan_technique(setup, error);
@@ -304,7 +310,9 @@ bool lsf_render_params_view(const lsf_scene *scene, const lsf_render_params *par
                             lsf_error *error)
 {
     lsf_setup setup = {0};
-    bool good = check_params(params, error) && keep_params(&setup, params, error);
+    bool good = lsf_given(scene, "scene", error) && lsf_given(params, "params", error) &&
+                lsf_given(view, "view", error) && check_params(params, error) &&
+                keep_params(&setup, params, error);
     if (good) {
         lsf_view_params wanted = view_of(&setup, params->time, NULL);
         good = lsf_state_update(&setup.state, scene, &wanted, error);

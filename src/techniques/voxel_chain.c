@@ -55,7 +55,7 @@ void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const l
                                        .cell = "a voxel",
                                        .of = "grid",
                                        .option = "voxel.resolution",
-                                       .instead = ", or take --technique bidirectional"};
+                                       .instead = ", or take the bidirectional technique"};
     lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid.resolution);
     lsf_voxelize_plan(plan, &params->voxelize, &grid);
     lsf_voxel_light_plan(plan, &grid, &light);

@@ -108,7 +108,7 @@ class Inputs(CommandTest):
                        "accessors": [{"componentType": 5126, "count": 999999, "type": "VEC3",
                                       "min": [0, 0, 0], "max": [0, 0, 0]}]}, file)
         for name in ("scene.gltf", "zeros.gltf"):
-            self.refuse("info", name, "--memory-limit", "0.001", status=FILE, says=[name, "raise --memory-limit"])
+            self.refuse("info", name, "--memory-limit", "0.001", status=FILE, says=[name, "raise the"])
             self.run_command("info", name, "--memory-limit", "0.5")
         self.refuse("info", "scene.gltf", "--memory-limit", "0", says=["--memory-limit 0"])
 
