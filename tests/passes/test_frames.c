@@ -21,25 +21,6 @@ typedef struct world {
     uint32_t lamp, sheet, banner; /* materials */
 } world;
 
-/* From the one to the other within a second. */
-static void animate(lsf_scene *scene, uint32_t node, lsf_animation_path path, const float *values,
-                    size_t bytes)
-{
-    static const float times[] = {0, 1};
-    scene->channels =
-        realloc(scene->channels, (scene->channel_count + 1) * sizeof *scene->channels);
-    lsf_animation_channel *channel = &scene->channels[scene->channel_count++];
-    *channel = (lsf_animation_channel){.node = node,
-                                       .path = path,
-                                       .interpolation = LSF_LINEAR,
-                                       .key_count = 2,
-                                       .weight_count = scene->nodes[node].weight_count,
-                                       .times = malloc(sizeof times),
-                                       .values = malloc(bytes)};
-    memcpy(channel->times, times, sizeof times);
-    memcpy(channel->values, values, bytes);
-}
-
 /* A banner that joints bend and a morph target shifts; it is of the last material. */
 static void build_banner(lsf_scene *scene)
 {
@@ -48,8 +29,8 @@ static void build_banner(lsf_scene *scene)
                lsf_f3(-1.6f, 1.8f, 0.5f));
     uint32_t banner = scene->node_count - 1;
     uint32_t joint = build_deformer(scene, lsf_f3(0.4f, 0.1f, 0.3f));
-    animate(scene, joint, LSF_PATH_ROTATION, turn, sizeof turn);
-    animate(scene, banner, LSF_PATH_WEIGHTS, weights, sizeof weights);
+    build_channel(scene, joint, LSF_PATH_ROTATION, turn, sizeof turn);
+    build_channel(scene, banner, LSF_PATH_WEIGHTS, weights, sizeof weights);
 }
 
 static world build_world(bool animated, bool sky)
@@ -78,7 +59,8 @@ static world build_world(bool animated, bool sky)
         build_environment(scene, 0.3f);
     if (animated) {
         static const float half_a_turn[] = {0, 0, 0, 1, 0, 1, 0, 0};
-        animate(scene, w.nodes[NODE_SPINNING], LSF_PATH_ROTATION, half_a_turn, sizeof half_a_turn);
+        build_channel(scene, w.nodes[NODE_SPINNING], LSF_PATH_ROTATION, half_a_turn,
+                      sizeof half_a_turn);
         build_banner(scene);
     }
     finish_gl_scene(scene);

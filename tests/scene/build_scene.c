@@ -305,6 +305,23 @@ uint32_t build_deformer(lsf_scene *scene, lsf_float3 shift)
     return scene->node_count - 1;
 }
 
+void build_channel(lsf_scene *scene, uint32_t node, lsf_animation_path path, const float *values,
+                   size_t bytes)
+{
+    static const float times[] = {0, 1};
+    scene->channels = grow(scene->channels, scene->channel_count + 1, sizeof *scene->channels);
+    lsf_animation_channel *channel = &scene->channels[scene->channel_count++];
+    *channel = (lsf_animation_channel){.node = node,
+                                       .path = path,
+                                       .interpolation = LSF_LINEAR,
+                                       .key_count = 2,
+                                       .weight_count = scene->nodes[node].weight_count,
+                                       .times = malloc(sizeof times),
+                                       .values = malloc(bytes)};
+    memcpy(channel->times, times, sizeof times);
+    memcpy(channel->values, values, bytes);
+}
+
 lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 position,
                        lsf_float3 direction, float intensity)
 {

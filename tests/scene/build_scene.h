@@ -33,6 +33,10 @@ lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 positio
  * target, with weight 0, shifts them by `shift`. */
 uint32_t build_deformer(lsf_scene *scene, lsf_float3 shift);
 
+/* Animates a node from the first to the second of two values within a second. */
+void build_channel(lsf_scene *scene, uint32_t node, lsf_animation_path path, const float *values,
+                   size_t bytes);
+
 /* A uniform environment. */
 void build_environment(lsf_scene *scene, float radiance);
 
