@@ -87,6 +87,7 @@ typedef struct lsf_render_params {
     double time;             /* seconds, where node animations are sampled */
     uint32_t aovs;           /* lsf_aov bits */
     bool rgb8;               /* lsf_renderer_read_rgb8 will be called */
+    bool present;            /* lsf_renderer_present will be called */
     const char *const *options; /* "pass.key=value", see lsf_option_list */
     uint32_t option_count;
     lsf_progress progress;   /* NULL: none */
@@ -98,7 +99,8 @@ typedef struct lsf_render_params {
     .time_limit = 1.0 / 0.0, .bounces = LSF_BOUNCES_AUTO, .seed = 0, .camera = NULL,               \
     .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f,                          \
     .background = LSF_BACKGROUND_AUTO, .background_radiance = {0}, .time = 0.0, .aovs = 0,         \
-    .rgb8 = false, .options = NULL, .option_count = 0, .progress = NULL, .progress_user = NULL
+    .rgb8 = false, .present = false, .options = NULL, .option_count = 0, .progress = NULL,         \
+    .progress_user = NULL
 
 /* The view of the camera that these parameters choose, at their time: where a program may go on
  * from. LSF_ERROR_USAGE where there is no such camera. */
@@ -177,6 +179,19 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error);
  * rows from the top. `exposure` in EV. LSF_ERROR_USAGE unless params->rgb8 was set. */
 bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_curve curve,
                             uint8_t *rgb, lsf_error *error);
+
+/* --- pictures that stay on the GPU, for a program that shares the context (lsf_context_wrap) ---
+ */
+
+/* The texture of the mean so far, of the picture (aov 0) or of a layer of params->aovs: RGBA32F,
+ * row 0 at the bottom, the picture linear. 0 where there is none. It is the renderer's: valid until
+ * its next frame, size or end, and changed by its next iteration. */
+uint32_t lsf_renderer_texture(lsf_renderer *renderer, uint32_t aov, lsf_error *error);
+/* Draws the mean so far, tone-mapped to sRGB code values, into a framebuffer (0: the window's),
+ * scaled to `viewport`: x, y, width and height in pixels from its lower left corner. `exposure` in
+ * EV. LSF_ERROR_USAGE unless params->present was set. */
+bool lsf_renderer_present(lsf_renderer *renderer, uint32_t framebuffer, const int32_t viewport[4],
+                          float exposure, lsf_tone_curve curve, lsf_error *error);
 
 typedef struct lsf_pass_stats {
     const char *name;

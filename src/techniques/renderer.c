@@ -35,8 +35,9 @@ static bool create_technique(lsf_renderer *renderer, lsf_error *error)
                                     &renderer->scene, &setup->state, error) &&
            lsf_accumulate_create(&renderer->accumulate, context, setup->plan, setup->layer_count,
                                  setup->layer_names, error) &&
-           (!setup->params.rgb8 ||
-            lsf_tonemap_create(&renderer->tonemap, context, setup->plan, error));
+           (!(setup->params.rgb8 || setup->params.present) ||
+            lsf_tonemap_create(&renderer->tonemap, context, setup->plan, setup->params.rgb8,
+                               error));
 }
 
 static void destroy_technique(lsf_renderer *renderer)

@@ -130,7 +130,7 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_cur
 {
     if (!lsf_given(renderer, "renderer", error) || !lsf_given(rgb, "rgb", error))
         return false;
-    if (!renderer->tonemap.display)
+    if (!renderer->setup.params.rgb8)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "8-bit output was not asked for; set rgb8 in lsf_render_params");
     const lsf_plan *plan = renderer->setup.plan;
@@ -146,6 +146,47 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_cur
                              (GLsizei)(rows * plan->width * 3),
                              rgb + (uint64_t)y * plan->width * 3);
     }
+    return lsf_context_check(renderer->context, error);
+}
+
+uint32_t lsf_renderer_texture(lsf_renderer *renderer, uint32_t aov, lsf_error *error)
+{
+    if (!lsf_given(renderer, "renderer", error))
+        return 0;
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered || !lsf_renderer_catch_up(renderer, true, error))
+        return 0;
+    const lsf_setup *setup = &renderer->setup;
+    for (uint32_t i = 0; i < setup->layer_count; i++)
+        if (setup->layer_aovs[i] == aov && lsf_renderer_layer(&renderer->outputs, aov))
+            return renderer->accumulate.means[i];
+    lsf_error_set(error, LSF_ERROR_USAGE,
+                  "no such layer was asked for in lsf_render_params.aovs, or nothing was rendered");
+    return 0;
+}
+
+bool lsf_renderer_present(lsf_renderer *renderer, uint32_t framebuffer, const int32_t viewport[4],
+                          float exposure, lsf_tone_curve curve, lsf_error *error)
+{
+    if (!lsf_given(renderer, "renderer", error) || !lsf_given(viewport, "viewport", error))
+        return false;
+    if (!renderer->setup.params.present)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "presenting was not asked for; set present in lsf_render_params");
+    if (viewport[2] < 1 || viewport[3] < 1)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "viewport %d,%d pixels: both must be at least 1", viewport[2],
+                             viewport[3]);
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered || !lsf_renderer_catch_up(renderer, true, error))
+        return false;
+    if ((framebuffer && !glIsFramebuffer(framebuffer)) ||
+        glCheckNamedFramebufferStatus(framebuffer, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return lsf_error_set(
+            error, LSF_ERROR_USAGE,
+            "framebuffer %u is not there or not complete in the renderer's context", framebuffer);
+    lsf_tonemap_present(&renderer->tonemap, renderer->accumulate.means[0], framebuffer, viewport,
+                        exposure, curve);
     return lsf_context_check(renderer->context, error);
 }
 

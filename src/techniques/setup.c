@@ -225,8 +225,8 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         lsf_plan_remark(plan, "light goes straight through materials that transmit, neither "
                               "scattered nor refracted; voxel_path and the reference do that");
     lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
-    if (params->rgb8)
-        lsf_tonemap_plan(plan);
+    if (params->rgb8 || params->present)
+        lsf_tonemap_plan(plan, params->rgb8);
     else
         lsf_plan_omit(plan, "tonemap", "no 8-bit output is asked for");
     return !plan->failed ||

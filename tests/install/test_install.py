@@ -72,6 +72,39 @@ class Install(unittest.TestCase):
                 self.assertEqual(refused.returncode, 3)
                 self.assertIn("no-such-file.gltf", refused.stderr)
 
+    def test_a_window_with_a_context_of_its_own(self):
+        """In C and in C++, under a display without a screen."""
+        if not shutil.which("Xvfb"):
+            self.skipTest("Xvfb is not installed")
+        read_end, write_end = os.pipe()
+        display = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "320x240x24"],
+                                   pass_fds=[write_end], stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        self.addCleanup(display.wait)
+        self.addCleanup(display.terminate)
+        with os.fdopen(read_end) as file:
+            environment = {**self.environment, "DISPLAY": ":" + file.readline().strip()}
+        flags = shlex.split(self.run_installed("pkg-config", "--cflags", "--libs", "lightsheaf").stdout)
+        source = pathlib.Path(__file__).parent / "window.c"
+        self.assertLessEqual(len(source.read_text().splitlines()), 80)
+        for words in (["-x", "c"], ["-x", "c++"]):
+            with self.subTest(words=words):
+                program = os.path.join(self.folder, "window")
+                compiler = COMPILERS["program.c" if words[1] == "c" else "program.cpp"]
+                built = self.run_installed(compiler, "-Wall", "-Wextra", "-Werror", *words, str(source),
+                                           "-o", program, *flags, "-lglfw", "-lm")
+                self.assertEqual(built.returncode, 0, built.stderr)
+                scene = self.prefix / "share/lightsheaf/scenes/cornell_point.gltf"
+                done = subprocess.run([program, str(scene)], env=environment, capture_output=True,
+                                      text=True, cwd=self.folder, timeout=120)
+                if done.returncode == 77:
+                    self.skipTest("Xvfb gives no OpenGL 4.5")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                sums = [int(line) for line in done.stdout.split()]
+                self.assertEqual(len(set(sums)), 4, "each frame shows another picture")
+                # Brighter than black in every channel but alpha, which is 255.
+                self.assertGreater(min(sums), 96 * 72 * (255 + 30))
+
     def test_only_the_public_api_is_exported(self):
         names = self.run_installed("nm", "-D", "--defined-only", "--format=posix",
                                    str(self.prefix / LIBDIR / "liblightsheaf.so")).stdout

@@ -82,6 +82,89 @@ static void two_contexts_on_a_thread(void **state)
     lsf_scene_destroy(scenes[1]);
 }
 
+/* --- pictures that stay on the GPU --- */
+
+enum { FRAME = 40, LEFT = 5, BOTTOM = 3 };
+
+/* Code values in a part of the framebuffer, and what was there around it. */
+static void check_presented(const GLubyte (*texels)[4], uint32_t size, uint32_t scale,
+                            const uint8_t *rgb)
+{
+    for (uint32_t y = 0; y < FRAME; y++)
+        for (uint32_t x = 0; x < FRAME; x++) {
+            const GLubyte *got = texels[y * FRAME + x];
+            uint32_t u = (x - LEFT) / scale, v = (y - BOTTOM) / scale;
+            bool within = x >= LEFT && y >= BOTTOM && u < size && v < size;
+            const uint8_t around[3] = {255, 0, 255};
+            assert_memory_equal(got, within ? rgb + 3 * ((size - 1 - v) * size + u) : around, 3);
+        }
+}
+
+static void present(lsf_renderer *renderer, GLuint framebuffer, GLuint target, uint32_t size,
+                    uint32_t scale, const uint8_t *rgb)
+{
+    static GLubyte texels[FRAME * FRAME][4];
+    lsf_error error = {0};
+    int32_t side = (int32_t)(size * scale);
+    const int32_t viewport[4] = {LEFT, BOTTOM, side, side};
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, (const float[4]){1, 0, 1, 1});
+    if (!lsf_renderer_present(renderer, framebuffer, viewport, 0.5f, LSF_TONE_CURVE_ACES, &error))
+        fail_msg("%s", error.message);
+    glGetTextureImage(target, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof texels, texels);
+    check_presented((const GLubyte(*)[4])texels, size, scale, rgb);
+}
+
+static void pictures_on_the_gpu(void **state)
+{
+    (void)state;
+    lsf_error error = {0};
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_scene *scene = rig_scene(5.0f);
+    lsf_render_params params = rig_params("direct");
+    params.width = params.height = 16;
+    params.present = params.rgb8 = true;
+    params.aovs = LSF_AOV_NORMAL;
+    lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
+    assert_non_null(renderer);
+    assert_int_equal(lsf_renderer_texture(renderer, 0, &error), 0); /* nothing was rendered */
+    rig_run(renderer);
+
+    lsf_image *image = lsf_renderer_read(renderer, &error);
+    static float texels[16 * 16][4];
+    for (uint32_t layer = 0; layer < 2; layer++) {
+        GLuint texture = lsf_renderer_texture(renderer, layer ? LSF_AOV_NORMAL : 0, &error);
+        assert_int_not_equal(texture, 0);
+        glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, sizeof texels, texels);
+        for (uint32_t i = 0; i < 16 * 16; i++)
+            assert_memory_equal(texels[(15 - i / 16) * 16 + i % 16],
+                                image->pixels + (size_t)6 * i + 3 * layer, 12);
+    }
+    assert_int_equal(lsf_renderer_texture(renderer, LSF_AOV_DEPTH, &error), 0);
+    assert_int_equal(error.code, LSF_ERROR_USAGE);
+    lsf_image_destroy(image);
+
+    uint8_t rgb[16 * 16 * 3];
+    assert_true(lsf_renderer_read_rgb8(renderer, 0.5f, LSF_TONE_CURVE_ACES, rgb, &error));
+    GLuint target, framebuffer;
+    glCreateTextures(GL_TEXTURE_2D, 1, &target);
+    glTextureStorage2D(target, 1, GL_RGBA8, FRAME, FRAME);
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target, 0);
+    present(renderer, framebuffer, target, 16, 1, rgb);
+    present(renderer, framebuffer, target, 16, 2, rgb);
+    assert_false(lsf_renderer_present(renderer, framebuffer, NULL, 0, LSF_TONE_CURVE_NONE, &error));
+    assert_int_equal(error.code, LSF_ERROR_USAGE);
+    const int32_t viewport[4] = {0, 0, 16, 16};
+    assert_false(lsf_renderer_present(renderer, 4711, viewport, 0, LSF_TONE_CURVE_NONE, &error));
+    assert_non_null(strstr(error.message, "framebuffer 4711"));
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &target);
+    lsf_renderer_destroy(renderer);
+    gl_test_check(context);
+    lsf_context_destroy(context);
+    lsf_scene_destroy(scene);
+}
+
 /* --- threads -----------------------------------------------------------------------------------
  */
 
@@ -180,6 +263,7 @@ int main(void)
         {"foreign context, egl", foreign_context_between_calls, NULL, NULL, &backends[0]},
         {"foreign context, osmesa", foreign_context_between_calls, NULL, NULL, &backends[1]},
         cmocka_unit_test(two_contexts_on_a_thread),
+        cmocka_unit_test(pictures_on_the_gpu),
         cmocka_unit_test(threads_with_a_context_each),
         {"another thread, egl", context_goes_to_another_thread, NULL, NULL, &backends[0]},
         {"another thread, osmesa", context_goes_to_another_thread, NULL, NULL, &backends[1]},
