@@ -3,6 +3,7 @@
 #define LIGHTSHEAF_RENDERER_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include <lightsheaf/context.h>
@@ -175,6 +176,10 @@ bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error);
 
 /* Reads the mean so far: R, G, B and the layers of params->aovs. The caller destroys it. */
 lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error);
+/* Reads the picture (aov 0) or a layer of params->aovs into the program's memory: as many floats a
+ * pixel as lsf_aov names channels, rows from the top, `row_bytes` from one to the next. */
+bool lsf_renderer_read_into(lsf_renderer *renderer, uint32_t aov, float *pixels, size_t row_bytes,
+                            lsf_error *error);
 /* Reads R, G, B tone-mapped on the GPU to 8-bit sRGB: width * height * 3 bytes into `rgb`,
  * rows from the top. `exposure` in EV. LSF_ERROR_USAGE unless params->rgb8 was set. */
 bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_curve curve,

@@ -60,21 +60,21 @@ static bool read_strips(GLuint texture, uint32_t width, uint32_t height,
     return texels != NULL;
 }
 
-/* Where a layer goes in an image, whose rows run from the top. */
+/* Where a layer goes: its first channel of the first pixel, rows from the top. */
 typedef struct layer_target {
-    lsf_image *image;
-    uint32_t first_channel, channels;
+    char *first;
+    size_t row_bytes, pixel_bytes;
+    uint32_t width, height, channels;
 } layer_target;
 
 static void copy_layer(const float *texels, uint32_t first_row, uint32_t rows, void *user)
 {
     const layer_target *target = user;
-    lsf_image *image = target->image;
     for (uint32_t row = 0; row < rows; row++)
-        for (uint32_t x = 0; x < image->width; x++) {
-            size_t y = image->height - 1 - (first_row + row);
-            float *pixel = image->pixels + (y * image->width + x) * image->channel_count;
-            memcpy(pixel + target->first_channel, texels + ((size_t)row * image->width + x) * 4,
+        for (uint32_t x = 0; x < target->width; x++) {
+            size_t y = target->height - 1 - (first_row + row);
+            memcpy(target->first + y * target->row_bytes + x * target->pixel_bytes,
+                   texels + ((size_t)row * target->width + x) * 4,
                    target->channels * sizeof(float));
         }
 }
@@ -111,7 +111,13 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
     for (uint32_t i = 0, channel = 0; good && i < setup->layer_count; i++) {
         uint32_t channels = channels_of(setup->layer_aovs[i]);
         bool present = lsf_renderer_layer(&renderer->outputs, setup->layer_aovs[i]) != 0;
-        layer_target target = {image, channel, channels};
+        size_t pixel_bytes = channel_count * sizeof(float);
+        layer_target target = {.first = (char *)(image->pixels + channel),
+                               .row_bytes = plan->width * pixel_bytes,
+                               .pixel_bytes = pixel_bytes,
+                               .width = plan->width,
+                               .height = plan->height,
+                               .channels = channels};
         if (present && !read_strips(renderer->accumulate.means[i], plan->width, plan->height,
                                     copy_layer, &target))
             good =
@@ -123,6 +129,46 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
         return NULL;
     }
     return image;
+}
+
+/* The mean of the picture (0) or of a layer; 0 where there is none. Of a renderer that is entered
+ * and has caught up. */
+static GLuint find_mean(const lsf_renderer *renderer, uint32_t aov, lsf_error *error)
+{
+    const lsf_setup *setup = &renderer->setup;
+    for (uint32_t i = 0; i < setup->layer_count; i++)
+        if (setup->layer_aovs[i] == aov && lsf_renderer_layer(&renderer->outputs, aov))
+            return renderer->accumulate.means[i];
+    lsf_error_set(error, LSF_ERROR_USAGE,
+                  "no such layer was asked for in lsf_render_params.aovs, or nothing was rendered");
+    return 0;
+}
+
+bool lsf_renderer_read_into(lsf_renderer *renderer, uint32_t aov, float *pixels, size_t row_bytes,
+                            lsf_error *error)
+{
+    if (!lsf_given(renderer, "renderer", error) || !lsf_given(pixels, "pixels", error))
+        return false;
+    const lsf_plan *plan = renderer->setup.plan;
+    const uint32_t channels = channels_of(aov);
+    const size_t pixel_bytes = channels * sizeof(float);
+    if (row_bytes < plan->width * pixel_bytes)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "row_bytes %zu: a row of this layer takes at least %zu bytes",
+                             row_bytes, plan->width * pixel_bytes);
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered || !lsf_renderer_catch_up(renderer, true, error))
+        return false;
+    GLuint mean = find_mean(renderer, aov, error);
+    layer_target target = {.first = (char *)pixels,
+                           .row_bytes = row_bytes,
+                           .pixel_bytes = pixel_bytes,
+                           .width = plan->width,
+                           .height = plan->height,
+                           .channels = channels};
+    if (mean && !read_strips(mean, plan->width, plan->height, copy_layer, &target))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left to read the picture back");
+    return mean && lsf_context_check(renderer->context, error);
 }
 
 bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_curve curve,
@@ -156,13 +202,7 @@ uint32_t lsf_renderer_texture(lsf_renderer *renderer, uint32_t aov, lsf_error *e
     LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
     if (!entered || !lsf_renderer_catch_up(renderer, true, error))
         return 0;
-    const lsf_setup *setup = &renderer->setup;
-    for (uint32_t i = 0; i < setup->layer_count; i++)
-        if (setup->layer_aovs[i] == aov && lsf_renderer_layer(&renderer->outputs, aov))
-            return renderer->accumulate.means[i];
-    lsf_error_set(error, LSF_ERROR_USAGE,
-                  "no such layer was asked for in lsf_render_params.aovs, or nothing was rendered");
-    return 0;
+    return find_mean(renderer, aov, error);
 }
 
 bool lsf_renderer_present(lsf_renderer *renderer, uint32_t framebuffer, const int32_t viewport[4],

@@ -139,6 +139,13 @@ static void pictures_on_the_gpu(void **state)
             assert_memory_equal(texels[(15 - i / 16) * 16 + i % 16],
                                 image->pixels + (size_t)6 * i + 3 * layer, 12);
     }
+    static float rows[16][20][3];
+    assert_false(lsf_renderer_read_into(renderer, 0, rows[0][0], 16 * 12 - 1, &error));
+    assert_int_equal(error.code, LSF_ERROR_USAGE);
+    assert_true(
+        lsf_renderer_read_into(renderer, LSF_AOV_NORMAL, rows[0][0], sizeof rows[0], &error));
+    for (uint32_t i = 0; i < 16 * 16; i++)
+        assert_memory_equal(rows[i / 16][i % 16], image->pixels + (size_t)6 * i + 3, 12);
     assert_int_equal(lsf_renderer_texture(renderer, LSF_AOV_DEPTH, &error), 0);
     assert_int_equal(error.code, LSF_ERROR_USAGE);
     lsf_image_destroy(image);

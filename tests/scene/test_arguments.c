@@ -38,6 +38,7 @@ static void no_context(void **state)
     FAILS(lsf_renderer_run(NULL, &error));
     FAILS(lsf_renderer_read(NULL, &error));
     FAILS(lsf_renderer_read_rgb8(NULL, 0.0f, LSF_TONE_CURVE_NEUTRAL, rgb, &error));
+    FAILS(lsf_renderer_read_into(NULL, 0, NULL, 0, &error));
     FAILS(lsf_renderer_texture(NULL, 0, &error));
     FAILS(lsf_renderer_present(NULL, 0, NULL, 0.0f, LSF_TONE_CURVE_NONE, &error));
     assert_int_equal(lsf_renderer_get_stats(NULL).pass_count, 0);
