@@ -36,7 +36,7 @@ def choices():
 
 
 choices().gltf('choices.gltf')
-case('choices.gltf', 'ok', 2, '--animation chooses')
+case('choices.gltf', 'ok', 2, 'can be chosen')
 file = choices()
 file.json['meshes'][0]['primitives'][0]['extensions']['KHR_materials_variants']['mappings'][1][
     'variants'] = [2]

@@ -13,7 +13,7 @@ static const char *const techniques[] = {"direct", "bidirectional", "voxel_path"
 /* --- a scene that moves -------------------------------------------------------------------------
  */
 
-enum { NODE_BOX, NODE_LAMP, NODE_LIGHT, NODE_SPINNING, NODES };
+enum { NODE_BOX, NODE_LAMP, NODE_LIGHT, NODE_SPINNING, NODE_JOINT, NODES };
 
 typedef struct world {
     lsf_scene *scene;
@@ -21,8 +21,9 @@ typedef struct world {
     uint32_t lamp, sheet, banner; /* materials */
 } world;
 
-/* A banner that joints bend and a morph target shifts; it is of the last material. */
-static void build_banner(lsf_scene *scene)
+/* A banner that joints bend and a morph target shifts; it is of the last material. Its lower
+ * joint. */
+static uint32_t build_banner(lsf_scene *scene)
 {
     static const float turn[] = {0, 0, 0, 1, 0.6f, 0, 0, 0.8f}, weights[] = {0, 1};
     build_quad(scene, lsf_f3(-1.6f, 0, 0.5f), lsf_f3(-0.9f, 0, 0.5f), lsf_f3(-0.9f, 1.8f, 0.5f),
@@ -31,6 +32,7 @@ static void build_banner(lsf_scene *scene)
     uint32_t joint = build_deformer(scene, lsf_f3(0.4f, 0.1f, 0.3f));
     build_channel(scene, joint, LSF_PATH_ROTATION, turn, sizeof turn);
     build_channel(scene, banner, LSF_PATH_WEIGHTS, weights, sizeof weights);
+    return joint - 1;
 }
 
 static world build_world(bool animated, bool sky)
@@ -61,7 +63,7 @@ static world build_world(bool animated, bool sky)
         static const float half_a_turn[] = {0, 0, 0, 1, 0, 1, 0, 0};
         build_channel(scene, w.nodes[NODE_SPINNING], LSF_PATH_ROTATION, half_a_turn,
                       sizeof half_a_turn);
-        build_banner(scene);
+        w.nodes[NODE_JOINT] = build_banner(scene);
     }
     finish_gl_scene(scene);
     return w;
@@ -145,6 +147,8 @@ static void edit_frame(const world *w, int k)
         sheet.roughness = 0.2f;
         edit_material(w, w->sheet, sheet);
     }
+    if (k >= 8 && w->nodes[NODE_JOINT]) /* by a program, no longer at rest */
+        translate(w, NODE_JOINT, -1.0, 0.1 * (k - 7), 0.4);
     if (k == 9) /* out of what voxels held so far */
         translate(w, NODE_BOX, 2.5, 0.5, 0.0);
     if (k == 11)
