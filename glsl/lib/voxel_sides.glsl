@@ -15,10 +15,12 @@ ivec3 slice_texel(ivec3 cell, int slice)
     return cell + ivec3(0, 0, slice * int(grid.size.z));
 }
 
-/* The slice that holds a side's lobe along an axis; `facing`: that component of the side's normal. */
-int lobe_slice(int axis, float facing)
+/* The slice that holds the lobe of a surface's front or back along an axis; `facing`: that component of the
+ * front's normal. Where it is 0 each side still has one of the two slices, so that both are written: what
+ * other iterations left there is not of this surface. */
+int lobe_slice(int axis, float facing, bool front)
 {
-    return 2 * axis + (facing > 0.0 ? 1 : 0);
+    return 2 * axis + ((facing > 0.0) == front ? 1 : 0);
 }
 
 #endif

@@ -78,7 +78,7 @@ void light_side(ivec3 cell, bool back)
     write(cell, 0, 1.0, reflected);
 #else
     for (int axis = 0; axis < 3; axis++)
-        write(cell, lobe_slice(axis, n[axis]), n[axis] * n[axis], reflected);
+        write(cell, lobe_slice(axis, sign * n[axis], !back), n[axis] * n[axis], reflected);
 #endif
 }
 

@@ -90,11 +90,13 @@ uint put_side(ivec3 cell, vec3 n, bool front, vec3 radiance)
 #if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_AXES
     uint slices = 0u;
     for (int axis = 0; axis < 3; axis++) {
-        int slice = lobe_slice(axis, front ? n[axis] : -n[axis]);
+        int slice = lobe_slice(axis, n[axis], front);
+#if !LSF_EMIT
         if (n[axis] == 0.0)
-            continue; /* empty before, too */
+            continue; /* where emission has put nothing */
+#endif
         put(cell, slice, n[axis] * n[axis], radiance);
-        slices |= 1u << slice;
+        slices |= n[axis] == 0.0 ? 0u : 1u << slice;
     }
     return slices;
 #else

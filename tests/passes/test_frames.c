@@ -222,7 +222,7 @@ static void every_technique(void **unused)
     static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=64",
                                           "bundle.resolution=64", "vpl.shadow_resolution=64"};
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
-        world w = build_world(true, t < 2);
+        world w = build_world(true, true);
         lsf_render_params params = params_of(techniques[t], options, LSF_COUNT(options));
         assert_frames_are_those_of_new_renderers(&w, &params);
         lsf_scene_destroy(w.scene);
