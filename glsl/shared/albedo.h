@@ -1,12 +1,13 @@
-/* What a surface reflects of light from one direction to all sides together (and, both being reciprocal, of light
- * from all sides to one direction): the integrals over the other direction of the lobes of shared/brdf.h times its
- * cosine, without the parts that depend on colours,
+/* What a surface reflects of light from one direction to all sides together (and, both being
+ * reciprocal, of light from all sides to one direction): the integrals over the other direction of
+ * the lobes of shared/brdf.h times its cosine, without the parts that depend on colours,
  *
  *   specular   f0 A + f90 B      A = int (1 - s) D V nl,   B = int s D V nl,   s = (1 - v.h)^5
  *   diffuse    1 - f0 - (f90 - f0) C      C = int s nl / pi
  *
- * by quadrature with 1000 x 1000 directions: those of A and B are drawn from the distribution of visible normals
- * (E. Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 2018), C's by the cosine. */
+ * by quadrature with 1000 x 1000 directions: those of A and B are drawn from the distribution of
+ * visible normals (E. Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 2018), C's by
+ * the cosine. */
 #ifndef LSF_SHARED_ALBEDO_H
 #define LSF_SHARED_ALBEDO_H
 
@@ -14,6 +15,8 @@
 
 #define LSF_ALBEDO_SIDE 16
 
+/* Two lines a roughness. */
+/* clang-format off */
 /* A at roughness j / 15 (rows) and cosine (i / 15)^2. */
 LSF_SHARED_CONSTANT float lsf_albedo_front[LSF_ALBEDO_SIDE * LSF_ALBEDO_SIDE] = {
     0.0257f, 0.0257f, 0.0868f, 0.1850f, 0.3087f, 0.4452f, 0.5818f, 0.7072f,
@@ -88,11 +91,13 @@ LSF_SHARED_CONSTANT float lsf_albedo_edge[LSF_ALBEDO_SIDE * LSF_ALBEDO_SIDE] = {
 LSF_SHARED_CONSTANT float lsf_albedo_diffuse_loss[LSF_ALBEDO_SIDE] = {
     0.0281f, 0.0278f, 0.0268f, 0.0251f, 0.0229f, 0.0203f, 0.0174f, 0.0144f,
     0.0115f, 0.0087f, 0.0063f, 0.0042f, 0.0025f, 0.0013f, 0.0005f, 0.0001f};
+/* clang-format on */
 
 /* The specular lobe's, for f0 of one channel. */
 LSF_SHARED_FUNCTION float lsf_specular_albedo(float f0, float f90, float cosine, float roughness)
 {
-    float x = sqrt(min(max(cosine, 0.0f), 1.0f)) * 15.0f, y = min(max(roughness, 0.0f), 1.0f) * 15.0f;
+    float x = sqrt(min(max(cosine, 0.0f), 1.0f)) * 15.0f,
+          y = min(max(roughness, 0.0f), 1.0f) * 15.0f;
     int i = LSF_SHARED_INT(min(x, 14.0f)), j = LSF_SHARED_INT(min(y, 14.0f));
     float tx = x - LSF_SHARED_FLOAT(i), ty = y - LSF_SHARED_FLOAT(j);
     int at = j * LSF_ALBEDO_SIDE + i, above = at + LSF_ALBEDO_SIDE;

@@ -1,27 +1,27 @@
 /* The glTF 2.0 metallic-roughness BRDF, one definition for the shaders and for the reference.
- * glTF 2.0 specification, appendix B; KHR_materials_ior; KHR_materials_anisotropy; KHR_materials_specular;
- * KHR_materials_clearcoat;
- * KHR_materials_transmission; KHR_materials_volume.
+ * glTF 2.0 specification, appendix B; KHR_materials_ior; KHR_materials_anisotropy;
+ * KHR_materials_specular; KHR_materials_clearcoat; KHR_materials_transmission;
+ * KHR_materials_volume.
  *
  *   f = (1 - metallic) (1 - F(f0_dielectric)) ((1 - t) base / pi  +  t base f_t)  +  F(f0) V D
  *   f0_dielectric = ((ior - 1) / (ior + 1))^2,  f0 = mix(f0_dielectric, base, metallic)
  *
- * KHR_materials_specular tints and weighs the dielectric's reflection: f0_dielectric = w min(tint ((ior - 1) /
- * (ior + 1))^2, 1), which grows to w at grazing angles; the largest of its channels is what the lobes below do
- * without.
- * A clear coat (KHR_materials_clearcoat) of weight w reflects w F_c(v.h) V D by a normal and a roughness of its
- * own; light passes it on its way in and on its way out, so that all below is multiplied by
- * (1 - w F_c(n.v)) (1 - w F_c(n.l)): the extension's own sum has the first of the two alone, and is not reciprocal.
+ * KHR_materials_specular tints and weighs the dielectric's reflection: f0_dielectric = w min(tint
+ * ((ior - 1) / (ior + 1))^2, 1), which grows to w at grazing angles; the largest of its channels is
+ * what the lobes below do without. A clear coat (KHR_materials_clearcoat) of weight w reflects w
+ * F_c(v.h) V D by a normal and a roughness of its own; light passes it on its way in and on its way
+ * out, so that all below is multiplied by (1 - w F_c(n.v)) (1 - w F_c(n.l)): the extension's own
+ * sum has the first of the two alone, and is not reciprocal.
  *
  * F: Schlick, D: Trowbridge-Reitz (GGX), V: height-correlated Smith visibility, G / (4 nl nv).
- * t is the material's transmission and f_t the specular lobe on the surface's other side: through a thin
- * wall that of the reflection, mirrored; into a medium, Walter, Marschner, Li and Torrance 2007,
- * "Microfacet Models for Refraction through Rough Surfaces". Seen from within a denser medium, F is that of
- * the angle outside, and 1 where light cannot leave.
+ * t is the material's transmission and f_t the specular lobe on the surface's other side: through a
+ * thin wall that of the reflection, mirrored; into a medium, Walter, Marschner, Li and Torrance
+ * 2007, "Microfacet Models for Refraction through Rough Surfaces". Seen from within a denser
+ * medium, F is that of the angle outside, and 1 where light cannot leave.
  *
- * Radiance is divided by the square of the index of the medium that it is in, everywhere: so divided, it is
- * the same on both sides of a surface that lets all light pass (E. Veach 1997, section 5.2), and what shines
- * or looks in air is as it was.
+ * Radiance is divided by the square of the index of the medium that it is in, everywhere: so
+ * divided, it is the same on both sides of a surface that lets all light pass (E. Veach 1997,
+ * section 5.2), and what shines or looks in air is as it was.
  *
  * All cosines are of unit vectors and clamped by the caller to (0, 1]; every function stays finite
  * there for alpha >= LSF_ALPHA_MIN. `h` is the half vector, `t` and `b` the tangent frame. */
@@ -71,12 +71,12 @@ LSF_SHARED_FUNCTION float lsf_fresnel_schlick_to(float f0, float f90, float vh)
     return f0 + (f90 - f0) * (m2 * m2 * m);
 }
 
-/* Refractive indices nearer to 1 than this turn no ray: the half vector of the directions on both sides
- * has lost too many digits. */
+/* Refractive indices nearer to 1 than this turn no ray: the half vector of the directions on both
+ * sides has lost too many digits. */
 #define LSF_REFRACTION_MIN (1.0f / 128.0f)
 
-/* Index beyond a surface over the index before it: `ior` is that of what is behind the front; 1 where rays
- * go straight on. */
+/* Index beyond a surface over the index before it: `ior` is that of what is behind the front; 1
+ * where rays go straight on. */
 LSF_SHARED_FUNCTION float lsf_relative_ior(float ior, bool front)
 {
     if (ior < 1.0f + LSF_REFRACTION_MIN)
@@ -101,8 +101,8 @@ LSF_SHARED_FUNCTION float lsf_fresnel_interface_to(float f0, float f90, float vh
     return lsf_fresnel_schlick_to(f0, f90, eta < 1.0f ? lsf_refracted_cosine(vh, eta) : vh);
 }
 
-/* Solid angle of half vectors to that of refracted directions, |d omega_h / d omega_l| (Walter et al. 2007,
- * equation 17); vh > 0 and lh < 0 are the cosines at the half vector. */
+/* Solid angle of half vectors to that of refracted directions, |d omega_h / d omega_l| (Walter et
+ * al. 2007, equation 17); vh > 0 and lh < 0 are the cosines at the half vector. */
 LSF_SHARED_FUNCTION float lsf_refraction_jacobian(float vh, float lh, float eta)
 {
     float sum = vh + eta * lh;

@@ -9,16 +9,17 @@
  *   place = ((q.xy - center) / extent * 0.5 + 0.5) * texels,   depth = (q.z - start) / length
  * Both are affine in p. right x up = -forward: seen along forward, x is right and y up.
  *
- * Where parts of the scene lie far apart, what lies between them along an axis is taken out of q: of a gap
- * from s on and g long, q loses clamp(q - s, 0, g). No triangle reaches into one, so that the maps stay affine
- * over each. */
+ * Where parts of the scene lie far apart, what lies between them along an axis is taken out of q:
+ * of a gap from s on and g long, q loses clamp(q - s, 0, g). No triangle reaches into one, so that
+ * the maps stay affine over each. */
 struct lsf_bundle_data {
     vec4 right, up; /* unit axes; right.w: the map's texels to those in use, along a side */
     vec4 forward;   /* unit: the bundle's direction; w: its density [1/sr], p_r in the paper */
     vec4 window;    /* xy: center, zw: extent (half width and height) of the whole map */
     vec4 range; /* start, length (along forward), texels in use along a side, which lie about the
                  * map's centre; 1 / texels of the map */
-    vec4 gap_starts[3], gap_lengths[3]; /* along right, up and forward, in ascending order; length 0: none */
+    vec4 gap_starts[3],
+        gap_lengths[3]; /* along right, up and forward, in ascending order; length 0: none */
 };
 
 /* In an array, at 256 bytes each: GL's largest alignment of ranges bound as uniform buffers. */
@@ -43,8 +44,9 @@ struct lsf_bundle_slot_data {
 #define LSF_BUNDLE_SMALL_SIZE 64
 #define LSF_BUNDLE_SMALL_TEXELS 256
 
-/* Words before the chains' heads: the number of chained nodes, and of nodes that a shader rasterised,
- * of the latter 16 counters, in cache lines of their own, so that threads do not meet. */
+/* Words before the chains' heads: the number of chained nodes, and of nodes that a shader
+ * rasterised, of the latter 16 counters, in cache lines of their own, so that threads do not meet.
+ */
 #define LSF_BUNDLE_CHAINED 0
 #define LSF_BUNDLE_RASTERISED 16
 #define LSF_BUNDLE_COUNTERS 272
@@ -52,10 +54,11 @@ struct lsf_bundle_slot_data {
 /* Account of what was built, for the GPU and, later, the host. Sums are of two words, the low one
  * first; new ones are of the iteration in progress, the others of iterations that had room. */
 struct lsf_bundle_status {
-    uint draw_vertices, draw_instances, draw_first, draw_base; /* DrawArraysIndirectCommand: of the
-                            * whole picture, or of nothing once some bundle had too little room */
-    uint needed;            /* chained nodes of the largest bundle since the room last grew */
-    uint iterations_done;   /* that had room, from the first on */
+    uint draw_vertices, draw_instances, draw_first,
+        draw_base;              /* DrawArraysIndirectCommand: of the
+                                 * whole picture, or of nothing once some bundle had too little room */
+    uint needed;                /* chained nodes of the largest bundle since the room last grew */
+    uint iterations_done;       /* that had room, from the first on */
     uint drawn_low, drawn_high; /* fragments that GL rasterised for the latest bundle */
     uint new_nodes_low, new_nodes_high;
     uint new_chained_low, new_chained_high;

@@ -7,12 +7,13 @@
 
 struct lsf_emitter_point_data {
     vec4 position; /* xyz */
-    vec4 normal;   /* xyz: unit, the way it shines; w: density by area of sides with which it was drawn */
+    vec4 normal;   /* xyz: unit, the way it shines; w: density by area of sides with which it was
+                      drawn */
     vec4 radiance; /* rgb; w: sides that shine, 1 or 2 */
 };
 
-/* The points of an iteration, one for each cell of the square of LSF_EMITTER_CELLS to a side that random
- * numbers are drawn from. */
+/* The points of an iteration, one for each cell of the square of LSF_EMITTER_CELLS to a side that
+ * random numbers are drawn from. */
 #define LSF_EMITTER_CELLS 64
 
 #define LSF_BINDING_EMITTERS 1

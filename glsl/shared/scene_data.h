@@ -35,13 +35,14 @@ struct lsf_material_data {
         anisotropy_slot, transmission_slot;
 };
 
-/* What few materials have beyond that, in a table of its own: one after the other, by the material's number. */
+/* What few materials have beyond that, in a table of its own: one after the other, by the
+ * material's number. */
 struct lsf_lobe_data {
     vec4 specular; /* rgb: tint of f0; w: weight */
     vec4 coat;     /* factor, roughness, scale of the normal */
     vec4 sheen;    /* rgb: color; w: roughness */
-    lsf_texture_slot_data specular_slot, specular_color_slot, coat_slot, coat_roughness_slot, coat_normal_slot,
-        sheen_color_slot, sheen_roughness_slot;
+    lsf_texture_slot_data specular_slot, specular_color_slot, coat_slot, coat_roughness_slot,
+        coat_normal_slot, sheen_color_slot, sheen_roughness_slot;
 };
 #define LSF_LOBE_ROWS 17 /* of four floats */
 
@@ -84,8 +85,8 @@ struct lsf_lobe_data {
 #define LSF_UNIT_SHADOW_DEPTH 6
 #define LSF_UNIT_SHADOW_GRADIENT 7
 #define LSF_UNIT_SHADOW_TINT 12 /* see lib/shadow.glsl */
-#define LSF_UNIT_EMISSION 8   /* see lib/emission_pdf.glsl */
-#define LSF_UNIT_BUNDLE_PDF 9 /* density of ray-bundles by direction */
+#define LSF_UNIT_EMISSION 8     /* see lib/emission_pdf.glsl */
+#define LSF_UNIT_BUNDLE_PDF 9   /* density of ray-bundles by direction */
 
 /* Location of the radiance of an environment without a map. */
 #define LSF_LOCATION_ENVIRONMENT 10

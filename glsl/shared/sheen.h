@@ -1,12 +1,14 @@
-/* The sheen of cloth (KHR_materials_sheen), one definition for the shaders and for the reference: fibres that stand
- * on the surface. A. Conty Estevez, C. Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017 course:
+/* The sheen of cloth (KHR_materials_sheen), one definition for the shaders and for the reference:
+ * fibres that stand on the surface. A. Conty Estevez, C. Kulla, "Production Friendly Microfacet
+ * Sheen BRDF", SIGGRAPH 2017 course:
  *
  *   f = color D V / max(1, E(n.v), E(n.l)),  D = (2 + 1 / a) sin^(1/a) / (2 pi),  a = roughness^2
  *   V = 1 / ((1 + L(n.v) + L(n.l)) 4 n.v n.l)
  *
- * What is below is multiplied by min(1 - c E'(n.v), 1 - c E'(n.l)) with c the largest channel of the color, E the
- * albedo of D V by direction and E' = min(E, 1). The divisor is 1 where E is below 1: L is a fit, with which sharp
- * lobes would reflect more than all light at grazing angles (E reaches 2.8). */
+ * What is below is multiplied by min(1 - c E'(n.v), 1 - c E'(n.l)) with c the largest channel of
+ * the color, E the albedo of D V by direction and E' = min(E, 1). The divisor is 1 where E is below
+ * 1: L is a fit, with which sharp lobes would reflect more than all light at grazing angles (E
+ * reaches 2.8). */
 #ifndef LSF_SHARED_SHEEN_H
 #define LSF_SHARED_SHEEN_H
 
@@ -18,7 +20,9 @@
 
 #define LSF_SHEEN_SIDE 16
 
-/* E at roughness 0.07 + 0.93 j / 15 (rows) and cosine (i / 15)^2, by quadrature with 600 x 360 directions. */
+/* E at roughness 0.07 + 0.93 j / 15 (rows) and cosine (i / 15)^2, by quadrature with 600 x 360
+ * directions. */
+/* clang-format off */
 LSF_SHARED_CONSTANT float lsf_sheen_table[LSF_SHEEN_SIDE * LSF_SHEEN_SIDE] = {
     2.6769f, 2.8295f, 2.0962f, 1.3169f, 0.7201f, 0.3363f, 0.1288f, 0.0381f,
     0.0080f, 0.0011f, 0.0001f, 0.0000f, 0.0000f, 0.0000f, 0.0000f, 0.0000f,
@@ -52,6 +56,7 @@ LSF_SHARED_CONSTANT float lsf_sheen_table[LSF_SHEEN_SIDE * LSF_SHEEN_SIDE] = {
     0.5020f, 0.4416f, 0.3838f, 0.3291f, 0.2803f, 0.2355f, 0.1928f, 0.1518f,
     0.7810f, 0.9329f, 0.9218f, 0.8545f, 0.7770f, 0.7016f, 0.6312f, 0.5655f,
     0.5038f, 0.4452f, 0.3891f, 0.3359f, 0.2886f, 0.2451f, 0.2036f, 0.1638f};
+/* clang-format on */
 
 LSF_SHARED_FUNCTION float lsf_sheen_fit(float x, float a)
 {
@@ -65,8 +70,9 @@ LSF_SHARED_FUNCTION float lsf_sheen_fit(float x, float a)
 /* L. */
 LSF_SHARED_FUNCTION float lsf_sheen_lambda(float cosine, float a)
 {
-    float exponent = cosine < 0.5f ? lsf_sheen_fit(cosine, a)
-                                   : 2.0f * lsf_sheen_fit(0.5f, a) - lsf_sheen_fit(1.0f - cosine, a);
+    float exponent = cosine < 0.5f
+                         ? lsf_sheen_fit(cosine, a)
+                         : 2.0f * lsf_sheen_fit(0.5f, a) - lsf_sheen_fit(1.0f - cosine, a);
     return exp2(exponent * 1.44269504f);
 }
 

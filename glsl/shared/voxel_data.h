@@ -39,8 +39,8 @@ struct lsf_voxel_grid_data {
 #define LSF_UNIT_VOXEL_GLOSS 15
 #define LSF_UNIT_PATH_RANDOM 7
 
-/* Lists, storage buffers: how many work groups a dispatch takes, as rows of LSF_VOXEL_LIST_ROW entries
- * each, and the number of entries; then the entries. */
+/* Lists, storage buffers: how many work groups a dispatch takes, as rows of LSF_VOXEL_LIST_ROW
+ * entries each, and the number of entries; then the entries. */
 #define LSF_VOXEL_LIST_ROW 256
 #define LSF_VOXEL_LIST_HEADER 4 /* words: groups in x, y and z, entries */
 

@@ -1,5 +1,5 @@
-/* A virtual point light, storage buffer LSF_BINDING_VPL: x1 of the paper, lit by the light at x0; or a
- * point of an emissive surface. Normalised space. */
+/* A virtual point light, storage buffer LSF_BINDING_VPL: x1 of the paper, lit by the light at x0;
+ * or a point of an emissive surface. Normalised space. */
 #ifndef LSF_SHARED_VPL_DATA_H
 #define LSF_SHARED_VPL_DATA_H
 
@@ -14,15 +14,16 @@
  * all lights. */
 struct lsf_vpl_data {
     vec4 position;         /* xyz; w: one of LSF_VPL_ */
-    vec4 geometric_normal; /* xyz: unit, towards the light; w: its emission's density, p_e [1/sr] times
-                            * the probability of having picked the light. Emissive: towards what it
-                            * lights; density by area times that probability */
+    vec4 geometric_normal; /* xyz: unit, towards the light; w: its emission's density, p_e [1/sr]
+                            * times the probability of having picked the light. Emissive: towards
+                            * what it lights; density by area times that probability */
     vec4 normal;           /* xyz: unit shading normal, the same side; w: metallic */
     vec4 base_color;       /* rgb; w: 1 when the light is directional: its rays are parallel */
     vec4 gloss;            /* roughness, f0, anisotropy, its turn (see lib/gbuffer.glsl) */
     vec4 to_light;         /* xyz: unit, towards x0; w: squared distance */
-    vec4 intensity;        /* rgb: of the light, towards x1 [W/sr]; w: transmission. Emissive: its
-                            * radiance;        the density that weights are made of, see scene/emitters.h */
+    vec4
+        intensity; /* rgb: of the light, towards x1 [W/sr]; w: transmission. Emissive: its
+                    * radiance;        the density that weights are made of, see scene/emitters.h */
 };
 
 #include "shared/shared_end.h"

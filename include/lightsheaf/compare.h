@@ -13,33 +13,35 @@ extern "C" {
 #endif
 
 typedef struct lsf_compare_params {
-    const lsf_image *reference_b; /* second independent half of the reference: squared errors become
-                                   * mean((x - a)(x - b)), free of the reference's noise; NULL: none */
-    const lsf_image *mask;        /* pixels whose first channel is > 0.5 are left out; NULL: none */
-    float relmse_epsilon;         /* added to the squared reference; NAN: 0.01 * mean(reference)^2 */
-    float exposure;               /* EV before SSIM's tone mapping */
+    const lsf_image
+        *reference_b;      /* second independent half of the reference: squared errors become
+                            * mean((x - a)(x - b)), free of the reference's noise; NULL: none */
+    const lsf_image *mask; /* pixels whose first channel is > 0.5 are left out; NULL: none */
+    float relmse_epsilon;  /* added to the squared reference; NAN: 0.01 * mean(reference)^2 */
+    float exposure;        /* EV before SSIM's tone mapping */
 } lsf_compare_params;
 
-#define LSF_COMPARE_PARAMS_DEFAULTS                                                       \
+#define LSF_COMPARE_PARAMS_DEFAULTS                                                                \
     .reference_b = NULL, .mask = NULL, .relmse_epsilon = 0.0f / 0.0f, .exposure = 0.0f
 
 typedef struct lsf_compare_result {
-    uint64_t pixels;              /* compared */
+    uint64_t pixels;                                /* compared */
     uint64_t non_finite_test, non_finite_reference; /* pixels with a NaN or Inf, left out */
     double mean_test[3], mean_reference[3];         /* R, G, B */
-    double bias[3];               /* mean(x - r) / mean(r) per channel */
-    double rmse;                  /* over linear R, G, B together */
-    double rmse_relative;         /* rmse / mean(r) over all channels */
-    double relmse;                /* mean((x - r)^2 / (r^2 + epsilon)) */
-    double relmse_epsilon;        /* the epsilon that was used */
-    double ssim;                  /* of tone-mapped luminance, 11 x 11 Gaussian window, sigma 1.5 */
-    double psnr;                  /* dB, of tone-mapped R, G, B */
-    bool noise_corrected;         /* reference_b was given */
+    double bias[3];                                 /* mean(x - r) / mean(r) per channel */
+    double rmse;                                    /* over linear R, G, B together */
+    double rmse_relative;                           /* rmse / mean(r) over all channels */
+    double relmse;                                  /* mean((x - r)^2 / (r^2 + epsilon)) */
+    double relmse_epsilon;                          /* the epsilon that was used */
+    double ssim;          /* of tone-mapped luminance, 11 x 11 Gaussian window, sigma 1.5 */
+    double psnr;          /* dB, of tone-mapped R, G, B */
+    bool noise_corrected; /* reference_b was given */
 } lsf_compare_result;
 
 /* Both images need R, G, B and the same size. LSF_ERROR_FILE when they do not match. Against two
- * halves, rmse is free of their noise, and relmse nearly so (it divides by the halves' mean, and may
- * be negative); means, bias, SSIM and PSNR are against the halves' mean. When no finite pixel is left the measures are NAN. */
+ * halves, rmse is free of their noise, and relmse nearly so (it divides by the halves' mean, and
+ * may be negative); means, bias, SSIM and PSNR are against the halves' mean. When no finite pixel
+ * is left the measures are NAN. */
 bool lsf_compare(const lsf_image *test, const lsf_image *reference,
                  const lsf_compare_params *params, lsf_compare_result *result, lsf_error *error);
 

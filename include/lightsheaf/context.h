@@ -26,17 +26,18 @@ typedef enum lsf_backend {
 
 typedef struct lsf_context_params {
     lsf_backend backend;
-    bool debug;             /* ask for a debug context: KHR_debug messages are synchronous */
-    bool fail_on_gl_error;  /* a GL error or high-severity message makes the next
-                             * lsf_context_check fail; for tests */
+    bool debug;            /* ask for a debug context: KHR_debug messages are synchronous */
+    bool fail_on_gl_error; /* a GL error or high-severity message makes the next
+                            * lsf_context_check fail; for tests */
     uint32_t window_width, window_height; /* pixels, GLFW only */
     const char *window_title;             /* GLFW only */
-    const char *shader_dir; /* read glsl/ from this folder instead of the embedded copy; NULL: embedded */
+    const char
+        *shader_dir; /* read glsl/ from this folder instead of the embedded copy; NULL: embedded */
 } lsf_context_params;
 
-#define LSF_CONTEXT_PARAMS_DEFAULTS                                                       \
-    .backend = LSF_BACKEND_AUTO, .debug = false, .fail_on_gl_error = false,               \
-    .window_width = 1280, .window_height = 720, .window_title = "Lightsheaf", .shader_dir = NULL
+#define LSF_CONTEXT_PARAMS_DEFAULTS                                                                \
+    .backend = LSF_BACKEND_AUTO, .debug = false, .fail_on_gl_error = false, .window_width = 1280,  \
+    .window_height = 720, .window_title = "Lightsheaf", .shader_dir = NULL
 
 /* Makes a context and makes it current on the calling thread. `params` NULL means the defaults.
  * LSF_ERROR_NO_GL names what was tried and which package to install.
@@ -106,9 +107,9 @@ bool lsf_context_check(lsf_context *context, lsf_error *error);
 typedef struct lsf_context_info {
     const char *backend;                     /* "egl", "osmesa", "glfw", "application" */
     const char *vendor, *renderer, *version; /* GL strings */
-    bool software;        /* llvmpipe or softpipe */
-    bool robust;          /* reset notification is available */
-    uint64_t gl_bytes;      /* bytes of live textures, renderbuffers and buffers asked for */
+    bool software;                           /* llvmpipe or softpipe */
+    bool robust;                             /* reset notification is available */
+    uint64_t gl_bytes; /* bytes of live textures, renderbuffers and buffers asked for */
     uint64_t gl_bytes_peak;
 } lsf_context_info;
 

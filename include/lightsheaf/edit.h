@@ -1,6 +1,6 @@
 /* Edits of a scene: what a program moves and changes between frames. Every renderer of the scene
- * sees an edit from its next frame on (lsf_renderer_begin_frame); a scene that renders on another thread
- * must not be edited meanwhile. Indices name things for as long as the scene lives. */
+ * sees an edit from its next frame on (lsf_renderer_begin_frame); a scene that renders on another
+ * thread must not be edited meanwhile. Indices name things for as long as the scene lives. */
 #ifndef LIGHTSHEAF_EDIT_H
 #define LIGHTSHEAF_EDIT_H
 

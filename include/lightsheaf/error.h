@@ -13,10 +13,11 @@ extern "C" {
 
 typedef enum lsf_error_code {
     LSF_OK = 0,
-    LSF_ERROR_RENDER = 1,  /* rendering failed: GL error, lost context, out of memory, shader error */
-    LSF_ERROR_USAGE = 2,   /* an option or argument is wrong */
-    LSF_ERROR_FILE = 3,    /* a file is missing, unreadable, malformed or cannot be written */
-    LSF_ERROR_NO_GL = 4,   /* no OpenGL 4.5 context could be made */
+    LSF_ERROR_RENDER =
+        1,               /* rendering failed: GL error, lost context, out of memory, shader error */
+    LSF_ERROR_USAGE = 2, /* an option or argument is wrong */
+    LSF_ERROR_FILE = 3,  /* a file is missing, unreadable, malformed or cannot be written */
+    LSF_ERROR_NO_GL = 4, /* no OpenGL 4.5 context could be made */
     LSF_ERROR_DIFFERS = 5, /* compared images differ by more than a threshold */
 } lsf_error_code;
 

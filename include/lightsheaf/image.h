@@ -67,7 +67,7 @@ typedef struct lsf_image_text {
 typedef struct lsf_image_save_params {
     lsf_image_format format;
     float exposure; /* EV: radiance is multiplied by 2^exposure before tone mapping; PNG only */
-    lsf_tone_curve curve; /* PNG only */
+    lsf_tone_curve curve;        /* PNG only */
     const lsf_image_text *texts; /* EXR and PNG only */
     uint32_t text_count;
 } lsf_image_save_params;

@@ -16,7 +16,7 @@ extern "C" {
 typedef struct lsf_reference_result {
     uint32_t samples; /* per pixel and half; a few pixels have more of them when it
                        * ended early */
-    uint64_t rays;                           /* traced, closest-hit and occlusion together */
+    uint64_t rays;    /* traced, closest-hit and occlusion together */
     double build_seconds, render_seconds;
 } lsf_reference_result;
 

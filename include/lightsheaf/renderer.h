@@ -20,12 +20,12 @@ extern "C" {
 
 /* Arbitrary output variables: layers beside the picture's R, G, B. */
 typedef enum lsf_aov {
-    LSF_AOV_ALBEDO = 1 << 0,            /* albedo.R .G .B: base colour, 0..1 */
-    LSF_AOV_NORMAL = 1 << 1,            /* normal.X .Y .Z: shading normal, scene space, towards the viewer */
-    LSF_AOV_DEPTH = 1 << 2,             /* depth.Z: distance along the view axis, scene units, first
-                                         * iteration; infinity where nothing is seen */
-    LSF_AOV_EMISSION = 1 << 3,          /* emission.R .G .B: radiance of what is seen itself */
-    LSF_AOV_DIRECT = 1 << 4,            /* direct.R .G .B: reflected direct light */
+    LSF_AOV_ALBEDO = 1 << 0,   /* albedo.R .G .B: base colour, 0..1 */
+    LSF_AOV_NORMAL = 1 << 1,   /* normal.X .Y .Z: shading normal, scene space, towards the viewer */
+    LSF_AOV_DEPTH = 1 << 2,    /* depth.Z: distance along the view axis, scene units, first
+                                * iteration; infinity where nothing is seen */
+    LSF_AOV_EMISSION = 1 << 3, /* emission.R .G .B: radiance of what is seen itself */
+    LSF_AOV_DIRECT = 1 << 4,   /* direct.R .G .B: reflected direct light */
     LSF_AOV_INDIRECT_DIFFUSE = 1 << 5,  /* indirect_diffuse.R .G .B */
     LSF_AOV_INDIRECT_SPECULAR = 1 << 6, /* indirect_specular.R .G .B */
     LSF_AOV_MOTION = 1 << 7,            /* motion.X .Y: pixels from the previous frame's position */
@@ -71,27 +71,27 @@ typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 #define LSF_BOUNCES_MAX 1000u
 
 typedef struct lsf_render_params {
-    const char *technique;   /* see lsf_technique_name */
-    uint32_t width, height;  /* pixels */
-    uint32_t samples;        /* iterations; UINT32_MAX: as many as the time limit allows */
-    double time_limit;       /* seconds of rendering, after which all but a first iteration is
-                              * dropped; infinity: none */
-    uint32_t bounces;        /* indirect bounces; 0: direct light only; at most LSF_BOUNCES_MAX,
-                              * or LSF_BOUNCES_AUTO */
+    const char *technique;  /* see lsf_technique_name */
+    uint32_t width, height; /* pixels */
+    uint32_t samples;       /* iterations; UINT32_MAX: as many as the time limit allows */
+    double time_limit;      /* seconds of rendering, after which all but a first iteration is
+                             * dropped; infinity: none */
+    uint32_t bounces;       /* indirect bounces; 0: direct light only; at most LSF_BOUNCES_MAX,
+                             * or LSF_BOUNCES_AUTO */
     uint64_t seed;
-    const char *camera;      /* name or index; NULL: the first */
+    const char *camera;           /* name or index; NULL: the first */
     const float *camera_position; /* three floats in scene units; NULL: the camera's own */
     const float *camera_target;   /* three floats in scene units; NULL: the camera's own */
-    float fov_y;             /* degrees, replaces the camera's; NAN: the camera's own */
+    float fov_y;                  /* degrees, replaces the camera's; NAN: the camera's own */
     lsf_background background;
     float background_radiance[3];
-    double time;             /* seconds, where node animations are sampled */
-    uint32_t aovs;           /* lsf_aov bits */
-    bool rgb8;               /* lsf_renderer_read_rgb8 will be called */
-    bool present;            /* lsf_renderer_present will be called */
+    double time;                /* seconds, where node animations are sampled */
+    uint32_t aovs;              /* lsf_aov bits */
+    bool rgb8;                  /* lsf_renderer_read_rgb8 will be called */
+    bool present;               /* lsf_renderer_present will be called */
     const char *const *options; /* "pass.key=value", see lsf_option_list */
     uint32_t option_count;
-    lsf_progress progress;   /* NULL: none */
+    lsf_progress progress; /* NULL: none */
     void *progress_user;
 } lsf_render_params;
 
@@ -114,11 +114,11 @@ const char *lsf_technique_help(uint32_t index);
 
 /* One option of a pass, as "-D pass.key=value" takes it. */
 typedef struct lsf_option {
-    const char *key;     /* "shadow.filter" */
-    const char *type;    /* "int", "float", "bool", "enum" */
-    const char *range;   /* "1..16384", "none|pcf" */
-    const char *value;   /* default */
-    const char *unit;    /* "texels", "" */
+    const char *key;   /* "shadow.filter" */
+    const char *type;  /* "int", "float", "bool", "enum" */
+    const char *range; /* "1..16384", "none|pcf" */
+    const char *value; /* default */
+    const char *unit;  /* "texels", "" */
     const char *help;
 } lsf_option;
 
@@ -131,8 +131,8 @@ typedef struct lsf_plan lsf_plan;
 
 lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params,
                           lsf_error *error);
-void lsf_plan_destroy(lsf_plan *plan); /* NULL allowed */
-uint64_t lsf_plan_bytes(const lsf_plan *plan); /* GL bytes of all resources */
+void lsf_plan_destroy(lsf_plan *plan);           /* NULL allowed */
+uint64_t lsf_plan_bytes(const lsf_plan *plan);   /* GL bytes of all resources */
 uint32_t lsf_plan_bounces(const lsf_plan *plan); /* indirect ones; 0: the technique has none */
 char *lsf_plan_describe(const lsf_plan *plan, bool json); /* malloc'ed; NULL without memory */
 
@@ -210,8 +210,8 @@ typedef struct lsf_pass_stats {
 typedef struct lsf_renderer_stats {
     uint32_t samples; /* iterations done, of the frame in progress */
     double compile_seconds, upload_seconds, render_seconds;
-    double lost_share; /* of the picture's luminance: what an option such as
-                        * bidirectional.clamp_distance took away, 0..1 */
+    double lost_share;    /* of the picture's luminance: what an option such as
+                           * bidirectional.clamp_distance took away, 0..1 */
     uint64_t lost_pixels; /* that are not finite */
     uint32_t pass_count;
     const lsf_pass_stats *passes; /* owned by the renderer, valid until the next call */

@@ -27,7 +27,7 @@ typedef enum lsf_default_light {
 } lsf_default_light;
 
 typedef struct lsf_scene_params {
-    const char *environment_path; /* lat-long .hdr or .exr; NULL: none */
+    const char *environment_path;      /* lat-long .hdr or .exr; NULL: none */
     const float *environment_radiance; /* three floats, uniform radiance [W/(m^2 sr)]; NULL: none */
     float environment_rotation; /* of the environment about +y, degrees, anticlockwise seen from
                                  * above */
@@ -69,24 +69,24 @@ void lsf_scene_destroy(lsf_scene *scene); /* NULL allowed */
 /* What the scene asks of a renderer; computed once, at load. */
 typedef struct lsf_requirements {
     uint32_t point_lights, spot_lights, directional_lights;
-    bool environment;            /* radiance arrives from outside the scene */
-    bool environment_map;        /* ... and varies with direction */
-    bool emissive;               /* some visible material emits */
-    bool unlit;                  /* some visible material is KHR_materials_unlit */
-    bool specular;               /* materials have a specular lobe at all (not diffuse_only) */
-    bool glossy;                 /* some roughness < 1 or metallic > 0, by factor or texture */
-    bool anisotropic;            /* KHR_materials_anisotropy with strength > 0 */
-    bool transmissive;           /* KHR_materials_transmission with factor > 0 */
-    bool refractive;             /* ... on the surface of a medium: KHR_materials_volume */
-    bool thin_walls;             /* ... on one that does not bound a medium */
-    uint32_t bounces;            /* of light that show what its materials do: 1, and 4 more where they
-                                  * transmit, for a hollow vessel's walls: two walls, two sides each */
-    bool variable_ior;           /* some dielectric reflects other than one of index 1.5 */
-    bool sheened;                /* KHR_materials_sheen with a color above 0 */
-    bool coated;                 /* KHR_materials_clearcoat with factor > 0 */
-    bool specular_varied;        /* KHR_materials_specular with factors or textures that matter */
-    bool masked;                 /* alphaMode MASK */
-    bool blended;                /* alphaMode BLEND, where some alpha is below 1 */
+    bool environment;     /* radiance arrives from outside the scene */
+    bool environment_map; /* ... and varies with direction */
+    bool emissive;        /* some visible material emits */
+    bool unlit;           /* some visible material is KHR_materials_unlit */
+    bool specular;        /* materials have a specular lobe at all (not diffuse_only) */
+    bool glossy;          /* some roughness < 1 or metallic > 0, by factor or texture */
+    bool anisotropic;     /* KHR_materials_anisotropy with strength > 0 */
+    bool transmissive;    /* KHR_materials_transmission with factor > 0 */
+    bool refractive;      /* ... on the surface of a medium: KHR_materials_volume */
+    bool thin_walls;      /* ... on one that does not bound a medium */
+    uint32_t bounces;     /* of light that show what its materials do: 1, and 4 more where they
+                           * transmit, for a hollow vessel's walls: two walls, two sides each */
+    bool variable_ior;    /* some dielectric reflects other than one of index 1.5 */
+    bool sheened;         /* KHR_materials_sheen with a color above 0 */
+    bool coated;          /* KHR_materials_clearcoat with factor > 0 */
+    bool specular_varied; /* KHR_materials_specular with factors or textures that matter */
+    bool masked;          /* alphaMode MASK */
+    bool blended;         /* alphaMode BLEND, where some alpha is below 1 */
     bool normal_mapped;
     bool smooth; /* some vertex has a normal that is not its triangle's */
     bool base_color_textured, metallic_roughness_textured, emissive_textured;
@@ -94,18 +94,18 @@ typedef struct lsf_requirements {
     bool specular_textured, specular_color_textured;
     bool sheen_color_textured, sheen_roughness_textured;
     bool coat_textured, coat_roughness_textured, coat_normal_mapped;
-    bool texture_transformed;    /* KHR_texture_transform other than identity */
-    bool second_uv;              /* some texture in use reads TEXCOORD_1 */
+    bool texture_transformed; /* KHR_texture_transform other than identity */
+    bool second_uv;           /* some texture in use reads TEXCOORD_1 */
     bool vertex_colored;
-    bool skinned, morphed;       /* some vertices follow joints; morph targets */
-    bool moving;                 /* some geometry, light or camera is animated */
-    uint64_t triangles;          /* of all instances */
-    uint64_t unique_triangles;   /* stored once each */
+    bool skinned, morphed;         /* some vertices follow joints; morph targets */
+    bool moving;                   /* some geometry, light or camera is animated */
+    uint64_t triangles;            /* of all instances */
+    uint64_t unique_triangles;     /* stored once each */
     uint64_t degenerate_triangles; /* of those, without area: nothing is drawn of them */
-    uint64_t vertices;           /* stored */
+    uint64_t vertices;             /* stored */
     uint32_t instances, primitives, materials, textures;
-    double center[3];            /* scene units (metres): centre of the normalised space */
-    double scale;                /* power of two: normalised = (position - center) * scale */
+    double center[3]; /* scene units (metres): centre of the normalised space */
+    double scale;     /* power of two: normalised = (position - center) * scale */
     double bounds_min[3], bounds_max[3]; /* scene units, at the load time; min > max when empty */
 } lsf_requirements;
 

@@ -77,12 +77,13 @@ char *lsf_path_confine(const char *folder, const char *relative, lsf_error *erro
 
 /* A file written aside and renamed on commit, so that readers see the old or the new one whole. */
 typedef struct lsf_atomic_file {
-    char *path, *temporary_path; /* temporary_path is in the same folder, made with mode 0666 & ~umask;
-                                  * it is `path` itself for devices and FIFOs */
+    char *path, *temporary_path; /* temporary_path is in the same folder, made with mode 0666 &
+                                  * ~umask; it is `path` itself for devices and FIFOs */
 } lsf_atomic_file;
 bool lsf_atomic_file_begin(lsf_atomic_file *file, const char *path, lsf_error *error);
 bool lsf_atomic_file_commit(lsf_atomic_file *file, lsf_error *error); /* fsync, rename */
-void lsf_atomic_file_abort(lsf_atomic_file *file); /* removes the temporary; harmless after commit */
+void lsf_atomic_file_abort(
+    lsf_atomic_file *file); /* removes the temporary; harmless after commit */
 /* Removes every temporary that is still open; async-signal-safe, for interrupt handlers. */
 void lsf_atomic_file_abort_all(void);
 /* Whether a file could be written there; goes as far as one can without touching one that is there

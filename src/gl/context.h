@@ -17,7 +17,7 @@ typedef struct lsf_backend_ops {
     void (*destroy)(void *platform); /* not current any more */
     bool (*make_current)(void *platform, lsf_error *error);
     bool (*is_current)(void *platform); /* on this thread, as the platform says */
-    void (*release)(void *platform); /* after it no context of this backend is current */
+    void (*release)(void *platform);    /* after it no context of this backend is current */
     GLADapiproc (*get_proc_address)(void *platform, const char *name);
 } lsf_backend_ops;
 

@@ -177,11 +177,11 @@ struct gltf_import {
     std::vector<bool> placeholders; /* by file's buffer */
     gltf_repairs repairs;
 
-    size_t chosen_scene = 0;           /* by file's index; no meaning without scenes */
-    std::vector<uint32_t> node_of;     /* file's node -> scene's node, LSF_NONE outside the scene */
-    std::vector<uint32_t> source_of;   /* scene's node -> file's node */
-    std::vector<bool> mesh_used;       /* by file's index */
-    std::vector<uint32_t> skin_of;     /* file's skin -> scene's; LSF_NONE: not used yet */
+    size_t chosen_scene = 0;         /* by file's index; no meaning without scenes */
+    std::vector<uint32_t> node_of;   /* file's node -> scene's node, LSF_NONE outside the scene */
+    std::vector<uint32_t> source_of; /* scene's node -> file's node */
+    std::vector<bool> mesh_used;     /* by file's index */
+    std::vector<uint32_t> skin_of;   /* file's skin -> scene's; LSF_NONE: not used yet */
     uint64_t shape_capacity = 0;
     std::vector<uint32_t> material_of; /* file's material -> scene's; LSF_NONE: not used */
 };

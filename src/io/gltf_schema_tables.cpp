@@ -205,10 +205,9 @@ static const schema ior = of(ior_rules);
 static const rule transmission_rules[] = {number("transmissionFactor", OPTIONAL, 0, 1),
                                           object("transmissionTexture", OPTIONAL, &texture_info)};
 static const schema transmission = of(transmission_rules);
-static const rule volume_rules[] = {number("thicknessFactor", OPTIONAL, 0),
-                                    object("thicknessTexture", OPTIONAL, &texture_info),
-                                    number("attenuationDistance", OPTIONAL, POSITIVE),
-                                    numbers("attenuationColor", 3, 0, 1)};
+static const rule volume_rules[] = {
+    number("thicknessFactor", OPTIONAL, 0), object("thicknessTexture", OPTIONAL, &texture_info),
+    number("attenuationDistance", OPTIONAL, POSITIVE), numbers("attenuationColor", 3, 0, 1)};
 static const schema volume = of(volume_rules);
 static const rule anisotropy_rules[] = {number("anisotropyStrength", OPTIONAL, 0, 1),
                                         number("anisotropyRotation"),

@@ -21,8 +21,8 @@ typedef enum lsf_image_file {
 typedef struct lsf_image_header {
     lsf_image_file file;
     uint32_t width, height;
-    uint32_t channels;   /* once decoded: palettes and colour keys count as RGB and alpha */
-    lsf_texel_type type; /* once decoded: half is F32 */
+    uint32_t channels;      /* once decoded: palettes and colour keys count as RGB and alpha */
+    lsf_texel_type type;    /* once decoded: half is F32 */
     uint64_t working_bytes; /* what decoding takes beside the pixels and a copy of the file */
 } lsf_image_header;
 

@@ -273,8 +273,8 @@ static void set_sky(const lsf_bidirectional_shade *pass, const lsf_bidirectional
         float density = sample->bundle_pdf + sample->sky_pdf[side];
         share[side] = sample->bundle_pdf / density;
         if (sample->iterations > 0.0f)
-            kernel[side] = pass->params.kernel_samples /
-                           (sample->iterations * sample->path_count * density);
+            kernel[side] =
+                pass->params.kernel_samples / (sample->iterations * sample->path_count * density);
     }
     glUniform4f(LSF_LOCATION_SKY_CHANCE, share[0], share[1], kernel[0], kernel[1]);
 }

@@ -24,10 +24,10 @@ typedef struct lsf_compose_use {
 typedef struct lsf_compose {
     lsf_context *context;
     GLuint radiance;
-    GLuint coverage;         /* 1 where a surface is, else 0 */
-    GLuint seen;             /* emission and environment alone */
-    GLuint indirect_diffuse; /* irradiance reflected */
-    GLuint direct;           /* all kinds of direct light */
+    GLuint coverage;          /* 1 where a surface is, else 0 */
+    GLuint seen;              /* emission and environment alone */
+    GLuint indirect_diffuse;  /* irradiance reflected */
+    GLuint direct;            /* all kinds of direct light */
     GLuint indirect_specular; /* tinted */
     GLuint framebuffer, program;
     lsf_timer *timer;

@@ -5,14 +5,15 @@
 #include "plan/iteration.h"
 
 typedef struct lsf_direct_light_inputs {
-    GLuint depth, surface, gloss;         /* of the G-buffer */
+    GLuint depth, surface, gloss; /* of the G-buffer */
     GLuint shadow_depth, shadow_gradient,
-        shadow_tint; /* of the light in turn, whose buffer is bound */
+        shadow_tint;     /* of the light in turn, whose buffer is bound */
     uint32_t directions; /* of the environment, in the place of one light: shadow_depth is their
                           * maps, whose buffer is bound; there are no gradients. 0: it is a light */
 } lsf_direct_light_inputs;
 
-/* What else finds the environment from a visible point, by chance: its light is shared with that. */
+/* What else finds the environment from a visible point, by chance: its light is shared with that.
+ */
 typedef enum lsf_sky_chance {
     LSF_SKY_CHANCE_NONE,    /* nothing that the light's own share does not know of */
     LSF_SKY_CHANCE_PATHS,   /* paths drawn by the whole BRDF */

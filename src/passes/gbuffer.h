@@ -18,11 +18,11 @@ extern const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT];
 /* Textures of the plan's size, valid until the next run; 0 when the plan leaves them out. Formats
  * as in glsl/lib/gbuffer.glsl. */
 typedef struct lsf_gbuffer_outputs {
-    GLuint depth;    /* DEPTH_COMPONENT32F, reverse-Z, 0 where nothing is seen */
-    GLuint surface;  /* RGBA32UI */
-    GLuint gloss;    /* R32UI or RG32UI */
-    GLuint emission; /* RGBA32F, radiance */
-    GLuint motion;   /* RG32F, pixels */
+    GLuint depth;            /* DEPTH_COMPONENT32F, reverse-Z, 0 where nothing is seen */
+    GLuint surface;          /* RGBA32UI */
+    GLuint gloss;            /* R32UI or RG32UI */
+    GLuint emission;         /* RGBA32F, radiance */
+    GLuint motion;           /* RG32F, pixels */
     GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye */
 } lsf_gbuffer_outputs;
 

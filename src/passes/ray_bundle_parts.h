@@ -92,8 +92,8 @@ bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, ls
 /* Appends all of the scene to the bundle that is bound, number `bundle` of the iteration. */
 void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration,
                                uint32_t bundle);
-/* What decides whether surfaces that let light straight through, or are blended, are in the bundle, for the program
- * in use. */
+/* What decides whether surfaces that let light straight through, or are blended, are in the bundle,
+ * for the program in use. */
 void lsf_ray_bundle_set_chance(const lsf_ray_bundle *pass, const lsf_iteration *iteration,
                                uint32_t bundle);
 void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass);

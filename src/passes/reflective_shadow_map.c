@@ -53,8 +53,8 @@ static void name_layer(char name[64], int kind, int layer)
     snprintf(name, 64, "reflective_shadow_map.%s_%s", kinds[kind].name, layers[layer].name);
 }
 
-/* Densities that follow what a texel shows would, with surfaces that are there by chance, go along with
- * which of them is: the shares of both ways to find a path would no longer add up to one. */
+/* Densities that follow what a texel shows would, with surfaces that are there by chance, go along
+ * with which of them is: the shares of both ways to find a path would no longer add up to one. */
 static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_params *params)
 {
     return params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE && !plan->requirements.blended &&
@@ -108,9 +108,10 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     bool gloss =
         r->specular && (r->anisotropic || r->glossy || r->variable_ior || plan->transmission);
     uint32_t most_faces = 1;
-    lsf_plan_pass_add(plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
-                      state->light_count, lsf_plural(state->light_count),
-                      plan->sky_lights > 0 && r->environment_map ? " and directions of the environment" : "");
+    lsf_plan_pass_add(
+        plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
+        state->light_count, lsf_plural(state->light_count),
+        plan->sky_lights > 0 && r->environment_map ? " and directions of the environment" : "");
     lsf_scene_gpu_material_switches(plan, gloss, false);
     lsf_scene_gpu_fold_lobes(plan);
     lsf_plan_switch_add(plan, "LSF_THIN_WALLS", lsf_light_walls_needed(plan),

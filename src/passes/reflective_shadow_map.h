@@ -62,8 +62,8 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
                                     const lsf_state *state);
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error);
-/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration, and
- * leaves light_buffer bound to LSF_BINDING_LIGHT, importance to LSF_UNIT_EMISSION. */
+/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration,
+ * and leaves light_buffer bound to LSF_BINDING_LIGHT, importance to LSF_UNIT_EMISSION. */
 void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
                                    uint32_t light_index);
 void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass);

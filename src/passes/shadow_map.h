@@ -65,7 +65,8 @@ void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *para
                                const lsf_state *state, uint32_t resolution);
 bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf_plan *plan,
                            lsf_error *error);
-/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration. */
+/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration.
+ */
 void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index);
 /* The same, where the light is directional, with the map that holds the whole scene. */
 void lsf_shadow_map_run_scene(lsf_shadow_map *pass, const lsf_iteration *iteration,

@@ -200,8 +200,7 @@ void lsf_sky_map_begin(lsf_sky_map *pass, const lsf_iteration *iteration)
 static uint32_t large_count(const lsf_sky_map *pass, const lsf_iteration *iteration, uint32_t layer)
 {
     const lsf_vec4 *texel = &pass->maps[pass->outputs.first + layer].texel;
-    return lsf_scene_gpu_triangles_from(iteration->scene,
-                                        MANY_TEXELS * fminf(texel->x, texel->y));
+    return lsf_scene_gpu_triangles_from(iteration->scene, MANY_TEXELS * fminf(texel->x, texel->y));
 }
 
 /* What the pipeline draws into a map of the batch. */

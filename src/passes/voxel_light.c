@@ -63,8 +63,7 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
 {
     static const char *const files[5] = {"passes/voxel_light.comp.glsl"};
     static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
-    *pass = (lsf_voxel_light){
-        .context = context, .use = *use, .sky = plan->sky_lights > 0};
+    *pass = (lsf_voxel_light){.context = context, .use = *use, .sky = plan->sky_lights > 0};
     GLuint *const programs[] = {&pass->emit_program, &pass->first_program, &pass->add_program};
     if (!lsf_plan_create_texture(plan, context, "voxel_light.radiance", &pass->radiance, error))
         return false;

@@ -39,7 +39,8 @@ extern const char *const lsf_voxelize_count_names[LSF_VOXELIZE_COUNTS];
 
 typedef struct lsf_voxelize lsf_voxelize;
 
-/* What a voxel takes in this pass's textures, for lsf_voxel_grid_fit [bytes]. `jitter`: the grid moves. */
+/* What a voxel takes in this pass's textures, for lsf_voxel_grid_fit [bytes]. `jitter`: the grid
+ * moves. */
 uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter);
 void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                        const lsf_voxel_grid *grid);

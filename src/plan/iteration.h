@@ -21,13 +21,13 @@ typedef struct lsf_iteration {
                            * its number */
     uint32_t first_index; /* of the frame's first iteration */
     uint32_t serial_before; /* of the iteration before that */
-    GLuint view_buffer; /* struct lsf_view_data */
+    GLuint view_buffer;     /* struct lsf_view_data */
     struct lsf_view_data view;
     lsf_camera_state previous_camera; /* for motion */
-    uint32_t light_count;   /* the state's lights, then those that stand for the environment */
+    uint32_t light_count; /* the state's lights, then those that stand for the environment */
     lsf_light_state *lights;
-    lsf_sky_share *shares;  /* one for each light; a technique that finds the environment in other
-                             * ways, too, sets them for the iteration */
+    lsf_sky_share *shares; /* one for each light; a technique that finds the environment in other
+                            * ways, too, sets them for the iteration */
     lsf_sky sky;
     lsf_iteration_question question; /* NULL: it shall */
     void *question_user;

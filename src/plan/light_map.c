@@ -175,8 +175,8 @@ static void fit_depths(struct lsf_light_data *data, lsf_float3 along, const box 
                        const box *scene)
 {
     float low = fmaxf(view->low[2], scene->low[2]), high = fminf(view->high[2], scene->high[2]);
-    float start = lsf_f3_dot(lsf_f3(data->map_origin.x, data->map_origin.y, data->map_origin.z),
-                             along);
+    float start =
+        lsf_f3_dot(lsf_f3(data->map_origin.x, data->map_origin.y, data->map_origin.z), along);
     float room = fmaxf(0.0625f * (high - low), 1e-4f);
     if (!(low <= high)) /* nothing of the scene is in view */
         return;
@@ -244,8 +244,8 @@ static void set_light(struct lsf_light_data *data, const lsf_light_state *light,
     memset(data, 0, sizeof *data);
     data->position = vec4_from(lsf_f3_load(light->position), 0.0f);
     data->direction = vec4_from(lsf_f3_load(light->direction), 0.0f);
-    data->intensity = vec4_from(
-        lsf_f3_scale(lsf_f3_load(light->intensity), share->shares[use]), share->density);
+    data->intensity =
+        vec4_from(lsf_f3_scale(lsf_f3_load(light->intensity), share->shares[use]), share->density);
     data->attenuation = (lsf_vec4){1.0f / (light->range * light->range), spot_scale, spot_offset,
                                    (float)light->type};
     data->map_offset.w = share->kernel;

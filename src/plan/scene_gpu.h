@@ -23,7 +23,7 @@ typedef struct lsf_scene_gpu {
     uint32_t triangles_to[LSF_SCENE_GPU_LENGTHS]; /* where each class ends */
     GLuint lobes, lobe_table; /* struct lsf_lobe_data of each material, and the texture that shaders
                                * read it by; 0: no material needs it */
-    GLuint *textures;        /* one for each image and colour space in use */
+    GLuint *textures;         /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* scene texture to an entry of `textures` */
     GLuint samplers[27];   /* wrap s, wrap t, linear, nearest or point: 3 x 3 x 3; 0: not needed */
@@ -34,11 +34,11 @@ typedef struct lsf_scene_gpu {
     uint32_t draw_count;
     /* What was uploaded of each instance, to tell what has changed. */
     struct lsf_instance_data *placed;
-    float (*placed_before)[12]; /* NULL without motion */
+    float (*placed_before)[12];  /* NULL without motion */
     float *posed, *posed_before; /* values of the pose; NULL: nothing deforms */
-    float (*corners)[9];        /* of `triangles`, while something moves; else NULL */
-    uint64_t material_edits;    /* of the scene, when materials were uploaded */
-    bool anew;                  /* nothing was uploaded yet */
+    float (*corners)[9];         /* of `triangles`, while something moves; else NULL */
+    uint64_t material_edits;     /* of the scene, when materials were uploaded */
+    bool anew;                   /* nothing was uploaded yet */
 } lsf_scene_gpu;
 
 /* Lists what lsf_scene_gpu_create will create. */

@@ -7,7 +7,7 @@
 
 typedef struct lsf_reference_bsdf {
     const lsf_reference_surface *surface;
-    lsf_float3 view;            /* local to surface->frame, lifted above the shading horizon */
+    lsf_float3 view; /* local to surface->frame, lifted above the shading horizon */
     lsf_basis coat_frame;
     lsf_float3 coat_view;       /* local to it, lifted likewise */
     float coat_probability;     /* of the clear coat's lobe, which is drawn before all others */
@@ -30,7 +30,8 @@ lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *b
 
 /* A smooth thin wall: light that goes through keeps its direction. */
 bool lsf_reference_is_clear(const lsf_reference_surface *surface);
-/* The share of the light that goes straight through it, on the way of the view; 0 where it is not clear. */
+/* The share of the light that goes straight through it, on the way of the view; 0 where it is not
+ * clear. */
 lsf_float3 lsf_reference_straight(const lsf_reference_surface *surface);
 
 /* Draws a direction from (1 - p) cos / pi + p D_v(h) (r(h) / (4 v.h) + (1 - r(h)) J), with J the

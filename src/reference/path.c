@@ -75,8 +75,7 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
                                      error))
         return false;
     if (lsf_reference_emitters_init(&world->emitters, &world->geometry, error) &&
-        init_sky(&world->sky, &scene->environment, error) &&
-        init_light_power(world, state, error))
+        init_sky(&world->sky, &scene->environment, error) && init_light_power(world, state, error))
         return true;
     lsf_reference_world_finish(world);
     return false;
@@ -112,8 +111,8 @@ typedef struct walk {
     lsf_reference_bsdf bsdf;
 } walk;
 
-/* What clear walls leave on the way from the camera to the first vertex behind them, or to the last of
- * them. */
+/* What clear walls leave on the way from the camera to the first vertex behind them, or to the last
+ * of them. */
 static lsf_float3 seen_through(const walk *w)
 {
     return w->vertex == 0 ? lsf_f3(1.0f, 1.0f, 1.0f) : w->specular;
@@ -133,7 +132,8 @@ static void add_reflected(walk *w, const lsf_reference_reflection *reflection, l
     path->indirect_specular = lsf_f3_add(path->indirect_specular, lsf_f3_mul(w->specular, f));
 }
 
-/* Adds light that a direction drawn at the current vertex met. What shines behind clear walls is seen. */
+/* Adds light that a direction drawn at the current vertex met. What shines behind clear walls is
+ * seen. */
 static void add_met(walk *w, const lsf_reference_reflection *reflection, bool crosses,
                     lsf_float3 radiance)
 {
@@ -178,8 +178,8 @@ static lsf_reference_chance next_chance(walk *w)
     return (lsf_reference_chance){lsf_hash(seed, w->path->rays++), w->sampler->index};
 }
 
-/* A ray that asks for visibility ends so far before its target, of its length: the target is known to no
- * more bits than that. */
+/* A ray that asks for visibility ends so far before its target, of its length: the target is known
+ * to no more bits than that. */
 #define REACH (1.0f - 0x1p-22f)
 
 /* Nothing between the current vertex and `target`. */
@@ -197,8 +197,8 @@ static bool reaches_sky(walk *w, lsf_float3 direction)
                                    direction, INFINITY, next_chance(w));
 }
 
-/* What clear walls of glass leave of a punctual light's way to the current vertex, which is free of all
- * else; 0 where it is not. `target` NULL: the light comes from far away along `direction`. */
+/* What clear walls of glass leave of a punctual light's way to the current vertex, which is free of
+ * all else; 0 where it is not. `target` NULL: the light comes from far away along `direction`. */
 static lsf_float3 passes(walk *w, lsf_float3 direction, const lsf_float3 *target)
 {
     const lsf_float3 dark = {0.0f, 0.0f, 0.0f};
@@ -228,9 +228,9 @@ static float spot_factor(const lsf_light_state *light, lsf_float3 to_light)
     return lsf_spot_attenuation(cosine, scale, -light->cos_outer * scale);
 }
 
-/* Light of punctual lights passes clear walls straight on, and ends at every other surface, as in shadow
- * maps. Rough walls transmit it to the side that they are seen from; media do not, for no ray that is
- * drawn there finds a point.
+/* Light of punctual lights passes clear walls straight on, and ends at every other surface, as in
+ * shadow maps. Rough walls transmit it to the side that they are seen from; media do not, for no
+ * ray that is drawn there finds a point.
  */
 static void add_light(walk *w, const lsf_light_state *light, float weight)
 {
@@ -322,7 +322,8 @@ static void add_sky(walk *w)
     if (!(reflection.pdf > 0.0f) || !reaches_sky(w, direction))
         return;
     float weight = mis_weight(pdf, reflection.pdf) / pdf;
-    add_reflected(w, &reflection, lsf_f3_scale(lsf_environment_radiance(sky->environment, direction), weight));
+    add_reflected(w, &reflection,
+                  lsf_f3_scale(lsf_environment_radiance(sky->environment, direction), weight));
 }
 
 /* Whether rays that leave a surface can meet something that shines. */

@@ -13,7 +13,8 @@
 /* Surface hits before Russian roulette may end a path. */
 #define LSF_REFERENCE_ROULETTE_VERTEX 16u
 
-/* Clear walls of glass that light of punctual lights passes on a straight way; beyond, it is dark. */
+/* Clear walls of glass that light of punctual lights passes on a straight way; beyond, it is dark.
+ */
 #define LSF_REFERENCE_WALLS 64
 
 /* Everything a path can meet. Borrows scene and state. */
@@ -24,7 +25,7 @@ typedef struct lsf_reference_world {
     lsf_distribution light_power; /* of state->lights, when there are too many to ask all */
     uint32_t bounces;
     lsf_seen_background background; /* of paths that meet nothing at all; set by the caller */
-    bool thin_walls; /* some material transmits, and bounds no medium */
+    bool thin_walls;                /* some material transmits, and bounds no medium */
 } lsf_reference_world;
 
 /* False leaves nothing to finish. */

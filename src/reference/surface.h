@@ -18,14 +18,14 @@ typedef struct lsf_reference_surface {
     bool specular;               /* has the GGX lobe */
     lsf_float3 base_color;
     float metallic;
-    float alpha_t, alpha_b; /* GGX, along and across frame.t */
+    float alpha_t, alpha_b;   /* GGX, along and across frame.t */
     lsf_float3 f0_dielectric; /* what the dielectric reflects of light from the front ... */
     float f90_dielectric;     /* ... and from the side */
     lsf_float3 sheen_color;
     float sheen_roughness;
-    float coat, coat_alpha;   /* weight and GGX of the clear coat */
-    lsf_float3 coat_normal;   /* unit, turned to the same side */
-    float transmission; /* of what the dielectric does not reflect */
+    float coat, coat_alpha; /* weight and GGX of the clear coat */
+    lsf_float3 coat_normal; /* unit, turned to the same side */
+    float transmission;     /* of what the dielectric does not reflect */
     float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
     bool volume, front; /* bounds a medium; seen from the front, which is outside of it */
     lsf_float3 absorption; /* of that medium */

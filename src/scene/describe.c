@@ -168,8 +168,7 @@ static void add_requirements_json(lsf_string *out, const lsf_requirements *r)
                    "\"textures\": %u, \"bounces\": %u,\n    ",
                    (unsigned long long)r->triangles, (unsigned long long)r->unique_triangles,
                    (unsigned long long)r->degenerate_triangles, (unsigned long long)r->vertices,
-                   r->instances, r->primitives, r->materials,
-                   r->textures, r->bounces);
+                   r->instances, r->primitives, r->materials, r->textures, r->bounces);
     add_vector(out, "center", r->center);
     lsf_string_add(out, ", \"scale\": ");
     lsf_string_add_json_number(out, r->scale);

@@ -15,8 +15,8 @@ extern "C" {
 void lsf_environment_place(const lsf_environment *environment, lsf_float3 direction, double *u,
                            double *v);
 
-/* The unit direction at `u` around the horizon of the map, whose angle from the zenith has the cosine
- * `zenith_cosine`: cos(pi v) of a place (u, v). */
+/* The unit direction at `u` around the horizon of the map, whose angle from the zenith has the
+ * cosine `zenith_cosine`: cos(pi v) of a place (u, v). */
 lsf_float3 lsf_environment_direction(const lsf_environment *environment, double u,
                                      double zenith_cosine);
 

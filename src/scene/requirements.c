@@ -378,8 +378,8 @@ static bool add_materials(const lsf_scene *scene, lsf_requirements *r)
         add_material(r, &scene->materials[primitive->material], scene->diffuse_only);
     }
     free(seen);
-    /* Every crossing of a surface is a bounce. Seen through a vase or a bottle, the world lies behind
-     * two walls of glass with two sides each; through solid bodies, behind two of them. */
+    /* Every crossing of a surface is a bounce. Seen through a vase or a bottle, the world lies
+     * behind two walls of glass with two sides each; through solid bodies, behind two of them. */
     r->bounces = r->transmissive ? 5 : 1;
     return seen != NULL;
 }

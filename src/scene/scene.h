@@ -51,8 +51,8 @@ typedef struct lsf_node {
     char *name;
     uint32_t parent; /* LSF_NONE: a root; otherwise smaller than the node's own index */
     uint32_t mesh, camera, light; /* LSF_NONE: none */
-    bool has_matrix;  /* local transform is `matrix`, else T * R * S */
-    double matrix[16]; /* column-major */
+    bool has_matrix;              /* local transform is `matrix`, else T * R * S */
+    double matrix[16];            /* column-major */
     double translation[3], rotation[4] /* x,y,z,w unit */, scale[3];
     uint32_t first_weight, weight_count; /* of its mesh's morph targets, in scene->weights */
     bool edited; /* a program has set `matrix` (edit.c): animations leave it alone */
@@ -105,7 +105,7 @@ typedef struct lsf_texture_image {
     uint32_t width, height;
     uint32_t channels; /* 1 to 4: grey, grey+alpha, RGB, RGBA */
     lsf_texel_type type;
-    void *texels;      /* width * height * channels, tightly packed */
+    void *texels;        /* width * height * channels, tightly packed */
     uint64_t non_finite; /* NaN or Inf texels that were set to 0 */
 } lsf_texture_image;
 
@@ -132,14 +132,14 @@ typedef struct lsf_material {
     float normal_scale;
     lsf_alpha_mode alpha_mode;
     float alpha_cutoff;
-    bool double_sided;         /* also emits from its back */
-    bool unlit;                /* shown as emission of its base colour */
+    bool double_sided; /* also emits from its back */
+    bool unlit;        /* shown as emission of its base colour */
     float ior;
-    float specular, specular_color[3]; /* of the dielectric's reflection: weight; tint of f0 */
-    float sheen_color[3], sheen_roughness;         /* factors */
+    float specular, specular_color[3];     /* of the dielectric's reflection: weight; tint of f0 */
+    float sheen_color[3], sheen_roughness; /* factors */
     float coat, coat_roughness, coat_normal_scale; /* of a clear coat; factors */
-    float transmission;        /* of what is not reflected [1] */
-    bool volume;               /* bounds a medium that light is refracted into; else a thin wall */
+    float transmission;                            /* of what is not reflected [1] */
+    bool volume;                /* bounds a medium that light is refracted into; else a thin wall */
     float attenuation_distance; /* after which white light has attenuation_color; scene units */
     float attenuation_color[3];
     float anisotropy_strength, anisotropy_rotation; /* 0..1, radians from the tangent */
@@ -153,8 +153,8 @@ typedef struct lsf_material {
 typedef struct lsf_light {
     char *name;
     lsf_light_type type;
-    float intensity[3];  /* colour * intensity: W/sr, directional W/m^2 */
-    float range;         /* scene units; INFINITY: none */
+    float intensity[3];           /* colour * intensity: W/sr, directional W/m^2 */
+    float range;                  /* scene units; INFINITY: none */
     float inner_cone, outer_cone; /* radians, spot only */
 } lsf_light;
 
@@ -165,9 +165,9 @@ typedef struct lsf_camera {
     bool frames_scene; /* `matrix` only turns it: it stands, and its near plane lies, where the
                         * picture's aspect asks for (framing.h) */
     bool orthographic;
-    float fov_y;       /* radians */
+    float fov_y;                            /* radians */
     float x_magnification, y_magnification; /* half width and height, scene units */
-    float near_plane;  /* scene units, > 0 (orthographic: >= 0) */
+    float near_plane;                       /* scene units, > 0 (orthographic: >= 0) */
 } lsf_camera;
 
 typedef enum lsf_animation_path {
@@ -184,9 +184,9 @@ typedef struct lsf_animation_channel {
     lsf_interpolation interpolation;
     uint32_t key_count;
     uint32_t weight_count; /* of the node, for its weights */
-    float *times;  /* seconds, strictly increasing */
-    float *values; /* 3 (4 for rotation, or the weights) a key; cubic: in-tangent, value,
-                      out-tangent */
+    float *times;          /* seconds, strictly increasing */
+    float *values;         /* 3 (4 for rotation, or the weights) a key; cubic: in-tangent, value,
+                              out-tangent */
 } lsf_animation_channel;
 
 /* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi + turn, v = acos(y) / pi
@@ -244,15 +244,15 @@ struct lsf_scene {
     uint32_t primitive_count, mesh_count, node_count, instance_count, material_count;
     lsf_primitive *primitives;
     lsf_mesh *meshes;
-    lsf_node *nodes;          /* parents before children */
+    lsf_node *nodes; /* parents before children */
     lsf_instance *instances;
-    lsf_material *materials;  /* the last one is glTF's default material */
+    lsf_material *materials; /* the last one is glTF's default material */
     uint32_t image_count, texture_count;
     lsf_texture_image *images;
     lsf_texture *textures;
     uint32_t light_count, camera_count, channel_count;
     lsf_light *lights;
-    lsf_camera *cameras;      /* at least 1 */
+    lsf_camera *cameras; /* at least 1 */
     lsf_animation_channel *channels;
     uint32_t skin_count, joint_count, shape_count, deformer_count, weight_count;
     lsf_skin *skins;
@@ -290,8 +290,8 @@ bool lsf_material_hides_back(const lsf_scene *scene, const lsf_material *materia
 /* Whether light passes it and no medium lies behind it. */
 bool lsf_material_is_thin_wall(const lsf_material *material);
 
-/* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a d) of
- * the light is left after the distance d (KHR_materials_volume, "Attenuation"). */
+/* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a
+ * d) of the light is left after the distance d (KHR_materials_volume, "Attenuation"). */
 void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,
                           float absorption[3]);
 

@@ -34,8 +34,7 @@ static float read_channel(const lsf_texture_image *image, size_t at, bool srgb)
     return ((const float *)image->texels)[at]; /* float images hold linear values */
 }
 
-static lsf_texel read_texel(const lsf_texture_image *image, int64_t x, int64_t y,
-                                      bool srgb)
+static lsf_texel read_texel(const lsf_texture_image *image, int64_t x, int64_t y, bool srgb)
 {
     size_t at = ((size_t)y * image->width + (size_t)x) * image->channels;
     lsf_texel texel = {.a = 1.0f};
@@ -82,12 +81,12 @@ static int64_t wrap_index(int64_t i, int64_t size, lsf_wrap wrap)
 
 static lsf_texel mix(lsf_texel p, lsf_texel q, float t)
 {
-    return (lsf_texel){p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t,
-                                 p.b + (q.b - p.b) * t, p.a + (q.a - p.a) * t};
+    return (lsf_texel){p.r + (q.r - p.r) * t, p.g + (q.g - p.g) * t, p.b + (q.b - p.b) * t,
+                       p.a + (q.a - p.a) * t};
 }
 
-lsf_texel lsf_texture_sample(const lsf_scene *scene,
-                                                 const lsf_texture_slot *slot, const float uv[2])
+lsf_texel lsf_texture_sample(const lsf_scene *scene, const lsf_texture_slot *slot,
+                             const float uv[2])
 {
     const lsf_texture *texture = &scene->textures[slot->texture];
     const lsf_texture_image *image = &scene->images[texture->image];

@@ -38,7 +38,7 @@ typedef struct bidirectional {
     lsf_distribution light_picks;
     float *light_weights;  /* of which it was made */
     float sky_probability; /* that a light picked stands for the environment */
-    uint32_t *lights; /* that each sample of the iteration takes */
+    uint32_t *lights;      /* that each sample of the iteration takes */
     lsf_bidirectional_shade_params shade_params;
 } bidirectional;
 
@@ -49,18 +49,17 @@ static uint32_t sample_count(const lsf_bidirectional_sampling *s)
     return count > s->emitter_count ? count : s->emitter_count;
 }
 
-/* Half of the samples by power, half evenly among the lights that shine, the environment one of them:
- * one with much power may do little in view, as a sun outside does, and must not take all from those
- * that do. */
+/* Half of the samples by power, half evenly among the lights that shine, the environment one of
+ * them: one with much power may do little in view, as a sun outside does, and must not take all
+ * from those that do. */
 static void weigh_lights(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
                          const lsf_state *state)
 {
     bool sky_bounces = plan->sky_lights > 0 && plan->requirements.environment_map;
     uint32_t count = state->light_count + plan->sky_lights, shining = sky_bounces;
     float *weights = b->light_weights, sum = 0.0f;
-    float sky = sky_bounces
-                    ? (float)lsf_sky_fluence(&scene->environment) / (float)plan->sky_lights
-                    : 0.0f;
+    float sky =
+        sky_bounces ? (float)lsf_sky_fluence(&scene->environment) / (float)plan->sky_lights : 0.0f;
     const lsf_light_state sky_light = {.type = LSF_LIGHT_DIRECTIONAL, .intensity = {sky, sky, sky}};
     for (uint32_t i = 0; i < count; i++) {
         bool punctual = i < state->light_count;
@@ -207,8 +206,8 @@ static float sky_bundles(const lsf_bidirectional_sampling *s, bool deep)
     return s->emission ? (float)s->bundle_count / (float)s->tiles : 0.0f;
 }
 
-/* The environment as light paths find it and as bundles do: what a light that stands for it keeps. Deep
- * vertices have one light each, `light_picks` says which. */
+/* The environment as light paths find it and as bundles do: what a light that stands for it keeps.
+ * Deep vertices have one light each, `light_picks` says which. */
 static void share_sky(bidirectional *b, const lsf_iteration *iteration)
 {
     const lsf_bidirectional_sampling *s = &b->sampling;
@@ -223,8 +222,9 @@ static void share_sky(bidirectional *b, const lsf_iteration *iteration)
             share->shares[LSF_LIGHT_STRAIGHT] = share->density / straight;
         if (bounced > 0.0f)
             share->shares[LSF_LIGHT_BOUNCED] = bounced / (bounced + sky_bundles(s, true) * p_r);
-        share->kernel =
-            iterations * straight > 0.0f ? b->shade_params.kernel_samples / (iterations * straight) : 0.0f;
+        share->kernel = iterations * straight > 0.0f
+                            ? b->shade_params.kernel_samples / (iterations * straight)
+                            : 0.0f;
     }
 }
 
@@ -235,11 +235,12 @@ static void share_bundle(const bidirectional *b, const lsf_iteration *iteration,
     float p_r = b->aims[bundle].pdf, count = sky_bundles(&b->sampling, deep);
     sample->bundle_pdf = p_r;
     for (int side = 0; side < 2 && iteration->plan->sky_lights > 0; side++) {
-        lsf_float3 direction = lsf_f3_scale(lsf_f3_load(b->aims[bundle].direction), side ? -1.0f : 1.0f);
+        lsf_float3 direction =
+            lsf_f3_scale(lsf_f3_load(b->aims[bundle].direction), side ? -1.0f : 1.0f);
         float drawn = lsf_sky_density(
             &iteration->sky, lsf_environment_radiance(iteration->sky.environment, direction));
-        sample->sky_pdf[side] = deep ? b->sky_probability * drawn
-                                     : (float)iteration->plan->sky_lights * drawn / count;
+        sample->sky_pdf[side] =
+            deep ? b->sky_probability * drawn : (float)iteration->plan->sky_lights * drawn / count;
     }
 }
 

@@ -52,14 +52,13 @@ typedef struct cone {
 static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w)
 {
     uint32_t slices = lsf_cone_slices(&params->cone);
-    return (lsf_voxel_chain_use){.sides = slices,
-                                 .levels = w->levels,
-                                 .direct = {params->cone.sealed ? LSF_SKY_CHANCE_LOBES
-                                                                : LSF_SKY_CHANCE_DIFFUSE,
-                                            {(float)params->cone.count, (float)params->cone.count}},
-                                 .voxel_rays = (float)params->cone.count,
-                                 .bytes_per_voxel =
-                                     (8 * slices * 8 / 7 + 1) * (w->bounces < 2 ? w->bounces : 2)};
+    return (lsf_voxel_chain_use){
+        .sides = slices,
+        .levels = w->levels,
+        .direct = {params->cone.sealed ? LSF_SKY_CHANCE_LOBES : LSF_SKY_CHANCE_DIFFUSE,
+                   {(float)params->cone.count, (float)params->cone.count}},
+        .voxel_rays = (float)params->cone.count,
+        .bytes_per_voxel = (8 * slices * 8 / 7 + 1) * (w->bounces < 2 ? w->bounces : 2)};
 }
 
 static void remark(lsf_plan *plan, const way *w)
@@ -95,8 +94,8 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         lsf_direct_chain_plan(plan, params, state, NULL);
         lsf_plan_omit(plan, "cone_trace", "no light bounces");
     }
-    lsf_compose_plan(plan,
-                     &(lsf_compose_use){.direct = lsf_light_any(plan, state), .indirect = w.traced});
+    lsf_compose_plan(
+        plan, &(lsf_compose_use){.direct = lsf_light_any(plan, state), .indirect = w.traced});
     remark(plan, &w);
 }
 
@@ -126,9 +125,9 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
     if (!c)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     c->way = choose_way(plan, params);
-    return (c->way.traced
-                ? create_traced(c, context, plan, params, scene, state, error)
-                : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene, NULL, error)) &&
+    return (c->way.traced ? create_traced(c, context, plan, params, scene, state, error)
+                          : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene,
+                                                    NULL, error)) &&
            lsf_compose_create(&c->compose, context, plan, error);
 }
 

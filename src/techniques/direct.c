@@ -1,5 +1,5 @@
-/* Direct light of punctual sources and of the environment, by shadow maps. Emissive surfaces are seen
- * but light nothing. */
+/* Direct light of punctual sources and of the environment, by shadow maps. Emissive surfaces are
+ * seen but light nothing. */
 #include <stdlib.h>
 
 #include "base/base.h"

@@ -5,8 +5,7 @@
 static lsf_direct_light_use light_use(const lsf_pass_params *params,
                                       const lsf_direct_chain_use *use)
 {
-    lsf_direct_light_use light = {.shadow_pcf =
-                                      params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
+    lsf_direct_light_use light = {.shadow_pcf = params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
     if (use) {
         light.chance = use->chance;
         light.paths[0] = use->paths[0];

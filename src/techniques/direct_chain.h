@@ -29,8 +29,8 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
                              const lsf_direct_chain_use *use, lsf_error *error);
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration);
-/* The same in parts, for a technique that has a use of its own for each punctual light's map: what is
- * seen; then each such light; then the environment. */
+/* The same in parts, for a technique that has a use of its own for each punctual light's map: what
+ * is seen; then each such light; then the environment. */
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration);
 void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration,
                             uint32_t light);

@@ -133,7 +133,8 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     lsf_scene_gpu_plan(plan, setup->scene);
     lsf_iteration_plan(plan);
     if (by_scene && plan->bounces > 0 && plan->requirements.transmissive)
-        lsf_plan_remark(plan, "%u bounces, for light takes one to cross each side of a wall of glass",
+        lsf_plan_remark(plan,
+                        "%u bounces, for light takes one to cross each side of a wall of glass",
                         plan->bounces);
     if (!by_scene && params->bounces > plan->bounces)
         lsf_plan_remark(plan, "the %s technique has no bounces; %u asked for", params->technique,

@@ -40,8 +40,8 @@ lsf_update lsf_voxel_chain_update(lsf_voxel_chain *chain, const lsf_pass_params 
                                   const lsf_iteration *iteration, const lsf_voxel_chain_use *use,
                                   const lsf_changes *changes);
 void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration);
-/* The same in parts: what is seen, and voxels; what voxels emit, for who has a use for that alone; then
- * the punctual lights, on voxels only where asked for. */
+/* The same in parts: what is seen, and voxels; what voxels emit, for who has a use for that alone;
+ * then the punctual lights, on voxels only where asked for. */
 void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 void lsf_voxel_chain_emit(lsf_voxel_chain *chain);
 void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels);

@@ -101,8 +101,7 @@ static bool create_voxel_path(void **self, lsf_context *context, const lsf_plan 
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     lsf_voxel_path_use use = path_use(plan, params, state);
     lsf_voxel_chain_use chain = chain_use(params);
-    return lsf_voxel_chain_create(&v->chain, context, plan, params, scene, state, &chain,
-                                  error) &&
+    return lsf_voxel_chain_create(&v->chain, context, plan, params, scene, state, &chain, error) &&
            (use.segments == 0 ||
             create_paths(v, context, plan, params, &use, scene->scene, state, error)) &&
            lsf_compose_create(&v->compose, context, plan, error);

@@ -20,7 +20,8 @@ bool lsf_interrupted(void);
 /* An lsf_progress that draws the lsf_progress_bar `bar` and stops when a signal asked to. */
 bool lsf_interrupt_progress(uint32_t done, uint32_t total, void *bar);
 
-/* Fails when a signal stopped the iterations before the first sample was done: there is no picture. */
+/* Fails when a signal stopped the iterations before the first sample was done: there is no picture.
+ */
 bool lsf_interrupt_may_save(uint32_t samples, lsf_error *error);
 
 #endif

@@ -38,17 +38,20 @@ static const char *next_name(size_t index, void *user)
 static const char *meant_by(const char *name, const lsf_command *command)
 {
     static const char *const words[][2] = {
-        {"size", "resolution"},      {"width", "resolution"},     {"height", "resolution"},
-        {"spp", "samples"},          {"iterations", "samples"},   {"envmap", "environment"},
-        {"env", "environment"},      {"hdri", "environment"},     {"ibl", "environment"},
-        {"method", "technique"},     {"integrator", "technique"}, {"max-depth", "bounces"},
-        {"depth", "bounces"},        {"fov", "fov-y"},            {"out", "output"},
-        {"tone-mapping", "tonemap"}, {"eye", "camera-position"},  {"look-at", "camera-target"},
+        {"size", "resolution"},      {"width", "resolution"},
+        {"height", "resolution"},    {"spp", "samples"},
+        {"iterations", "samples"},   {"envmap", "environment"},
+        {"env", "environment"},      {"hdri", "environment"},
+        {"ibl", "environment"},      {"method", "technique"},
+        {"integrator", "technique"}, {"max-depth", "bounces"},
+        {"depth", "bounces"},        {"fov", "fov-y"},
+        {"out", "output"},           {"tone-mapping", "tonemap"},
+        {"eye", "camera-position"},  {"look-at", "camera-target"},
         {"bg", "background"},        {"timeout", "time-limit"},
     };
     for (size_t i = 0; i < LSF_COUNT(words); i++)
-        for (size_t k = 0; strcmp(words[i][0], name) == 0 && next_name(k, (void *)(uintptr_t)command);
-             k++)
+        for (size_t k = 0;
+             strcmp(words[i][0], name) == 0 && next_name(k, (void *)(uintptr_t)command); k++)
             if (strcmp(next_name(k, (void *)(uintptr_t)command), words[i][1]) == 0)
                 return words[i][1];
     return NULL;

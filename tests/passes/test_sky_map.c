@@ -1,5 +1,5 @@
-/* Shadow maps of directions of the environment: a square over a plane, drawn by the pipeline and by the compute
- * shader, in view and far from it. */
+/* Shadow maps of directions of the environment: a square over a plane, drawn by the pipeline and by
+ * the compute shader, in view and far from it. */
 #include <math.h>
 
 #include "base/base.h"
@@ -65,7 +65,8 @@ static double middle_of(const lsf_image *image)
     return (double)middle[0];
 }
 
-/* Depths are fitted to the floor, of which a needle sees little: the square lies far outside them. */
+/* Depths are fitted to the floor, of which a needle sees little: the square lies far outside them.
+ */
 static void square_far_above(void **unused)
 {
     (void)unused;

@@ -26,7 +26,8 @@ static double dot(point3 a, point3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* By the region of the triangle's plane that p is over: of a corner, of an edge, or of the inside. */
+/* By the region of the triangle's plane that p is over: of a corner, of an edge, or of the inside.
+ */
 static point3 closest_point(point3 a, point3 b, point3 c, point3 p)
 {
     point3 ab = between(a, b), ac = between(a, c), bc = between(b, c);
@@ -75,9 +76,9 @@ static void to_grid(const voxel_rig *v, const shapes *s, point3 corners[3 * MOST
         const double at[3] = {(double)p->x, (double)p->y, (double)p->z};
         double q[3];
         for (int axis = 0; axis < 3; axis++)
-            q[axis] = ((at[axis] - state->center[axis]) * state->scale -
-                       (double)(&grid.origin.x)[axis]) /
-                      (double)grid.origin.w;
+            q[axis] =
+                ((at[axis] - state->center[axis]) * state->scale - (double)(&grid.origin.x)[axis]) /
+                (double)grid.origin.w;
         corners[i] = (point3){q[0], q[1], q[2]};
     }
 }
@@ -149,8 +150,8 @@ static void long_triangles(void **unused)
 {
     (void)unused;
     const shapes one = {{{0, 0, 0}, {100, 0, 0}, {30, 4, 0}}, 1};
-    const shapes two = {{{0, 0, 0}, {100, 0, 0}, {30, 4, 0}, {0, -1.3f, 0}, {100, -0.6f, 0}, {0, -0.6f, 0}},
-                        2};
+    const shapes two = {
+        {{0, 0, 0}, {100, 0, 0}, {30, 4, 0}, {0, -1.3f, 0}, {100, -0.6f, 0}, {0, -0.6f, 0}}, 2};
     check_points("100 x 4", &one, 102);
     check_points("100 x 4 beside another", &two, 102);
 }

@@ -159,7 +159,8 @@ static void environment(void **unused)
     (void)unused;
     const char *const names[] = {"sky_map.map", "sky_map.depth", "sky_map.maps", "scene.triangles",
                                  "compose.radiance"};
-    /* Eight maps of 128 texels a side, which share a depth buffer; 16 slots of 128 bytes; two triangles */
+    /* Eight maps of 128 texels a side, which share a depth buffer; 16 slots of 128 bytes; two
+     * triangles */
     check_feature(make_environment, 0, 5, names,
                   (uint64_t)128 * 128 * (8 + 1) * 4 + 16 * 128 + 2 * 36 + PIXELS * 16,
                   "direct_light.LSF_DIRECTIONAL_LIGHT ", 3);
@@ -221,7 +222,7 @@ static void bad_params(void **unused)
                                       "shadow.filter=pcf ", "shadow.texels_per_pixel=nan"};
     for (int i = 0; i < 6; i++) {
         lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    params.technique = "direct";
+        params.technique = "direct";
         lsf_error error = {0};
         params.options = &bad[i];
         params.option_count = 1;

@@ -272,8 +272,8 @@ static void slab_absorbs(void **unused)
     }
 }
 
-/* A lamp over a floor under two panes, seen from between them and through one of them: straight on, and no
- * bounce. */
+/* A lamp over a floor under two panes, seen from between them and through one of them: straight on,
+ * and no bounce. */
 static void lamp_shines_through_panes(void **unused)
 {
     (void)unused;
@@ -295,7 +295,8 @@ static void lamp_shines_through_panes(void **unused)
         float rgb[3];
         render_point(scene, eyes[through], target, 4096, 0, rgb);
         lsf_float3 view = lsf_f3_normalize(lsf_f3_sub(eyes[through], target));
-        double d2 = 0.4 * 0.4 + 9.0, cosine = 3.0 / sqrt(d2), floor = 0.5 / M_PI * 10.0 / d2 * cosine;
+        double d2 = 0.4 * 0.4 + 9.0, cosine = 3.0 / sqrt(d2),
+               floor = 0.5 / M_PI * 10.0 / d2 * cosine;
         for (int c = 0; c < 3; c++) {
             double pass = 1.0 - schlick(0.04, cosine);
             double expected = floor * tints[0][c] * tints[1][c] * pass * pass;
