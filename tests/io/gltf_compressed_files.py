@@ -277,7 +277,7 @@ webp('webp_alone.gltf', 'ok', {'extensions': {'EXT_texture_webp': {'source': 1}}
 webp('webp_cut.gltf', 'IMAGE_DATA_INVALID', {'extensions': {'EXT_texture_webp': {'source': 1}}},
      'data:image/webp;base64,' + WEBP[:48])
 webp('webp_source.gltf', 'UNRESOLVED_REFERENCE', {'extensions': {'EXT_texture_webp': {'source': 2}}})
-webp('ktx2.gltf', '--lenient', {'source': 1},
+webp('ktx2.gltf', 'leniently', {'source': 1},
      'data:image/ktx2;base64,' + base64.b64encode(b'\xabKTX 20\xbb\r\n\x1a\n' + bytes(80)).decode())
 webp('basisu.gltf', 'ok', {'extensions': {'KHR_texture_basisu': {'source': 1}}}, triangles=2,
      note='without a PNG, JPEG or WebP image')

@@ -379,10 +379,16 @@ static void moving_box(void **unused)
     move_to(&fresh, 1.0);
     voxel_rig_run(&fresh, 5);
     size_t count = voxel_rig_voxel_count(&fresh);
-    uint8_t *set[2] = {voxel_rig_read_occupancy(&stepped), voxel_rig_read_occupancy(&fresh)};
-    uint32_t *albedo[2] = {voxel_rig_read_texture(stepped.outputs->albedo, count),
-                           voxel_rig_read_texture(fresh.outputs->albedo, count)};
-    float *radiance[2] = {voxel_rig_read_radiance(&stepped), voxel_rig_read_radiance(&fresh)};
+    voxel_rig *const rigs[2] = {&stepped, &fresh};
+    uint8_t *set[2];
+    uint32_t *albedo[2];
+    float *radiance[2];
+    for (int i = 0; i < 2; i++) {
+        voxel_rig_bind(rigs[i]);
+        set[i] = voxel_rig_read_occupancy(rigs[i]);
+        albedo[i] = voxel_rig_read_texture(rigs[i]->outputs->albedo, count);
+        radiance[i] = voxel_rig_read_radiance(rigs[i]);
+    }
     assert_memory_equal(set[0], set[1], count);
     for (size_t i = 0; i < count; i++)
         assert_true(!set[0][i] || albedo[0][i] == albedo[1][i]);

@@ -80,8 +80,16 @@ static void run_light(voxel_rig *rig)
     lsf_voxel_light_emit(&rig->light, &inputs);
 }
 
+void voxel_rig_bind(const voxel_rig *rig)
+{
+    lsf_error error = {0};
+    if (!lsf_context_make_current(rig->context, &error))
+        fail_msg("%s", error.message);
+}
+
 void voxel_rig_run(voxel_rig *rig, uint32_t iteration)
 {
+    voxel_rig_bind(rig);
     lsf_iteration_begin(&rig->iteration, iteration);
     rig->outputs = lsf_voxelize_run(rig->pass, &rig->iteration);
     if (rig->sides > 0)
@@ -91,6 +99,7 @@ void voxel_rig_run(voxel_rig *rig, uint32_t iteration)
 
 void voxel_rig_finish(voxel_rig *rig)
 {
+    voxel_rig_bind(rig);
     lsf_voxel_light_destroy(&rig->light);
     lsf_shadow_map_destroy(&rig->shadow_map);
     lsf_voxelize_destroy(rig->pass);

@@ -23,6 +23,10 @@ typedef struct voxel_rig {
 
 void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
                     lsf_voxelize_method method, bool jitter, uint32_t sides);
+/* Makes its context current: rigs may stand beside each other. Running and finishing do so
+ * themselves. */
+void voxel_rig_bind(const voxel_rig *rig);
+
 /* Voxelises, and lights voxels where they are to be lit. */
 void voxel_rig_run(voxel_rig *rig, uint32_t iteration);
 void voxel_rig_finish(voxel_rig *rig);
