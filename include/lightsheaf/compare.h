@@ -13,9 +13,9 @@ extern "C" {
 #endif
 
 typedef struct lsf_compare_params {
-    const lsf_image
-        *reference_b;      /* second independent half of the reference: squared errors become
-                            * mean((x - a)(x - b)), free of the reference's noise; NULL: none */
+    /* Second independent half of the reference: squared errors become mean((x - a)(x - b)), free of
+     * the reference's noise; NULL: none. */
+    const lsf_image *reference_b;
     const lsf_image *mask; /* pixels whose first channel is > 0.5 are left out; NULL: none */
     float relmse_epsilon;  /* added to the squared reference; NAN: 0.01 * mean(reference)^2 */
     float exposure;        /* EV before SSIM's tone mapping */

@@ -31,8 +31,8 @@ typedef struct lsf_context_params {
                             * lsf_context_check fail; for tests */
     uint32_t window_width, window_height; /* pixels, GLFW only */
     const char *window_title;             /* GLFW only */
-    const char
-        *shader_dir; /* read glsl/ from this folder instead of the embedded copy; NULL: embedded */
+    /* Folder to read glsl/ from instead of the embedded copy; NULL: embedded. */
+    const char *shader_dir;
 } lsf_context_params;
 
 #define LSF_CONTEXT_PARAMS_DEFAULTS                                                                \

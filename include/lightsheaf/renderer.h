@@ -211,7 +211,7 @@ typedef struct lsf_renderer_stats {
     uint32_t samples; /* iterations done, of the frame in progress */
     double compile_seconds, upload_seconds, render_seconds;
     double lost_share;    /* of the picture's luminance: what an option such as
-                           * bidirectional.clamp_distance took away, 0..1 */
+                           * bidirectional.bound took away, 0..1 */
     uint64_t lost_pixels; /* that are not finite */
     uint32_t pass_count;
     const lsf_pass_stats *passes; /* owned by the renderer, valid until the next call */

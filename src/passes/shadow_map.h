@@ -46,8 +46,8 @@ typedef struct lsf_shadow_map {
     lsf_context *context;
     lsf_shadow_map_outputs outputs;
     lsf_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
-    lsf_shadow_map_target
-        scene; /* of directional lights, for points that the camera does not see */
+    /* Of directional lights, for points that the camera does not see. */
+    lsf_shadow_map_target scene;
     GLuint program;
     lsf_light_walls walls;
     uint64_t counts[LSF_DRAW_COUNTS];

@@ -15,10 +15,10 @@ typedef struct lsf_voxel_bounce_inputs {
 
 /* What becomes of radiance, pyramids as of voxel_light.h. */
 typedef struct lsf_voxel_bounce_sum {
-    GLuint base; /* what is added to it, as it is; 0: nothing */
-    GLuint
-        source; /* what is added to it once reflected; 0: nothing. May be what the last run wrote */
-    bool keep;  /* what the last run wrote is a part of the sum; not with a source */
+    GLuint base;   /* what is added to it, as it is; 0: nothing */
+    GLuint source; /* what is added to it once reflected; 0: nothing. It may be what the last run
+                    * wrote */
+    bool keep;     /* what the last run wrote is a part of the sum; not with a source */
 } lsf_voxel_bounce_sum;
 
 typedef struct lsf_voxel_bounce {

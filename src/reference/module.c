@@ -24,8 +24,7 @@
 /* Sums of a pixel, in double precision: the mean stays put beyond 2^24 samples. */
 typedef struct pixel_sum {
     double emission[3], direct[3], indirect_diffuse[3], indirect_specular[3];
-    uint32_t
-        taken; /* samples; when a pass is broken off, one pixel has more of them than another */
+    uint32_t taken;   /* samples; of a pass that is broken off, one pixel has more than another */
     uint32_t covered; /* those that met a surface */
 } pixel_sum;
 

@@ -83,8 +83,7 @@ typedef struct lsf_shape {
     uint32_t influences; /* joints that each vertex follows; 0: no skin */
     uint16_t *joints;    /* of the skin; `influences` a vertex, and so are the weights */
     float *weights;      /* 0 or more, and 1 in all for each vertex */
-    bool
-        flat; /* each triangle has vertices of its own, and they its normal, however it is turned */
+    bool flat; /* each triangle has vertices of its own, and they its normal, however it turns */
 } lsf_shape;
 
 /* Vertices that one node alone deforms. */

@@ -89,9 +89,8 @@ typedef enum lsf_update {
 
 typedef struct lsf_technique {
     const char *name, *help;
-    bool bounces; /* follows light from surface to surface, as often as the plan's bounces say */
-    bool
-        refracts; /* scatters and refracts light that surfaces transmit; else it goes straight on */
+    bool bounces;  /* follows light from surface to surface, as often as the plan's bounces say */
+    bool refracts; /* scatters and refracts light that surfaces transmit; else that goes straight */
     bool draws_lobes; /* finds the environment by rays drawn from the BRDF, which suit a uniform one
                        * better than directions drawn by its radiance */
     bool maps_scene;  /* draws maps that hold all of the scene: where it is empty matters to them */
