@@ -11,6 +11,8 @@
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
+/* The shadow map has the unit of points here. Theirs is that of gloss then, and gloss has that of
+ * radiance, which is an image in this pass. */
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
 #if LSF_REFLECT && LSF_VOXEL_GLOSS
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform usampler3D gloss_texture;

@@ -159,7 +159,7 @@ typedef struct lsf_frame {
 #define LSF_FRAME_DEFAULTS .time = 0.0, .view = NULL, .first_sample = 0, .cut = false
 
 /* Goes over to a frame: the mean begins anew, and lsf_renderer_iterate or lsf_renderer_run follow.
- * Where the scene requires what it did before, nothing is allocated, compiled or waited for;
+ * Where the scene requires what it did before, nothing of GL is allocated, compiled or waited for;
  * otherwise there is a new plan (lsf_renderer_plan), and what fits it stays. After LSF_ERROR_USAGE
  * (a view or a time that cannot be) the frame before is still the one in progress; after
  * LSF_ERROR_RENDER there is none. A new renderer is in the frame of its lsf_render_params, at

@@ -1,5 +1,6 @@
 #include <lightsheaf/edit.h>
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -151,7 +152,6 @@ bool lsf_scene_set_light(lsf_scene *scene, uint32_t light, const lsf_light_desc 
 {
     if (!lsf_given(scene, "scene", error) || !lsf_given(desc, "desc", error))
         return false;
-    const double half_pi = 1.5707963267948966, float_max = 3.4028234663852886e38;
     if (!exists(scene, LSF_KIND_LIGHT, light, error))
         return false;
     if (desc->type > LSF_LIGHT_DIRECTIONAL)
@@ -159,11 +159,11 @@ bool lsf_scene_set_light(lsf_scene *scene, uint32_t light, const lsf_light_desc 
                              (int)desc->type);
     double scale = desc->type == LSF_LIGHT_DIRECTIONAL ? 1.0 : scene->requirements.scale;
     double unit = 1.0 / (scale * scale);
-    if (!bright("light", light, "intensity", desc->intensity, fmin(unit, float_max), error) ||
+    if (!bright("light", light, "intensity", desc->intensity, fmin(unit, (double)FLT_MAX), error) ||
         !within("light", light, "range", desc->range, 0.0, INFINITY, error))
         return false;
     if (desc->type == LSF_LIGHT_SPOT &&
-        (!within("light", light, "outer_cone", desc->outer_cone, 0.0, half_pi + 1e-6, error) ||
+        (!within("light", light, "outer_cone", desc->outer_cone, 0.0, M_PI_2 + 1e-6, error) ||
          !within("light", light, "inner_cone", desc->inner_cone, 0.0, desc->outer_cone, error)))
         return false;
     lsf_light *l = &scene->lights[light];

@@ -59,7 +59,8 @@ typedef struct lsf_state {
     float bounds_min[3], bounds_max[3]; /* normalised space; min > max when empty */
     float reach_min[3], reach_max[3];   /* what the bounds stay within while animations play */
     double center[3], scale;
-    double *worlds; /* node to scene, 16 of each node; these three are of the last update */
+    /* Of the last update: node to scene, 16 of each node; its time; what was edited by then. */
+    double *worlds;
     double time;
     lsf_edits edits;
     lsf_camera framed; /* that was found for `framed_aspect` and edited nodes; 0: none was */

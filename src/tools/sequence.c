@@ -97,7 +97,7 @@ const lsf_view *lsf_sequence_view(const lsf_sequence *sequence, const lsf_scene 
     const double *center = lsf_scene_get_requirements(scene)->center;
     if (sequence->turntable == 0)
         return NULL;
-    double angle = 2.0 * 3.14159265358979323846 * frame / sequence->turntable;
+    double angle = 2.0 * M_PI * frame / sequence->turntable;
     double x = view->position[0] - center[0], z = view->position[2] - center[2];
     turn(&x, &z, angle);
     *turned = *view;

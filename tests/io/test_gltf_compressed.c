@@ -8,21 +8,10 @@
 
 #define GLTF_SCRIPT "gltf_compressed_files.py"
 #include "gltf_cases.h"
+#include "load_gltf.h"
 #include "scene/scene.h"
 
 #include <math.h>
-
-static lsf_scene *load(const char *name)
-{
-    char *path = lsf_format("%s/%s", gltf_folder, name);
-    lsf_error error = {0};
-    lsf_scene *scene = lsf_scene_load(path, NULL, &error);
-    if (!scene)
-        print_error("%s\n", error.message);
-    free(path);
-    assert_non_null(scene);
-    return scene;
-}
 
 /* Points come in another order, triangles begin at another corner: corners are told by their place,
  * and each place has its texture coordinates and its colour. */

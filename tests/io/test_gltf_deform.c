@@ -8,24 +8,13 @@
 
 #define GLTF_SCRIPT "gltf_deform_files.py"
 #include "gltf_cases.h"
+#include "load_gltf.h"
 #include "scene/state.h"
 #include "scene/tessellate.h"
 
 #include <math.h>
 
 #define HALF 0.70710678f
-
-static lsf_scene *load(const char *name)
-{
-    char *path = lsf_format("%s/%s", gltf_folder, name);
-    lsf_error error = {0};
-    lsf_scene *scene = lsf_scene_load(path, NULL, &error);
-    if (!scene)
-        print_error("%s\n", error.message);
-    free(path);
-    assert_non_null(scene);
-    return scene;
-}
 
 static void update(lsf_state *state, const lsf_scene *scene, double time)
 {

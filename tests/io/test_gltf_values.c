@@ -8,22 +8,11 @@
 
 #include "gltf_folder.h"
 #include "io/mesh_frame.h"
+#include "load_gltf.h"
 #include "scene/hierarchy.h"
 #include "scene/scene.h"
 
 #include <math.h>
-
-static lsf_scene *load(const char *name)
-{
-    char *path = lsf_format("%s/%s", gltf_folder, name);
-    lsf_error error = {0};
-    lsf_scene *scene = lsf_scene_load(path, NULL, &error);
-    if (!scene)
-        print_error("%s\n", error.message);
-    free(path);
-    assert_non_null(scene);
-    return scene;
-}
 
 static void assert_floats(const float *values, const float *expected, size_t count, float tolerance)
 {
