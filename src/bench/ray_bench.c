@@ -176,8 +176,8 @@ static bool draw_screen(run *r, lsf_error *error)
     uint64_t pixels = (uint64_t)plan->width * plan->height;
     lsf_iteration_begin(&r->iteration, 0);
     lsf_gbuffer_run(&r->gbuffer, &r->iteration);
-    if (!lsf_screen_rays_init(&r->rays, &r->iteration, r->gbuffer.outputs.depth,
-                              r->gbuffer.outputs.surface, error))
+    if (!lsf_screen_rays_init(&r->rays, &r->iteration, r->gbuffer.outputs.seen.depth,
+                              r->gbuffer.outputs.seen.surface, error))
         return false;
     r->distances = lsf_alloc(pixels, sizeof *r->distances);
     r->answers = lsf_alloc(pixels, 2 * sizeof *r->answers);
@@ -221,8 +221,8 @@ static void run_bundle(run *r, uint32_t index, double *build_ms, double *search_
 {
     const lsf_plan *plan = r->setup.plan;
     const lsf_region region = {0, 0, (int32_t)plan->width, (int32_t)plan->height, 0, 0};
-    const lsf_ray_bundle_origins origins = {.depth = r->gbuffer.outputs.depth,
-                                            .surface = r->gbuffer.outputs.surface};
+    const lsf_ray_bundle_origins origins = {.depth = r->gbuffer.outputs.seen.depth,
+                                            .surface = r->gbuffer.outputs.seen.surface};
     lsf_timer *timers[3];
     lsf_ray_bundle_timers(r->bundle, timers);
     double built, searched;
@@ -244,7 +244,7 @@ static void run_bundle(run *r, uint32_t index, double *build_ms, double *search_
 static bool run_directions(run *r, lsf_ray_bench *bench, uint32_t count, lsf_error *error)
 {
     lsf_timer *timers[3];
-    lsf_ray_bundle_aim(r->bundle, &r->iteration, r->directions, r->gbuffer.outputs.depth);
+    lsf_ray_bundle_aim(r->bundle, &r->iteration, r->directions, r->gbuffer.outputs.seen.depth);
     lsf_ray_bundle_timers(r->bundle, timers);
     /* All windows are fitted at once: each bundle bears its share. */
     double bounds_ms =

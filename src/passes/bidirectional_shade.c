@@ -146,10 +146,10 @@ static bool create_textures(lsf_bidirectional_shade *pass, const lsf_plan *plan,
         const char *name;
         GLuint *texture;
     } textures[] = {
-        {"bidirectional_shade.irradiance", &out->irradiance},
-        {"bidirectional_shade.specular", &out->specular},
-        {"bidirectional_shade.direct_irradiance", &out->direct_irradiance},
-        {"bidirectional_shade.direct_specular", &out->direct_specular},
+        {"bidirectional_shade.irradiance", &out->light.irradiance},
+        {"bidirectional_shade.specular", &out->light.specular},
+        {"bidirectional_shade.direct_irradiance", &out->direct.irradiance},
+        {"bidirectional_shade.direct_specular", &out->direct.specular},
         {"bidirectional_shade.position", &out->position},
         {"bidirectional_shade.surface", &out->surface},
         {"bidirectional_shade.throughput", &pass->throughput},
@@ -174,9 +174,9 @@ static bool create_hit(lsf_bidirectional_shade *pass, const lsf_plan *plan, bool
     bool onward = lsf_plan_switch_value(plan, hit_names[deep], "LSF_CONTINUE");
     lsf_framebuffer_desc desc = {.label = hit_names[deep],
                                  .color_count = 8,
-                                 .colors = {out->irradiance, out->specular,
-                                            split ? out->direct_irradiance : 0,
-                                            split ? out->direct_specular : 0,
+                                 .colors = {out->light.irradiance, out->light.specular,
+                                            split ? out->direct.irradiance : 0,
+                                            split ? out->direct.specular : 0,
                                             onward ? out->position : 0, onward ? out->surface : 0,
                                             onward ? pass->throughput : 0, onward ? out->gloss : 0},
                                  .layer = -1};
@@ -198,8 +198,8 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
         !create_hit(pass, plan, true, error))
         return false;
     const lsf_bidirectional_shade_outputs *out = &pass->outputs;
-    const GLuint sums[2][2] = {{out->irradiance, out->specular},
-                               {out->direct_irradiance, out->direct_specular}};
+    const GLuint sums[2][2] = {{out->light.irradiance, out->light.specular},
+                               {out->direct.irradiance, out->direct.specular}};
     for (int direct = 0; direct < 2; direct++) {
         if (!sums[direct][0])
             continue;
@@ -228,8 +228,8 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
 void lsf_bidirectional_shade_clear(lsf_bidirectional_shade *pass)
 {
     const lsf_bidirectional_shade_outputs *out = &pass->outputs;
-    const GLuint sums[] = {out->irradiance, out->specular, out->direct_irradiance,
-                           out->direct_specular};
+    const GLuint sums[] = {out->light.irradiance, out->light.specular, out->direct.irradiance,
+                           out->direct.specular};
     for (size_t i = 0; i < LSF_COUNT(sums); i++)
         if (sums[i])
             glClearTexImage(sums[i], 0, GL_RGBA, GL_FLOAT, NULL);
@@ -239,9 +239,9 @@ static void bind_vertices(const lsf_bidirectional_shade *pass,
                           const lsf_bidirectional_shade_inputs *inputs,
                           const lsf_bidirectional_sample *sample, bool deep)
 {
-    lsf_bind_texture(0, deep ? pass->outputs.position : inputs->depth);
-    lsf_bind_texture(1, deep ? pass->outputs.surface : inputs->surface);
-    lsf_bind_texture(2, deep ? pass->outputs.gloss : inputs->gloss);
+    lsf_bind_texture(0, deep ? pass->outputs.position : inputs->seen->depth);
+    lsf_bind_texture(1, deep ? pass->outputs.surface : inputs->seen->surface);
+    lsf_bind_texture(2, deep ? pass->outputs.gloss : inputs->seen->gloss);
     if (deep) {
         lsf_bind_texture(3, pass->throughput);
         glUniform3fv(LSF_LOCATION_ARRIVAL, 1, sample->arrival);
@@ -284,11 +284,11 @@ void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iterat
                                  const lsf_bidirectional_sample *sample, bool deep, uint32_t vpl,
                                  const lsf_region *region)
 {
-    bool direct = sample->emitter && !deep && pass->outputs.direct_irradiance;
+    bool direct = sample->emitter && !deep && pass->outputs.direct.irradiance;
     lsf_timer_begin(pass->vpl_timer);
     lsf_begin_fullscreen(pass->vpl_framebuffers[direct], iteration->plan->width,
                          iteration->plan->height, pass->vpl_programs[deep]);
-    lsf_blend_add(pass->outputs.specular ? 2 : 1);
+    lsf_blend_add(pass->outputs.light.specular ? 2 : 1);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
     glUniform1ui(LSF_LOCATION_VPL, vpl);
@@ -328,9 +328,14 @@ void lsf_bidirectional_shade_destroy(lsf_bidirectional_shade *pass)
     if (!pass->context)
         return;
     lsf_bidirectional_shade_outputs *out = &pass->outputs;
-    GLuint *textures[] = {&out->irradiance,      &out->specular,   &out->direct_irradiance,
-                          &out->direct_specular, &out->position,   &out->surface,
-                          &out->gloss,           &pass->throughput};
+    GLuint *textures[] = {&out->light.irradiance,
+                          &out->light.specular,
+                          &out->direct.irradiance,
+                          &out->direct.specular,
+                          &out->position,
+                          &out->surface,
+                          &out->gloss,
+                          &pass->throughput};
     for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
         lsf_texture_destroy(pass->context, textures[i]);
     for (int i = 0; i < 2; i++) {

@@ -4,6 +4,7 @@
 #define LSF_PASSES_BIDIRECTIONAL_SHADE_H
 
 #include "plan/iteration.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 
 typedef enum lsf_bidirectional_strategy {
@@ -74,7 +75,7 @@ typedef struct lsf_bidirectional_sample {
 } lsf_bidirectional_sample;
 
 typedef struct lsf_bidirectional_shade_inputs {
-    GLuint depth, surface, gloss;   /* of the G-buffer, or split; not read for deep vertices */
+    const lsf_surface_maps *seen;   /* or the same split; not read for deep vertices */
     GLuint hits;                    /* of the bundle in turn; hits only */
     GLuint map_depth, map_gradient; /* of the light for hits; the map of the VPL in turn, and 0 */
     GLuint map_tint;                /* of it; 0: nothing lets light through */
@@ -82,11 +83,11 @@ typedef struct lsf_bidirectional_shade_inputs {
     GLuint bundle_pdf;              /* 0: uniform */
 } lsf_bidirectional_shade_inputs;
 
-/* RGBA32F; alpha of irradiance and specular: luminance that the bound took away. */
+/* Alpha of light: luminance that the bound took away. Position: RGBA32F. */
 typedef struct lsf_bidirectional_shade_outputs {
-    GLuint irradiance, specular;               /* specular 0 without specular lobes */
-    GLuint direct_irradiance, direct_specular; /* 0 unless split_direct */
-    GLuint position, surface, gloss;           /* the vertices that the last hits became */
+    lsf_split_light light;
+    lsf_split_light direct;          /* 0 unless split_direct */
+    GLuint position, surface, gloss; /* the vertices that the last hits became */
 } lsf_bidirectional_shade_outputs;
 
 typedef struct lsf_bidirectional_shade {

@@ -92,7 +92,7 @@ bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
     *pass = (lsf_blur){.context = context, .params = *params};
     if (params->phases == 0)
         return true;
-    lsf_blur_outputs *out = &pass->outputs, *between = &pass->between;
+    lsf_split_light *out = &pass->light, *between = &pass->between;
     if (!lsf_plan_create_texture(plan, context, "blur.guide", &pass->guide, error) ||
         !lsf_plan_create_texture(plan, context, "blur.irradiance", &out->irradiance, error) ||
         !lsf_plan_create_texture(plan, context, "blur.specular", &out->specular, error) ||
@@ -117,20 +117,18 @@ static void make_guide(lsf_blur *pass, const lsf_blur_inputs *inputs)
     lsf_begin_fullscreen(pass->guide_framebuffer, inputs->grid->width, inputs->grid->height,
                          pass->guide_program);
     lsf_coarse_grid_set(inputs->grid);
-    lsf_bind_texture(0, inputs->depth);
-    lsf_bind_texture(1, inputs->surface);
-    lsf_bind_texture(2, inputs->gloss);
+    lsf_surface_maps_bind(inputs->seen);
     glUniform2f(0, pass->params.min_roughness, (float)pass->params.phases);
     lsf_draw_fullscreen(pass->context);
 }
 
 static void blur_along(lsf_blur *pass, const lsf_coarse_grid *grid, int phase, int x, int y,
-                       GLuint framebuffer, GLuint irradiance, GLuint specular)
+                       GLuint framebuffer, const lsf_split_light *light)
 {
     const lsf_blur_params *p = &pass->params;
     lsf_begin_fullscreen(framebuffer, grid->width, grid->height, pass->program);
-    lsf_bind_texture(3, irradiance);
-    lsf_bind_texture(4, specular);
+    lsf_bind_texture(3, light->irradiance);
+    lsf_bind_texture(4, light->specular);
     glUniform3i(0, x, y, phase);
     glUniform4f(1, p->step * powf(p->ratio, (float)(phase - 1)), p->growth,
                 1.0f / (float)(x ? grid->width : grid->height), p->normal_weight);
@@ -143,17 +141,14 @@ static void blur_along(lsf_blur *pass, const lsf_coarse_grid *grid, int phase, i
 void lsf_blur_run(lsf_blur *pass, const lsf_iteration *iteration, const lsf_blur_inputs *inputs)
 {
     (void)iteration; /* its view is bound */
-    GLuint irradiance = inputs->irradiance, specular = inputs->specular;
+    const lsf_split_light *light = inputs->light;
     lsf_timer_begin(pass->timer);
     make_guide(pass, inputs);
     lsf_bind_texture(0, pass->guide);
     for (int phase = 1; phase <= pass->params.phases; phase++) {
-        blur_along(pass, inputs->grid, phase, 1, 0, pass->between_framebuffer, irradiance,
-                   specular);
-        blur_along(pass, inputs->grid, phase, 0, 1, pass->framebuffer, pass->between.irradiance,
-                   pass->between.specular);
-        irradiance = pass->outputs.irradiance;
-        specular = pass->outputs.specular;
+        blur_along(pass, inputs->grid, phase, 1, 0, pass->between_framebuffer, light);
+        blur_along(pass, inputs->grid, phase, 0, 1, pass->framebuffer, &pass->between);
+        light = &pass->light;
     }
     lsf_timer_end(pass->timer);
 }
@@ -162,7 +157,7 @@ void lsf_blur_destroy(lsf_blur *pass)
 {
     if (!pass->context)
         return;
-    GLuint *textures[] = {&pass->guide, &pass->outputs.irradiance, &pass->outputs.specular,
+    GLuint *textures[] = {&pass->guide, &pass->light.irradiance, &pass->light.specular,
                           &pass->between.irradiance, &pass->between.specular};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);

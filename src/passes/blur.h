@@ -3,6 +3,7 @@
 #define LSF_PASSES_BLUR_H
 
 #include "plan/coarse_grid.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 
 typedef enum lsf_blur_when {
@@ -37,21 +38,16 @@ void lsf_blur_remark(lsf_plan *plan, const lsf_blur_params *params);
 /* All of the grid's size. */
 typedef struct lsf_blur_inputs {
     const lsf_coarse_grid *grid;
-    GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
-    GLuint irradiance, specular;  /* specular 0 where the plan requires none */
+    const lsf_surface_maps *seen; /* by the grid */
+    const lsf_split_light *light;
 } lsf_blur_inputs;
-
-/* RGBA32F; specular 0 without specular lobes. */
-typedef struct lsf_blur_outputs {
-    GLuint irradiance, specular;
-} lsf_blur_outputs;
 
 typedef struct lsf_blur {
     lsf_context *context;
     lsf_blur_params params;
-    lsf_blur_outputs outputs;
-    lsf_blur_outputs between; /* blurred along x */
-    GLuint guide;             /* positions, normals and phases */
+    lsf_split_light light;   /* output */
+    lsf_split_light between; /* blurred along x */
+    GLuint guide;            /* positions, normals and phases */
     GLuint framebuffer, between_framebuffer, guide_framebuffer;
     GLuint program, guide_program;
     lsf_timer *timer;

@@ -84,20 +84,21 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
 void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
                      const lsf_compose_inputs *inputs)
 {
+    const lsf_gbuffer_maps *gbuffer = inputs->gbuffer;
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
-    lsf_bind_texture(0, inputs->depth);
-    lsf_bind_texture(1, inputs->emission);
+    lsf_bind_texture(0, gbuffer->seen.depth);
+    lsf_bind_texture(1, gbuffer->emission);
     lsf_bind_texture(2, inputs->direct);
-    lsf_bind_texture(3, inputs->surface);
-    lsf_bind_texture(4, inputs->irradiance);
-    lsf_bind_texture(6, inputs->specular);
-    lsf_bind_texture(7, inputs->direct_irradiance);
-    lsf_bind_texture(8, inputs->direct_specular);
-    lsf_bind_texture(9, inputs->gloss);
-    lsf_bind_texture(10, inputs->tint);
-    lsf_bind_texture(11, inputs->absorption);
+    lsf_bind_texture(3, gbuffer->seen.surface);
+    lsf_bind_texture(4, inputs->indirect.irradiance);
+    lsf_bind_texture(6, inputs->indirect.specular);
+    lsf_bind_texture(7, inputs->split_direct.irradiance);
+    lsf_bind_texture(8, inputs->split_direct.specular);
+    lsf_bind_texture(9, gbuffer->seen.gloss);
+    lsf_bind_texture(10, gbuffer->tint);
+    lsf_bind_texture(11, gbuffer->absorption);
     lsf_scene_gpu_bind_environment(iteration->scene);
     glUniform3fv(0, 1, iteration->plan->background.radiance);
     lsf_draw_fullscreen(pass->context);

@@ -3,14 +3,13 @@
 #define LSF_PASSES_COMPOSE_H
 
 #include "plan/iteration.h"
+#include "plan/maps.h"
 
 typedef struct lsf_compose_inputs {
-    GLuint depth, emission;                    /* of the G-buffer; emission 0: none */
-    GLuint direct;                             /* RGBA32F radiance; 0: none */
-    GLuint surface, gloss;                     /* of the G-buffer; where there is irradiance */
-    GLuint irradiance, specular;               /* RGBA32F; 0: none */
-    GLuint direct_irradiance, direct_specular; /* the same of direct light; 0: none */
-    GLuint tint, absorption;                   /* of the G-buffer; 0: light loses nothing */
+    const lsf_gbuffer_maps *gbuffer;
+    GLuint direct; /* RGBA32F radiance; 0: none */
+    lsf_split_light indirect;
+    lsf_split_light split_direct; /* direct light beside that in `direct` */
 } lsf_compose_inputs;
 
 /* What there is to add up. */

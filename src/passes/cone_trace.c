@@ -96,7 +96,7 @@ bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/cone_trace.frag.glsl"};
     *pass = (lsf_cone_trace){.context = context, .params = *params, .grid = *grid};
-    lsf_cone_trace_outputs *out = &pass->outputs;
+    lsf_split_light *out = &pass->light;
     if (!lsf_plan_create_texture(plan, context, "cone_trace.irradiance", &out->irradiance, error) ||
         !lsf_plan_create_texture(plan, context, "cone_trace.specular", &out->specular, error) ||
         !lsf_plan_create_texture(plan, context, "cone_trace.lobe_albedo", &pass->lobe_albedo,
@@ -121,9 +121,7 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_begin_fullscreen(pass->framebuffer, inputs->grid->width, inputs->grid->height,
                          pass->program);
     lsf_coarse_grid_set(inputs->grid);
-    lsf_bind_texture(0, inputs->depth);
-    lsf_bind_texture(1, inputs->surface);
-    lsf_bind_texture(2, inputs->gloss);
+    lsf_surface_maps_bind(inputs->seen);
     lsf_bind_texture(3, pass->lobe_albedo);
     for (GLuint level = 0; level < 2; level++)
         lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
@@ -144,8 +142,8 @@ void lsf_cone_trace_destroy(lsf_cone_trace *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    lsf_texture_destroy(pass->context, &pass->outputs.irradiance);
-    lsf_texture_destroy(pass->context, &pass->outputs.specular);
+    lsf_texture_destroy(pass->context, &pass->light.irradiance);
+    lsf_texture_destroy(pass->context, &pass->light.specular);
     lsf_texture_destroy(pass->context, &pass->lobe_albedo);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

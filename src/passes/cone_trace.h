@@ -4,27 +4,23 @@
 
 #include "plan/coarse_grid.h"
 #include "plan/cone.h"
+#include "plan/maps.h"
 
 typedef struct lsf_cone_trace_inputs {
     const lsf_coarse_grid *grid;
-    GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
+    const lsf_surface_maps *seen; /* by the grid */
     GLuint occupancy[2];          /* of voxelize, the finest levels */
     GLuint voxel_normal, voxel_point;
     GLuint radiance; /* the pyramid; voxel_light.h, voxel_mip.h */
 } lsf_cone_trace_inputs;
 
-/* RGBA32F, of the grid's size. Alpha of irradiance: ambient visibility, the share of the
- * hemisphere, weighted by its cosine, in which no voxel is met. */
-typedef struct lsf_cone_trace_outputs {
-    GLuint irradiance;
-    GLuint specular; /* radiance; 0 without specular lobes */
-} lsf_cone_trace_outputs;
-
 typedef struct lsf_cone_trace {
     lsf_context *context;
     lsf_cone_params params;
     lsf_voxel_grid grid;
-    lsf_cone_trace_outputs outputs;
+    /* Output, of the grid's size. Alpha of irradiance: ambient visibility, the share of the
+     * hemisphere, weighted by its cosine, in which no voxel is met. */
+    lsf_split_light light;
     GLuint lobe_albedo; /* RG32F by cosine of the view and roughness */
     GLuint framebuffer, program;
     lsf_timer *timer;

@@ -87,9 +87,7 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          sky ? pass->sky_program : pass->program);
     lsf_blend_add(1);
-    lsf_bind_texture(0, inputs->depth);
-    lsf_bind_texture(1, inputs->surface);
-    lsf_bind_texture(2, inputs->gloss);
+    lsf_surface_maps_bind(inputs->seen);
     lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
     lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
     lsf_bind_texture(LSF_UNIT_SHADOW_TINT, inputs->shadow_tint);

@@ -3,9 +3,10 @@
 #define LSF_PASSES_DIRECT_LIGHT_H
 
 #include "plan/iteration.h"
+#include "plan/maps.h"
 
 typedef struct lsf_direct_light_inputs {
-    GLuint depth, surface, gloss; /* of the G-buffer */
+    const lsf_surface_maps *seen;
     GLuint shadow_depth, shadow_gradient,
         shadow_tint;     /* of the light in turn, whose buffer is bound */
     uint32_t directions; /* of the environment, in the place of one light: shadow_depth is their

@@ -95,7 +95,7 @@ static bool create_way(lsf_gbuffer *pass, const lsf_plan *plan, lsf_error *error
 {
     static const char *const files[5] = {"passes/gbuffer.vert.glsl",
                                          "passes/gbuffer_tint.frag.glsl"};
-    lsf_gbuffer_outputs *out = &pass->outputs;
+    lsf_gbuffer_maps *out = &pass->outputs;
     if (!lsf_plan_create_texture(plan, pass->context, "gbuffer.tint", &out->tint, error) ||
         !lsf_plan_create_texture(plan, pass->context, "gbuffer.absorption", &out->absorption,
                                  error))
@@ -116,11 +116,11 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
                         lsf_error *error)
 {
     static const char *const files[5] = {"passes/gbuffer.vert.glsl", "passes/gbuffer.frag.glsl"};
-    lsf_gbuffer_outputs *out = &pass->outputs;
+    lsf_gbuffer_maps *out = &pass->outputs;
     *pass = (lsf_gbuffer){.context = context};
-    if (!lsf_plan_create_texture(plan, context, "gbuffer.depth", &out->depth, error) ||
-        !lsf_plan_create_texture(plan, context, "gbuffer.surface", &out->surface, error) ||
-        !lsf_plan_create_texture(plan, context, "gbuffer.gloss", &out->gloss, error) ||
+    if (!lsf_plan_create_texture(plan, context, "gbuffer.depth", &out->seen.depth, error) ||
+        !lsf_plan_create_texture(plan, context, "gbuffer.surface", &out->seen.surface, error) ||
+        !lsf_plan_create_texture(plan, context, "gbuffer.gloss", &out->seen.gloss, error) ||
         !lsf_plan_create_texture(plan, context, "gbuffer.emission", &out->emission, error) ||
         !lsf_plan_create_texture(plan, context, "gbuffer.motion", &out->motion, error) ||
         !create_way(pass, plan, error))
@@ -128,8 +128,8 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
     lsf_framebuffer_desc desc = {
         .label = "gbuffer",
         .color_count = 5,
-        .colors = {out->surface, out->gloss, out->emission, out->motion, out->tint},
-        .depth = out->depth,
+        .colors = {out->seen.surface, out->seen.gloss, out->emission, out->motion, out->tint},
+        .depth = out->seen.depth,
         .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "gbuffer", files, error);
@@ -161,7 +161,7 @@ static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_dr
         glClearNamedFramebufferfv(pass->tint_framebuffer, GL_COLOR, 1, zero);
     lsf_blend_add(pass->outputs.absorption ? 2 : 1);
     glBlendFunci(0, GL_ZERO, GL_SRC_COLOR);
-    lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, pass->outputs.depth);
+    lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, pass->outputs.seen.depth);
     lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_TRANSMISSIVE, region,
                        pass->counts);
 }
@@ -176,7 +176,7 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
     GLint at = 0;
     glClearNamedFramebufferfv(pass->framebuffer, GL_DEPTH, 0, zero);
     glClearNamedFramebufferuiv(pass->framebuffer, GL_COLOR, at++, zero_uint);
-    if (pass->outputs.gloss)
+    if (pass->outputs.seen.gloss)
         glClearNamedFramebufferuiv(pass->framebuffer, GL_COLOR, at++, zero_uint);
     if (pass->outputs.emission)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
@@ -200,8 +200,9 @@ void lsf_gbuffer_destroy(lsf_gbuffer *pass)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->tint_framebuffer);
-    GLuint *textures[] = {&pass->outputs.depth,     &pass->outputs.surface, &pass->outputs.gloss,
-                          &pass->outputs.emission,  &pass->outputs.motion,  &pass->outputs.tint,
+    GLuint *textures[] = {&pass->outputs.seen.depth, &pass->outputs.seen.surface,
+                          &pass->outputs.seen.gloss, &pass->outputs.emission,
+                          &pass->outputs.motion,     &pass->outputs.tint,
                           &pass->outputs.absorption};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);

@@ -3,6 +3,7 @@
 #define LSF_PASSES_GBUFFER_H
 
 #include "plan/iteration.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_gbuffer_params {
@@ -15,20 +16,9 @@ typedef struct lsf_gbuffer_params {
 #define LSF_GBUFFER_OPTION_COUNT 2
 extern const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT];
 
-/* Textures of the plan's size, valid until the next run; 0 when the plan leaves them out. Formats
- * as in glsl/lib/gbuffer.glsl. */
-typedef struct lsf_gbuffer_outputs {
-    GLuint depth;            /* DEPTH_COMPONENT32F, reverse-Z, 0 where nothing is seen */
-    GLuint surface;          /* RGBA32UI */
-    GLuint gloss;            /* R32UI or RG32UI */
-    GLuint emission;         /* RGBA32F, radiance */
-    GLuint motion;           /* RG32F, pixels */
-    GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye */
-} lsf_gbuffer_outputs;
-
 typedef struct lsf_gbuffer {
     lsf_context *context;
-    lsf_gbuffer_outputs outputs;
+    lsf_gbuffer_maps outputs; /* of the plan's size, valid until the next run */
     GLuint framebuffer, program;
     GLuint tint_framebuffer, tint_program; /* 0: nothing transmits */
     uint64_t counts[LSF_DRAW_COUNTS];

@@ -147,25 +147,18 @@ static void begin_draw(const lsf_iteration *iteration, GLuint framebuffer, GLuin
     lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
 }
 
-static void bind_points(const lsf_interleave_points *points)
-{
-    lsf_bind_texture(0, points->depth);
-    lsf_bind_texture(1, points->surface);
-    lsf_bind_texture(2, points->gloss);
-}
-
 void lsf_interleave_split(lsf_interleave *pass, const lsf_iteration *iteration,
-                          const lsf_interleave_points *gbuffer)
+                          const lsf_surface_maps *seen)
 {
     lsf_timer_begin(pass->split_timer);
     begin_draw(iteration, pass->split_framebuffer, pass->split_program);
-    bind_points(gbuffer);
+    lsf_surface_maps_bind(seen);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->split_timer);
 }
 
 static void filter_along(lsf_interleave *pass, const lsf_iteration *iteration, GLuint framebuffer,
-                         const lsf_interleave_light *light, int x, int y)
+                         const lsf_split_light *light, int x, int y)
 {
     int width = pass->params.size * pass->params.periods;
     begin_draw(iteration, framebuffer, pass->filter_program);
@@ -178,8 +171,7 @@ static void filter_along(lsf_interleave *pass, const lsf_iteration *iteration, G
 }
 
 void lsf_interleave_gather(lsf_interleave *pass, const lsf_iteration *iteration,
-                           const lsf_interleave_points *gbuffer,
-                           const lsf_interleave_light *split_light)
+                           const lsf_surface_maps *seen, const lsf_split_light *split_light)
 {
     lsf_timer_begin(pass->gather_timer);
     begin_draw(iteration, pass->light_framebuffer, pass->gather_program);
@@ -190,7 +182,7 @@ void lsf_interleave_gather(lsf_interleave *pass, const lsf_iteration *iteration,
     if (!pass->filter_program)
         return;
     lsf_timer_begin(pass->filter_timer);
-    bind_points(gbuffer);
+    lsf_surface_maps_bind(seen);
     filter_along(pass, iteration, pass->between_framebuffer, &pass->light, 1, 0);
     filter_along(pass, iteration, pass->light_framebuffer, &pass->between, 0, 1);
     lsf_timer_end(pass->filter_timer);

@@ -4,6 +4,7 @@
 #define LSF_PASSES_INTERLEAVE_H
 
 #include "plan/iteration.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_interleave_params {
@@ -20,22 +21,12 @@ typedef struct lsf_interleave_params {
 #define LSF_INTERLEAVE_OPTION_COUNT 4
 extern const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT];
 
-/* Of the G-buffer, or of visible points in another order. */
-typedef struct lsf_interleave_points {
-    GLuint depth, surface, gloss; /* gloss 0 where the G-buffer has none */
-} lsf_interleave_points;
-
-/* RGBA32F; specular 0 where nothing is glossy. */
-typedef struct lsf_interleave_light {
-    GLuint irradiance, specular;
-} lsf_interleave_light;
-
 typedef struct lsf_interleave {
     lsf_context *context;
     lsf_interleave_params params;
-    lsf_interleave_points split; /* output; depth R32F, the others as in the G-buffer */
-    lsf_interleave_light light;  /* output, in the picture's order, filtered */
-    lsf_interleave_light between;
+    lsf_surface_maps split; /* output */
+    lsf_split_light light;  /* output, in the picture's order, filtered */
+    lsf_split_light between;
     GLuint split_framebuffer, light_framebuffer, between_framebuffer;
     GLuint split_program, gather_program, filter_program;
     lsf_timer *split_timer, *gather_timer, *filter_timer;
@@ -50,13 +41,12 @@ lsf_region lsf_interleave_region(const lsf_plan *plan, uint32_t size, uint32_t i
 void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params);
 bool lsf_interleave_create(lsf_interleave *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_interleave_params *params, lsf_error *error);
-/* Sets `split` from the G-buffer. */
+/* Sets `split` from what the G-buffer has seen. */
 void lsf_interleave_split(lsf_interleave *pass, const lsf_iteration *iteration,
-                          const lsf_interleave_points *gbuffer);
+                          const lsf_surface_maps *seen);
 /* Sets `light` from light in split order. */
 void lsf_interleave_gather(lsf_interleave *pass, const lsf_iteration *iteration,
-                           const lsf_interleave_points *gbuffer,
-                           const lsf_interleave_light *split_light);
+                           const lsf_surface_maps *seen, const lsf_split_light *split_light);
 void lsf_interleave_destroy(lsf_interleave *pass);
 
 #endif

@@ -105,31 +105,31 @@ bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
 }
 
 void lsf_upsample_search_split(lsf_upsample_search *pass, const lsf_iteration *iteration,
-                               const lsf_upsample_search_points *gbuffer)
+                               const lsf_surface_maps *seen)
 {
     lsf_timer_begin(pass->split_timer);
     pass->grid = lsf_coarse_grid_at(iteration, pass->grid.width, pass->grid.height);
     lsf_begin_fullscreen(pass->split_framebuffer, pass->grid.width, pass->grid.height,
                          pass->split_program);
     lsf_coarse_grid_set(&pass->grid);
-    lsf_bind_texture(0, gbuffer->depth);
-    lsf_bind_texture(1, gbuffer->surface);
-    lsf_bind_texture(2, gbuffer->gloss);
+    lsf_surface_maps_bind(seen);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->split_timer);
 }
 
 void lsf_upsample_search_run(lsf_upsample_search *pass, const lsf_iteration *iteration,
-                             const lsf_upsample_search_points *gbuffer,
-                             const lsf_upsample_search_light *coarse_light)
+                             const lsf_surface_maps *seen, const lsf_split_light *coarse_light)
 {
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->light_framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
     lsf_coarse_grid_set(&pass->grid);
-    const GLuint textures[6] = {gbuffer->depth,           gbuffer->surface,
-                                pass->coarse.depth,       pass->coarse.surface,
-                                coarse_light->irradiance, coarse_light->specular};
+    const GLuint textures[6] = {seen->depth,
+                                seen->surface,
+                                pass->coarse.depth,
+                                pass->coarse.surface,
+                                coarse_light->irradiance,
+                                coarse_light->specular};
     for (GLuint unit = 0; unit < LSF_COUNT(textures); unit++)
         lsf_bind_texture(unit, textures[unit]);
     glUniform3f(0, (float)pass->params.radius, pass->params.min_cosine,

@@ -4,6 +4,7 @@
 #define LSF_PASSES_UPSAMPLE_SEARCH_H
 
 #include "plan/coarse_grid.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_upsample_search_params {
@@ -17,22 +18,12 @@ typedef struct lsf_upsample_search_params {
 #define LSF_UPSAMPLE_SEARCH_OPTION_COUNT 3
 extern const lsf_option_row lsf_upsample_search_options[LSF_UPSAMPLE_SEARCH_OPTION_COUNT];
 
-/* Of the G-buffer, or what the grid sees of it: depth R32F then. */
-typedef struct lsf_upsample_search_points {
-    GLuint depth, surface, gloss; /* gloss 0 where the G-buffer has none */
-} lsf_upsample_search_points;
-
-/* RGBA32F; specular 0 where nothing is glossy. */
-typedef struct lsf_upsample_search_light {
-    GLuint irradiance, specular;
-} lsf_upsample_search_light;
-
 typedef struct lsf_upsample_search {
     lsf_context *context;
     lsf_upsample_search_params params;
-    lsf_upsample_search_points coarse; /* output of split, of the grid's size */
-    lsf_upsample_search_light light;   /* output of run, of the picture's size */
-    lsf_coarse_grid grid;              /* of the last split */
+    lsf_surface_maps coarse; /* output of split, of the grid's size */
+    lsf_split_light light;   /* output of run, of the picture's size */
+    lsf_coarse_grid grid;    /* of the last split */
     GLuint split_framebuffer, light_framebuffer;
     GLuint split_program, program;
     lsf_timer *split_timer, *timer;
@@ -45,13 +36,12 @@ void lsf_upsample_search_plan(lsf_plan *plan, const lsf_upsample_search_params *
 bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
                                 const lsf_plan *plan, const lsf_upsample_search_params *params,
                                 lsf_error *error);
-/* Sets `grid` and `coarse`, what it sees of the G-buffer. */
+/* Sets `grid`, and `coarse` to what it sees of what the picture's pixels see. */
 void lsf_upsample_search_split(lsf_upsample_search *pass, const lsf_iteration *iteration,
-                               const lsf_upsample_search_points *gbuffer);
+                               const lsf_surface_maps *seen);
 /* Sets `light` from light on the grid of the last split. */
 void lsf_upsample_search_run(lsf_upsample_search *pass, const lsf_iteration *iteration,
-                             const lsf_upsample_search_points *gbuffer,
-                             const lsf_upsample_search_light *coarse_light);
+                             const lsf_surface_maps *seen, const lsf_split_light *coarse_light);
 void lsf_upsample_search_destroy(lsf_upsample_search *pass);
 
 #endif

@@ -110,10 +110,10 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
         const char *name;
         GLuint *texture;
     } textures[] = {
-        {"voxel_path.irradiance", &out->irradiance},
-        {"voxel_path.direct_irradiance", &out->direct_irradiance},
-        {"voxel_path.specular", &out->specular},
-        {"voxel_path.direct_specular", &out->direct_specular},
+        {"voxel_path.irradiance", &out->light.irradiance},
+        {"voxel_path.direct_irradiance", &out->direct.irradiance},
+        {"voxel_path.specular", &out->light.specular},
+        {"voxel_path.direct_specular", &out->direct.specular},
     };
     lsf_framebuffer_desc desc = {.label = "voxel_path", .layer = -1};
     for (size_t i = 0; i < LSF_COUNT(textures); i++) {
@@ -139,9 +139,7 @@ bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited)
 static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs)
 {
-    lsf_bind_texture(0, inputs->depth);
-    lsf_bind_texture(1, inputs->surface);
-    lsf_bind_texture(2, inputs->gloss);
+    lsf_surface_maps_bind(inputs->seen);
     lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
     lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
     lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->voxel_albedo);
@@ -180,8 +178,8 @@ void lsf_voxel_path_destroy(lsf_voxel_path *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    GLuint *textures[] = {&pass->outputs.irradiance, &pass->outputs.specular,
-                          &pass->outputs.direct_irradiance, &pass->outputs.direct_specular,
+    GLuint *textures[] = {&pass->outputs.light.irradiance, &pass->outputs.light.specular,
+                          &pass->outputs.direct.irradiance, &pass->outputs.direct.specular,
                           &pass->random};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);

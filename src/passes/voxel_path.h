@@ -3,6 +3,7 @@
 #define LSF_PASSES_VOXEL_PATH_H
 
 #include "plan/coarse_grid.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 #include "plan/voxel_grid.h"
 #include "scene/emitters.h"
@@ -39,15 +40,16 @@ typedef struct lsf_voxel_path_use {
 
 typedef struct lsf_voxel_path_inputs {
     const lsf_coarse_grid *grid;
-    GLuint depth, surface, gloss; /* of the G-buffer, or what the grid sees of it */
+    const lsf_surface_maps *seen; /* by the grid */
     GLuint occupancy[2];          /* voxels and bricks */
     GLuint voxel_albedo, voxel_normal, voxel_point, voxel_emission, voxel_gloss, voxel_transmission;
     GLuint radiance; /* of voxels, two sides */
 } lsf_voxel_path_inputs;
 
-/* RGBA32F of the grid's size; 0 without specular lobes, or unless split. */
+/* Of the grid's size. */
 typedef struct lsf_voxel_path_outputs {
-    GLuint irradiance, specular, direct_irradiance, direct_specular;
+    lsf_split_light light;
+    lsf_split_light direct; /* 0 unless split_direct */
 } lsf_voxel_path_outputs;
 
 /* The points on emissive surfaces that an iteration's vertices share: one for each cell of a

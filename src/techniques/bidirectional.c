@@ -324,9 +324,10 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
     uint32_t before = (first + segment + s->bundle_count - 2) % s->bundle_count;
     bool lit = s->bundle_light && segment <= s->bounces;
     lsf_bidirectional_shade_inputs inputs = turn->inputs;
-    lsf_ray_bundle_origins origins = {.depth = deep ? 0 : inputs.depth,
+    lsf_ray_bundle_origins origins = {.depth = deep ? 0 : inputs.seen->depth,
                                       .position = deep ? b->shade.outputs.position : 0,
-                                      .surface = deep ? b->shade.outputs.surface : inputs.surface};
+                                      .surface =
+                                          deep ? b->shade.outputs.surface : inputs.seen->surface};
     inputs.hits =
         lsf_ray_bundle_search(b->bundle, turn->iteration, bundle, &origins, &turn->region);
     /* Beyond the visible point each path is joined to one VPL. */
@@ -444,7 +445,7 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
     if (s->segments > 0) {
         lsf_bundle_directions_draw(&b->directions, iteration, s->bundle_count, s->segments > 1,
                                    b->aims);
-        lsf_ray_bundle_aim(b->bundle, iteration, b->aims, b->chain.gbuffer.outputs.depth);
+        lsf_ray_bundle_aim(b->bundle, iteration, b->aims, b->chain.gbuffer.outputs.seen.depth);
     }
     for (uint32_t i = 0; s->segments > 1 && i < s->bundle_count && lsf_iteration_goes_on(iteration);
          i++)
@@ -464,52 +465,39 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
                               lsf_technique_outputs *outputs)
 {
     bidirectional *b = self;
-    const lsf_gbuffer_outputs *gbuffer = &b->chain.gbuffer.outputs;
-    lsf_bidirectional_shade_inputs inputs = {
-        .depth = gbuffer->depth, .surface = gbuffer->surface, .gloss = gbuffer->gloss};
-    const lsf_interleave_points points = {
-        .depth = gbuffer->depth, .surface = gbuffer->surface, .gloss = gbuffer->gloss};
-    GLuint irradiance = b->shade.outputs.irradiance, specular = b->shade.outputs.specular;
+    const lsf_gbuffer_maps *gbuffer = &b->chain.gbuffer.outputs;
+    lsf_bidirectional_shade_inputs inputs = {.seen = &gbuffer->seen};
+    const lsf_split_light *light = &b->shade.outputs.light;
     share_sky(b, iteration);
     lsf_direct_chain_run(&b->chain, iteration);
     if (b->sampling.interleave > 1) {
-        lsf_interleave_split(&b->interleave, iteration, &points);
-        inputs.depth = b->interleave.split.depth;
-        inputs.surface = b->interleave.split.surface;
-        inputs.gloss = b->interleave.split.gloss;
+        lsf_interleave_split(&b->interleave, iteration, &gbuffer->seen);
+        inputs.seen = &b->interleave.split;
     }
-    if (irradiance)
+    if (light->irradiance)
         run_samples(b, iteration, &inputs);
     if (b->bundle)
         lsf_ray_bundle_end(b->bundle, iteration);
     if (b->sampling.interleave > 1) {
-        const lsf_interleave_light light = {irradiance, specular};
-        lsf_interleave_gather(&b->interleave, iteration, &points, &light);
-        irradiance = b->interleave.light.irradiance;
-        specular = b->interleave.light.specular;
+        lsf_interleave_gather(&b->interleave, iteration, &gbuffer->seen, light);
+        light = &b->interleave.light;
     }
-    lsf_compose_inputs parts = {.depth = gbuffer->depth,
-                                .emission = gbuffer->emission,
-                                .direct = b->chain.direct_light.radiance,
-                                .surface = gbuffer->surface,
-                                .irradiance = irradiance,
-                                .specular = specular,
-                                .direct_irradiance = b->shade.outputs.direct_irradiance,
-                                .direct_specular = b->shade.outputs.direct_specular,
-                                .gloss = gbuffer->gloss,
-                                .tint = gbuffer->tint,
-                                .absorption = gbuffer->absorption};
+    const lsf_compose_inputs parts = {.gbuffer = gbuffer,
+                                      .direct = b->chain.direct_light.radiance,
+                                      .indirect = *light,
+                                      .split_direct = b->shade.outputs.direct};
     lsf_compose_run(&b->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
         .picture = b->compose.radiance,
         .bounded = b->shade_params.bound > 0.0f,
-        .depth = gbuffer->depth,
-        .surface = gbuffer->surface,
+        .depth = gbuffer->seen.depth,
+        .surface = gbuffer->seen.surface,
         .emission = b->compose.seen,
         .coverage = b->compose.coverage,
         .direct = b->compose.direct ? b->compose.direct : b->chain.direct_light.radiance,
         .indirect_diffuse = b->compose.indirect_diffuse,
-        .indirect_specular = b->compose.indirect_specular ? b->compose.indirect_specular : specular,
+        .indirect_specular =
+            b->compose.indirect_specular ? b->compose.indirect_specular : light->specular,
         .motion = gbuffer->motion,
         .gate = b->bundle ? lsf_ray_bundle_gate(b->bundle) : 0,
     };

@@ -194,69 +194,53 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
 }
 
 /* What voxels and the environment shed on visible points. */
-static lsf_cone_trace_outputs trace(cone *c, const lsf_iteration *iteration)
+static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
 {
-    const lsf_gbuffer_outputs *gbuffer = &c->chain.direct.gbuffer.outputs;
+    const lsf_surface_maps *all = &c->chain.direct.gbuffer.outputs.seen, *seen = all;
     lsf_voxel_chain_begin(&c->chain, iteration);
     lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, c->way.width, c->way.height);
-    lsf_upsample_search_points all = {gbuffer->depth, gbuffer->surface, gbuffer->gloss};
-    lsf_upsample_search_points points = all;
     if (c->way.coarse) {
-        lsf_upsample_search_split(&c->upsample, iteration, &all);
+        lsf_upsample_search_split(&c->upsample, iteration, all);
         grid = c->upsample.grid;
-        points = c->upsample.coarse;
+        seen = &c->upsample.coarse;
     }
     const lsf_cone_trace_inputs inputs = {
         .grid = &grid,
-        .depth = points.depth,
-        .surface = points.surface,
-        .gloss = points.gloss,
+        .seen = seen,
         .occupancy = {c->chain.voxels->occupancy[0], c->chain.voxels->occupancy[1]},
         .voxel_normal = c->chain.voxels->normal,
         .voxel_point = c->chain.voxels->point,
         .radiance = light_voxels(c, iteration)};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
-    lsf_upsample_search_light light = {c->trace.outputs.irradiance, c->trace.outputs.specular};
+    const lsf_split_light *light = &c->trace.light;
     if (c->blur.program) {
-        const lsf_blur_inputs patterned = {.grid = &grid,
-                                           .depth = points.depth,
-                                           .surface = points.surface,
-                                           .gloss = points.gloss,
-                                           .irradiance = light.irradiance,
-                                           .specular = light.specular};
+        const lsf_blur_inputs patterned = {.grid = &grid, .seen = seen, .light = light};
         lsf_blur_run(&c->blur, iteration, &patterned);
-        light = (lsf_upsample_search_light){c->blur.outputs.irradiance, c->blur.outputs.specular};
+        light = &c->blur.light;
     }
     if (!c->way.coarse)
-        return (lsf_cone_trace_outputs){light.irradiance, light.specular};
-    lsf_upsample_search_run(&c->upsample, iteration, &all, &light);
-    return (lsf_cone_trace_outputs){c->upsample.light.irradiance, c->upsample.light.specular};
+        return *light;
+    lsf_upsample_search_run(&c->upsample, iteration, all, light);
+    return c->upsample.light;
 }
 
 static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
 {
     cone *c = self;
     const lsf_direct_chain *direct = &c->chain.direct;
-    const lsf_gbuffer_outputs *gbuffer = &direct->gbuffer.outputs;
-    lsf_cone_trace_outputs light = {0};
+    const lsf_gbuffer_maps *gbuffer = &direct->gbuffer.outputs;
+    lsf_split_light light = {0};
     if (c->way.traced)
         light = trace(c, iteration);
     else
         lsf_direct_chain_run(&c->chain.direct, iteration);
-    lsf_compose_inputs parts = {.depth = gbuffer->depth,
-                                .emission = gbuffer->emission,
-                                .direct = direct->direct_light.radiance,
-                                .surface = gbuffer->surface,
-                                .irradiance = light.irradiance,
-                                .specular = light.specular,
-                                .gloss = gbuffer->gloss,
-                                .tint = gbuffer->tint,
-                                .absorption = gbuffer->absorption};
+    const lsf_compose_inputs parts = {
+        .gbuffer = gbuffer, .direct = direct->direct_light.radiance, .indirect = light};
     lsf_compose_run(&c->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
         .picture = c->compose.radiance,
-        .depth = gbuffer->depth,
-        .surface = gbuffer->surface,
+        .depth = gbuffer->seen.depth,
+        .surface = gbuffer->seen.surface,
         .emission = c->compose.seen,
         .coverage = c->compose.coverage,
         .direct = c->compose.direct ? c->compose.direct : direct->direct_light.radiance,

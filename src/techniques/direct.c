@@ -59,20 +59,17 @@ static bool create_direct(void **self, lsf_context *context, const lsf_plan *pla
 static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
 {
     direct *d = self;
-    const lsf_gbuffer_outputs *gbuffer = &d->chain.gbuffer.outputs;
+    const lsf_gbuffer_maps *gbuffer = &d->chain.gbuffer.outputs;
     lsf_direct_chain_run(&d->chain, iteration);
     if (d->composed) {
-        lsf_compose_inputs inputs = {.depth = gbuffer->depth,
-                                     .emission = gbuffer->emission,
-                                     .direct = d->chain.direct_light.radiance,
-                                     .tint = gbuffer->tint,
-                                     .absorption = gbuffer->absorption};
+        const lsf_compose_inputs inputs = {.gbuffer = gbuffer,
+                                           .direct = d->chain.direct_light.radiance};
         lsf_compose_run(&d->compose, iteration, &inputs);
     }
     *outputs = (lsf_technique_outputs){
         .picture = d->composed ? d->compose.radiance : d->chain.direct_light.radiance,
-        .depth = gbuffer->depth,
-        .surface = gbuffer->surface,
+        .depth = gbuffer->seen.depth,
+        .surface = gbuffer->seen.surface,
         .emission = d->compose.seen,
         .coverage = d->compose.coverage,
         .direct = d->compose.direct ? d->compose.direct : d->chain.direct_light.radiance,

@@ -58,12 +58,9 @@ void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iterat
 
 void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration, uint32_t light)
 {
-    const lsf_gbuffer_outputs *gbuffer = &chain->gbuffer.outputs;
     lsf_shadow_map_run(&chain->shadow_map, iteration, light);
     lsf_direct_light_inputs inputs = {
-        .depth = gbuffer->depth,
-        .surface = gbuffer->surface,
-        .gloss = gbuffer->gloss,
+        .seen = &chain->gbuffer.outputs.seen,
         .shadow_depth = chain->shadow_map.outputs.depth,
         .shadow_gradient = chain->shadow_map.outputs.gradient,
         .shadow_tint = chain->shadow_map.outputs.tint,
@@ -73,15 +70,12 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
 
 void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteration)
 {
-    const lsf_gbuffer_outputs *gbuffer = &chain->gbuffer.outputs;
     const lsf_sky_map_outputs *maps = &chain->sky_map.outputs;
     if (!chain->sky_map.timer)
         return;
     lsf_sky_map_begin(&chain->sky_map, iteration);
     while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(&chain->sky_map, iteration)) {
-        lsf_direct_light_inputs inputs = {.depth = gbuffer->depth,
-                                          .surface = gbuffer->surface,
-                                          .gloss = gbuffer->gloss,
+        lsf_direct_light_inputs inputs = {.seen = &chain->gbuffer.outputs.seen,
                                           .shadow_depth = maps->map,
                                           .shadow_tint = maps->tint,
                                           .directions = maps->count};

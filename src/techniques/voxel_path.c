@@ -118,23 +118,18 @@ static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
     return lsf_voxel_chain_update(&v->chain, params, iteration, &use, changes);
 }
 
-/* Irradiance and specular of the picture's size, in `parts`. */
+/* Indirect light of the picture's size, in `parts`, and direct light that is asked for apart. */
 static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose_inputs *parts)
 {
-    const lsf_gbuffer_outputs *gbuffer = &v->chain.direct.gbuffer.outputs;
+    const lsf_surface_maps *all = &v->chain.direct.gbuffer.outputs.seen, *seen = all;
     const lsf_voxelize_outputs *voxels = v->chain.voxels;
-    const lsf_upsample_search_points points = {
-        .depth = gbuffer->depth, .surface = gbuffer->surface, .gloss = gbuffer->gloss};
-    lsf_upsample_search_points seen = points;
     lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, v->width, v->height);
     if (grid.coarse) {
-        lsf_upsample_search_split(&v->upsample, iteration, &points);
-        seen = v->upsample.coarse;
+        lsf_upsample_search_split(&v->upsample, iteration, all);
+        seen = &v->upsample.coarse;
     }
     const lsf_voxel_path_inputs inputs = {.grid = &grid,
-                                          .depth = seen.depth,
-                                          .surface = seen.surface,
-                                          .gloss = seen.gloss,
+                                          .seen = seen,
                                           .occupancy = {voxels->occupancy[0], voxels->occupancy[1]},
                                           .voxel_albedo = voxels->albedo,
                                           .voxel_normal = voxels->normal,
@@ -144,51 +139,40 @@ static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose
                                           .voxel_transmission = voxels->transmission,
                                           .radiance = v->chain.light.radiance};
     lsf_voxel_path_run(&v->path, iteration, &inputs);
-    lsf_upsample_search_light light = {v->path.outputs.irradiance, v->path.outputs.specular};
+    const lsf_split_light *light = &v->path.outputs.light;
     if (v->blur.program) {
-        const lsf_blur_inputs noisy = {.grid = &grid,
-                                       .depth = seen.depth,
-                                       .surface = seen.surface,
-                                       .gloss = seen.gloss,
-                                       .irradiance = light.irradiance,
-                                       .specular = light.specular};
+        const lsf_blur_inputs noisy = {.grid = &grid, .seen = seen, .light = light};
         lsf_blur_run(&v->blur, iteration, &noisy);
-        light = (lsf_upsample_search_light){v->blur.outputs.irradiance, v->blur.outputs.specular};
+        light = &v->blur.light;
     }
     if (grid.coarse) {
-        lsf_upsample_search_run(&v->upsample, iteration, &points, &light);
-        light = v->upsample.light;
+        lsf_upsample_search_run(&v->upsample, iteration, all, light);
+        light = &v->upsample.light;
     }
-    parts->irradiance = light.irradiance;
-    parts->specular = light.specular;
-    parts->direct_irradiance = v->path.outputs.direct_irradiance;
-    parts->direct_specular = v->path.outputs.direct_specular;
+    parts->indirect = *light;
+    parts->split_direct = v->path.outputs.direct;
 }
 
 static void run_voxel_path(void *self, const lsf_iteration *iteration,
                            lsf_technique_outputs *outputs)
 {
     voxel_path *v = self;
-    const lsf_gbuffer_outputs *gbuffer = &v->chain.direct.gbuffer.outputs;
+    const lsf_gbuffer_maps *gbuffer = &v->chain.direct.gbuffer.outputs;
     lsf_voxel_chain_run(&v->chain, iteration);
     GLuint direct = v->chain.direct.direct_light.radiance;
-    lsf_compose_inputs parts = {.depth = gbuffer->depth,
-                                .emission = gbuffer->emission,
-                                .direct = direct,
-                                .surface = gbuffer->surface,
-                                .gloss = gbuffer->gloss};
+    lsf_compose_inputs parts = {.gbuffer = gbuffer, .direct = direct};
     if (v->width > 0)
         run_paths(v, iteration, &parts);
     lsf_compose_run(&v->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
         .picture = v->compose.radiance,
-        .depth = gbuffer->depth,
-        .surface = gbuffer->surface,
+        .depth = gbuffer->seen.depth,
+        .surface = gbuffer->seen.surface,
         .emission = v->compose.seen,
         .coverage = v->compose.coverage,
         .direct = v->compose.direct ? v->compose.direct : direct,
         .indirect_diffuse = v->compose.indirect_diffuse,
-        .indirect_specular = parts.specular,
+        .indirect_specular = parts.indirect.specular,
         .motion = gbuffer->motion,
     };
     lsf_voxel_chain_view(&v->chain, iteration, outputs);

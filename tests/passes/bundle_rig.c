@@ -4,7 +4,7 @@
 
 static void read_back(bundle_rig *rig, GLuint hits)
 {
-    const lsf_gbuffer_outputs *gbuffer = &rig->gbuffer.outputs;
+    const lsf_surface_maps *gbuffer = &rig->gbuffer.outputs.seen;
     GLsizei pixels = (GLsizei)(rig->width * rig->height);
     rig->depth = malloc((size_t)pixels * 4);
     rig->surface = malloc((size_t)pixels * 16);
@@ -41,9 +41,9 @@ void bundle_rig_run(bundle_rig *rig, const lsf_scene *scene, const lsf_render_pa
     lsf_gbuffer_run(&rig->gbuffer, &rig->iteration);
     const lsf_ray_bundle_direction along = {{direction.x, direction.y, direction.z}, 0.5f};
     const lsf_region region = {0, 0, (int32_t)rig->width, (int32_t)rig->height, 0, 0};
-    const lsf_ray_bundle_origins origins = {.depth = rig->gbuffer.outputs.depth,
-                                            .surface = rig->gbuffer.outputs.surface};
-    lsf_ray_bundle_aim(rig->bundle, &rig->iteration, &along, rig->gbuffer.outputs.depth);
+    const lsf_ray_bundle_origins origins = {.depth = rig->gbuffer.outputs.seen.depth,
+                                            .surface = rig->gbuffer.outputs.seen.surface};
+    lsf_ray_bundle_aim(rig->bundle, &rig->iteration, &along, rig->gbuffer.outputs.seen.depth);
     GLuint hits;
     uint32_t done;
     do {

@@ -3,6 +3,7 @@
 #define LSF_TESTS_PASSES_SURFACE_RIG_H
 
 #include "plan/coarse_grid.h"
+#include "plan/maps.h"
 #include "render_gl.h"
 #include "techniques/setup.h"
 
@@ -20,7 +21,7 @@ typedef struct surface_rig {
     lsf_scene_gpu scene_gpu;
     lsf_iteration iteration;
     uint32_t width, height;
-    GLuint depth, surface, gloss;
+    lsf_surface_maps maps;
     float *depths;
     uint32_t (*surfaces)[4], (*glosses)[2];
 } surface_rig;

@@ -68,14 +68,10 @@ static void rig_run(rig *r)
         surface_rig_write(in[part], w, h, r->texels[0]);
     }
     lsf_coarse_grid grid = lsf_coarse_grid_at(&r->s.iteration, w, h);
-    lsf_blur_inputs inputs = {.grid = &grid,
-                              .depth = r->s.depth,
-                              .surface = r->s.surface,
-                              .gloss = r->s.gloss,
-                              .irradiance = r->irradiance,
-                              .specular = r->specular};
+    const lsf_split_light light = {r->irradiance, r->specular};
+    const lsf_blur_inputs inputs = {.grid = &grid, .seen = &r->s.maps, .light = &light};
     lsf_blur_run(&r->pass, &r->s.iteration, &inputs);
-    const GLuint out[2] = {r->pass.outputs.irradiance, r->pass.outputs.specular};
+    const GLuint out[2] = {r->pass.light.irradiance, r->pass.light.specular};
     for (int part = 0; part < 2; part++) {
         surface_rig_read(out[part], w, h, r->texels[0]);
         for (uint32_t i = 0; i < w * h; i++)
@@ -381,7 +377,7 @@ static void no_phases_no_pass(void **unused)
     r.params.phases = 0;
     rig_start(&r);
     assert_null(lsf_plan_find_pass(r.s.setup.plan, "blur"));
-    assert_int_equal(r.pass.outputs.irradiance, 0);
+    assert_int_equal(r.pass.light.irradiance, 0);
     rig_end(&r);
 }
 

@@ -82,10 +82,9 @@ static void rig_run(rig *r)
     surface_rig_upload(&r->s);
     surface_rig_write(r->irradiance, r->s.width, r->s.height, irradiance[0]);
     surface_rig_write(r->specular, r->s.width, r->s.height, specular[0]);
-    const lsf_interleave_points points = {r->s.depth, r->s.surface, r->s.gloss};
-    const lsf_interleave_light split = {r->irradiance, r->specular};
-    lsf_interleave_split(&r->pass, &r->s.iteration, &points);
-    lsf_interleave_gather(&r->pass, &r->s.iteration, &points, &split);
+    const lsf_split_light split = {r->irradiance, r->specular};
+    lsf_interleave_split(&r->pass, &r->s.iteration, &r->s.maps);
+    lsf_interleave_gather(&r->pass, &r->s.iteration, &r->s.maps, &split);
     read_light(r, r->pass.light.irradiance, offsetof(light, irradiance));
     read_light(r, r->pass.light.specular, offsetof(light, specular));
 }

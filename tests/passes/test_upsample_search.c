@@ -58,26 +58,19 @@ static uint32_t pixel_of(uint32_t texel, uint32_t size, uint32_t length, uint32_
     return first + (next - first) * offset / 65536u;
 }
 
-static lsf_upsample_search_points points(const rig *r)
-{
-    return (lsf_upsample_search_points){r->s.depth, r->s.surface, r->s.gloss};
-}
-
 static void rig_split(rig *r, uint32_t iteration)
 {
-    const lsf_upsample_search_points gbuffer = points(r);
     lsf_iteration_begin(&r->s.iteration, iteration);
     surface_rig_upload(&r->s);
-    lsf_upsample_search_split(&r->pass, &r->s.iteration, &gbuffer);
+    lsf_upsample_search_split(&r->pass, &r->s.iteration, &r->s.maps);
 }
 
 static void rig_run(rig *r)
 {
-    const lsf_upsample_search_points gbuffer = points(r);
-    const lsf_upsample_search_light light = {r->irradiance, r->specular};
+    const lsf_split_light light = {r->irradiance, r->specular};
     surface_rig_write(r->irradiance, r->width, r->height, r->in);
     surface_rig_write(r->specular, r->width, r->height, r->in);
-    lsf_upsample_search_run(&r->pass, &r->s.iteration, &gbuffer, &light);
+    lsf_upsample_search_run(&r->pass, &r->s.iteration, &r->s.maps, &light);
     float *specular = r->out;
     surface_rig_read(r->pass.light.specular, r->s.width, r->s.height, specular);
     float *copy = malloc(r->s.width * r->s.height * 4 * sizeof *copy);

@@ -1,0 +1,33 @@
+/* Textures that passes hand to each other, of the picture's size or of a grid's. Names are
+ * borrowed. */
+#ifndef LSF_PLAN_MAPS_H
+#define LSF_PLAN_MAPS_H
+
+#include "gl/gl.h"
+
+/* Points on surfaces: what the picture's pixels see, or the same in another order or of fewer
+ * pixels. Formats as in lib/gbuffer.glsl. */
+typedef struct lsf_surface_maps {
+    GLuint depth;   /* reverse-Z, 0 where nothing is seen: DEPTH_COMPONENT32F, or a copy in R32F */
+    GLuint surface; /* RGBA32UI */
+    GLuint gloss;   /* R32UI or RG32UI; 0: roughness and metallic are the same everywhere */
+} lsf_surface_maps;
+
+/* Light at such points, RGBA32F; both 0: there is none. */
+typedef struct lsf_split_light {
+    GLuint irradiance; /* for the diffuse lobe, without its albedo */
+    GLuint specular;   /* radiance of the specular lobe; 0: there is no such lobe */
+} lsf_split_light;
+
+/* What the G-buffer holds. */
+typedef struct lsf_gbuffer_maps {
+    lsf_surface_maps seen;
+    GLuint emission;         /* RGBA32F, radiance; 0: nothing emits */
+    GLuint motion;           /* RG32F, pixels; 0 unless asked for */
+    GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye; 0: none is lost */
+} lsf_gbuffer_maps;
+
+/* For lib/gbuffer_textures.glsl, to units 0 to 2. */
+void lsf_surface_maps_bind(const lsf_surface_maps *maps);
+
+#endif
