@@ -246,9 +246,7 @@ static void bind_vertices(const lsf_bidirectional_shade *pass,
         lsf_bind_texture(3, pass->throughput);
         glUniform3fv(LSF_LOCATION_ARRIVAL, 1, sample->arrival);
     }
-    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->map_depth);
-    lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->map_gradient);
-    lsf_bind_texture(LSF_UNIT_SHADOW_TINT, inputs->map_tint);
+    lsf_shadow_bind(inputs->shadow);
     lsf_bind_texture(LSF_UNIT_BUNDLE_PDF, inputs->bundle_pdf);
 }
 
@@ -291,6 +289,7 @@ void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iterat
     lsf_blend_add(pass->outputs.light.specular ? 2 : 1);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, inputs->vpls);
     glUniform1ui(LSF_LOCATION_VPL, vpl);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);
@@ -311,6 +310,7 @@ void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iterat
     lsf_blend_add(pass->hit_floats[deep]);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
+    lsf_bundle_nodes_bind(&inputs->nodes);
     lsf_bind_texture(4, inputs->hits);
     lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
     lsf_scene_gpu_bind_environment(iteration->scene);

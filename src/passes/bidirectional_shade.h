@@ -3,7 +3,8 @@
 #ifndef LSF_PASSES_BIDIRECTIONAL_SHADE_H
 #define LSF_PASSES_BIDIRECTIONAL_SHADE_H
 
-#include "plan/iteration.h"
+#include "plan/bundle_nodes.h"
+#include "plan/light_map.h"
 #include "plan/maps.h"
 #include "plan/option.h"
 
@@ -75,12 +76,13 @@ typedef struct lsf_bidirectional_sample {
 } lsf_bidirectional_sample;
 
 typedef struct lsf_bidirectional_shade_inputs {
-    const lsf_surface_maps *seen;   /* or the same split; not read for deep vertices */
-    GLuint hits;                    /* of the bundle in turn; hits only */
-    GLuint map_depth, map_gradient; /* of the light for hits; the map of the VPL in turn, and 0 */
-    GLuint map_tint;                /* of it; 0: nothing lets light through */
-    GLuint importance;              /* of the light's map, with adaptive emission */
-    GLuint bundle_pdf;              /* 0: uniform */
+    const lsf_surface_maps *seen; /* or the same split; not read for deep vertices */
+    const lsf_shadow *shadow;     /* of the VPL in turn, or of the light that hits reflect */
+    GLuint vpls;                  /* buffer; VPLs only */
+    lsf_bundle_nodes nodes;       /* of the bundle in turn; hits only */
+    GLuint hits;                  /* on them, as ray_bundle finds them; hits only */
+    GLuint importance;            /* of the light's map, with adaptive emission */
+    GLuint bundle_pdf;            /* 0: uniform */
 } lsf_bidirectional_shade_inputs;
 
 /* Alpha of light: luminance that the bound took away. Position: RGBA32F. */
@@ -110,14 +112,13 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
                                     const lsf_bidirectional_shade_params *params, lsf_error *error);
 /* Empties the sums. */
 void lsf_bidirectional_shade_clear(lsf_bidirectional_shade *pass);
-/* Adds what VPL `vpl` sheds on the vertices of `region`: visible points, or deep ones. Its map must
- * be bound as the light in turn, the VPLs at LSF_BINDING_VPL. */
+/* Adds what VPL `vpl` sheds on the vertices of `region`: visible points, or deep ones. */
 void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
                                  const lsf_bidirectional_shade_inputs *inputs,
                                  const lsf_bidirectional_sample *sample, bool deep, uint32_t vpl,
                                  const lsf_region *region);
-/* Adds what the bundle in turn, which must be bound, brings to the vertices of `region`: `emission`
- * of what it met, and the `light` in turn that this reflects. The hits then become the vertices. */
+/* Adds what the bundle in turn brings to the vertices of `region`: `emission` of what it met, and
+ * the `light` that this reflects. The hits then become the vertices. */
 void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
                                  const lsf_bidirectional_shade_inputs *inputs,
                                  const lsf_bidirectional_sample *sample, bool deep, bool emission,

@@ -123,10 +123,7 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_coarse_grid_set(inputs->grid);
     lsf_surface_maps_bind(inputs->seen);
     lsf_bind_texture(3, pass->lobe_albedo);
-    for (GLuint level = 0; level < 2; level++)
-        lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
-    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
-    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
+    lsf_voxels_bind(inputs->voxels);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (iteration->plan->requirements.environment)

@@ -9,9 +9,8 @@
 typedef struct lsf_cone_trace_inputs {
     const lsf_coarse_grid *grid;
     const lsf_surface_maps *seen; /* by the grid */
-    GLuint occupancy[2];          /* of voxelize, the finest levels */
-    GLuint voxel_normal, voxel_point;
-    GLuint radiance; /* the pyramid; voxel_light.h, voxel_mip.h */
+    const lsf_voxels *voxels;
+    GLuint radiance; /* the pyramid over them; voxel_light.h, voxel_mip.h */
 } lsf_cone_trace_inputs;
 
 typedef struct lsf_cone_trace {
@@ -32,7 +31,6 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
 bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_cone_params *params, const lsf_voxel_grid *grid,
                            lsf_error *error);
-/* The grid must be bound at LSF_BINDING_VOXEL. */
 void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
                         const lsf_cone_trace_inputs *inputs);
 void lsf_cone_trace_destroy(lsf_cone_trace *pass);

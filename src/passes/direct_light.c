@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "plan/light_map.h"
 #include "plan/light_walls.h"
 #include "shared/scene_data.h"
 
@@ -88,9 +87,7 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
                          sky ? pass->sky_program : pass->program);
     lsf_blend_add(1);
     lsf_surface_maps_bind(inputs->seen);
-    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, inputs->shadow_depth);
-    lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, inputs->shadow_gradient);
-    lsf_bind_texture(LSF_UNIT_SHADOW_TINT, inputs->shadow_tint);
+    lsf_shadow_bind(inputs->shadow);
     if (sky)
         glUniform1i(0, (GLint)inputs->directions);
     if (sky && pass->use.chance != LSF_SKY_CHANCE_NONE)

@@ -2,15 +2,13 @@
 #ifndef LSF_PASSES_DIRECT_LIGHT_H
 #define LSF_PASSES_DIRECT_LIGHT_H
 
-#include "plan/iteration.h"
+#include "plan/light_map.h"
 #include "plan/maps.h"
 
 typedef struct lsf_direct_light_inputs {
     const lsf_surface_maps *seen;
-    GLuint shadow_depth, shadow_gradient,
-        shadow_tint;     /* of the light in turn, whose buffer is bound */
-    uint32_t directions; /* of the environment, in the place of one light: shadow_depth is their
-                          * maps, whose buffer is bound; there are no gradients. 0: it is a light */
+    const lsf_shadow *shadow;
+    uint32_t directions; /* of the environment that the shadow is of; 0: it is of a light */
 } lsf_direct_light_inputs;
 
 /* What else finds the environment from a visible point, by chance: its light is shared with that.
@@ -41,7 +39,7 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_direct_light_use *use, lsf_error *error);
 void lsf_direct_light_clear(lsf_direct_light *pass);
-/* Adds the light, or the directions, whose shadow map was drawn last. */
+/* Adds the light, or the directions. */
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
                           const lsf_direct_light_inputs *inputs);
 void lsf_direct_light_destroy(lsf_direct_light *pass);

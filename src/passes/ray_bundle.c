@@ -153,12 +153,17 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **out, lsf_context *context, const lsf
            pass->search_timer;
 }
 
-void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle)
+lsf_bundle_nodes lsf_ray_bundle_nodes(const lsf_ray_bundle *pass, uint32_t bundle)
 {
-    glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_BUNDLE, pass->projection_buffer,
-                      (GLintptr)(bundle * sizeof *pass->projections),
-                      sizeof(struct lsf_bundle_data));
-    lsf_ray_bundle_nodes_bind(&pass->slots[bundle % pass->use.slots]);
+    return (lsf_bundle_nodes){.projections = pass->projection_buffer,
+                              .offset = (GLintptr)(bundle * sizeof *pass->projections),
+                              .arrays = pass->slots[bundle % pass->use.slots].arrays};
+}
+
+static void bind_nodes(const lsf_ray_bundle *pass, uint32_t bundle)
+{
+    const lsf_bundle_nodes nodes = lsf_ray_bundle_nodes(pass, bundle);
+    lsf_bundle_nodes_bind(&nodes);
 }
 
 /* No fragments in any texel. */
@@ -190,7 +195,7 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     glEnable(GL_SCISSOR_TEST);
     glScissor(margin, margin, (GLsizei)pass->side, (GLsizei)pass->side);
     clear_lists(pass, &pass->slots[bundle % pass->use.slots]);
-    lsf_ray_bundle_bind(pass, bundle);
+    bind_nodes(pass, bundle);
     glBeginQuery(GL_SAMPLES_PASSED, pass->samples_query);
     if (pass->small_program) {
         lsf_ray_bundle_raster_run(pass, iteration, bundle);
@@ -234,7 +239,7 @@ GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteratio
 {
     static const GLuint zero = 0;
     lsf_timer_begin(pass->search_timer);
-    lsf_ray_bundle_bind(pass, bundle);
+    bind_nodes(pass, bundle);
     lsf_ray_bundle_nodes_bind_textures(&pass->slots[bundle % pass->use.slots]);
     lsf_begin_fullscreen(pass->hits_framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->search_program);

@@ -3,6 +3,7 @@
 #ifndef LSF_PASSES_RAY_BUNDLE_H
 #define LSF_PASSES_RAY_BUNDLE_H
 
+#include "plan/bundle_nodes.h"
 #include "plan/iteration.h"
 #include "plan/option.h"
 #include "shared/bundle_data.h"
@@ -82,8 +83,8 @@ void lsf_ray_bundle_aim(lsf_ray_bundle *pass, const lsf_iteration *iteration,
                         const lsf_ray_bundle_direction *directions, GLuint depth);
 /* Draws the scene into the lists of a bundle. */
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle);
-/* Binds a bundle's projection and nodes for readers of lib/ray_bundle.glsl. */
-void lsf_ray_bundle_bind(const lsf_ray_bundle *pass, uint32_t bundle);
+/* What a bundle has met, until its slot is built again. */
+lsf_bundle_nodes lsf_ray_bundle_nodes(const lsf_ray_bundle *pass, uint32_t bundle);
 /* The nearest fragment beyond each origin in the region. RG32UI of the picture's size, valid until
  * the next search: x the distance as float bits, y the node, LSF_NO_NODE when the ray leaves the
  * scene. */

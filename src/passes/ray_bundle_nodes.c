@@ -266,12 +266,6 @@ bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t ne
     return true;
 }
 
-void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot)
-{
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_NODES, LSF_RAY_BUNDLE_ARRAYS,
-                      slot->arrays);
-}
-
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot)
 {
     lsf_bind_texture(3, slot->head_fetch);

@@ -5,18 +5,6 @@
 #include "passes/ray_bundle.h"
 #include "plan/triangle_fetch.h"
 
-/* Arrays of nodes; lib/ray_bundle.glsl says what they hold. Bound from LSF_BINDING_BUNDLE_NODES on.
- */
-enum {
-    LSF_RAY_BUNDLE_HEADS,
-    LSF_RAY_BUNDLE_KEYS,
-    LSF_RAY_BUNDLE_SURFACES,
-    LSF_RAY_BUNDLE_GLOSS,
-    LSF_RAY_BUNDLE_EMISSION,
-    LSF_RAY_BUNDLE_CHAIN,
-    LSF_RAY_BUNDLE_ARRAYS,
-};
-
 /* The nodes of one bundle. */
 typedef struct lsf_ray_bundle_slot {
     uint32_t index;
@@ -81,7 +69,6 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
  * bundles use fewer texels. On failure there are no nodes at all. */
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
                                lsf_error *error);
-void lsf_ray_bundle_nodes_bind(const lsf_ray_bundle_slot *slot);
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot);
 void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
 

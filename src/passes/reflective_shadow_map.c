@@ -198,12 +198,13 @@ bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_conte
 {
     static const char *const files[5] = {"passes/reflective_shadow_map.vert.glsl",
                                          "passes/reflective_shadow_map.frag.glsl"};
-    *pass = (lsf_reflective_shadow_map){.context = context};
+    *pass = (lsf_reflective_shadow_map){.context = context,
+                                        .outputs.shadow.size = sizeof(struct lsf_light_data)};
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         if (!create_target(&pass->targets[kind], context, plan, kind, error))
             return false;
     if (!lsf_plan_create_buffer(plan, context, "reflective_shadow_map.light", NULL,
-                                GL_DYNAMIC_STORAGE_BIT, &pass->outputs.light_buffer, error))
+                                GL_DYNAMIC_STORAGE_BIT, &pass->outputs.shadow.light, error))
         return false;
     pass->program = lsf_plan_program(plan, context, "reflective_shadow_map", files, error);
     pass->timer = lsf_timer_create(context, "reflective_shadow_map", error);
@@ -234,7 +235,7 @@ static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_reflective_shadow
     glUseProgram(pass->rows_program);
     glDispatchCompute((target->faces * target->resolution + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHT, out->light_buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHT, out->shadow.light);
     glUseProgram(pass->scan_program);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
@@ -254,8 +255,8 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     lsf_reflective_shadow_map_outputs *out = &pass->outputs;
     lsf_timer_begin(pass->timer);
     lsf_light_map_project(&out->light, iteration, light_index, &layout);
-    glNamedBufferSubData(out->light_buffer, 0, sizeof out->light, &out->light);
-    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->light_buffer);
+    glNamedBufferSubData(out->shadow.light, 0, sizeof out->light, &out->light);
+    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->shadow.light);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
         lsf_light_map_region(&out->light, face, &region);
@@ -276,11 +277,10 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
                                  LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP, light_index,
                                  target->depth, &region, pass->counts);
     }
-    out->depth = target->depth;
-    out->gradient = target->gradient;
-    out->surface = target->surface;
-    out->gloss = target->gloss;
-    out->tint = target->tint;
+    out->shadow.depth = target->depth;
+    out->shadow.gradient = target->gradient;
+    out->shadow.tint = target->tint;
+    out->seen = (lsf_surface_maps){target->depth, target->surface, target->gloss};
     out->importance = target->importance;
     lsf_timer_end(pass->timer);
     if (pass->pdf_timer)
@@ -307,7 +307,7 @@ void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass)
         return;
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
-    lsf_buffer_destroy(pass->context, &pass->outputs.light_buffer);
+    lsf_buffer_destroy(pass->context, &pass->outputs.shadow.light);
     lsf_buffer_destroy(pass->context, &pass->outputs.sums);
     lsf_timer_destroy(pass->timer);
     lsf_timer_destroy(pass->pdf_timer);

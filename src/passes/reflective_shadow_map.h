@@ -5,6 +5,7 @@
 
 #include "plan/light_map.h"
 #include "plan/light_walls.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 
 typedef enum lsf_reflective_shadow_map_pdf {
@@ -24,18 +25,13 @@ typedef struct lsf_reflective_shadow_map_params {
 extern const lsf_option_row
     lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT];
 
-/* Valid until the next run. 2D arrays with a layer for each face. Depth and gradient are those of
- * a shadow map, for readers of lib/shadow.glsl. */
+/* Valid until the next run. 2D arrays with a layer for each face. */
 typedef struct lsf_reflective_shadow_map_outputs {
-    GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
-    GLuint gradient;     /* RG16F */
-    GLuint surface;      /* RGBA32UI as in lib/gbuffer.glsl, normals towards the light */
-    GLuint gloss;        /* R32UI or RG32UI, likewise; 0 when the scene does not require it */
-    GLuint tint;         /* RGB10_A2: of light that passes thin walls; 0: there are none */
-    GLuint light_buffer; /* struct lsf_light_data */
-    GLuint importance;   /* R32F; with adaptive emission, see lib/emission_pdf.glsl */
-    GLuint sums;         /* buffer of floats: running sums of importance along each row, then over
-                          * the rows; with adaptive emission */
+    lsf_shadow shadow;     /* as shadow_map's */
+    lsf_surface_maps seen; /* by the light, normals towards it; depth is the shadow's */
+    GLuint importance;     /* R32F; with adaptive emission, see lib/emission_pdf.glsl */
+    GLuint sums;           /* buffer of floats: running sums of importance along each row, then over
+                            * the rows; with adaptive emission */
     struct lsf_light_data light;
 } lsf_reflective_shadow_map_outputs;
 
@@ -62,8 +58,8 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
                                     const lsf_state *state);
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error);
-/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration,
- * and leaves light_buffer bound to LSF_BINDING_LIGHT, importance to LSF_UNIT_EMISSION. */
+/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration.
+ */
 void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
                                    uint32_t light_index);
 void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass);

@@ -145,13 +145,14 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
 {
     static const char *const files[5] = {"passes/shadow_map.vert.glsl",
                                          "passes/shadow_map.frag.glsl"};
-    *pass = (lsf_shadow_map){.context = context};
+    *pass =
+        (lsf_shadow_map){.context = context, .outputs.shadow.size = sizeof(struct lsf_light_data)};
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         if (!create_target(&pass->targets[kind], context, plan, kinds[kind].name, error))
             return false;
     if (!create_target(&pass->scene, context, plan, "scene", error) ||
         !lsf_plan_create_buffer(plan, context, "shadow_map.light", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                &pass->outputs.light_buffer, error))
+                                &pass->outputs.shadow.light, error))
         return false;
     pass->program = lsf_plan_program(plan, context, "shadow_map", files, error);
     pass->timer = lsf_timer_create(context, "shadow_map", error);
@@ -171,8 +172,8 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
     struct lsf_light_data *data = &pass->outputs.light;
     lsf_timer_begin(pass->timer);
     lsf_light_map_project(data, iteration, light_index, &layout);
-    glNamedBufferSubData(pass->outputs.light_buffer, 0, sizeof *data, data);
-    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, pass->outputs.light_buffer);
+    glNamedBufferSubData(pass->outputs.shadow.light, 0, sizeof *data, data);
+    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, pass->outputs.shadow.light);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
         lsf_light_map_region(data, face, &region);
@@ -192,9 +193,9 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
                              target->resolution, (GLint)face, LSF_PURPOSE_STRAIGHT_SHADOW_MAP,
                              light_index, target->depth, &region, pass->counts);
     }
-    pass->outputs.depth = target->depth;
-    pass->outputs.gradient = target->gradient;
-    pass->outputs.tint = target->tint;
+    pass->outputs.shadow.depth = target->depth;
+    pass->outputs.shadow.gradient = target->gradient;
+    pass->outputs.shadow.tint = target->tint;
     lsf_timer_end(pass->timer);
 }
 
@@ -235,7 +236,7 @@ void lsf_shadow_map_destroy(lsf_shadow_map *pass)
     for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
     destroy_target(pass->context, &pass->scene);
-    lsf_buffer_destroy(pass->context, &pass->outputs.light_buffer);
+    lsf_buffer_destroy(pass->context, &pass->outputs.shadow.light);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

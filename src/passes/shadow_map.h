@@ -25,13 +25,11 @@ typedef struct lsf_shadow_map_params {
 #define LSF_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT];
 
-/* Depth and its slope, valid until the next run. 2D arrays with a layer for each face. */
+/* Valid until the next run. 2D arrays with a layer for each face. Depth is reverse-Z, 0 where the
+ * light meets nothing; gradient is its change per texel along x and y, relative to the depth in
+ * perspective maps, and left out with pcf. */
 typedef struct lsf_shadow_map_outputs {
-    GLuint depth;        /* DEPTH_COMPONENT32F, reverse-Z, 0 where the light meets nothing */
-    GLuint gradient;     /* RG16F: depth's change per texel along x and y, relative to the
-                          * depth in perspective maps; 0 (the name) with pcf */
-    GLuint tint;         /* RGB10_A2: of light that passes thin walls; 0: there are none */
-    GLuint light_buffer; /* struct lsf_light_data */
+    lsf_shadow shadow;
     struct lsf_light_data light;
 } lsf_shadow_map_outputs;
 

@@ -68,12 +68,13 @@ static bool create_straight(lsf_sky_map *pass, const lsf_plan *plan, lsf_error *
                                               "passes/sky_map_straight_tint.frag.glsl"};
     if (!lsf_plan_find_pass(plan, "sky_map_straight"))
         return true;
-    if (!lsf_plan_create_texture(plan, pass->context, "sky_map.tint", &pass->outputs.tint, error))
+    if (!lsf_plan_create_texture(plan, pass->context, "sky_map.tint", &pass->outputs.shadow.tint,
+                                 error))
         return false;
     for (uint32_t i = 0; i < pass->batch; i++) {
         lsf_framebuffer_desc desc = {.label = "sky_map.tint",
                                      .color_count = 1,
-                                     .colors = {pass->outputs.tint},
+                                     .colors = {pass->outputs.shadow.tint},
                                      .layer = (int32_t)i};
         pass->tint_framebuffers[i] = lsf_framebuffer_create(pass->context, &desc, error);
         if (!pass->tint_framebuffers[i])
@@ -99,10 +100,11 @@ static void create_array(lsf_sky_map *pass, const lsf_scene_gpu *scene)
 static bool create_buffers(lsf_sky_map *pass, const lsf_plan *plan, lsf_error *error)
 {
     lsf_context *context = pass->context;
-    return lsf_plan_create_texture(plan, context, "sky_map.map", &pass->outputs.map, error) &&
+    return lsf_plan_create_texture(plan, context, "sky_map.map", &pass->outputs.shadow.depth,
+                                   error) &&
            lsf_plan_create_texture(plan, context, "sky_map.depth", &pass->depth, error) &&
            lsf_plan_create_buffer(plan, context, "sky_map.maps", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                  &pass->outputs.buffer, error);
+                                  &pass->outputs.shadow.light, error);
 }
 
 bool lsf_sky_map_create(lsf_sky_map *pass, lsf_context *context, const lsf_plan *plan,
@@ -131,7 +133,7 @@ bool lsf_sky_map_create(lsf_sky_map *pass, lsf_context *context, const lsf_plan 
     /* Maps take turns in it. */
     lsf_framebuffer_desc desc = {.label = "sky_map",
                                  .color_count = 1,
-                                 .colors = {pass->outputs.map},
+                                 .colors = {pass->outputs.shadow.depth},
                                  .depth = pass->depth,
                                  .layer = 0};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
@@ -191,7 +193,7 @@ void lsf_sky_map_begin(lsf_sky_map *pass, const lsf_iteration *iteration)
         lsf_light_map_region(&data, 0, &pass->regions[i]);
         pass->maps[i] = map_of(&data);
     }
-    glNamedBufferSubData(pass->outputs.buffer, 0, (GLsizeiptr)(count * sizeof *pass->maps),
+    glNamedBufferSubData(pass->outputs.shadow.light, 0, (GLsizeiptr)(count * sizeof *pass->maps),
                          pass->maps);
     pass->outputs.first = pass->outputs.count = 0;
 }
@@ -214,8 +216,8 @@ static void draw_surfaces(lsf_sky_map *pass, const lsf_iteration *iteration, uin
     lsf_begin_surfaces(pass->side, pass->side, pass->large_program);
     glEnable(GL_DEPTH_CLAMP);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    glNamedFramebufferTextureLayer(pass->framebuffer, GL_COLOR_ATTACHMENT0, pass->outputs.map, 0,
-                                   (GLint)layer);
+    glNamedFramebufferTextureLayer(pass->framebuffer, GL_COLOR_ATTACHMENT0,
+                                   pass->outputs.shadow.depth, 0, (GLint)layer);
     glClearNamedFramebufferuiv(pass->framebuffer, GL_COLOR, 0, nothing);
     glClearNamedFramebufferfv(pass->framebuffer, GL_DEPTH, 0, farthest);
     if (listed) {
@@ -247,7 +249,7 @@ static void draw_small(lsf_sky_map *pass, const lsf_iteration *iteration)
     const lsf_scene_gpu *scene = iteration->scene;
     if (scene->triangle_count == 0)
         return;
-    glBindImageTexture(0, pass->outputs.map, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
+    glBindImageTexture(0, pass->outputs.shadow.depth, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TRIANGLES, scene->triangles);
     glUseProgram(pass->small_program);
     for (uint32_t layer = 0; layer < pass->outputs.count; layer++) {
@@ -268,7 +270,7 @@ static void draw_tints(lsf_sky_map *pass, const lsf_iteration *iteration)
     lsf_begin_fullscreen(pass->tint_framebuffers[0], pass->side, pass->side, pass->tint_program);
     glEnable(GL_DEPTH_CLAMP);
     lsf_blend_multiply(0);
-    lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, pass->outputs.map);
+    lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, pass->outputs.shadow.depth);
     for (uint32_t i = 0; i < pass->outputs.count; i++) {
         uint32_t light = iteration->state->light_count + pass->outputs.first + i;
         glBindFramebuffer(GL_FRAMEBUFFER, pass->tint_framebuffers[i]);
@@ -289,9 +291,10 @@ bool lsf_sky_map_next(lsf_sky_map *pass, const lsf_iteration *iteration)
         return false;
     out->count = total - out->first < pass->batch ? total - out->first : pass->batch;
     lsf_timer_begin(pass->timer);
-    glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->buffer,
-                      (GLintptr)(out->first * sizeof *pass->maps),
-                      LSF_SKY_MAPS_MAX * sizeof *pass->maps);
+    out->shadow.offset = (GLintptr)(out->first * sizeof *pass->maps);
+    out->shadow.size = LSF_SKY_MAPS_MAX * sizeof *pass->maps;
+    glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->shadow.light, out->shadow.offset,
+                      out->shadow.size);
     for (uint32_t layer = 0; layer < out->count; layer++)
         draw_surfaces(pass, iteration, layer);
     draw_small(pass, iteration);
@@ -310,9 +313,9 @@ void lsf_sky_map_destroy(lsf_sky_map *pass)
         lsf_framebuffer_destroy(pass->context, &pass->tint_framebuffers[i]);
     glDeleteVertexArrays(1, &pass->large_array);
     lsf_texture_destroy(pass->context, &pass->depth);
-    lsf_texture_destroy(pass->context, &pass->outputs.map);
-    lsf_texture_destroy(pass->context, &pass->outputs.tint);
-    lsf_buffer_destroy(pass->context, &pass->outputs.buffer);
+    lsf_texture_destroy(pass->context, &pass->outputs.shadow.depth);
+    lsf_texture_destroy(pass->context, &pass->outputs.shadow.tint);
+    lsf_buffer_destroy(pass->context, &pass->outputs.shadow.light);
     lsf_timer_destroy(pass->timer);
     free(pass->maps);
     free(pass->regions);

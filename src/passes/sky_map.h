@@ -8,9 +8,7 @@
 
 /* Layers of a batch, valid until the next run. */
 typedef struct lsf_sky_map_outputs {
-    GLuint map;            /* R32UI array: keys of lib/sky_map.glsl */
-    GLuint tint;           /* of light that passes what transmits; 0: nothing does */
-    GLuint buffer;         /* struct lsf_sky_map_data, one for each direction of the iteration */
+    lsf_shadow shadow;     /* keys of lib/sky_map.glsl; struct lsf_sky_map_data */
     uint32_t first, count; /* directions of the batch */
 } lsf_sky_map_outputs;
 

@@ -80,19 +80,20 @@ static void dispatch(GLuint radiance, GLuint bricks)
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxel_bounce_inputs *inputs)
+void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxels *voxels)
 {
-    if (!inputs->changed || pass->levels == 1)
+    if (!voxels->changed || pass->levels == 1)
         return;
     lsf_timer_begin(pass->timer);
+    lsf_voxels_bind_grid(voxels);
     glUseProgram(pass->clear_program);
     for (int i = 0; i < 2 && pass->radiance[i]; i++)
-        dispatch(pass->radiance[i], inputs->previous_bricks);
+        dispatch(pass->radiance[i], voxels->previous_bricks);
     lsf_timer_end(pass->timer);
 }
 
 GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
-                            const lsf_voxel_bounce_inputs *inputs, const lsf_voxel_bounce_sum *sum)
+                            const lsf_voxels *voxels, const lsf_voxel_bounce_sum *sum)
 {
     if (sum->source && sum->source == pass->radiance[pass->last])
         pass->last = 1 - pass->last;
@@ -101,18 +102,13 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     glUseProgram(pass->program);
     glUniform3i(LOCATION_SUM_OF, sum->keep, sum->base != 0, sum->source != 0);
     lsf_bind_texture(UNIT_BASE, sum->base);
-    for (GLuint level = 0; level < 2; level++)
-        lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + level, inputs->occupancy[level]);
-    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
-    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
-    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->point);
-    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, inputs->gloss);
+    lsf_voxels_bind(voxels);
     if (sum->source)
         lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (iteration->plan->requirements.environment)
         lsf_iteration_bind_sky(iteration);
-    dispatch(radiance, inputs->bricks);
+    dispatch(radiance, voxels->bricks);
     lsf_timer_end(pass->timer);
     return radiance;
 }

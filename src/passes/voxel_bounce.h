@@ -5,14 +5,6 @@
 
 #include "plan/cone.h"
 
-/* The voxels: what voxelize hands out. */
-typedef struct lsf_voxel_bounce_inputs {
-    GLuint occupancy[2]; /* the finest levels */
-    GLuint albedo, normal, point, gloss;
-    GLuint bricks, previous_bricks;
-    bool changed;
-} lsf_voxel_bounce_inputs;
-
 /* What becomes of radiance, pyramids as of voxel_light.h. */
 typedef struct lsf_voxel_bounce_sum {
     GLuint base;   /* what is added to it, as it is; 0: nothing */
@@ -40,10 +32,10 @@ bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const
                              const lsf_cone_params *params, const lsf_voxel_grid *grid,
                              lsf_error *error);
 /* Empties what the run before left. Call it once an iteration. */
-void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxel_bounce_inputs *inputs);
-/* Returns the sum. The grid must be bound at LSF_BINDING_VOXEL. */
+void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxels *voxels);
+/* Returns the sum. */
 GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
-                            const lsf_voxel_bounce_inputs *inputs, const lsf_voxel_bounce_sum *sum);
+                            const lsf_voxels *voxels, const lsf_voxel_bounce_sum *sum);
 void lsf_voxel_bounce_destroy(lsf_voxel_bounce *pass);
 
 #endif

@@ -3,11 +3,10 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "plan/light_map.h"
 #include "plan/light_walls.h"
 #include "shared/scene_data.h"
 
-/* Storage buffer beside LSF_BINDING_MATERIALS. */
+/* Storage buffer. */
 #define BINDING_BRICKS 1
 
 /* The light in turn is one program, with or without what voxels emit. */
@@ -89,46 +88,47 @@ static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list, b
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-static void bind_voxels(const lsf_voxel_light_inputs *inputs)
+/* Of units two are others than lsf_voxels_bind takes, which are those of shadow maps and of
+ * radiance. */
+static void bind_voxels(const lsf_voxels *voxels)
 {
-    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
-    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
-    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, inputs->point);
-    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->gloss);
-    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, inputs->emission);
-    lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, inputs->transmission);
+    lsf_voxels_bind_grid(voxels);
+    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, voxels->albedo);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, voxels->normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, voxels->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, voxels->gloss);
+    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, voxels->emission);
+    lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, voxels->transmission);
 }
 
-void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs)
+void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxels *voxels)
 {
     pass->written = false;
-    if (!inputs->changed || pass->use.levels == 1)
+    if (!voxels->changed || pass->use.levels == 1)
         return;
     lsf_timer_begin(pass->timer);
-    dispatch(pass, pass->clear_program, inputs->previous_bricks, false);
+    lsf_voxels_bind_grid(voxels);
+    dispatch(pass, pass->clear_program, voxels->previous_bricks, false);
     lsf_timer_end(pass->timer);
 }
 
-void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs)
+void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels)
 {
     if (pass->written)
         return;
     lsf_timer_begin(pass->timer);
-    bind_voxels(inputs);
-    dispatch(pass, pass->emit_program, inputs->bricks, false);
+    bind_voxels(voxels);
+    dispatch(pass, pass->emit_program, voxels->bricks, false);
     lsf_timer_end(pass->timer);
     pass->written = true;
 }
 
-void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs,
-                         const lsf_voxel_light_map *map)
+void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxels *voxels, const lsf_shadow *shadow)
 {
     lsf_timer_begin(pass->timer);
-    bind_voxels(inputs);
-    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, map->depth);
-    lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, map->gradient);
-    lsf_bind_texture(LSF_UNIT_SHADOW_TINT, map->tint);
-    dispatch(pass, pass->written ? pass->add_program : pass->first_program, inputs->bricks,
+    bind_voxels(voxels);
+    lsf_shadow_bind(shadow);
+    dispatch(pass, pass->written ? pass->add_program : pass->first_program, voxels->bricks,
              pass->sky);
     lsf_timer_end(pass->timer);
     pass->written = true;

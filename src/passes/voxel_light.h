@@ -3,19 +3,8 @@
 #ifndef LSF_PASSES_VOXEL_LIGHT_H
 #define LSF_PASSES_VOXEL_LIGHT_H
 
+#include "plan/light_map.h"
 #include "plan/voxel_grid.h"
-
-/* The voxels to light: what voxelize hands out. */
-typedef struct lsf_voxel_light_inputs {
-    GLuint albedo, normal, point, emission, gloss, transmission;
-    GLuint bricks, previous_bricks;
-    bool changed;
-} lsf_voxel_light_inputs;
-
-/* A light's map as of shadow_map; the light must be bound as the light in turn. */
-typedef struct lsf_voxel_light_map {
-    GLuint depth, gradient, tint;
-} lsf_voxel_light_map;
 
 typedef struct lsf_voxel_light_use {
     uint32_t sides;  /* 1 (the front), LSF_VOXEL_SIDES_SURFACE or LSF_VOXEL_SIDES_AXES */
@@ -40,13 +29,12 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
                           const lsf_voxel_light_use *use);
 bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const lsf_plan *plan,
                             const lsf_voxel_light_use *use, lsf_error *error);
-/* Light before goes. The grid must be bound, then and below. */
-void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs);
+/* Empties what the run before left. */
+void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxels *voxels);
 /* What voxels emit, for whom wants it alone or knows of no light; nothing to do after others. */
-void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs);
-/* Adds the light in turn, to what voxels emit. */
-void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxel_light_inputs *inputs,
-                         const lsf_voxel_light_map *map);
+void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels);
+/* Adds a light's, as shadow_map shows it, to what voxels emit. */
+void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxels *voxels, const lsf_shadow *shadow);
 void lsf_voxel_light_destroy(lsf_voxel_light *pass);
 
 #endif

@@ -59,15 +59,15 @@ static void dispatch_bricks(GLuint program, GLuint bricks)
 }
 
 /* Levels 1 and 2, which are empty where no brick is. */
-static void write_bricks(const lsf_voxel_mip *pass, const lsf_voxel_mip_inputs *inputs)
+static void write_bricks(const lsf_voxel_mip *pass, const lsf_voxels *voxels, GLuint radiance)
 {
-    bind_level(0, inputs->radiance, 1);
-    bind_level(1, inputs->radiance, BRICK_LEVEL);
-    if (inputs->changed)
-        dispatch_bricks(pass->clear_program, inputs->previous_bricks);
-    dispatch_bricks(pass->fine_program, inputs->bricks);
-    bind_level(0, inputs->radiance, BRICK_LEVEL);
-    dispatch_bricks(pass->brick_program, inputs->bricks);
+    bind_level(0, radiance, 1);
+    bind_level(1, radiance, BRICK_LEVEL);
+    if (voxels->changed)
+        dispatch_bricks(pass->clear_program, voxels->previous_bricks);
+    dispatch_bricks(pass->fine_program, voxels->bricks);
+    bind_level(0, radiance, BRICK_LEVEL);
+    dispatch_bricks(pass->brick_program, voxels->bricks);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
@@ -86,14 +86,15 @@ static void write_whole(const lsf_voxel_mip *pass, GLuint radiance, int level)
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxel_mip_inputs *inputs)
+void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxels *voxels, GLuint radiance)
 {
     lsf_timer_begin(pass->timer);
-    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
-    write_bricks(pass, inputs);
+    lsf_voxels_bind_grid(voxels);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, radiance);
+    write_bricks(pass, voxels, radiance);
     glUseProgram(pass->whole_program);
     for (int level = BRICK_LEVEL + 1; level < LSF_VOXEL_LEVELS; level++)
-        write_whole(pass, inputs->radiance, level);
+        write_whole(pass, radiance, level);
     lsf_timer_end(pass->timer);
 }
 

@@ -4,13 +4,6 @@
 
 #include "plan/voxel_grid.h"
 
-typedef struct lsf_voxel_mip_inputs {
-    GLuint radiance; /* RGBA16F, LSF_VOXEL_LEVELS levels: level 0 is read, the others are written */
-    GLuint bricks;   /* of voxelize */
-    GLuint previous_bricks; /* that the run before wrote */
-    bool changed;           /* they differ */
-} lsf_voxel_mip_inputs;
-
 typedef struct lsf_voxel_mip {
     lsf_context *context;
     lsf_voxel_grid grid;
@@ -23,8 +16,9 @@ typedef struct lsf_voxel_mip {
 void lsf_voxel_mip_plan(lsf_plan *plan, uint32_t sides);
 bool lsf_voxel_mip_create(lsf_voxel_mip *pass, lsf_context *context, const lsf_plan *plan,
                           const lsf_voxel_grid *grid, uint32_t sides, lsf_error *error);
-/* The grid must be bound at LSF_BINDING_VOXEL. Levels must be empty before the first run. */
-void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxel_mip_inputs *inputs);
+/* `radiance`: RGBA16F, LSF_VOXEL_LEVELS levels. Level 0 is read; the others, which must be empty
+ * before the first run, are written. */
+void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxels *voxels, GLuint radiance);
 void lsf_voxel_mip_destroy(lsf_voxel_mip *pass);
 
 #endif

@@ -140,14 +140,7 @@ static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iterati
                         const lsf_voxel_path_inputs *inputs)
 {
     lsf_surface_maps_bind(inputs->seen);
-    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
-    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
-    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->voxel_albedo);
-    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->voxel_normal);
-    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, inputs->voxel_point);
-    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, inputs->voxel_emission);
-    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, inputs->voxel_gloss);
-    lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, inputs->voxel_transmission);
+    lsf_voxels_bind(inputs->voxels);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     lsf_bind_texture(LSF_UNIT_PATH_RANDOM, pass->random);

@@ -41,8 +41,7 @@ typedef struct lsf_voxel_path_use {
 typedef struct lsf_voxel_path_inputs {
     const lsf_coarse_grid *grid;
     const lsf_surface_maps *seen; /* by the grid */
-    GLuint occupancy[2];          /* voxels and bricks */
-    GLuint voxel_albedo, voxel_normal, voxel_point, voxel_emission, voxel_gloss, voxel_transmission;
+    const lsf_voxels *voxels;
     GLuint radiance; /* of voxels, two sides */
 } lsf_voxel_path_inputs;
 
@@ -79,7 +78,6 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
                            const lsf_scene *scene, const lsf_state *state, lsf_error *error);
 /* Follows emitters to what the state has become. False without memory. */
 bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited);
-/* The grid of voxels must be bound. */
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs);
 void lsf_voxel_path_destroy(lsf_voxel_path *pass);

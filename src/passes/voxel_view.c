@@ -56,16 +56,13 @@ bool lsf_voxel_view_create(lsf_voxel_view *pass, lsf_context *context, const lsf
 }
 
 void lsf_voxel_view_run(lsf_voxel_view *pass, const lsf_iteration *iteration,
-                        const lsf_voxel_view_inputs *inputs)
+                        const lsf_voxels *voxels, GLuint radiance)
 {
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
-    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, inputs->occupancy[0]);
-    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + 1, inputs->occupancy[1]);
-    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, inputs->albedo);
-    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, inputs->normal);
-    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
+    lsf_voxels_bind(voxels);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, radiance);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

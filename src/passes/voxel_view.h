@@ -4,12 +4,6 @@
 
 #include "plan/voxel_grid.h"
 
-/* What voxelize and the light of voxels hand out. */
-typedef struct lsf_voxel_view_inputs {
-    GLuint occupancy[2]; /* the two finest levels */
-    GLuint albedo, normal, radiance;
-} lsf_voxel_view_inputs;
-
 /* RGBA32F, 0 where nothing is seen; 0 (the name) unless asked for. */
 typedef struct lsf_voxel_view_outputs {
     GLuint albedo, normal, radiance;
@@ -28,9 +22,8 @@ bool lsf_voxel_view_needed(const lsf_plan *plan);
 void lsf_voxel_view_plan(lsf_plan *plan, uint32_t sides);
 bool lsf_voxel_view_create(lsf_voxel_view *pass, lsf_context *context, const lsf_plan *plan,
                            lsf_error *error);
-/* The grid must be bound. */
 void lsf_voxel_view_run(lsf_voxel_view *pass, const lsf_iteration *iteration,
-                        const lsf_voxel_view_inputs *inputs);
+                        const lsf_voxels *voxels, GLuint radiance);
 void lsf_voxel_view_destroy(lsf_voxel_view *pass);
 
 #endif

@@ -185,7 +185,7 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
 
 void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES])
 {
-    lsf_voxelize_outputs *o = &pass->outputs;
+    lsf_voxels *o = &pass->outputs;
     const lsf_voxelize_texture list[LSF_VOXELIZE_TEXTURES] = {
         {"voxelize.key", &pass->key},
         {"voxelize.occupancy_0", &o->occupancy[0]},
@@ -316,7 +316,7 @@ static void bind_occupancy(const lsf_voxelize *pass)
 
 static void bind_attributes(const lsf_voxelize *pass)
 {
-    const lsf_voxelize_outputs *o = &pass->outputs;
+    const lsf_voxels *o = &pass->outputs;
     const GLuint images[] = {pass->key,   o->albedo, o->normal,      o->point,
                              o->emission, o->gloss,  o->transmission};
     for (GLuint unit = 0; unit < LSF_COUNT(images); unit++)
@@ -485,7 +485,7 @@ static void upload_draws(lsf_voxelize *pass, const lsf_iteration *iteration)
 /* The lists change places; what the last one lists is emptied. */
 static void begin_run(lsf_voxelize *pass)
 {
-    lsf_voxelize_outputs *o = &pass->outputs;
+    lsf_voxels *o = &pass->outputs;
     clear_before(pass);
     pass->runs++;
     o->bricks = pass->bricks[pass->runs % 2];
@@ -500,19 +500,19 @@ void lsf_voxelize_follow(lsf_voxelize *pass, const lsf_voxel_grid *grid, bool an
     pass->grid = *grid;
 }
 
-const lsf_voxelize_outputs *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration)
+const lsf_voxels *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration)
 {
     struct lsf_voxel_grid_data data = lsf_voxel_grid_data(&pass->grid, iteration);
-    lsf_voxelize_outputs *o = &pass->outputs;
+    lsf_voxels *o = &pass->outputs;
     bool moved = lsf_voxelize_still_moved(pass, iteration->state);
     bool anew = pass->runs == 0 || pass->stale ||
                 lsf_voxelize_always_anew(iteration->plan, pass->grid.jitter);
     pass->stale = false;
     o->changed = anew || moved;
-    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, o->grid_buffer);
     if (!o->changed)
         return o;
     lsf_timer_begin(pass->timer);
+    lsf_voxels_bind_grid(o);
     if (pass->runs == 0)
         upload_draws(pass, iteration);
     begin_run(pass);

@@ -21,7 +21,7 @@ typedef struct lsf_voxelize_still {
 struct lsf_voxelize {
     lsf_context *context;
     lsf_voxel_grid grid;
-    lsf_voxelize_outputs outputs;
+    lsf_voxels outputs;
     GLuint key;         /* R32UI: the winner's bid; 0: empty */
     GLuint tiles;       /* of large triangles */
     GLuint draws_start; /* instances in the order of draws, with their triangles' numbers */

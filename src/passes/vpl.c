@@ -221,14 +221,12 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
                                  (GLintptr)((first + i + 1 - filled) * sizeof *random),
                                  (GLsizeiptr)(filled * sizeof *random), random);
     }
-    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, inputs->light_buffer);
+    lsf_shadow_bind(inputs->shadow);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_RANDOM, pass->random);
-    lsf_bind_texture(0, inputs->depth);
-    lsf_bind_texture(1, inputs->surface);
-    lsf_bind_texture(2, inputs->gloss);
-    lsf_bind_texture(3, inputs->tint);
+    lsf_surface_maps_bind(inputs->seen);
+    lsf_bind_texture(3, inputs->shadow->tint);
     lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
     if (inputs->sums)
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
@@ -264,10 +262,14 @@ static GLuint map_of(const lsf_vpl *pass, uint32_t index)
     return index < pass->first_emitter ? pass->outputs.shadow_map : pass->outputs.emitter_map;
 }
 
-static void bind_map(const lsf_vpl *pass, uint32_t index)
+lsf_shadow lsf_vpl_shadow(const lsf_vpl *pass, uint32_t index)
 {
-    glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, pass->outputs.maps,
-                      (GLintptr)index * MAP_STRIDE, sizeof(struct lsf_light_data));
+    const lsf_vpl_outputs *out = &pass->outputs;
+    return (lsf_shadow){.depth = map_of(pass, index),
+                        .tint = index < pass->first_emitter ? out->shadow_tint : out->emitter_tint,
+                        .light = out->maps,
+                        .offset = (GLintptr)index * MAP_STRIDE,
+                        .size = sizeof(struct lsf_light_data)};
 }
 
 /* Small triangles by a compute shader, which lists the others for the pipeline. */
@@ -329,13 +331,14 @@ static void draw_straight(lsf_vpl *pass, const lsf_iteration *iteration, uint32_
 void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index)
 {
     static const GLuint nothing = 0;
-    GLuint map = map_of(pass, index);
+    const lsf_shadow shadow = lsf_vpl_shadow(pass, index);
     lsf_timer_begin(pass->map_timer);
-    bind_map(pass, index);
+    glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, shadow.light, shadow.offset,
+                      shadow.size);
     /* Whoever reads the map before this one is done with it. */
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    glClearTexImage(map, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
-    glBindImageTexture(0, map, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+    glClearTexImage(shadow.depth, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
+    glBindImageTexture(0, shadow.depth, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     lsf_begin_fullscreen(pass->framebuffer, pass->shadow_resolution, pass->shadow_resolution,
                          pass->map_program);
     clip_to_octants();
@@ -350,13 +353,6 @@ void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t 
         draw_straight(pass, iteration, index);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(pass->map_timer);
-}
-
-void lsf_vpl_bind(const lsf_vpl *pass, uint32_t index)
-{
-    bind_map(pass, index);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
-    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, map_of(pass, index));
 }
 
 void lsf_vpl_destroy(lsf_vpl *pass)

@@ -3,7 +3,8 @@
 #ifndef LSF_PASSES_VPL_H
 #define LSF_PASSES_VPL_H
 
-#include "plan/iteration.h"
+#include "plan/light_map.h"
+#include "plan/maps.h"
 #include "plan/option.h"
 #include "scene/emitters.h"
 #include "shared/vpl_data.h"
@@ -26,10 +27,9 @@ typedef struct lsf_vpl_use {
 
 /* A light's reflective shadow map. */
 typedef struct lsf_vpl_inputs {
-    GLuint tint;                  /* of the reflective shadow map, likewise */
-    GLuint depth, surface, gloss; /* gloss 0 where the scene does not require it */
-    GLuint light_buffer;
-    GLuint importance, sums; /* with adaptive emission */
+    const lsf_shadow *shadow;
+    const lsf_surface_maps *seen; /* by the light */
+    GLuint importance, sums;      /* with adaptive emission */
 } lsf_vpl_inputs;
 
 typedef struct lsf_vpl_outputs {
@@ -71,9 +71,9 @@ void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
                   const lsf_emitter_sample *sample);
 /* Draws the map of one of them. */
 void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index);
-/* Binds all VPLs to LSF_BINDING_VPL, and the map of its kind drawn last, that of VPL `index`, for
- * lib/shadow.glsl with LSF_SHADOW_HEMISPHERE. */
-void lsf_vpl_bind(const lsf_vpl *pass, uint32_t index);
+/* VPL `index` as a light with its map, where that was drawn last of its kind; for lib/shadow.glsl
+ * with LSF_SHADOW_HEMISPHERE. */
+lsf_shadow lsf_vpl_shadow(const lsf_vpl *pass, uint32_t index);
 void lsf_vpl_destroy(lsf_vpl *pass);
 
 #endif

@@ -41,6 +41,16 @@ void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
         needed[LSF_LIGHT_MAP_WINDOWS] = true;
 }
 
+void lsf_shadow_bind(const lsf_shadow *shadow)
+{
+    lsf_bind_texture(LSF_UNIT_SHADOW_DEPTH, shadow->depth);
+    lsf_bind_texture(LSF_UNIT_SHADOW_GRADIENT, shadow->gradient);
+    lsf_bind_texture(LSF_UNIT_SHADOW_TINT, shadow->tint);
+    if (shadow->light)
+        glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, shadow->light, shadow->offset,
+                          shadow->size);
+}
+
 void lsf_light_switches(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;

@@ -22,6 +22,19 @@ bool lsf_light_any(const lsf_plan *plan, const lsf_state *state);
 void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
                          bool needed[LSF_LIGHT_MAP_KINDS]);
 
+/* A light with a map of what it reaches, for lib/shadow.glsl; or several directions of the
+ * environment, with a map that has a layer for each. */
+typedef struct lsf_shadow {
+    GLuint depth; /* DEPTH_COMPONENT32F; R32UI with keys of lib/hemisphere.glsl, lib/sky_map.glsl */
+    GLuint gradient; /* RG16F; 0: such maps have none */
+    GLuint tint;     /* RGB10_A2, of light that passes what transmits; 0: nothing does */
+    GLuint light;    /* buffer of struct lsf_light_data or lsf_sky_map_data; 0: there is no light */
+    GLintptr offset; /* where it begins in the buffer */
+    GLsizeiptr size;
+} lsf_shadow;
+
+void lsf_shadow_bind(const lsf_shadow *shadow);
+
 /* Adds to the pass in turn the switches of lib/light.glsl. */
 void lsf_light_switches(lsf_plan *plan);
 

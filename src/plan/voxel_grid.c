@@ -5,6 +5,7 @@
 
 #include "math/sampling.h"
 #include "scene/sky.h"
+#include "shared/scene_data.h"
 
 /* Of a 3D texture, that every device has (GL 4.5, table 23.53). */
 #define MAX_TEXTURE_DEPTH 2048
@@ -119,6 +120,24 @@ struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
                                         .size = {(float)grid->size[0], (float)grid->size[1],
                                                  (float)grid->size[2], 1.0f / grid->side},
                                         .unit = {grid->unit, 1.0f / grid->unit, 0.0f, 0.0f}};
+}
+
+void lsf_voxels_bind_grid(const lsf_voxels *voxels)
+{
+    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, voxels->grid_buffer);
+}
+
+void lsf_voxels_bind(const lsf_voxels *voxels)
+{
+    lsf_voxels_bind_grid(voxels);
+    for (GLuint level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
+        lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + level, voxels->occupancy[level]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, voxels->albedo);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, voxels->normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, voxels->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, voxels->emission);
+    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, voxels->gloss);
+    lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, voxels->transmission);
 }
 
 void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const char *name,

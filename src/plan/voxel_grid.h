@@ -47,6 +47,26 @@ void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const
 struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
                                                const lsf_iteration *iteration);
 
+/* A scene as voxels: 3D textures of the grid's size, read with texelFetch; lib/voxel.glsl says what
+ * is in them. Attributes are meaningful in occupied voxels only. */
+typedef struct lsf_voxels {
+    GLuint grid_buffer;                           /* struct lsf_voxel_grid_data */
+    GLuint occupancy[LSF_VOXEL_OCCUPANCY_LEVELS]; /* R32UI */
+    GLuint albedo, point;                         /* R32UI */
+    GLuint normal;                                /* R32UI; RG32UI where shading normals bend */
+    GLuint emission;                              /* R32UI; 0 without emitting materials */
+    GLuint gloss;                                 /* R32UI; 0 unless some material is glossy */
+    GLuint transmission;                          /* R32UI; 0 unless light passes some material */
+    GLuint bricks;                                /* occupied bricks; voxel_data.h has the layout */
+    GLuint previous_bricks; /* those of the run before: what its readers wrote there is stale */
+    bool changed;           /* since the run before */
+} lsf_voxels;
+
+/* The grid's buffer, for lib/voxel.glsl. */
+void lsf_voxels_bind_grid(const lsf_voxels *voxels);
+/* The same and all textures, to the units in voxel_data.h. */
+void lsf_voxels_bind(const lsf_voxels *voxels);
+
 /* Plans a texture over the grid, `sides` slices along z. */
 void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const char *name,
                             GLenum internal_format, uint32_t sides, uint32_t levels,

@@ -262,11 +262,10 @@ static void connect_vpl(sample_turn *turn, bool deep, uint32_t vpl,
 {
     bidirectional *b = turn->b;
     lsf_bidirectional_shade_inputs inputs = turn->inputs;
+    const lsf_shadow shadow = lsf_vpl_shadow(&b->vpl, vpl);
     inputs.bundle_pdf = b->bundle_pdf;
-    lsf_vpl_bind(&b->vpl, vpl);
-    inputs.map_depth = sample->emitter ? b->vpl.outputs.emitter_map : b->vpl.outputs.shadow_map;
-    inputs.map_gradient = 0; /* in the same texels */
-    inputs.map_tint = sample->emitter ? b->vpl.outputs.emitter_tint : b->vpl.outputs.shadow_tint;
+    inputs.shadow = &shadow;
+    inputs.vpls = b->vpl.outputs.vpls;
     lsf_bidirectional_shade_vpl(&b->shade, turn->iteration, &inputs, sample, deep, vpl,
                                 &turn->region);
 }
@@ -347,14 +346,9 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
         sample.bundle_count = 0.0f; /* nor do they share the light of punctual ones */
     inputs.bundle_pdf = b->bundle_pdf;
     share_bundle(b, turn->iteration, bundle, deep, &sample);
-    if (lit) {
-        inputs.map_depth = b->rsm.outputs.depth;
-        inputs.map_gradient = b->rsm.outputs.gradient;
-        inputs.map_tint = b->rsm.outputs.tint;
-        inputs.importance = b->rsm.outputs.importance;
-        glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, b->rsm.outputs.light_buffer);
-    }
-    lsf_ray_bundle_bind(b->bundle, bundle);
+    inputs.shadow = &b->rsm.outputs.shadow;
+    inputs.importance = b->rsm.outputs.importance;
+    inputs.nodes = lsf_ray_bundle_nodes(b->bundle, bundle);
     lsf_bidirectional_shade_hit(&b->shade, turn->iteration, &inputs, &sample, deep, s->emission,
                                 lit, &turn->region);
     sample.arrival = b->aims[bundle].direction;
@@ -413,11 +407,8 @@ static void run_light(sample_turn *turn, uint32_t light, uint32_t count)
     if (first == count)
         return;
     lsf_reflective_shadow_map_run(&b->rsm, turn->iteration, light);
-    const lsf_vpl_inputs map = {.depth = b->rsm.outputs.depth,
-                                .surface = b->rsm.outputs.surface,
-                                .gloss = b->rsm.outputs.gloss,
-                                .tint = b->rsm.outputs.tint,
-                                .light_buffer = b->rsm.outputs.light_buffer,
+    const lsf_vpl_inputs map = {.shadow = &b->rsm.outputs.shadow,
+                                .seen = &b->rsm.outputs.seen,
                                 .importance = b->rsm.outputs.importance,
                                 .sums = b->rsm.outputs.sums};
     for (uint32_t i = first; i < count && lsf_iteration_goes_on(turn->iteration); i++) {

@@ -143,14 +143,8 @@ static lsf_update update_cone(void *self, const lsf_pass_params *params,
 
 static void build_pyramid(cone *c, GLuint radiance)
 {
-    const lsf_voxelize_outputs *voxels = c->chain.voxels;
-    if (c->way.levels == 1)
-        return;
-    const lsf_voxel_mip_inputs inputs = {.radiance = radiance,
-                                         .bricks = voxels->bricks,
-                                         .previous_bricks = voxels->previous_bricks,
-                                         .changed = voxels->changed};
-    lsf_voxel_mip_run(&c->mip, &inputs);
+    if (c->way.levels > 1)
+        lsf_voxel_mip_run(&c->mip, c->chain.voxels, radiance);
 }
 
 /* Light on voxels, with as many bounces between them as there are to be; returns its pyramid. With
@@ -158,28 +152,19 @@ static void build_pyramid(cone *c, GLuint radiance)
  * and of the environment: X_0 = E or, where nothing shines, D; X_k = E + D + R(X_k-1). */
 static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
 {
-    const lsf_voxelize_outputs *voxels = c->chain.voxels;
-    const lsf_voxel_bounce_inputs inputs = {
-        .occupancy = {voxels->occupancy[0], voxels->occupancy[1]},
-        .albedo = voxels->albedo,
-        .normal = voxels->normal,
-        .point = voxels->point,
-        .gloss = voxels->gloss,
-        .bricks = voxels->bricks,
-        .previous_bricks = voxels->previous_bricks,
-        .changed = voxels->changed};
+    const lsf_voxels *voxels = c->chain.voxels;
     GLuint base = c->chain.light.radiance, light = base;
     uint32_t done = 0;
     if (c->way.bounces > 0)
-        lsf_voxel_bounce_begin(&c->bounce, &inputs);
+        lsf_voxel_bounce_begin(&c->bounce, voxels);
     if (c->way.bounces > 0 && c->way.shines) {
         const lsf_voxel_bounce_sum reflected = {.source = base};
         const lsf_voxel_bounce_sum all = {.base = base, .keep = true};
         lsf_voxel_chain_emit(&c->chain);
         build_pyramid(c, base);
-        lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &reflected);
+        lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &reflected);
         lsf_voxel_chain_lights(&c->chain, iteration, true);
-        light = lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &all);
+        light = lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &all);
         done = 1;
     } else {
         lsf_voxel_chain_lights(&c->chain, iteration, iteration->plan->bounces > 0);
@@ -187,7 +172,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     build_pyramid(c, light);
     for (; done < c->way.bounces; done++) {
         const lsf_voxel_bounce_sum sum = {.base = base, .source = light};
-        light = lsf_voxel_bounce_run(&c->bounce, iteration, &inputs, &sum);
+        light = lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &sum);
         build_pyramid(c, light);
     }
     return light;
@@ -204,13 +189,10 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
         grid = c->upsample.grid;
         seen = &c->upsample.coarse;
     }
-    const lsf_cone_trace_inputs inputs = {
-        .grid = &grid,
-        .seen = seen,
-        .occupancy = {c->chain.voxels->occupancy[0], c->chain.voxels->occupancy[1]},
-        .voxel_normal = c->chain.voxels->normal,
-        .voxel_point = c->chain.voxels->point,
-        .radiance = light_voxels(c, iteration)};
+    const lsf_cone_trace_inputs inputs = {.grid = &grid,
+                                          .seen = seen,
+                                          .voxels = c->chain.voxels,
+                                          .radiance = light_voxels(c, iteration)};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
     const lsf_split_light *light = &c->trace.light;
     if (c->blur.program) {

@@ -61,9 +61,7 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
     lsf_shadow_map_run(&chain->shadow_map, iteration, light);
     lsf_direct_light_inputs inputs = {
         .seen = &chain->gbuffer.outputs.seen,
-        .shadow_depth = chain->shadow_map.outputs.depth,
-        .shadow_gradient = chain->shadow_map.outputs.gradient,
-        .shadow_tint = chain->shadow_map.outputs.tint,
+        .shadow = &chain->shadow_map.outputs.shadow,
     };
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
 }
@@ -76,8 +74,7 @@ void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteratio
     lsf_sky_map_begin(&chain->sky_map, iteration);
     while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(&chain->sky_map, iteration)) {
         lsf_direct_light_inputs inputs = {.seen = &chain->gbuffer.outputs.seen,
-                                          .shadow_depth = maps->map,
-                                          .shadow_tint = maps->tint,
+                                          .shadow = &maps->shadow,
                                           .directions = maps->count};
         lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
     }

@@ -101,28 +101,12 @@ lsf_update lsf_voxel_chain_update(lsf_voxel_chain *chain, const lsf_pass_params 
 
 /* The map that the camera's points were lit with serves voxels too, but for that of a directional
  * light, which is fitted to what the camera sees. */
-static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
-                         const lsf_voxel_light_inputs *inputs, uint32_t light)
+static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration, uint32_t light)
 {
     lsf_shadow_map *map = &chain->direct.shadow_map;
     if (iteration->lights[light].type == LSF_LIGHT_DIRECTIONAL)
         lsf_shadow_map_run_scene(map, iteration, light);
-    const lsf_voxel_light_map seen = {
-        .depth = map->outputs.depth, .gradient = map->outputs.gradient, .tint = map->outputs.tint};
-    lsf_voxel_light_add(&chain->light, inputs, &seen);
-}
-
-static lsf_voxel_light_inputs light_inputs(const lsf_voxelize_outputs *voxels)
-{
-    return (lsf_voxel_light_inputs){.albedo = voxels->albedo,
-                                    .normal = voxels->normal,
-                                    .point = voxels->point,
-                                    .emission = voxels->emission,
-                                    .gloss = voxels->gloss,
-                                    .transmission = voxels->transmission,
-                                    .bricks = voxels->bricks,
-                                    .previous_bricks = voxels->previous_bricks,
-                                    .changed = voxels->changed};
+    lsf_voxel_light_add(&chain->light, chain->voxels, &map->outputs.shadow);
 }
 
 void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration)
@@ -131,29 +115,22 @@ void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteratio
     if (!chain->voxelize)
         return;
     chain->voxels = lsf_voxelize_run(chain->voxelize, iteration);
-    lsf_voxel_light_inputs inputs = light_inputs(chain->voxels);
-    lsf_voxel_light_begin(&chain->light, &inputs);
+    lsf_voxel_light_begin(&chain->light, chain->voxels);
 }
 
 void lsf_voxel_chain_emit(lsf_voxel_chain *chain)
 {
-    if (!chain->voxelize)
-        return;
-    lsf_voxel_light_inputs inputs = light_inputs(chain->voxels);
-    lsf_voxel_light_emit(&chain->light, &inputs);
+    if (chain->voxelize)
+        lsf_voxel_light_emit(&chain->light, chain->voxels);
 }
 
 void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels)
 {
-    on_voxels = on_voxels && chain->voxelize;
-    lsf_voxel_light_inputs inputs = {0};
-    if (on_voxels)
-        inputs = light_inputs(chain->voxels);
     for (uint32_t i = 0; i < iteration->light_count && lsf_iteration_goes_on(iteration); i++) {
         if (i < iteration->state->light_count)
             lsf_direct_chain_light(&chain->direct, iteration, i);
-        if (on_voxels)
-            light_voxels(chain, iteration, &inputs, i);
+        if (on_voxels && chain->voxelize)
+            light_voxels(chain, iteration, i);
     }
     lsf_direct_chain_sky(&chain->direct, iteration);
     lsf_voxel_chain_emit(chain); /* where no light has brought it along */
@@ -164,12 +141,7 @@ void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration
 {
     if (!chain->view.program)
         return;
-    const lsf_voxel_view_inputs inputs = {
-        .occupancy = {chain->voxels->occupancy[0], chain->voxels->occupancy[1]},
-        .albedo = chain->voxels->albedo,
-        .normal = chain->voxels->normal,
-        .radiance = chain->light.radiance};
-    lsf_voxel_view_run(&chain->view, iteration, &inputs);
+    lsf_voxel_view_run(&chain->view, iteration, chain->voxels, chain->light.radiance);
     outputs->voxel_albedo = chain->view.outputs.albedo;
     outputs->voxel_normal = chain->view.outputs.normal;
     outputs->voxel_radiance = chain->view.outputs.radiance;

@@ -18,8 +18,8 @@ typedef struct lsf_voxel_chain_use {
 typedef struct lsf_voxel_chain {
     lsf_direct_chain direct;
     lsf_voxel_grid grid;
-    lsf_voxelize *voxelize;             /* NULL: the scene has no triangles */
-    const lsf_voxelize_outputs *voxels; /* of the last run */
+    lsf_voxelize *voxelize;   /* NULL: the scene has no triangles */
+    const lsf_voxels *voxels; /* of the last run */
     lsf_voxel_light light;
     lsf_voxel_view view; /* where layers of voxels are asked for */
 } lsf_voxel_chain;

@@ -122,7 +122,6 @@ static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
 static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose_inputs *parts)
 {
     const lsf_surface_maps *all = &v->chain.direct.gbuffer.outputs.seen, *seen = all;
-    const lsf_voxelize_outputs *voxels = v->chain.voxels;
     lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, v->width, v->height);
     if (grid.coarse) {
         lsf_upsample_search_split(&v->upsample, iteration, all);
@@ -130,13 +129,7 @@ static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose
     }
     const lsf_voxel_path_inputs inputs = {.grid = &grid,
                                           .seen = seen,
-                                          .occupancy = {voxels->occupancy[0], voxels->occupancy[1]},
-                                          .voxel_albedo = voxels->albedo,
-                                          .voxel_normal = voxels->normal,
-                                          .voxel_point = voxels->point,
-                                          .voxel_emission = voxels->emission,
-                                          .voxel_gloss = voxels->gloss,
-                                          .voxel_transmission = voxels->transmission,
+                                          .voxels = v->chain.voxels,
                                           .radiance = v->chain.light.radiance};
     lsf_voxel_path_run(&v->path, iteration, &inputs);
     const lsf_split_light *light = &v->path.outputs.light;

@@ -122,10 +122,8 @@ void light_passes_run(light_passes *p, uint32_t iteration, uint32_t light)
     lsf_iteration_begin(&p->iteration, iteration);
     lsf_reflective_shadow_map_run(&p->rsm, &p->iteration, light);
     const lsf_reflective_shadow_map_outputs *out = &p->rsm.outputs;
-    const lsf_vpl_inputs inputs = {.depth = out->depth,
-                                   .surface = out->surface,
-                                   .gloss = out->gloss,
-                                   .light_buffer = out->light_buffer,
+    const lsf_vpl_inputs inputs = {.shadow = &out->shadow,
+                                   .seen = &out->seen,
                                    .importance = out->importance,
                                    .sums = out->sums};
     lsf_vpl_draw(&p->vpl, &p->iteration, 0, p->vpl.count, 1.0f, &inputs);

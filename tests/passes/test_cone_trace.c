@@ -89,7 +89,6 @@ static void pyramid_create(pyramid *p, uint32_t sides)
             fail_msg("%s", error.message);
     for (GLint level = 0; level < LSF_VOXEL_LEVELS; level++)
         glClearTexImage(p->radiance, level, GL_RGBA, GL_FLOAT, NULL);
-    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, p->grid_buffer);
 }
 
 static void pyramid_finish(pyramid *p)
@@ -156,15 +155,15 @@ static void levels(void **state)
     pyramid p;
     pyramid_create(&p, *(const uint32_t *)*state);
     fill(&p, 0, p.bricks[0]);
-    lsf_voxel_mip_inputs inputs = {.radiance = p.radiance,
-                                   .bricks = p.bricks[0],
-                                   .previous_bricks = p.bricks[0],
-                                   .changed = true};
-    lsf_voxel_mip_run(&p.mip, &inputs);
+    lsf_voxels voxels = {.grid_buffer = p.grid_buffer,
+                         .bricks = p.bricks[0],
+                         .previous_bricks = p.bricks[0],
+                         .changed = true};
+    lsf_voxel_mip_run(&p.mip, &voxels, p.radiance);
     check_pyramid(&p);
     fill(&p, 1, p.bricks[1]);
-    inputs.bricks = p.bricks[1];
-    lsf_voxel_mip_run(&p.mip, &inputs);
+    voxels.bricks = p.bricks[1];
+    lsf_voxel_mip_run(&p.mip, &voxels, p.radiance);
     check_pyramid(&p);
     pyramid_finish(&p);
 }

@@ -21,9 +21,9 @@ static map_texels read_map(const light_passes *p)
     m.surface = calloc(count, 4 * sizeof *m.surface);
     m.importance = calloc(count, sizeof *m.importance);
     assert_true(m.depth && m.surface && m.importance);
-    glGetTextureImage(out->depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+    glGetTextureImage(out->seen.depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                       (GLsizei)(count * sizeof *m.depth), m.depth);
-    glGetTextureImage(out->surface, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+    glGetTextureImage(out->seen.surface, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                       (GLsizei)(4 * count * sizeof *m.surface), m.surface);
     if (out->importance)
         glGetTextureImage(out->importance, 0, GL_RED, GL_FLOAT,

@@ -143,7 +143,7 @@ static void make_hostile_objects(void)
     glNamedFramebufferTexture(hostile_framebuffer, GL_COLOR_ATTACHMENT0, hostile_target, 0);
 }
 
-/* All that a pass may have changed, but for numbered buffers. */
+/* All that a pass may have changed. */
 static void set_hostile_state(void)
 {
     static const GLenum on[] = {
@@ -175,6 +175,11 @@ static void set_hostile_state(void)
     }
     for (GLuint unit = 0; unit < 8; unit++)
         glBindImageTexture(unit, hostile_texture, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    for (GLuint binding = 0; binding < 8; binding++) {
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
+        if (binding != LSF_BINDING_VIEW) /* of the iteration, for all of its passes */
+            glBindBufferBase(GL_UNIFORM_BUFFER, binding, 0);
+    }
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glBindVertexArray(0);
@@ -182,16 +187,10 @@ static void set_hostile_state(void)
     glUseProgram(0);
 }
 
-/* A pass begins with a debug group, an iteration with the G-buffer. Within an iteration techniques
- * bind the numbered buffers that one pass wrote before they run another that reads them. */
+/* A pass begins with a debug group. */
 static void push_hostile_group(GLenum source, GLuint id, GLsizei length, const GLchar *message)
 {
     set_hostile_state();
-    for (GLuint binding = 0; strcmp(message, "gbuffer") == 0 && binding < 8; binding++) {
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
-        if (binding != LSF_BINDING_VIEW)
-            glBindBufferBase(GL_UNIFORM_BUFFER, binding, 0);
-    }
     groups++;
     push_group(source, id, length, message);
 }

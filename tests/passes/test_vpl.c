@@ -256,7 +256,8 @@ static void maps_see_what_rays_see(void **unused)
                 lsf_f3_store(points[i] + 4, n);
             }
             lsf_vpl_shadow_map(&p.vpl, &p.iteration, v);
-            lsf_vpl_bind(&p.vpl, v);
+            const lsf_shadow shadow = lsf_vpl_shadow(&p.vpl, v);
+            lsf_shadow_bind(&shadow);
             light_passes_probe(&p, "lib/shadow.glsl", "#define LSF_SHADOW_HEMISPHERE 1",
                                "shadow_visibility(position, normal)", (const float(*)[8])points,
                                POINTS, visible);

@@ -60,24 +60,12 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
 
 static void run_light(voxel_rig *rig)
 {
-    const lsf_voxelize_outputs *o = rig->outputs;
-    const lsf_voxel_light_inputs inputs = {.albedo = o->albedo,
-                                           .normal = o->normal,
-                                           .point = o->point,
-                                           .emission = o->emission,
-                                           .gloss = o->gloss,
-                                           .bricks = o->bricks,
-                                           .previous_bricks = o->previous_bricks,
-                                           .changed = o->changed};
-    lsf_voxel_light_begin(&rig->light, &inputs);
+    lsf_voxel_light_begin(&rig->light, rig->outputs);
     for (uint32_t i = 0; i < rig->setup.state.light_count; i++) {
         lsf_shadow_map_run_scene(&rig->shadow_map, &rig->iteration, i);
-        const lsf_voxel_light_map map = {rig->shadow_map.outputs.depth,
-                                         rig->shadow_map.outputs.gradient,
-                                         rig->shadow_map.outputs.tint};
-        lsf_voxel_light_add(&rig->light, &inputs, &map);
+        lsf_voxel_light_add(&rig->light, rig->outputs, &rig->shadow_map.outputs.shadow);
     }
-    lsf_voxel_light_emit(&rig->light, &inputs);
+    lsf_voxel_light_emit(&rig->light, rig->outputs);
 }
 
 void voxel_rig_bind(const voxel_rig *rig)

@@ -15,7 +15,7 @@ typedef struct voxel_rig {
     lsf_iteration iteration;
     lsf_voxel_grid grid;
     lsf_voxelize *pass;
-    const lsf_voxelize_outputs *outputs;
+    const lsf_voxels *outputs;
     lsf_shadow_map shadow_map;
     lsf_voxel_light light;
     uint32_t sides; /* 0: voxels are not lit */
