@@ -23,6 +23,7 @@ typedef struct lsf_reference_world {
     lsf_reference_emitters emitters;
     lsf_sky sky;
     lsf_distribution light_power; /* of state->lights, when there are too many to ask all */
+    lsf_distribution bulbs;       /* point and spot lights among them, that begin paths */
     uint32_t bounces;
     lsf_seen_background background; /* of paths that meet nothing at all; set by the caller */
     bool thin_walls;                /* some material transmits, and bounds no medium */

@@ -283,12 +283,20 @@ static void read_lobes(lsf_reference_surface *surface, const lsf_scene *scene,
 }
 
 /* Double precision keeps the point within half a unit in the last place of the triangle's plane. */
-static lsf_float3 hit_position(const lsf_float3 corners[3], const lsf_reference_hit *hit)
+static lsf_float3 position_within(const lsf_float3 corners[3], const lsf_reference_hit *hit)
 {
     double b1 = hit->b1, b2 = hit->b2, b0 = 1.0 - b1 - b2;
     return lsf_f3((float)(b0 * corners[0].x + b1 * corners[1].x + b2 * corners[2].x),
                   (float)(b0 * corners[0].y + b1 * corners[1].y + b2 * corners[2].y),
                   (float)(b0 * corners[0].z + b1 * corners[1].z + b2 * corners[2].z));
+}
+
+lsf_float3 lsf_reference_hit_position(const lsf_reference_geometry *geometry,
+                                      const lsf_reference_hit *hit)
+{
+    lsf_float3 corners[3];
+    lsf_reference_corners(geometry, hit->instance, hit->triangle, corners);
+    return position_within(corners, hit);
 }
 
 void lsf_reference_surface_init(lsf_reference_surface *surface,
@@ -305,7 +313,7 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
     bool front = lsf_f3_dot(normal, direction) <= 0.0f;
 
     *surface = (lsf_reference_surface){
-        .position = hit_position(corners, hit),
+        .position = position_within(corners, hit),
         .geometric_normal = front ? normal : lsf_f3_scale(normal, -1.0f),
         .ray_offset = lsf_reference_ray_offset(corners),
         .view = lsf_f3_scale(direction, -1.0f),

@@ -36,6 +36,9 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
                                 const lsf_reference_geometry *geometry,
                                 const lsf_reference_hit *hit, lsf_float3 direction);
 
+lsf_float3 lsf_reference_hit_position(const lsf_reference_geometry *geometry,
+                                      const lsf_reference_hit *hit);
+
 /* With which probability a ray is to meet the hit point: its alpha where it is blended; 0 where a
  * mask cuts it out, else 1. */
 float lsf_reference_coverage(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit);

@@ -1,0 +1,27 @@
+/* Light of punctual lights at a vertex, found there and by paths that lights begin.
+ *
+ * A surface close to a light is bright without bound, and a path that comes upon it by chance is a
+ * firefly. So a path is begun at a light too, by its intensity, and the first surface y that it
+ * meets is joined to the vertex x: its density there, p(y) = P(light) p(w) |cos| / d^2, is as large
+ * as y is bright. With the directions that x draws it is combined by multiple importance sampling;
+ * both ways find the same paths x, y, light (Veach 1997, chapter 10, with light paths of one
+ * segment). */
+#ifndef LSF_REFERENCE_PUNCTUAL_H
+#define LSF_REFERENCE_PUNCTUAL_H
+
+#include "reference/walk.h"
+
+/* Luminance of a light's radiant power; a directional one's through the scene's bounding sphere, of
+ * radius sqrt(3) in normalised space. */
+float lsf_punctual_power(const lsf_light_state *light);
+
+/* Adds what lights send straight to the vertex. */
+void lsf_add_punctual(lsf_walk *walk);
+
+/* Adds what reaches the vertex from a point on or spot light by way of one other surface: the share
+ * of paths that the light begins. */
+void lsf_add_joined(lsf_walk *walk);
+/* Whether lsf_add_joined can add anything here. */
+bool lsf_may_join(const lsf_walk *walk);
+
+#endif
