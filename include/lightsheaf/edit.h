@@ -25,7 +25,7 @@ typedef enum lsf_kind {
     LSF_KIND_CAMERA,
 } lsf_kind;
 
-#define LSF_NOT_FOUND UINT32_MAX
+#define LSF_NOT_FOUND LSF_NONE
 
 uint32_t lsf_scene_count(const lsf_scene *scene, lsf_kind kind);
 /* "" where the file gives no name; NULL past the end. */
@@ -73,11 +73,31 @@ typedef struct lsf_material_desc {
     float ior;                  /* at least 1, or 0 as KHR_materials_ior has it */
     float transmission;         /* 0..1 */
     float coat, coat_roughness; /* 0..1 */
+    bool unlit;                 /* shown as emission of its base colour, and not lit */
+    float normal_scale, coat_normal_scale;
+    float specular, specular_color[3];     /* of the dielectric's reflection: weight, 0..1; tint of
+                                            * its light at normal incidence, 0 or more */
+    float sheen_color[3], sheen_roughness; /* 0..1 */
+    bool volume; /* bounds a medium that light is refracted into; else a thin wall */
+    float attenuation_distance, attenuation_color[3]; /* of the medium: what is left of white light
+                                                       * after so many scene units; above 0; 0..1 */
+    float anisotropy, anisotropy_rotation;            /* 0..1; radians from the tangent */
 } lsf_material_desc;
+
+/* Those of glTF: a white metal of roughness 1. */
+#define LSF_MATERIAL_DESC_DEFAULTS                                                                 \
+    .base_color = {1.0f, 1.0f, 1.0f, 1.0f}, .metallic = 1.0f, .roughness = 1.0f, .emission = {0},  \
+    .alpha_mode = LSF_ALPHA_OPAQUE, .alpha_cutoff = 0.5f, .double_sided = false, .ior = 1.5f,      \
+    .transmission = 0.0f, .coat = 0.0f, .coat_roughness = 0.0f, .unlit = false,                    \
+    .normal_scale = 1.0f, .coat_normal_scale = 1.0f, .specular = 1.0f,                             \
+    .specular_color = {1.0f, 1.0f, 1.0f}, .sheen_color = {0}, .sheen_roughness = 0.0f,             \
+    .volume = false, .attenuation_distance = 1.0f / 0.0f, .attenuation_color = {1.0f, 1.0f, 1.0f}, \
+    .anisotropy = 0.0f, .anisotropy_rotation = 0.0f
 
 bool lsf_scene_get_material(const lsf_scene *scene, uint32_t material, lsf_material_desc *desc,
                             lsf_error *error);
-/* LSF_ERROR_USAGE names the value that is out of range. */
+/* LSF_ERROR_USAGE names the value that is out of range. Anisotropy follows tangents: a material of
+ * whose surfaces none were read or made cannot become anisotropic. */
 bool lsf_scene_set_material(lsf_scene *scene, uint32_t material, const lsf_material_desc *desc,
                             lsf_error *error);
 

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <lightsheaf/bench.h>
+#include <lightsheaf/build.h>
 #include <lightsheaf/compare.h>
 #include <lightsheaf/context.h>
 #include <lightsheaf/edit.h>

@@ -17,6 +17,8 @@ extern "C" {
 
 typedef struct lsf_scene lsf_scene;
 
+#define LSF_NONE UINT32_MAX /* no such index */
+
 /* When a soft sky and a key light are added. */
 typedef enum lsf_default_light {
     LSF_DEFAULT_LIGHT_AUTO,   /* when the file has no light, its emissive materials do not light it,
@@ -109,6 +111,7 @@ typedef struct lsf_requirements {
     double bounds_min[3], bounds_max[3]; /* scene units, at the load time; min > max when empty */
 } lsf_requirements;
 
+/* NULL of one that is still being built (build.h). */
 const lsf_requirements *lsf_scene_get_requirements(const lsf_scene *scene);
 
 uint32_t lsf_scene_camera_count(const lsf_scene *scene); /* at least 1 */
@@ -118,8 +121,9 @@ const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index);
 uint32_t lsf_scene_note_count(const lsf_scene *scene);
 const char *lsf_scene_note(const lsf_scene *scene, uint32_t index);
 
-/* Prints what the file holds, what was ignored, and what it requires; as text or JSON. */
-char *lsf_scene_describe(const lsf_scene *scene, bool json); /* malloc'ed; NULL without memory */
+/* Prints what the file holds, what was ignored, and what it requires; as text or JSON. malloc'ed;
+ * NULL without memory, and of a scene that is still being built. */
+char *lsf_scene_describe(const lsf_scene *scene, bool json);
 
 #if defined(__GNUC__)
 #pragma GCC visibility pop

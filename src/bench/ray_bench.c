@@ -10,6 +10,7 @@
 #include "passes/gbuffer.h"
 #include "passes/ray_bundle.h"
 #include "reference/module.h"
+#include "scene/checks.h"
 #include "shared/scene_data.h"
 #include "techniques/setup.h"
 
@@ -49,7 +50,7 @@ typedef struct run {
 lsf_ray_bench *lsf_ray_bench_create(lsf_context *context, const lsf_scene *scene,
                                     const lsf_render_params *params, lsf_error *error)
 {
-    if (!lsf_given(context, "context", error) || !lsf_given(scene, "scene", error) ||
+    if (!lsf_given(context, "context", error) || !lsf_scene_given(scene, error) ||
         !lsf_given(params, "params", error))
         return NULL;
     lsf_ray_bench *bench = lsf_alloc(1, sizeof *bench);

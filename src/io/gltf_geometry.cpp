@@ -1,7 +1,7 @@
 #include "io/gltf_deform.hpp"
-#include "io/gltf_stream.hpp"
 
-#include "io/mesh_frame.h"
+#include "scene/geometry.h"
+#include "scene/material.h"
 
 #include <algorithm>
 #include <array>
@@ -51,16 +51,13 @@ class geometry_importer
     void append_vertices(const vertex_arrays &arrays, lsf_primitive &primitive);
     void repeat_vertices(uint64_t source, uint64_t count);
     void append_indices(const std::vector<uint32_t> &triangles, lsf_primitive &primitive);
-    uint32_t *grow_indices(uint64_t count);
-    void find_bounds(lsf_primitive &primitive) const;
     void count_left_out(const tinygltf::Primitive &source);
     void count_ignored(const tinygltf::Primitive &source, const lsf_material &material);
 
     gltf_import &import_;
     lsf_scene *scene_;
     stream_choice streams_;
-    stream position_, normal_, tangent_, uv0_, uv1_, color_;
-    uint64_t index_capacity_ = 0;
+    lsf_geometry geometry_;
     std::vector<lsf_primitive> primitives_;
     std::map<vertex_key, lsf_primitive> known_vertices_;
     std::map<index_key, lsf_primitive> known_indices_;
@@ -74,14 +71,13 @@ class geometry_importer
 };
 
 geometry_importer::geometry_importer(gltf_import &import, const stream_choice &streams)
-    : import_(import), scene_(import.scene), streams_(streams),
-      position_(&scene_->vertices.position, 3, {0, 0, 0, 0}, true),
-      normal_(&scene_->vertices.normal, 3, {0, 0, 1, 0}, true),
-      tangent_(&scene_->vertices.tangent, 4, {1, 0, 0, 1}, streams.tangent),
-      uv0_(&scene_->vertices.uv0, 2, {0, 0, 0, 0}, streams.uv0),
-      uv1_(&scene_->vertices.uv1, 2, {0, 0, 0, 0}, streams.uv1),
-      color_(&scene_->vertices.color, 4, {1, 1, 1, 1}, streams.color)
+    : import_(import), scene_(import.scene), streams_(streams)
 {
+    lsf_geometry_begin(&geometry_, scene_);
+    geometry_.streams[LSF_STREAM_TANGENT].present = streams.tangent;
+    geometry_.streams[LSF_STREAM_UV0].present = streams.uv0;
+    geometry_.streams[LSF_STREAM_UV1].present = streams.uv1;
+    geometry_.streams[LSF_STREAM_COLOR].present = streams.color;
     find_uses();
 }
 
@@ -95,38 +91,6 @@ static const lsf_material &material_of(const gltf_import &import,
                                            : import.material_of[(size_t)primitive.material]];
 }
 
-static bool wants_tangents(const lsf_material &material)
-{
-    return material.normal_texture.texture != LSF_NONE || material.anisotropy_strength > 0.0f ||
-           material.coat_normal_texture.texture != LSF_NONE;
-}
-
-static bool reads_uv(const lsf_material &material, uint32_t set)
-{
-    const lsf_texture_slot *slots[] = {
-        &material.base_color_texture,     &material.metallic_roughness_texture,
-        &material.normal_texture,         &material.occlusion_texture,
-        &material.emissive_texture,       &material.anisotropy_texture,
-        &material.transmission_texture,   &material.specular_texture,
-        &material.specular_color_texture, &material.coat_texture,
-        &material.coat_roughness_texture, &material.coat_normal_texture,
-        &material.sheen_color_texture,    &material.sheen_roughness_texture};
-    for (const lsf_texture_slot *slot : slots)
-        if (slot->texture != LSF_NONE && slot->uv_set == set)
-            return true;
-    return false;
-}
-
-/* Tangents follow the texture coordinates of the map that is turned by them; anisotropy without
- * any map follows the first set. */
-static uint32_t tangent_uv_set(const lsf_material &material)
-{
-    return material.normal_texture.texture != LSF_NONE        ? material.normal_texture.uv_set
-           : material.anisotropy_texture.texture != LSF_NONE  ? material.anisotropy_texture.uv_set
-           : material.coat_normal_texture.texture != LSF_NONE ? material.coat_normal_texture.uv_set
-                                                              : 0;
-}
-
 static stream_choice choose_streams(const gltf_import &import)
 {
     stream_choice streams;
@@ -137,11 +101,9 @@ static stream_choice choose_streams(const gltf_import &import)
             if (!mode_is_triangles(primitive.mode))
                 continue;
             const lsf_material &material = material_of(import, primitive);
-            bool tangents = wants_tangents(material);
-            streams.tangent = streams.tangent || tangents;
-            streams.uv0 =
-                streams.uv0 || reads_uv(material, 0) || (tangents && tangent_uv_set(material) == 0);
-            streams.uv1 = streams.uv1 || reads_uv(material, 1);
+            streams.tangent = streams.tangent || lsf_material_wants_tangents(&material);
+            streams.uv0 = streams.uv0 || lsf_material_wants_uv(&material, 0);
+            streams.uv1 = streams.uv1 || lsf_material_wants_uv(&material, 1);
             streams.color = streams.color || find_attribute(primitive, "COLOR_0") >= 0;
         }
     }
@@ -173,8 +135,8 @@ void geometry_importer::count_ignored(const tinygltf::Primitive &source,
     repairs.further_vertex_colors += find_attribute(source, "COLOR_1") >= 0;
     repairs.further_uv_sets += find_attribute(source, "TEXCOORD_2") >= 0;
     repairs.missing_uv_sets +=
-        (reads_uv(material, 0) && find_attribute(source, "TEXCOORD_0") < 0) ||
-        (reads_uv(material, 1) && find_attribute(source, "TEXCOORD_1") < 0);
+        (lsf_material_reads_uv(&material, 0) && find_attribute(source, "TEXCOORD_0") < 0) ||
+        (lsf_material_reads_uv(&material, 1) && find_attribute(source, "TEXCOORD_1") < 0);
 }
 
 /* --- repairs --- */
@@ -185,37 +147,20 @@ static const uint64_t SUM_BYTES = 3 * sizeof(double);
 void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles,
                                memory_loan &loan)
 {
-    uint64_t zeros = 0;
-    for (uint64_t i = 0; i < arrays.normal.size() / 3; i++) {
-        bool off = false;
-        if (lsf_make_unit(&arrays.normal[3 * i], &off))
-            import_.repairs.normals_scaled += off;
-        else
-            zeros++;
-    }
-    if (zeros > 0) {
+    lsf_frame_repairs *repairs = &import_.repairs.frames;
+    if (lsf_unit_normals(arrays.normal.data(), arrays.normal.size() / 3, repairs) > 0) {
         loan.take(arrays.count, SUM_BYTES);
         lsf_replace_zero_normals(arrays.position.data(), arrays.count, triangles.data(),
                                  triangles.size(), arrays.normal.data());
     }
-    import_.repairs.normals_zero += zeros;
-
-    for (uint64_t i = 0; i < arrays.tangent.size() / 4; i++) {
-        float *tangent = &arrays.tangent[4 * i];
-        bool off = false;
-        if (!lsf_make_unit(tangent, &off)) {
-            lsf_any_tangent(&arrays.normal[3 * i], tangent);
-            off = true;
-        }
-        import_.repairs.tangents_scaled += off || (tangent[3] != 1.0f && tangent[3] != -1.0f);
-        tangent[3] = tangent[3] < 0.0f ? -1.0f : 1.0f;
-    }
+    lsf_unit_tangents(arrays.normal.data(), arrays.tangent.data(), arrays.tangent.size() / 4,
+                      repairs);
 }
 
 void geometry_importer::make_flat(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
                                   const std::string &location, memory_loan &loan)
 {
-    import_.repairs.normals_missing_primitives++;
+    import_.repairs.frames.normals_missing++;
     loan.take(triangles.size(), vertex_bytes(streams_) + sizeof(uint32_t));
     if (triangles.size() > arrays.count)
         import_.budget.take(triangles.size() - arrays.count, vertex_bytes(streams_), location);
@@ -230,11 +175,12 @@ void geometry_importer::compute_tangents(vertex_arrays &arrays, std::vector<uint
                                          const lsf_material &material, const std::string &location,
                                          memory_loan &loan)
 {
-    const std::vector<float> &uvs = tangent_uv_set(material) == 0 ? arrays.uv0 : arrays.uv1;
+    const std::vector<float> &uvs =
+        lsf_material_tangent_uv_set(&material) == 0 ? arrays.uv0 : arrays.uv1;
     /* For lsf_split_mirrored, and for the largest stream while it grows. */
     loan.take(arrays.count, 1 + 2 * sizeof(uint32_t) + 4 * sizeof(float));
     if (uvs.empty()) {
-        import_.repairs.tangents_without_uv++;
+        import_.repairs.frames.tangents_without_uv++;
     } else {
         uint32_t *copied;
         uint64_t copied_count;
@@ -261,12 +207,12 @@ void geometry_importer::append_vertices(const vertex_arrays &arrays, lsf_primiti
     uint64_t first = scene_->vertices.count;
     primitive.first_vertex = first;
     primitive.vertex_count = (uint32_t)arrays.count;
-    position_.append(first, arrays.count, arrays.position);
-    normal_.append(first, arrays.count, arrays.normal);
-    tangent_.append(first, arrays.count, arrays.tangent);
-    uv0_.append(first, arrays.count, arrays.uv0);
-    uv1_.append(first, arrays.count, arrays.uv1);
-    color_.append(first, arrays.count, arrays.color);
+    const std::vector<float> *values[LSF_STREAM_COUNT] = {
+        &arrays.position, &arrays.normal, &arrays.tangent, &arrays.uv0, &arrays.uv1, &arrays.color};
+    for (size_t s = 0; s < LSF_STREAM_COUNT; s++)
+        if (!lsf_stream_append(&geometry_.streams[s], first, arrays.count,
+                               values[s]->empty() ? nullptr : values[s]->data()))
+            throw std::bad_alloc();
     scene_->vertices.count += arrays.count;
     if (scene_->vertices.count > UINT32_MAX)
         fail("MEMORY_LIMIT", "/meshes", "the scene has more than 4294967295 vertices");
@@ -275,48 +221,25 @@ void geometry_importer::append_vertices(const vertex_arrays &arrays, lsf_primiti
 void geometry_importer::repeat_vertices(uint64_t source, uint64_t count)
 {
     uint64_t first = scene_->vertices.count;
-    for (stream *each : {&position_, &normal_, &tangent_, &uv0_, &uv1_, &color_})
-        each->repeat(first, count, source);
+    for (lsf_stream &stream : geometry_.streams) {
+        if (!stream.present || count == 0)
+            continue;
+        float *out = lsf_stream_grow(&stream, first, count);
+        if (!out)
+            throw std::bad_alloc();
+        std::copy_n(*stream.array + source * stream.width, count * stream.width, out);
+    }
     scene_->vertices.count += count;
     if (scene_->vertices.count > UINT32_MAX)
         fail("MEMORY_LIMIT", "/meshes", "the scene has more than 4294967295 vertices");
 }
 
-/* Room for that many more; they count from then on. */
-uint32_t *geometry_importer::grow_indices(uint64_t count)
-{
-    void *grown = scene_->indices;
-    if (!lsf_grow(&grown, &index_capacity_, scene_->index_count + count, sizeof(uint32_t)))
-        throw std::bad_alloc();
-    scene_->indices = static_cast<uint32_t *>(grown);
-    scene_->index_count += count;
-    return scene_->indices + scene_->index_count - count;
-}
-
 void geometry_importer::append_indices(const std::vector<uint32_t> &triangles,
                                        lsf_primitive &primitive)
 {
-    primitive.first_index = scene_->index_count;
-    primitive.index_count = (uint32_t)triangles.size();
-    uint32_t *indices = grow_indices(triangles.size());
-    for (size_t i = 0; i < triangles.size(); i++)
-        indices[i] = (uint32_t)(primitive.first_vertex + triangles[i]);
-}
-
-void geometry_importer::find_bounds(lsf_primitive &primitive) const
-{
-    for (int c = 0; c < 3; c++) {
-        primitive.bounds_min[c] = FLT_MAX;
-        primitive.bounds_max[c] = -FLT_MAX;
-    }
-    for (uint64_t i = 0; i < primitive.index_count; i++) {
-        const float *p =
-            scene_->vertices.position + 3 * (size_t)scene_->indices[primitive.first_index + i];
-        for (int c = 0; c < 3; c++) {
-            primitive.bounds_min[c] = std::min(primitive.bounds_min[c], p[c]);
-            primitive.bounds_max[c] = std::max(primitive.bounds_max[c], p[c]);
-        }
-    }
+    if (!lsf_geometry_append_triangles(&geometry_, scene_, triangles.data(),
+                                       (uint32_t)triangles.size(), &primitive))
+        throw std::bad_alloc();
 }
 
 /* Accessors of what a vertex is made of; what is deformed is shared within its mesh alone. */
@@ -377,7 +300,6 @@ void geometry_importer::add_shared(const tinygltf::Primitive &source, size_t mes
         known_vertices_[key] = primitive;
     }
     append_indices(triangles, primitive);
-    find_bounds(primitive);
     known_indices_[indices_key] = primitive;
 }
 
@@ -406,7 +328,6 @@ void geometry_importer::add_computed(const tinygltf::Primitive &source, size_t m
     append_vertices(arrays, primitive);
     add_shape(source, mesh, flat, arrays, location, primitive);
     append_indices(triangles, primitive);
-    find_bounds(primitive);
 }
 
 void geometry_importer::add_primitive(const tinygltf::Primitive &source, size_t mesh,
@@ -427,7 +348,8 @@ void geometry_importer::add_primitive(const tinygltf::Primitive &source, size_t 
     primitive.deformer = LSF_NONE;
     primitive.material = (uint32_t)(&material - scene_->materials);
     bool flat = find_attribute(source, "NORMAL") < 0;
-    bool tangents = wants_tangents(material) && (flat || find_attribute(source, "TANGENT") < 0);
+    bool tangents =
+        lsf_material_wants_tangents(&material) && (flat || find_attribute(source, "TANGENT") < 0);
     if (flat || tangents)
         add_computed(source, mesh, location, flat, tangents, primitive);
     else
@@ -510,7 +432,11 @@ uint32_t geometry_importer::place(uint32_t node, uint32_t index)
     }
     std::string location = location_of("nodes", import_.source_of[node]);
     import_.budget.take(placed.index_count, sizeof(uint32_t), location);
-    uint32_t *indices = grow_indices(placed.index_count);
+    uint32_t *indices = placed.index_count == 0
+                            ? nullptr
+                            : lsf_geometry_grow_indices(&geometry_, scene_, placed.index_count);
+    if (!indices && placed.index_count > 0)
+        throw std::bad_alloc();
     for (uint32_t i = 0; i < placed.index_count; i++)
         indices[i] = (uint32_t)(scene_->indices[placed.first_index + i] - from + to);
     placed.first_vertex = to;

@@ -4,6 +4,7 @@
 #define LSF_IO_GLTF_IMPORT_HPP
 
 #include "io/io.h"
+#include "scene/mesh_frame.h"
 
 /* Images are decoded elsewhere. */
 #define TINYGLTF_NO_STB_IMAGE
@@ -153,8 +154,8 @@ file_content file_read(const std::string &path, const memory_budget &budget);
 
 /* What was repaired, summed up so that a file gives one note for each kind. */
 struct gltf_repairs {
-    uint64_t normals_missing_primitives = 0, normals_scaled = 0, normals_zero = 0;
-    uint64_t tangents_scaled = 0, tangents_without_uv = 0, rotations_scaled = 0;
+    lsf_frame_repairs frames = {};
+    uint64_t rotations_scaled = 0;
     uint64_t trailing_indices = 0, no_position = 0;
     uint64_t weights_scaled = 0, joints_missing = 0, weights_animated = 0;
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;

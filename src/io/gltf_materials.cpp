@@ -1,5 +1,7 @@
 #include "io/gltf_import.hpp"
 
+#include "scene/material.h"
+
 #include <climits>
 #include <cmath>
 #include <map>
@@ -263,35 +265,6 @@ static lsf_texture_slot extension_slot(texture_importer &textures, const Value &
 
 /* --- materials --- */
 
-static lsf_material default_material()
-{
-    lsf_material material = {};
-    for (int c = 0; c < 4; c++)
-        material.base_color[c] = 1.0f;
-    material.metallic = material.roughness = 1.0f;
-    material.normal_scale = 1.0f;
-    material.alpha_cutoff = 0.5f;
-    material.ior = 1.5f;
-    material.attenuation_distance = INFINITY;
-    material.specular = material.coat_normal_scale = 1.0f;
-    for (int c = 0; c < 3; c++)
-        material.attenuation_color[c] = material.specular_color[c] = 1.0f;
-    material.base_color_texture = material.metallic_roughness_texture = material.normal_texture =
-        material.occlusion_texture = material.emissive_texture = material.anisotropy_texture =
-            material.transmission_texture = material.specular_texture =
-                material.specular_color_texture = material.coat_texture =
-                    material.coat_roughness_texture = material.coat_normal_texture =
-                        material.sheen_color_texture = material.sheen_roughness_texture =
-                            empty_slot;
-    return material;
-}
-
-static void make_lambert(lsf_material &material)
-{
-    material.metallic = 0.0f;
-    material.roughness = 1.0f;
-}
-
 /* What it is stays where the extension does not say it. */
 static void read_color(const Value &extension, const char *key, float *color, int channels = 3)
 {
@@ -480,20 +453,17 @@ void gltf_materials_import(gltf_import &import)
             continue;
         const tinygltf::Material &source = import.model.materials[i];
         std::string location = location_of("materials", i);
-        lsf_material material = default_material();
+        lsf_material material = lsf_default_material(import.params->diffuse_only);
         read_base(textures, source, location, material);
-        if (import.params->diffuse_only)
-            make_lambert(material);
-        else
+        if (!import.params->diffuse_only)
             read_surface(textures, source, location, material);
+        material.has_tangents = lsf_material_wants_tangents(&material);
         import.material_of[i] = (uint32_t)materials.size();
         materials.push_back(material);
         names.push_back(source.name);
     }
-    materials.push_back(default_material());
+    materials.push_back(lsf_default_material(import.params->diffuse_only));
     names.push_back("default");
-    if (import.params->diffuse_only)
-        make_lambert(materials.back());
 
     import.scene->materials = copy_array(materials);
     for (const std::string &name : names)

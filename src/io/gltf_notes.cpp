@@ -25,14 +25,6 @@ static void note_extensions(gltf_import &import)
     }
 }
 
-/* "3 normals of ..."; `what` is one of them. */
-static void note_count(gltf_import &import, uint64_t count, const char *what, const char *finding)
-{
-    if (count > 0)
-        lsf_scene_add_note(import.scene, "%" PRIu64 " %s%s%s", count, what, lsf_plural(count),
-                           finding);
-}
-
 static void note_left_out(gltf_import &import, uint64_t primitives, uint64_t elements,
                           const char *kind)
 {
@@ -48,39 +40,34 @@ void gltf_notes_add(gltf_import &import)
     const gltf_repairs &repairs = import.repairs;
     note_extensions(import);
 
-    note_count(import, repairs.joints_missing, "primitive",
-               " without joints, of a node with a skin: placed by the node");
-    note_count(import, repairs.weights_scaled, "vertex weight sum",
-               " of joints other than 1: scaled");
-    note_count(import, repairs.weights_animated, "animation channel",
-               " of the weights of a node without morph targets: ignored");
-    note_count(import, repairs.negative_colors, "component",
-               " of vertex colours below 0: set to 0");
-    note_count(import, repairs.textures_without_image, "texture",
-               " without a PNG, JPEG or WebP image: materials are shown without");
+    lsf_scene_add_count_note(import.scene, repairs.joints_missing, "primitive",
+                             " without joints, of a node with a skin: placed by the node");
+    lsf_scene_add_count_note(import.scene, repairs.weights_scaled, "vertex weight sum",
+                             " of joints other than 1: scaled");
+    lsf_scene_add_count_note(import.scene, repairs.weights_animated, "animation channel",
+                             " of the weights of a node without morph targets: ignored");
+    lsf_scene_add_count_note(import.scene, repairs.negative_colors, "component",
+                             " of vertex colours below 0: set to 0");
+    lsf_scene_add_count_note(import.scene, repairs.textures_without_image, "texture",
+                             " without a PNG, JPEG or WebP image: materials are shown without");
     note_left_out(import, repairs.point_primitives, repairs.points, "points");
     note_left_out(import, repairs.line_primitives, repairs.lines, "lines");
-    note_count(import, repairs.no_position, "primitive", " without POSITION: ignored");
-    note_count(import, repairs.further_vertex_colors, "primitive",
-               " with more than one set of vertex colours: only COLOR_0 is used");
-    note_count(import, repairs.further_uv_sets, "primitive",
-               " with more than two sets of texture coordinates: only TEXCOORD_0 and TEXCOORD_1 "
-               "are used");
-    note_count(import, repairs.missing_uv_sets, "textured primitive",
-               " without the texture coordinates that the material reads: 0, 0 is used");
-    note_count(import, repairs.trailing_indices, "corner",
-               " left over at the end of a triangle list: ignored");
-    note_count(import, repairs.normals_missing_primitives, "primitive",
-               " without normals: shaded flat");
-    note_count(import, repairs.normals_scaled, "normal", " not of unit length: scaled");
-    note_count(import, repairs.normals_zero, "normal",
-               " without length: replaced by those of the triangles around");
-    note_count(import, repairs.tangents_scaled, "tangent",
-               " not of unit length, or without a sign: repaired");
-    note_count(import, repairs.tangents_without_uv, "primitive",
-               " without the texture coordinates that tangents need: arbitrary tangents are used");
-    note_count(import, repairs.rotations_scaled, "node rotation",
-               " by other than a unit quaternion: scaled");
+    lsf_scene_add_count_note(import.scene, repairs.no_position, "primitive",
+                             " without POSITION: ignored");
+    lsf_scene_add_count_note(import.scene, repairs.further_vertex_colors, "primitive",
+                             " with more than one set of vertex colours: only COLOR_0 is used");
+    lsf_scene_add_count_note(
+        import.scene, repairs.further_uv_sets, "primitive",
+        " with more than two sets of texture coordinates: only TEXCOORD_0 and TEXCOORD_1 "
+        "are used");
+    lsf_scene_add_count_note(
+        import.scene, repairs.missing_uv_sets, "textured primitive",
+        " without the texture coordinates that the material reads: 0, 0 is used");
+    lsf_scene_add_count_note(import.scene, repairs.trailing_indices, "corner",
+                             " left over at the end of a triangle list: ignored");
+    lsf_scene_note_frames(import.scene, &repairs.frames);
+    lsf_scene_add_count_note(import.scene, repairs.rotations_scaled, "node rotation",
+                             " by other than a unit quaternion: scaled");
 }
 
 } // namespace lsf

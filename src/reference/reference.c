@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "reference/module.h"
+#include "scene/checks.h"
 #include "scene/state.h"
 
 /* Asked for by a transparent background, not as one of lsf_aov. */
@@ -104,7 +105,7 @@ const lsf_reference_ray_functions *lsf_reference_load_rays(lsf_error *error)
 lsf_image *lsf_reference_render(const lsf_scene *scene, const lsf_render_params *params,
                                 uint32_t half, lsf_reference_result *result, lsf_error *error)
 {
-    if (!lsf_given(scene, "scene", error) || !lsf_given(params, "params", error))
+    if (!lsf_scene_given(scene, error) || !lsf_given(params, "params", error))
         return NULL;
     if (!check_params(params, half, error))
         return NULL;

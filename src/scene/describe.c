@@ -320,7 +320,7 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
 
 char *lsf_scene_describe(const lsf_scene *scene, bool json)
 {
-    if (!scene)
+    if (!scene || scene->draft)
         return NULL;
     lsf_string out = {0};
     if (json)

@@ -10,6 +10,9 @@
 extern "C" {
 #endif
 
+/* What lsf_environment keeps of a rotation in degrees. */
+float lsf_environment_turn(float rotation);
+
 /* Place of a unit direction on the map, u in [0, 1) around the horizon, v in [0, 1] from the
  * zenith. */
 void lsf_environment_place(const lsf_environment *environment, lsf_float3 direction, double *u,

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
+#include "scene/draft.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -49,6 +50,29 @@ void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     notes[scene->note_count++] = note;
 }
 
+void lsf_scene_add_count_note(lsf_scene *scene, uint64_t count, const char *what,
+                              const char *finding)
+{
+    if (count > 0)
+        lsf_scene_add_note(scene, "%llu %s%s%s", (unsigned long long)count, what, lsf_plural(count),
+                           finding);
+}
+
+void lsf_scene_note_frames(lsf_scene *scene, const lsf_frame_repairs *repairs)
+{
+    lsf_scene_add_count_note(scene, repairs->normals_missing, "primitive",
+                             " without normals: shaded flat");
+    lsf_scene_add_count_note(scene, repairs->normals_scaled, "normal",
+                             " not of unit length: scaled");
+    lsf_scene_add_count_note(scene, repairs->normals_zero, "normal",
+                             " without length: replaced by those of the triangles around");
+    lsf_scene_add_count_note(scene, repairs->tangents_scaled, "tangent",
+                             " not of unit length, or without a sign: repaired");
+    lsf_scene_add_count_note(
+        scene, repairs->tangents_without_uv, "primitive",
+        " without the texture coordinates that tangents need: arbitrary tangents are used");
+}
+
 uint32_t lsf_scene_note_count(const lsf_scene *scene)
 {
     if (!scene)
@@ -81,7 +105,7 @@ const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index)
 
 const lsf_requirements *lsf_scene_get_requirements(const lsf_scene *scene)
 {
-    if (!scene)
+    if (!scene || scene->draft)
         return NULL;
     return &scene->requirements;
 }
@@ -162,5 +186,6 @@ void lsf_scene_destroy(lsf_scene *scene)
     free(scene->environment.texels);
     free(scene->notes);
     free(scene->path);
+    free(scene->draft);
     free(scene);
 }

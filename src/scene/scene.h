@@ -8,14 +8,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lightsheaf/build.h>
 #include <lightsheaf/edit.h>
 #include <lightsheaf/scene.h>
+
+#include "scene/mesh_frame.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#define LSF_NONE UINT32_MAX /* no such index */
 
 /* Vertex streams of all primitives, one after the other. `position` and `normal` always exist.
  * Texture coordinates exist when some material reads that set, colours when some primitive has
@@ -94,10 +95,6 @@ typedef struct lsf_deformer {
     uint64_t first_vertex;
 } lsf_deformer;
 
-typedef enum lsf_wrap { LSF_WRAP_REPEAT, LSF_WRAP_CLAMP, LSF_WRAP_MIRROR } lsf_wrap;
-
-typedef enum lsf_texel_type { LSF_TEXEL_U8, LSF_TEXEL_U16, LSF_TEXEL_F32 } lsf_texel_type;
-
 /* Decoded pixels, rows from the top (glTF: uv 0,0 is the first texel's upper left corner). */
 typedef struct lsf_texture_image {
     char *name; /* URI or "image N", for messages */
@@ -133,6 +130,7 @@ typedef struct lsf_material {
     float alpha_cutoff;
     bool double_sided; /* also emits from its back */
     bool unlit;        /* shown as emission of its base colour */
+    bool has_tangents; /* so do vertices of its surfaces, that were read or made */
     float ior;
     float specular, specular_color[3];     /* of the dielectric's reflection: weight; tint of f0 */
     float sheen_color[3], sheen_roughness; /* factors */
@@ -269,13 +267,19 @@ struct lsf_scene {
     bool note_lost; /* for want of memory: loading fails */
     bool diffuse_only, show_back_faces;
     lsf_requirements requirements;
-    lsf_edits edits; /* made since it was loaded */
+    lsf_edits edits;         /* made since it was loaded */
+    struct lsf_draft *draft; /* of a scene that is being built (draft.h); NULL: it is whole */
 };
 
 /* Logs a warning and keeps it as a note. The same text is kept once, and a few hundred texts in
  * all. */
 void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+/* "3 normals of ..."; `what` is one of them. Nothing for 0. */
+void lsf_scene_add_count_note(lsf_scene *scene, uint64_t count, const char *what,
+                              const char *finding);
+/* What was repaired of normals and tangents. */
+void lsf_scene_note_frames(lsf_scene *scene, const lsf_frame_repairs *repairs);
 
 /* Sets which instances an animation or a program moves or deforms: one bool for each. False without
  * memory. */

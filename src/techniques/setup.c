@@ -7,6 +7,7 @@
 #include "base/base.h"
 #include "passes/accumulate.h"
 #include "passes/tonemap.h"
+#include "scene/checks.h"
 #include "scene/tessellate.h"
 
 static const struct {
@@ -197,7 +198,7 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
                      lsf_error *error)
 {
     *setup = (lsf_setup){.pass_params = {LSF_PASS_PARAMS_DEFAULTS}, .source = scene};
-    if (!lsf_given(scene, "scene", error) || !lsf_given(params, "params", error) ||
+    if (!lsf_scene_given(scene, error) || !lsf_given(params, "params", error) ||
         !lsf_given(params->technique, "lsf_render_params.technique", error) ||
         !check_params(params, error))
         return false;
@@ -311,7 +312,7 @@ bool lsf_render_params_view(const lsf_scene *scene, const lsf_render_params *par
                             lsf_error *error)
 {
     lsf_setup setup = {0};
-    bool good = lsf_given(scene, "scene", error) && lsf_given(params, "params", error) &&
+    bool good = lsf_scene_given(scene, error) && lsf_given(params, "params", error) &&
                 lsf_given(view, "view", error) && check_params(params, error) &&
                 keep_params(&setup, params, error);
     if (good) {

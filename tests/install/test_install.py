@@ -72,6 +72,17 @@ class Install(unittest.TestCase):
                 self.assertEqual(refused.returncode, 3)
                 self.assertIn("no-such-file.gltf", refused.stderr)
 
+    def test_a_scene_built_in_code(self):
+        flags = shlex.split(self.run_installed("pkg-config", "--cflags", "--libs", "lightsheaf").stdout)
+        program, out = os.path.join(self.folder, "build"), os.path.join(self.folder, "built.exr")
+        built = self.run_installed(COMPILERS["program.c"], "-Wall", "-Wextra", "-Werror",
+                                   str(pathlib.Path(__file__).parent / "build.c"), "-o", program, *flags)
+        self.assertEqual(built.returncode, 0, built.stderr)
+        done = self.run_installed(program, out)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        described = self.run_installed(str(self.prefix / "bin/lightsheaf"), "info", out)
+        self.assertIn("32 x 32", described.stdout)
+
     def test_a_window_with_a_context_of_its_own(self):
         """In C and in C++, under a display without a screen."""
         if not shutil.which("Xvfb"):

@@ -7,9 +7,9 @@
 #include <cmocka.h>
 
 #include "gltf_folder.h"
-#include "io/mesh_frame.h"
 #include "load_gltf.h"
 #include "scene/hierarchy.h"
+#include "scene/mesh_frame.h"
 #include "scene/scene.h"
 
 #include <math.h>

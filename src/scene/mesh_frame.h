@@ -1,6 +1,6 @@
-/* Normals and tangents that a file leaves out. */
-#ifndef LSF_IO_MESH_FRAME_H
-#define LSF_IO_MESH_FRAME_H
+/* Normals and tangents that are left out, and unit ones of those that are there. */
+#ifndef LSF_SCENE_MESH_FRAME_H
+#define LSF_SCENE_MESH_FRAME_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,6 +19,21 @@ void lsf_flat_normals(const float *positions, uint64_t triangle_count, float *no
 /* Scales to unit length in double precision, so that even denormal input works. False, leaving
  * the vector alone, when its length is 0. `off` is set when the length was not 1 within 1 %. */
 bool lsf_make_unit(float vector[3], bool *off);
+
+/* What was amiss with normals and tangents. */
+typedef struct lsf_frame_repairs {
+    uint64_t normals_missing; /* lists of triangles without */
+    uint64_t normals_scaled, normals_zero;
+    uint64_t tangents_scaled;
+    uint64_t tangents_without_uv; /* lists of triangles */
+} lsf_frame_repairs;
+
+/* Makes normals unit, and returns how many have no length: for lsf_replace_zero_normals. */
+uint64_t lsf_unit_normals(float *normals, uint64_t count, lsf_frame_repairs *repairs);
+/* Makes tangents unit and their sign 1 or -1; those of no length become some that are perpendicular
+ * to the normals. */
+void lsf_unit_tangents(const float *normals, float *tangents, uint64_t count,
+                       lsf_frame_repairs *repairs);
 
 /* Replaces the normals of no length by the area-weighted mean of the triangles around them, or by
  * 0,0,1 where that is nothing. */

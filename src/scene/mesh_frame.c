@@ -1,4 +1,4 @@
-#include "io/mesh_frame.h"
+#include "scene/mesh_frame.h"
 
 #include "base/base.h"
 
@@ -100,6 +100,35 @@ bool lsf_make_unit(float vector[3], bool *off)
 static bool is_zero(const float v[3])
 {
     return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f;
+}
+
+uint64_t lsf_unit_normals(float *normals, uint64_t count, lsf_frame_repairs *repairs)
+{
+    uint64_t zeros = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        bool off = false;
+        if (lsf_make_unit(normals + 3 * i, &off))
+            repairs->normals_scaled += off;
+        else
+            zeros++;
+    }
+    repairs->normals_zero += zeros;
+    return zeros;
+}
+
+void lsf_unit_tangents(const float *normals, float *tangents, uint64_t count,
+                       lsf_frame_repairs *repairs)
+{
+    for (uint64_t i = 0; i < count; i++) {
+        float *tangent = tangents + 4 * i;
+        bool off = false;
+        if (!lsf_make_unit(tangent, &off)) {
+            lsf_any_tangent(normals + 3 * i, tangent);
+            off = true;
+        }
+        repairs->tangents_scaled += off || (tangent[3] != 1.0f && tangent[3] != -1.0f);
+        tangent[3] = tangent[3] < 0.0f ? -1.0f : 1.0f;
+    }
 }
 
 void lsf_replace_zero_normals(const float *positions, uint64_t vertex_count,

@@ -1,0 +1,56 @@
+/* The scene's vertices and indices while they grow. */
+#ifndef LSF_SCENE_GEOMETRY_H
+#define LSF_SCENE_GEOMETRY_H
+
+#include "scene/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One of lsf_vertices. */
+typedef struct lsf_stream {
+    bool present; /* else nothing is kept of it */
+    float **array;
+    uint32_t width;
+    uint64_t capacity;  /* floats */
+    float otherwise[4]; /* of vertices that have none */
+} lsf_stream;
+
+typedef enum lsf_stream_kind {
+    LSF_STREAM_POSITION,
+    LSF_STREAM_NORMAL,
+    LSF_STREAM_TANGENT,
+    LSF_STREAM_UV0,
+    LSF_STREAM_UV1,
+    LSF_STREAM_COLOR,
+    LSF_STREAM_COUNT
+} lsf_stream_kind;
+
+typedef struct lsf_geometry {
+    lsf_stream streams[LSF_STREAM_COUNT];
+    uint64_t index_capacity;
+} lsf_geometry;
+
+/* Of an empty scene: positions and normals are present, others are not. */
+void lsf_geometry_begin(lsf_geometry *geometry, lsf_scene *scene);
+
+/* Room for `count` vertices, at least 1, from `first` on; NULL without memory. For streams that are
+ * present. */
+float *lsf_stream_grow(lsf_stream *stream, uint64_t first, uint64_t count);
+/* Appends `count` vertices at `first`; NULL: of the default. False without memory; nothing where
+ * the stream is not present. */
+bool lsf_stream_append(lsf_stream *stream, uint64_t first, uint64_t count, const float *values);
+/* Room for that many more indices, at least 1, which count from then on; NULL without memory. */
+uint32_t *lsf_geometry_grow_indices(lsf_geometry *geometry, lsf_scene *scene, uint64_t count);
+
+/* Appends a list of triangles whose indices count from the primitive's first vertex, and finds the
+ * bounds of what they use. False without memory. */
+bool lsf_geometry_append_triangles(lsf_geometry *geometry, lsf_scene *scene,
+                                   const uint32_t *triangles, uint32_t index_count,
+                                   lsf_primitive *primitive);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
