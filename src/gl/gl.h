@@ -37,6 +37,10 @@ uint64_t lsf_texture_bytes(const lsf_texture_desc *desc);
 GLuint lsf_texture_create(lsf_context *context, const lsf_texture_desc *desc, lsf_error *error);
 void lsf_texture_destroy(lsf_context *context, GLuint *texture); /* *texture 0 allowed; set to 0 */
 
+/* That a shader can read of one storage block on every device (GL 4.5, table 23.64); software GL
+ * has no larger ones. */
+#define LSF_STORAGE_BLOCK_BYTES ((uint64_t)1 << 27)
+
 /* Immutable storage; `data` NULL leaves it undefined; `flags` as for glNamedBufferStorage. */
 GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes, const void *data,
                          GLbitfield flags, lsf_error *error);

@@ -43,7 +43,7 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
                           const lsf_bidirectional_shade_use *use, bool of_vpl, bool deep)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_switch_add(plan, "LSF_DEEP", deep, "vertices are hits of bundles");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
@@ -110,8 +110,7 @@ static void add_target(lsf_plan *plan, bool wanted, const char *name, GLenum for
 void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
                                   const lsf_bidirectional_shade_use *use)
 {
-    const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
-    GLenum gloss_format = gloss ? gloss->texture.internal_format : 0;
+    GLenum gloss = lsf_gbuffer_gloss(plan);
     bool specular = plan->requirements.specular;
     bool vpl = use->vpl_light || use->vpl_emitter;
     if (vpl)
@@ -135,8 +134,7 @@ void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_
     add_target(plan, deep, "bidirectional_shade.surface", GL_RGBA32UI, "vertices of paths");
     add_target(plan, deep, "bidirectional_shade.throughput", GL_RGBA32UI,
                "what vertices hand on, as half floats");
-    add_target(plan, deep && gloss, "bidirectional_shade.gloss", gloss_format,
-               "roughness of vertices");
+    add_target(plan, deep && gloss, "bidirectional_shade.gloss", gloss, "roughness of vertices");
 }
 
 static bool create_textures(lsf_bidirectional_shade *pass, const lsf_plan *plan, lsf_error *error)
@@ -156,8 +154,8 @@ static bool create_textures(lsf_bidirectional_shade *pass, const lsf_plan *plan,
         {"bidirectional_shade.gloss", &out->gloss},
     };
     for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        if (!lsf_plan_create_texture(plan, pass->context, textures[i].name, textures[i].texture,
-                                     error))
+        if (!lsf_plan_create_texture_if_planned(plan, pass->context, textures[i].name,
+                                                textures[i].texture, error))
             return false;
     return true;
 }

@@ -58,7 +58,7 @@ void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width
                                                        "converges without");
         return;
     }
-    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "blur_guide", "what the blur compares, once for all phases");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
@@ -95,10 +95,12 @@ bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
     lsf_split_light *out = &pass->light, *between = &pass->between;
     if (!lsf_plan_create_texture(plan, context, "blur.guide", &pass->guide, error) ||
         !lsf_plan_create_texture(plan, context, "blur.irradiance", &out->irradiance, error) ||
-        !lsf_plan_create_texture(plan, context, "blur.specular", &out->specular, error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "blur.specular", &out->specular,
+                                            error) ||
         !lsf_plan_create_texture(plan, context, "blur.between_irradiance", &between->irradiance,
                                  error) ||
-        !lsf_plan_create_texture(plan, context, "blur.between_specular", &between->specular, error))
+        !lsf_plan_create_texture_if_planned(plan, context, "blur.between_specular",
+                                            &between->specular, error))
         return false;
     pass->guide_framebuffer = create_framebuffer(context, "blur_guide", pass->guide, 0, error);
     pass->framebuffer = create_framebuffer(context, "blur", out->irradiance, out->specular, error);

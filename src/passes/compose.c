@@ -19,7 +19,7 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     const lsf_requirements *r = &plan->requirements;
     lsf_plan_pass_add(plan, "compose", "adds up what is seen itself and what is reflected");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_find(plan, "gbuffer.emission") != NULL,
+    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
     lsf_plan_switch_add(plan, "LSF_DIRECT", use->direct,
                         "there are punctual lights, or directions of the environment");
@@ -62,13 +62,15 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/compose.frag.glsl"};
     *pass = (lsf_compose){.context = context};
     if (!lsf_plan_create_texture(plan, context, "compose.radiance", &pass->radiance, error) ||
-        !lsf_plan_create_texture(plan, context, "compose.seen", &pass->seen, error) ||
-        !lsf_plan_create_texture(plan, context, "compose.indirect_diffuse", &pass->indirect_diffuse,
-                                 error) ||
-        !lsf_plan_create_texture(plan, context, "compose.direct", &pass->direct, error) ||
-        !lsf_plan_create_texture(plan, context, "compose.indirect_specular",
-                                 &pass->indirect_specular, error) ||
-        !lsf_plan_create_texture(plan, context, "compose.coverage", &pass->coverage, error))
+        !lsf_plan_create_texture_if_planned(plan, context, "compose.seen", &pass->seen, error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "compose.indirect_diffuse",
+                                            &pass->indirect_diffuse, error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "compose.direct", &pass->direct,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "compose.indirect_specular",
+                                            &pass->indirect_specular, error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "compose.coverage", &pass->coverage,
+                                            error))
         return false;
     lsf_framebuffer_desc desc = {.label = "compose",
                                  .color_count = 6,

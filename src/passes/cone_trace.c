@@ -26,7 +26,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
                          uint32_t height)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "cone_trace", "%d diffuse cones of each visible point%s", params->count,
                       r->specular ? ", and a specular one" : "");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
@@ -98,9 +98,10 @@ bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf
     *pass = (lsf_cone_trace){.context = context, .params = *params, .grid = *grid};
     lsf_split_light *out = &pass->light;
     if (!lsf_plan_create_texture(plan, context, "cone_trace.irradiance", &out->irradiance, error) ||
-        !lsf_plan_create_texture(plan, context, "cone_trace.specular", &out->specular, error) ||
-        !lsf_plan_create_texture(plan, context, "cone_trace.lobe_albedo", &pass->lobe_albedo,
-                                 error))
+        !lsf_plan_create_texture_if_planned(plan, context, "cone_trace.specular", &out->specular,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "cone_trace.lobe_albedo",
+                                            &pass->lobe_albedo, error))
         return false;
     if (pass->lobe_albedo)
         fill_lobe_albedo(pass->lobe_albedo);

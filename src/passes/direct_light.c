@@ -8,7 +8,7 @@
 static void plan_switches(lsf_plan *plan, const lsf_direct_light_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");

@@ -18,8 +18,8 @@ const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
 
 static void plan_switches(lsf_plan *plan)
 {
-    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
-    bool emission = lsf_plan_find(plan, "gbuffer.emission") != NULL;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool emission = lsf_plan_surfaces_shine(plan);
     bool motion = lsf_plan_find(plan, "gbuffer.motion") != NULL;
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_scene_gpu_material_switches(plan, gloss, emission);
@@ -78,7 +78,7 @@ void lsf_gbuffer_plan(lsf_plan *plan)
         lsf_plan_omit(plan, "gbuffer.gloss",
                       r->specular ? "every material has roughness 1, metallic 0 and ior 1.5"
                                   : "diffuse only");
-    if (r->emissive || r->unlit)
+    if (lsf_plan_surfaces_shine(plan))
         lsf_plan_texture_add(plan, "gbuffer.emission", GL_RGBA32F, w, h, "%s",
                              r->emissive ? "some material emits" : "some material is unlit");
     else
@@ -96,9 +96,10 @@ static bool create_way(lsf_gbuffer *pass, const lsf_plan *plan, lsf_error *error
     static const char *const files[5] = {"passes/gbuffer.vert.glsl",
                                          "passes/gbuffer_tint.frag.glsl"};
     lsf_gbuffer_maps *out = &pass->outputs;
-    if (!lsf_plan_create_texture(plan, pass->context, "gbuffer.tint", &out->tint, error) ||
-        !lsf_plan_create_texture(plan, pass->context, "gbuffer.absorption", &out->absorption,
-                                 error))
+    if (!lsf_plan_create_texture_if_planned(plan, pass->context, "gbuffer.tint", &out->tint,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, pass->context, "gbuffer.absorption",
+                                            &out->absorption, error))
         return false;
     if (!out->tint)
         return true;
@@ -120,9 +121,11 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
     *pass = (lsf_gbuffer){.context = context};
     if (!lsf_plan_create_texture(plan, context, "gbuffer.depth", &out->seen.depth, error) ||
         !lsf_plan_create_texture(plan, context, "gbuffer.surface", &out->seen.surface, error) ||
-        !lsf_plan_create_texture(plan, context, "gbuffer.gloss", &out->seen.gloss, error) ||
-        !lsf_plan_create_texture(plan, context, "gbuffer.emission", &out->emission, error) ||
-        !lsf_plan_create_texture(plan, context, "gbuffer.motion", &out->motion, error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.gloss", &out->seen.gloss,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.emission", &out->emission,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.motion", &out->motion, error) ||
         !create_way(pass, plan, error))
         return false;
     lsf_framebuffer_desc desc = {

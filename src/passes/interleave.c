@@ -46,9 +46,7 @@ static void add_light(lsf_plan *plan, const char *irradiance, const char *specul
 
 void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
 {
-    /* Its format: the resource itself moves when others are added. */
-    const lsf_plan_resource *gbuffer_gloss = lsf_plan_find(plan, "gbuffer.gloss");
-    GLenum gloss = gbuffer_gloss ? gbuffer_gloss->texture.internal_format : GL_NONE;
+    GLenum gloss = lsf_gbuffer_gloss(plan);
     bool specular = plan->requirements.specular;
     lsf_plan_pass_add(plan, "interleave_split", "pixels that take the same samples side by side");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
@@ -83,8 +81,8 @@ static bool create_filter(lsf_interleave *pass, const lsf_plan *plan, lsf_error 
                                          "passes/interleave_filter.frag.glsl"};
     if (!lsf_plan_create_texture(plan, pass->context, "interleave.between_irradiance",
                                  &pass->between.irradiance, error) ||
-        !lsf_plan_create_texture(plan, pass->context, "interleave.between_specular",
-                                 &pass->between.specular, error))
+        !lsf_plan_create_texture_if_planned(plan, pass->context, "interleave.between_specular",
+                                            &pass->between.specular, error))
         return false;
     lsf_framebuffer_desc desc = {.label = "interleave_filter",
                                  .color_count = 2,
@@ -115,7 +113,8 @@ bool lsf_interleave_create(lsf_interleave *pass, lsf_context *context, const lsf
         {"interleave.specular", &pass->light.specular},
     };
     for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
+        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
+                                                textures[i].texture, error))
             return false;
     lsf_framebuffer_desc points = {
         .label = "interleave_split",

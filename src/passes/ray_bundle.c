@@ -48,14 +48,14 @@ void lsf_ray_bundle_gap_switch(lsf_plan *plan)
 
 void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params)
 {
-    bool gloss = lsf_ray_bundle_has_gloss(plan);
+    bool gloss = lsf_plan_surfaces_differ(plan);
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SIDE", params->resolution, "bundle.resolution");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
                         "bundle.slices, as a multiple of 4 less one that storage blocks hold");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", lsf_ray_bundle_has_wide_gloss(plan),
                         "some material is anisotropic or lets light through");
-    lsf_plan_switch_add(plan, "LSF_BUNDLE_EMISSION", lsf_ray_bundle_has_emission(plan),
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
     lsf_ray_bundle_gap_switch(plan);
 }
@@ -74,8 +74,8 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                       use->count, lsf_plural(use->count));
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
-    lsf_scene_gpu_material_switches(plan, lsf_ray_bundle_has_gloss(plan) && !use->distances_only,
-                                    lsf_ray_bundle_has_emission(plan) && !use->distances_only);
+    lsf_scene_gpu_material_switches(plan, lsf_plan_surfaces_differ(plan) && !use->distances_only,
+                                    lsf_plan_surfaces_shine(plan) && !use->distances_only);
     lsf_scene_gpu_fold_lobes(plan);
     lsf_ray_bundle_raster_plan(plan, params);
     lsf_ray_bundle_nodes_plan(plan, params, use);

@@ -10,8 +10,6 @@
 /* Slots that were too small get a quarter more than was needed: directions differ. */
 #define GROWTH_MARGIN 4
 
-/* GL promises storage blocks of this size, and software GL has no larger ones. */
-#define LARGEST_BLOCK (UINT64_C(1) << 27)
 #define SURFACE_BYTES 12
 
 /* Texels along a side below which a map tells next to nothing. */
@@ -34,7 +32,7 @@ static uint32_t first_room(const lsf_ray_bundle_params *params)
 
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
 {
-    uint64_t room = first_room(params), nodes = LARGEST_BLOCK / SURFACE_BYTES;
+    uint64_t room = first_room(params), nodes = LSF_STORAGE_BLOCK_BYTES / SURFACE_BYTES;
     uint64_t most = nodes > room ? (nodes - room) / lsf_ray_bundle_texels(params) / 4 * 4 : 0;
     uint64_t wanted = ((uint64_t)params->slices + 4) / 4 * 4;
     uint64_t places = most < wanted ? most : wanted;
@@ -47,20 +45,9 @@ static uint64_t places(const lsf_ray_bundle_params *params)
     return ((uint64_t)lsf_ray_bundle_slices(params) + 4) / 4 * 4;
 }
 
-bool lsf_ray_bundle_has_gloss(const lsf_plan *plan)
-{
-    const lsf_requirements *r = &plan->requirements;
-    return r->specular && (r->glossy || r->variable_ior || r->anisotropic || plan->straight);
-}
-
 bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan)
 {
-    return lsf_ray_bundle_has_gloss(plan) && (plan->requirements.anisotropic || plan->straight);
-}
-
-bool lsf_ray_bundle_has_emission(const lsf_plan *plan)
-{
-    return plan->requirements.emissive || plan->requirements.unlit;
+    return lsf_plan_surfaces_differ(plan) && (plan->requirements.anisotropic || plan->straight);
 }
 
 /* Bytes of an array with room for `room` chained nodes; 0 when the scene does not need it. */
@@ -81,11 +68,11 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
     case LSF_RAY_BUNDLE_SURFACES:
         return SURFACE_BYTES * nodes;
     case LSF_RAY_BUNDLE_GLOSS:
-        return lsf_ray_bundle_has_gloss(plan)
+        return lsf_plan_surfaces_differ(plan)
                    ? (lsf_ray_bundle_has_wide_gloss(plan) ? 8 : 4) * nodes
                    : 0;
     case LSF_RAY_BUNDLE_EMISSION:
-        return lsf_ray_bundle_has_emission(plan) ? 8 * nodes : 0;
+        return lsf_plan_surfaces_shine(plan) ? 8 * nodes : 0;
     default:
         return 8 * room;
     }
@@ -117,9 +104,9 @@ void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *para
         }
     if (use->distances_only)
         lsf_plan_omit(plan, "ray_bundle.surfaces", "distances are all that is asked for");
-    if (!lsf_ray_bundle_has_gloss(plan))
+    if (!lsf_plan_surfaces_differ(plan))
         lsf_plan_omit(plan, "ray_bundle.gloss", "nothing is glossy");
-    if (!lsf_ray_bundle_has_emission(plan))
+    if (!lsf_plan_surfaces_shine(plan))
         lsf_plan_omit(plan, "ray_bundle.emission", "nothing emits");
 }
 
@@ -190,8 +177,8 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
             uint64_t bytes =
                 array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->room);
             if (!check_size(name, bytes, &pass->params, error) ||
-                !lsf_plan_create_buffer(plan, pass->context, name, NULL, 0, &slot->arrays[array],
-                                        error))
+                !lsf_plan_create_buffer_if_planned(plan, pass->context, name, NULL, 0,
+                                                   &slot->arrays[array], error))
                 return false;
         }
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->head_fetch);

@@ -58,10 +58,8 @@ void lsf_ray_bundle_gap_switch(lsf_plan *plan);
 uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params);
 /* bundle.slices as a multiple of 4 less one, and no more than a storage block holds; or 0. */
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
-bool lsf_ray_bundle_has_gloss(const lsf_plan *plan);
 /* With anisotropy or transmission. */
 bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan);
-bool lsf_ray_bundle_has_emission(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use);
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);

@@ -13,9 +13,6 @@
 /* In one dispatch: GL promises 65,535 work groups. */
 #define MAX_TRIANGLES (65535u * LSF_BUNDLE_SMALL_SIZE)
 
-/* Storage blocks of GL's guaranteed size; a scene with more triangles is left to GL alone. */
-#define MAX_BYTES (UINT64_C(1) << 27)
-
 static uint64_t large_bytes(const lsf_plan *plan)
 {
     return 4 *
@@ -29,7 +26,7 @@ void lsf_ray_bundle_raster_plan(lsf_plan *plan, const lsf_ray_bundle_params *par
         lsf_plan_omit(plan, "ray_bundle.large", "bundle.raster is gl");
     else if (plan->requirements.triangles == 0)
         lsf_plan_omit(plan, "ray_bundle.large", "the scene has no triangles");
-    else if (bytes > MAX_BYTES)
+    else if (bytes > LSF_STORAGE_BLOCK_BYTES)
         lsf_plan_omit(plan, "ray_bundle.large", "the scene has too many triangles for its list");
     else
         lsf_plan_buffer_add(plan, "ray_bundle.large", bytes,

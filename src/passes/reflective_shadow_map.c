@@ -105,8 +105,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     const lsf_requirements *r = &plan->requirements;
     bool needed[LSF_LIGHT_MAP_KINDS];
     lsf_light_map_kinds(plan, state, needed);
-    bool gloss =
-        r->specular && (r->anisotropic || r->glossy || r->variable_ior || plan->transmission);
+    bool gloss = lsf_plan_surfaces_differ(plan);
     uint32_t most_faces = 1;
     lsf_plan_pass_add(
         plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
@@ -148,7 +147,7 @@ static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context 
     char name[64];
     for (int layer = 0; layer < LAYERS; layer++) {
         name_layer(name, kind, layer);
-        if (!lsf_plan_create_texture(plan, context, name, textures[layer], error))
+        if (!lsf_plan_create_texture_if_planned(plan, context, name, textures[layer], error))
             return false;
     }
     const lsf_plan_resource *resource = lsf_plan_find(plan, name);

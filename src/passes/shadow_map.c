@@ -119,8 +119,9 @@ static bool create_target(lsf_shadow_map_target *target, lsf_context *context, c
     target->faces = resource->texture.depth;
     target->resolution = resource->texture.width;
     if (!lsf_plan_create_texture(plan, context, depth_name, &target->depth, error) ||
-        !lsf_plan_create_texture(plan, context, gradient_name, &target->gradient, error) ||
-        !lsf_plan_create_texture(plan, context, tint_name, &target->tint, error))
+        !lsf_plan_create_texture_if_planned(plan, context, gradient_name, &target->gradient,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, tint_name, &target->tint, error))
         return false;
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_framebuffer_desc desc = {.label = depth_name,

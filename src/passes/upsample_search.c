@@ -16,9 +16,7 @@ const lsf_option_row lsf_upsample_search_options[LSF_UPSAMPLE_SEARCH_OPTION_COUN
 
 static void plan_split(lsf_plan *plan, uint32_t width, uint32_t height)
 {
-    /* Its format: the resource itself moves when others are added. */
-    const lsf_plan_resource *gbuffer_gloss = lsf_plan_find(plan, "gbuffer.gloss");
-    GLenum gloss = gbuffer_gloss ? gbuffer_gloss->texture.internal_format : GL_NONE;
+    GLenum gloss = lsf_gbuffer_gloss(plan);
     lsf_plan_pass_add(plan, "upsample_search_split", "what %u x %u places of the picture see",
                       width, height);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
@@ -76,7 +74,8 @@ bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
         {"upsample_search.specular", &pass->light.specular},
     };
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
+        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
+                                                textures[i].texture, error))
             return false;
     const lsf_plan_resource *depth = lsf_plan_find(plan, "upsample_search.depth");
     pass->grid.width = depth->texture.width;

@@ -24,8 +24,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_voxel_bend_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
                         "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_plan_find(plan, "voxelize.gloss") != NULL,
-                        "roughness or metallic vary between voxels");
+    lsf_voxel_gloss_switch(plan);
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     for (int i = 0; i < (of_own ? 2 : 1); i++)
@@ -39,8 +38,8 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
 static bool create_radiance(lsf_voxel_bounce *pass, const lsf_plan *plan, lsf_error *error)
 {
     for (int i = 0; i < 2; i++) {
-        if (!lsf_plan_create_texture(plan, pass->context, radiance_names[i], &pass->radiance[i],
-                                     error))
+        if (!lsf_plan_create_texture_if_planned(plan, pass->context, radiance_names[i],
+                                                &pass->radiance[i], error))
             return false;
         for (uint32_t level = 0; pass->radiance[i] && level < pass->levels; level++)
             glClearTexImage(pass->radiance[i], (GLint)level, GL_RGBA, GL_FLOAT, NULL);

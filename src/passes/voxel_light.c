@@ -38,11 +38,10 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
         lsf_plan_switch_add(plan, "LSF_EMIT", variants[i].emit, "part of the program's purpose");
         lsf_plan_switch_add(plan, "LSF_REFLECT", variants[i].reflect, "the same");
         lsf_voxel_bend_switch(plan);
-        lsf_plan_switch_add(plan, "LSF_EMISSION", r->emissive || r->unlit,
+        lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                             "some material emits or is unlit");
         lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-        lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_plan_find(plan, "voxelize.gloss") != NULL,
-                            "roughness or metallic vary between voxels");
+        lsf_voxel_gloss_switch(plan);
         lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                             "light passes materials that transmit");
         lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),

@@ -37,9 +37,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
                          const lsf_voxel_path_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
-    bool voxel_gloss = lsf_plan_find(plan, "voxelize.gloss") != NULL;
-    bool emission = lsf_plan_find(plan, "voxelize.emission") != NULL;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     bool texture = params->sequence == LSF_VOXEL_PATH_TEXTURE;
     lsf_plan_pass_add(plan, "voxel_path", "paths of %u segment%s through the voxels", use->segments,
                       lsf_plural(use->segments));
@@ -47,7 +45,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_coarse_grid_switch(plan, use->width, use->height);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", voxel_gloss, "they vary between voxels");
+    lsf_voxel_gloss_switch(plan);
     lsf_voxel_bend_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
@@ -56,7 +54,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->transmission && r->refractive,
                         "some material is the surface of a medium");
-    lsf_plan_switch_add(plan, "LSF_EMISSION", emission, "some material emits or is unlit");
+    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
+                        "some material emits or is unlit");
     lsf_voxel_path_emitters_plan(plan, params);
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
@@ -83,7 +82,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
 /* The same for every seed, which decides where it is read. */
 static bool create_random(lsf_voxel_path *pass, const lsf_plan *plan, lsf_error *error)
 {
-    if (!lsf_plan_create_texture(plan, pass->context, "voxel_path.random", &pass->random, error))
+    if (!lsf_plan_create_texture_if_planned(plan, pass->context, "voxel_path.random", &pass->random,
+                                            error))
         return false;
     if (!pass->random)
         return true;
@@ -117,7 +117,8 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
     };
     lsf_framebuffer_desc desc = {.label = "voxel_path", .layer = -1};
     for (size_t i = 0; i < LSF_COUNT(textures); i++) {
-        if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
+        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
+                                                textures[i].texture, error))
             return false;
         if (*textures[i].texture)
             desc.colors[desc.color_count++] = *textures[i].texture;

@@ -35,9 +35,12 @@ bool lsf_voxel_view_create(lsf_voxel_view *pass, lsf_context *context, const lsf
                                       GL_COLOR_ATTACHMENT2};
     *pass = (lsf_voxel_view){.context = context};
     lsf_voxel_view_outputs *o = &pass->outputs;
-    if (!lsf_plan_create_texture(plan, context, "voxel_view.albedo", &o->albedo, error) ||
-        !lsf_plan_create_texture(plan, context, "voxel_view.normal", &o->normal, error) ||
-        !lsf_plan_create_texture(plan, context, "voxel_view.radiance", &o->radiance, error))
+    if (!lsf_plan_create_texture_if_planned(plan, context, "voxel_view.albedo", &o->albedo,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "voxel_view.normal", &o->normal,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "voxel_view.radiance", &o->radiance,
+                                            error))
         return false;
     const GLuint textures[3] = {o->albedo, o->normal, o->radiance};
     lsf_framebuffer_desc desc = {.label = "voxel_view", .layer = -1};

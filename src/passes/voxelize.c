@@ -52,21 +52,11 @@ const lsf_option_row lsf_voxelize_options[LSF_VOXELIZE_OPTION_COUNT] = {
 
 const char *const lsf_voxelize_count_names[LSF_VOXELIZE_COUNTS] = {"instances", "triangles"};
 
-static bool has_gloss(const lsf_plan *plan)
-{
-    const lsf_requirements *r = &plan->requirements;
-    return r->glossy || (plan->transmission && r->variable_ior);
-}
-
-static bool has_emission(const lsf_plan *plan)
-{
-    return plan->requirements.emissive || plan->requirements.unlit;
-}
-
 /* Without lists and the coarser occupancy, which take half a byte together. */
 uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter)
 {
-    uint32_t words = 5u + lsf_voxel_bends(plan) + has_emission(plan) + has_gloss(plan);
+    uint32_t words =
+        5u + lsf_voxel_bends(plan) + lsf_plan_surfaces_shine(plan) + lsf_voxel_gloss(plan);
     uint32_t bytes = 4 * (words + plan->transmission) + 1;
     return lsf_voxelize_keeps_still(plan, jitter) ? 2 * bytes : bytes;
 }
@@ -107,7 +97,7 @@ static void plan_programs(lsf_plan *plan)
     lsf_plan_pass_add(plan, "voxelize_write", "the surfaces of those that won");
     plan_switches(plan);
     lsf_voxel_bend_switch(plan);
-    lsf_scene_gpu_material_switches(plan, has_gloss(plan), has_emission(plan));
+    lsf_scene_gpu_material_switches(plan, lsf_voxel_gloss(plan), lsf_plan_surfaces_shine(plan));
     lsf_scene_gpu_fold_lobes(plan);
 }
 
@@ -155,12 +145,12 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                            "normals and tangent");
     lsf_voxel_texture_plan(plan, grid, "voxelize.point", GL_R32UI, 1, 1,
                            "where the surface is in the voxel");
-    if (has_emission(plan))
+    if (lsf_plan_surfaces_shine(plan))
         lsf_voxel_texture_plan(plan, grid, "voxelize.emission", GL_R32UI, 1, 1,
                                "some material emits or is unlit");
     else
         lsf_plan_omit(plan, "voxelize.emission", "no material emits");
-    if (has_gloss(plan))
+    if (lsf_voxel_gloss(plan))
         lsf_voxel_texture_plan(plan, grid, "voxelize.gloss", GL_R32UI, 1, 1,
                                "some material is glossy");
     else
@@ -205,8 +195,8 @@ static bool create_textures(lsf_voxelize *pass, const lsf_plan *plan, lsf_error 
     lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES];
     lsf_voxelize_textures(pass, textures);
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        if (!lsf_plan_create_texture(plan, pass->context, textures[i].name, textures[i].texture,
-                                     error))
+        if (!lsf_plan_create_texture_if_planned(plan, pass->context, textures[i].name,
+                                                textures[i].texture, error))
             return false;
     glClearTexImage(pass->key, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     for (int level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
@@ -228,8 +218,8 @@ static bool create_lists(lsf_voxelize *pass, const lsf_plan *plan, lsf_error *er
                                 error) ||
         !lsf_plan_create_buffer(plan, pass->context, "voxelize.previous_bricks", NULL, 0,
                                 &pass->bricks[1], error) ||
-        !lsf_plan_create_buffer(plan, pass->context, "voxelize.tiles", NULL, 0, &pass->tiles,
-                                error) ||
+        !lsf_plan_create_buffer_if_planned(plan, pass->context, "voxelize.tiles", NULL, 0,
+                                           &pass->tiles, error) ||
         !lsf_plan_create_buffer(plan, pass->context, "voxelize.draws_start", NULL,
                                 GL_DYNAMIC_STORAGE_BIT, &pass->draws_start, error) ||
         !lsf_plan_create_buffer(plan, pass->context, "voxelize.draws", NULL, 0, &pass->draws,

@@ -77,7 +77,8 @@ bool lsf_voxelize_still_create(lsf_voxelize *pass, const lsf_plan *plan, const l
     lsf_voxelize_textures(pass, textures);
     for (int i = 0; i < LSF_VOXELIZE_TEXTURES; i++) {
         still_name(name, textures[i].name);
-        if (!lsf_plan_create_texture(plan, pass->context, name, &pass->still.textures[i], error))
+        if (!lsf_plan_create_texture_if_planned(plan, pass->context, name, &pass->still.textures[i],
+                                                error))
             return false;
     }
     return lsf_plan_create_buffer(plan, pass->context, "voxelize.still_bricks", NULL, 0,

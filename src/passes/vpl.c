@@ -39,8 +39,7 @@ const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT] = {
 static void plan_draw(lsf_plan *plan, uint64_t count)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss =
-        r->specular && (r->anisotropic || r->glossy || r->variable_ior || plan->transmission);
+    bool gloss = lsf_plan_surfaces_differ(plan);
     lsf_plan_pass_add(plan, "vpl_draw", "what punctual lights fall on");
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE",
@@ -111,13 +110,16 @@ static bool create_buffers(lsf_vpl *pass, const lsf_plan *plan, lsf_error *error
     lsf_vpl_outputs *out = &pass->outputs;
     return lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error) &&
            lsf_plan_create_buffer(plan, context, "vpl.maps", NULL, 0, &out->maps, error) &&
-           lsf_plan_create_buffer(plan, context, "vpl.random", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                  &pass->random, error) &&
-           lsf_plan_create_buffer(plan, context, "vpl.large", NULL, 0, &pass->large, error) &&
-           lsf_plan_create_buffer(plan, context, "vpl.command", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                  &pass->command, error) &&
-           lsf_plan_create_texture(plan, context, "vpl.shadow_map", &out->shadow_map, error) &&
-           lsf_plan_create_texture(plan, context, "vpl.emitter_map", &out->emitter_map, error);
+           lsf_plan_create_buffer_if_planned(plan, context, "vpl.random", NULL,
+                                             GL_DYNAMIC_STORAGE_BIT, &pass->random, error) &&
+           lsf_plan_create_buffer_if_planned(plan, context, "vpl.large", NULL, 0, &pass->large,
+                                             error) &&
+           lsf_plan_create_buffer_if_planned(plan, context, "vpl.command", NULL,
+                                             GL_DYNAMIC_STORAGE_BIT, &pass->command, error) &&
+           lsf_plan_create_texture_if_planned(plan, context, "vpl.shadow_map", &out->shadow_map,
+                                              error) &&
+           lsf_plan_create_texture_if_planned(plan, context, "vpl.emitter_map", &out->emitter_map,
+                                              error);
 }
 
 static bool create_straight(lsf_vpl *pass, const lsf_plan *plan, lsf_error *error)
@@ -130,8 +132,10 @@ static bool create_straight(lsf_vpl *pass, const lsf_plan *plan, lsf_error *erro
     lsf_vpl_outputs *out = &pass->outputs;
     if (!lsf_plan_find_pass(plan, "vpl_straight"))
         return true;
-    if (!lsf_plan_create_texture(plan, context, "vpl.shadow_tint", &out->shadow_tint, error) ||
-        !lsf_plan_create_texture(plan, context, "vpl.emitter_tint", &out->emitter_tint, error))
+    if (!lsf_plan_create_texture_if_planned(plan, context, "vpl.shadow_tint", &out->shadow_tint,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "vpl.emitter_tint", &out->emitter_tint,
+                                            error))
         return false;
     const GLuint tints[2] = {out->shadow_tint, out->emitter_tint};
     for (int i = 0; i < 2; i++) {

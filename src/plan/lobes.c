@@ -66,8 +66,8 @@ static struct lsf_lobe_data lobe_data(const lsf_material *m)
 
 bool lsf_scene_gpu_create_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
 {
-    if (!lsf_plan_create_buffer(plan, gpu->context, "scene.lobes", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                &gpu->lobes, error))
+    if (!lsf_plan_create_buffer_if_planned(plan, gpu->context, "scene.lobes", NULL,
+                                           GL_DYNAMIC_STORAGE_BIT, &gpu->lobes, error))
         return false;
     if (!gpu->lobes)
         return true;

@@ -3,7 +3,7 @@
 #ifndef LSF_PLAN_MAPS_H
 #define LSF_PLAN_MAPS_H
 
-#include "gl/gl.h"
+#include "plan/plan.h"
 
 /* Points on surfaces: what the picture's pixels see, or the same in another order or of fewer
  * pixels. Formats as in lib/gbuffer.glsl. */
@@ -26,6 +26,9 @@ typedef struct lsf_gbuffer_maps {
     GLuint motion;           /* RG32F, pixels; 0 unless asked for */
     GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye; 0: none is lost */
 } lsf_gbuffer_maps;
+
+/* The format of the G-buffer's gloss, once that is planned; GL_NONE: it has none. */
+GLenum lsf_gbuffer_gloss(const lsf_plan *plan);
 
 /* For lib/gbuffer_textures.glsl, to units 0 to 2. */
 void lsf_surface_maps_bind(const lsf_surface_maps *maps);

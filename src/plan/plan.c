@@ -14,6 +14,17 @@
         va_end(arguments);                                                                         \
     } while (0)
 
+bool lsf_plan_surfaces_shine(const lsf_plan *plan)
+{
+    return plan->requirements.emissive || plan->requirements.unlit;
+}
+
+bool lsf_plan_surfaces_differ(const lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    return r->specular && (r->glossy || r->variable_ior || r->anisotropic || plan->transmission);
+}
+
 /* A zeroed new element at the end of one of the plan's lists, or NULL. */
 static void *append(lsf_plan *plan, void **list, uint64_t *count, uint64_t *capacity, uint64_t size)
 {
@@ -172,12 +183,18 @@ int lsf_plan_switch_value(const lsf_plan *plan, const char *pass_name, const cha
     return 0;
 }
 
+static bool refuse(const char *what, const char *name, lsf_error *error)
+{
+    return lsf_error_set(error, LSF_ERROR_RENDER,
+                         "the frame plan lists no %s \"%s\": a fault of Lightsheaf's", what, name);
+}
+
 bool lsf_plan_create_texture(const lsf_plan *plan, lsf_context *context, const char *name,
                              GLuint *texture, lsf_error *error)
 {
     const lsf_plan_resource *resource = lsf_plan_find(plan, name);
-    if (!resource)
-        return true;
+    if (!resource || resource->is_buffer)
+        return refuse("texture", name, error);
     lsf_texture_desc desc = resource->texture;
     desc.label = resource->name;
     *texture = lsf_texture_create(context, &desc, error);
@@ -188,10 +205,25 @@ bool lsf_plan_create_buffer(const lsf_plan *plan, lsf_context *context, const ch
                             const void *data, GLbitfield flags, GLuint *buffer, lsf_error *error)
 {
     const lsf_plan_resource *resource = lsf_plan_find(plan, name);
-    if (!resource)
-        return true;
+    if (!resource || !resource->is_buffer)
+        return refuse("buffer", name, error);
     *buffer = lsf_buffer_create(context, resource->name, resource->bytes, data, flags, error);
     return *buffer != 0;
+}
+
+bool lsf_plan_create_texture_if_planned(const lsf_plan *plan, lsf_context *context,
+                                        const char *name, GLuint *texture, lsf_error *error)
+{
+    return !lsf_plan_find(plan, name) ||
+           lsf_plan_create_texture(plan, context, name, texture, error);
+}
+
+bool lsf_plan_create_buffer_if_planned(const lsf_plan *plan, lsf_context *context, const char *name,
+                                       const void *data, GLbitfield flags, GLuint *buffer,
+                                       lsf_error *error)
+{
+    return !lsf_plan_find(plan, name) ||
+           lsf_plan_create_buffer(plan, context, name, data, flags, buffer, error);
 }
 
 bool lsf_plan_resize_buffer(lsf_plan *plan, lsf_context *context, const char *name, uint64_t bytes,
@@ -207,8 +239,9 @@ bool lsf_plan_resize_buffer(lsf_plan *plan, lsf_context *context, const char *na
         if (!*buffer)
             return false;
         resource->bytes = bytes;
+        return true;
     }
-    return true;
+    return refuse("buffer", name, error);
 }
 
 GLuint lsf_plan_program(const lsf_plan *plan, lsf_context *context, const char *pass_name,
@@ -216,10 +249,14 @@ GLuint lsf_plan_program(const lsf_plan *plan, lsf_context *context, const char *
 {
     const lsf_plan_pass *pass = lsf_plan_find_pass(plan, pass_name);
     lsf_define defines[LSF_PLAN_MAX_SWITCHES];
-    uint32_t count = pass ? pass->switch_count : 0;
-    for (uint32_t i = 0; i < count; i++)
+    if (!pass) {
+        refuse("pass", pass_name, error);
+        return 0;
+    }
+    for (uint32_t i = 0; i < pass->switch_count; i++)
         defines[i] = pass->switches[i].define;
-    lsf_program_desc desc = {.label = pass_name, .defines = defines, .define_count = count};
+    lsf_program_desc desc = {
+        .label = pass_name, .defines = defines, .define_count = pass->switch_count};
     for (int i = 0; i < 5 && files[i]; i++)
         desc.files[i] = files[i];
     return lsf_program_get(context, &desc, error);

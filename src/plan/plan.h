@@ -72,6 +72,11 @@ struct lsf_plan {
     uint64_t remark_count, remark_capacity;
 };
 
+/* Surfaces send out radiance of their own: some material emits or is unlit. */
+bool lsf_plan_surfaces_shine(const lsf_plan *plan);
+/* Surfaces that light falls on differ in roughness, metallic, f0 or what they transmit. */
+bool lsf_plan_surfaces_differ(const lsf_plan *plan);
+
 /* Appends a pass in the order of execution; later lsf_plan_switch_add calls belong to it. */
 void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
     __attribute__((format(printf, 3, 4)));
@@ -97,12 +102,18 @@ const lsf_plan_resource *lsf_plan_find(const lsf_plan *plan, const char *name);
 /* The switch's value, 0 when the pass does not have it. */
 int lsf_plan_switch_value(const lsf_plan *plan, const char *pass, const char *name);
 
-/* Creates the planned texture; *texture stays 0, with success, when the plan does not list it. */
+/* Creates the texture, which is an error when the plan does not list it. */
 bool lsf_plan_create_texture(const lsf_plan *plan, lsf_context *context, const char *name,
                              GLuint *texture, lsf_error *error);
 /* The same for a buffer; `data` holds the planned bytes or is NULL. */
 bool lsf_plan_create_buffer(const lsf_plan *plan, lsf_context *context, const char *name,
                             const void *data, GLbitfield flags, GLuint *buffer, lsf_error *error);
+/* For what is not there in every plan: the name stays 0, with success, when it is not listed. */
+bool lsf_plan_create_texture_if_planned(const lsf_plan *plan, lsf_context *context,
+                                        const char *name, GLuint *texture, lsf_error *error);
+bool lsf_plan_create_buffer_if_planned(const lsf_plan *plan, lsf_context *context, const char *name,
+                                       const void *data, GLbitfield flags, GLuint *buffer,
+                                       lsf_error *error);
 /* Replaces the buffer by one of `bytes`, without its contents, and lists it as that large; for what
  * is known only while rendering. On failure *buffer is 0. */
 bool lsf_plan_resize_buffer(lsf_plan *plan, lsf_context *context, const char *name, uint64_t bytes,

@@ -43,17 +43,17 @@ bool lsf_scene_dynamic_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_erro
             return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for joints and weights");
     }
     gpu->anew = true;
-    return lsf_plan_create_buffer(plan, gpu->context, "scene.instances", NULL, dynamic,
-                                  &gpu->instances, error) &&
-           lsf_plan_create_buffer(plan, gpu->context, "scene.previous_transforms", NULL, dynamic,
-                                  &gpu->previous_transforms, error) &&
-           lsf_plan_create_buffer(plan, gpu->context, "scene.previous_positions",
-                                  scene->vertices.position, dynamic, &gpu->previous_positions,
-                                  error) &&
-           lsf_plan_create_buffer(plan, gpu->context, "scene.materials", NULL, dynamic,
-                                  &gpu->materials, error) &&
-           lsf_plan_create_buffer(plan, gpu->context, "scene.triangles", NULL, dynamic,
-                                  &gpu->triangles, error);
+    return lsf_plan_create_buffer_if_planned(plan, gpu->context, "scene.instances", NULL, dynamic,
+                                             &gpu->instances, error) &&
+           lsf_plan_create_buffer_if_planned(plan, gpu->context, "scene.previous_transforms", NULL,
+                                             dynamic, &gpu->previous_transforms, error) &&
+           lsf_plan_create_buffer_if_planned(plan, gpu->context, "scene.previous_positions",
+                                             scene->vertices.position, dynamic,
+                                             &gpu->previous_positions, error) &&
+           lsf_plan_create_buffer_if_planned(plan, gpu->context, "scene.materials", NULL, dynamic,
+                                             &gpu->materials, error) &&
+           lsf_plan_create_buffer_if_planned(plan, gpu->context, "scene.triangles", NULL, dynamic,
+                                             &gpu->triangles, error);
 }
 
 void lsf_scene_dynamic_destroy(lsf_scene_gpu *gpu)

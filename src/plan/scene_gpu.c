@@ -15,9 +15,6 @@
 typedef struct lsf_instance_data instance_data;
 typedef struct lsf_material_data material_data;
 
-/* That a shader can read of one storage block on every device (GL 4.5, table 23.64). */
-#define STORAGE_BLOCK_BYTES ((uint64_t)1 << 27)
-
 const char *const lsf_draw_count_names[LSF_DRAW_COUNTS] = {"instances_drawn", "instances_culled",
                                                            "triangles"};
 
@@ -160,7 +157,7 @@ void lsf_scene_gpu_plan_triangles(lsf_plan *plan)
         return;
     if (r->triangles == 0)
         lsf_plan_omit(plan, "scene.triangles", "the scene has no triangles");
-    else if (bytes > STORAGE_BLOCK_BYTES)
+    else if (bytes > LSF_STORAGE_BLOCK_BYTES)
         lsf_plan_omit(plan, "scene.triangles", "a block of %.0f MB is more than every shader reads",
                       (double)bytes * 1e-6);
     else
@@ -292,8 +289,8 @@ static bool upload_streams(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *
         {"scene.indices", gpu->scene->indices, &gpu->indices, 0},
     };
     for (size_t i = 0; i < LSF_COUNT(streams); i++)
-        if (!lsf_plan_create_buffer(plan, gpu->context, streams[i].name, streams[i].data,
-                                    streams[i].flags, streams[i].buffer, error))
+        if (!lsf_plan_create_buffer_if_planned(plan, gpu->context, streams[i].name, streams[i].data,
+                                               streams[i].flags, streams[i].buffer, error))
             return false;
     return true;
 }

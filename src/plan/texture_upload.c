@@ -210,7 +210,8 @@ static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index,
 static bool upload_environment(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
 {
     const lsf_environment *environment = &gpu->scene->environment;
-    if (!lsf_plan_create_texture(plan, gpu->context, "scene.environment", &gpu->environment, error))
+    if (!lsf_plan_create_texture_if_planned(plan, gpu->context, "scene.environment",
+                                            &gpu->environment, error))
         return false;
     if (!gpu->environment)
         return true;

@@ -163,3 +163,15 @@ void lsf_voxel_bend_switch(lsf_plan *plan)
     lsf_plan_switch_add(plan, "LSF_VOXEL_BENT", lsf_voxel_bends(plan),
                         "normals are smooth or mapped: voxels keep them beside their planes'");
 }
+
+bool lsf_voxel_gloss(const lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    return r->glossy || (plan->transmission && r->variable_ior);
+}
+
+void lsf_voxel_gloss_switch(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_voxel_gloss(plan),
+                        "roughness or metallic vary between voxels");
+}

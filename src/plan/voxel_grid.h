@@ -76,5 +76,8 @@ void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const ch
  * turn that reads them. */
 bool lsf_voxel_bends(const lsf_plan *plan);
 void lsf_voxel_bend_switch(lsf_plan *plan);
+/* The same of roughness, metallic and f0. */
+bool lsf_voxel_gloss(const lsf_plan *plan);
+void lsf_voxel_gloss_switch(lsf_plan *plan);
 
 #endif

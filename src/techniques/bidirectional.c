@@ -113,7 +113,7 @@ static bool create_bundles(bidirectional *b, lsf_context *context, const lsf_pla
                              b->sampling.bundle_count);
     if (!lsf_bundle_directions_init(&b->directions, &scene->environment,
                                     params->ray_bundle.environment_offset, error) ||
-        !lsf_plan_create_texture(plan, context, "bundle.pdf", &b->bundle_pdf, error))
+        !lsf_plan_create_texture_if_planned(plan, context, "bundle.pdf", &b->bundle_pdf, error))
         return false;
     if (b->bundle_pdf)
         glTextureSubImage2D(b->bundle_pdf, 0, 0, 0, (GLsizei)b->directions.width,

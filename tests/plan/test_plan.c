@@ -254,6 +254,26 @@ static void bad_params(void **unused)
     destroy_scene(scene);
 }
 
+/* Before GL is asked for anything. */
+static void only_what_is_planned_is_created(void **state)
+{
+    (void)state;
+    static const char *const files[5] = {"passes/none.comp.glsl"};
+    lsf_plan *plan = calloc(1, sizeof *plan);
+    assert_non_null(plan);
+    lsf_plan_texture_add(plan, "test.texture", GL_R32F, 4, 4, "test");
+    GLuint name = 0;
+    lsf_error error = {0};
+    assert_false(lsf_plan_create_texture(plan, NULL, "test.textures", &name, &error));
+    assert_non_null(strstr(error.message, "test.textures"));
+    assert_false(lsf_plan_create_buffer(plan, NULL, "test.texture", NULL, 0, &name, &error));
+    assert_false(lsf_plan_resize_buffer(plan, NULL, "test.buffer", 4, 0, &name, &error));
+    assert_int_equal(lsf_plan_program(plan, NULL, "test", files, &error), 0);
+    assert_true(lsf_plan_create_texture_if_planned(plan, NULL, "test.other", &name, &error));
+    assert_int_equal(name, 0);
+    lsf_plan_destroy(plan);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -266,6 +286,7 @@ int main(void)
         cmocka_unit_test(layers),
         cmocka_unit_test(no_light_no_shadow),
         cmocka_unit_test(bad_params),
+        cmocka_unit_test(only_what_is_planned_is_created),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
