@@ -1,4 +1,5 @@
-/* Ray-bundles against a ray tracer: the same rays, on the same machine, one after the other. */
+/* Ray-bundles against a ray tracer: the same rays, on the same machine, one after the other. For
+ * `lightsheaf bench rays`, and no part of what stays the same from version to version. */
 #ifndef LIGHTSHEAF_BENCH_H
 #define LIGHTSHEAF_BENCH_H
 

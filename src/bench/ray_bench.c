@@ -191,15 +191,12 @@ static bool draw_screen(run *r, lsf_error *error)
     return true;
 }
 
-/* Width of a texel of the bundle that is bound, in normalised space; the wider of its sides. */
-static double texel_width(void)
+/* Width of a texel of a bundle, in normalised space; the wider of its sides. */
+static double texel_width(const run *r, uint32_t index)
 {
-    GLint buffer = 0;
-    GLint64 start = 0;
+    const lsf_bundle_nodes nodes = lsf_ray_bundle_nodes(r->bundle, index);
     struct lsf_bundle_data data;
-    glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, LSF_BINDING_BUNDLE, &buffer);
-    glGetInteger64i_v(GL_UNIFORM_BUFFER_START, LSF_BINDING_BUNDLE, &start);
-    glGetNamedBufferSubData((GLuint)buffer, (GLintptr)start, sizeof data, &data);
+    glGetNamedBufferSubData(nodes.projections, nodes.offset, sizeof data, &data);
     return 2.0 * (double)(fmaxf(data.window.z, data.window.w) * data.range.w);
 }
 
@@ -264,7 +261,7 @@ static bool run_directions(run *r, lsf_ray_bench *bench, uint32_t count, lsf_err
         r->build_ms[i - WARM_UP] = bounds_ms + build_ms;
         r->search_ms[i - WARM_UP] = search_ms;
         r->embree_s[i - WARM_UP] = seconds;
-        count_agreement(r, texel_width());
+        count_agreement(r, texel_width(r, i));
     }
     return true;
 }

@@ -16,9 +16,9 @@ static const struct {
     bool (*run)(lsf_bench *bench, lsf_error *error);
 } measurements[] = {
     {"rays", lsf_bench_rays},
-    {"bidirectional", lsf_bench_bidirectional},
-    {"cone", lsf_bench_cone},
-    {"voxel_path", lsf_bench_voxel_path},
+    {"bidirectional", lsf_bench_frames},
+    {"cone", lsf_bench_frames},
+    {"voxel_path", lsf_bench_frames},
 };
 
 static const char *next_measurement(size_t index, void *user)

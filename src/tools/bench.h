@@ -17,9 +17,8 @@ typedef struct lsf_bench {
 
 /* Each prints its lines as it goes, or adds to `json`. */
 bool lsf_bench_rays(lsf_bench *bench, lsf_error *error);
-bool lsf_bench_bidirectional(lsf_bench *bench, lsf_error *error);
-bool lsf_bench_cone(lsf_bench *bench, lsf_error *error);
-bool lsf_bench_voxel_path(lsf_bench *bench, lsf_error *error);
+/* The frames of the measurement that the first operand names. */
+bool lsf_bench_frames(lsf_bench *bench, lsf_error *error);
 
 /* A part of the text, on standard output at once; nothing with --json - or --quiet. */
 bool lsf_bench_print(const lsf_bench *bench, lsf_error *error, const char *format, ...)

@@ -60,6 +60,7 @@ class Bidirectional(CommandTest):
         done = self.run_command("bench", "bidirectional", CORNELL, "--json", "-", *self.SMALL)
         report = json.loads(done.stdout)
         self.assertEqual(report["measurement"], "bidirectional")
+        (report,) = report["measured"]
         self.assertEqual((report["screen"], report["supersampling"]), ([16, 12], 2))
         self.assertEqual((report["triangles"], report["tessellation_factor"]), (34, 1))
         self.assertEqual(report["frames"], 1)
@@ -83,7 +84,7 @@ class Bidirectional(CommandTest):
     def test_triangles_of_the_paper(self):
         done = self.run_command("bench", "bidirectional", "--json", "-", "-r", "4,4", "-s", "1", "-D",
                                 "vpl.count=1", "-D", "bundle.count=1", "-D", "interleave.size=1")
-        triangles = json.loads(done.stdout)["triangles"]
+        triangles = json.loads(done.stdout)["measured"][0]["triangles"]
         self.assertGreater(triangles, 174e3 / 2)
         self.assertLess(triangles, 174e3 * 2)
 
@@ -94,7 +95,9 @@ class Cone(CommandTest):
     def test_json(self):
         done = self.run_command("bench", "cone", CORNELL, "--json", "-", *self.SMALL)
         report = json.loads(done.stdout)
-        self.assertEqual((report["measurement"], report["screen"]), ("cone", [24, 16]))
+        self.assertEqual(report["measurement"], "cone")
+        (report,) = report["measured"]
+        self.assertEqual(report["screen"], [24, 16])
         self.assertEqual(report["options"][-1], "voxel.resolution=16")
         self.assertAlmostEqual(sum(row["ms"] or 0 for row in report["rows"]), report["total_ms"],
                                places=3)
@@ -104,7 +107,7 @@ class Cone(CommandTest):
     def test_table(self):
         text = self.run_command("bench", "cone", CORNELL, *self.SMALL).stdout.decode()
         self.assertRegex(text, r"(?m)^Trace cones +[\d.]+ +-$")
-        self.assertRegex(text, r"(?m)^Total +[\d.]+ +810\.0$")
+        self.assertRegex(text, r"(?m)^Total +[\d.]+ +-$")
 
 
 class VoxelPath(CommandTest):
