@@ -3,6 +3,7 @@
 #define LSF_PASSES_ACCUMULATE_H
 
 #include "plan/iteration.h"
+#include "scene/layer.h"
 
 typedef enum lsf_accumulate_source {
     LSF_ACCUMULATE_COLOR,  /* any float texture as it is */
@@ -12,13 +13,11 @@ typedef enum lsf_accumulate_source {
     LSF_ACCUMULATE_SOURCES,
 } lsf_accumulate_source;
 
-#define LSF_ACCUMULATE_MAX_LAYERS (2 + LSF_AOV_COUNT) /* picture, coverage */
-
 typedef struct lsf_accumulate {
     lsf_context *context;
     uint32_t layer_count;
-    lsf_accumulate_source sources[LSF_ACCUMULATE_MAX_LAYERS];
-    GLuint means[LSF_ACCUMULATE_MAX_LAYERS]; /* outputs: RGBA32F */
+    lsf_accumulate_source sources[LSF_LAYER_COUNT];
+    GLuint means[LSF_LAYER_COUNT]; /* outputs: RGBA32F */
     GLuint programs[LSF_ACCUMULATE_SOURCES];
     GLuint framebuffer; /* without attachments */
     lsf_timer *timer;

@@ -8,34 +8,23 @@
 #include "base/base.h"
 #include "reference/module.h"
 #include "scene/checks.h"
+#include "scene/layer.h"
 #include "scene/state.h"
 
-/* Asked for by a transparent background, not as one of lsf_aov. */
-#define COVERAGE (1u << 31)
-
-typedef struct layer {
+/* In the order of the image's channels. */
+static const struct {
     lsf_reference_layer layer;
-    uint32_t aov; /* 0: always there */
-    int count;
-    const char *channels[3];
-} layer;
-
-static const layer layers[] = {
-    {LSF_REFERENCE_BEAUTY, 0, 3, {"R", "G", "B"}},
-    {LSF_REFERENCE_COVERAGE, COVERAGE, 1, {"A"}},
-    {LSF_REFERENCE_ALBEDO, LSF_AOV_ALBEDO, 3, {"albedo.R", "albedo.G", "albedo.B"}},
-    {LSF_REFERENCE_NORMAL, LSF_AOV_NORMAL, 3, {"normal.X", "normal.Y", "normal.Z"}},
-    {LSF_REFERENCE_DEPTH, LSF_AOV_DEPTH, 1, {"depth.Z"}},
-    {LSF_REFERENCE_EMISSION, LSF_AOV_EMISSION, 3, {"emission.R", "emission.G", "emission.B"}},
-    {LSF_REFERENCE_DIRECT, LSF_AOV_DIRECT, 3, {"direct.R", "direct.G", "direct.B"}},
-    {LSF_REFERENCE_INDIRECT_DIFFUSE,
-     LSF_AOV_INDIRECT_DIFFUSE,
-     3,
-     {"indirect_diffuse.R", "indirect_diffuse.G", "indirect_diffuse.B"}},
-    {LSF_REFERENCE_INDIRECT_SPECULAR,
-     LSF_AOV_INDIRECT_SPECULAR,
-     3,
-     {"indirect_specular.R", "indirect_specular.G", "indirect_specular.B"}},
+    uint32_t bit; /* as in lsf_layer */
+} layers[] = {
+    {LSF_REFERENCE_BEAUTY, 0},
+    {LSF_REFERENCE_COVERAGE, LSF_LAYER_COVERAGE},
+    {LSF_REFERENCE_ALBEDO, LSF_AOV_ALBEDO},
+    {LSF_REFERENCE_NORMAL, LSF_AOV_NORMAL},
+    {LSF_REFERENCE_DEPTH, LSF_AOV_DEPTH},
+    {LSF_REFERENCE_EMISSION, LSF_AOV_EMISSION},
+    {LSF_REFERENCE_DIRECT, LSF_AOV_DIRECT},
+    {LSF_REFERENCE_INDIRECT_DIFFUSE, LSF_AOV_INDIRECT_DIFFUSE},
+    {LSF_REFERENCE_INDIRECT_SPECULAR, LSF_AOV_INDIRECT_SPECULAR},
 };
 
 static bool check_params(const lsf_render_params *params, uint32_t half, lsf_error *error)
@@ -58,15 +47,19 @@ static bool check_params(const lsf_render_params *params, uint32_t half, lsf_err
 static lsf_image *create_image(const lsf_render_params *params, lsf_reference_job *job,
                                lsf_error *error)
 {
-    const char *names[3 * LSF_COUNT(layers)];
-    uint32_t count = 0, asked = params->aovs | (job->background.coverage ? COVERAGE : 0);
+    char names[3 * LSF_COUNT(layers)][LSF_CHANNEL_NAME_SIZE];
+    const char *list[3 * LSF_COUNT(layers)];
+    uint32_t count = 0;
+    uint32_t asked = params->aovs | (job->background.coverage ? LSF_LAYER_COVERAGE : 0);
     for (size_t i = 0; i < LSF_COUNT(layers); i++) {
-        bool wanted = layers[i].aov == 0 || (asked & layers[i].aov) != 0;
+        bool wanted = layers[i].bit == 0 || (asked & layers[i].bit) != 0;
         job->channels[layers[i].layer] = wanted ? (int)count : -1;
-        for (int c = 0; wanted && c < layers[i].count; c++)
-            names[count++] = layers[i].channels[c];
+        if (wanted)
+            count += lsf_layer_channels(lsf_layer_of(layers[i].bit), names + count);
     }
-    return lsf_image_create(params->width, params->height, count, names, error);
+    for (uint32_t c = 0; c < count; c++)
+        list[c] = names[c];
+    return lsf_image_create(params->width, params->height, count, list, error);
 }
 
 /* LSF_AOV_ALL asks for motion too, which a single instant does not have. */

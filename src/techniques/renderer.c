@@ -232,7 +232,7 @@ GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov)
 
 static void run_iteration(lsf_renderer *renderer)
 {
-    GLuint layers[LSF_ACCUMULATE_MAX_LAYERS];
+    GLuint layers[LSF_LAYER_COUNT];
     const lsf_setup *setup = &renderer->setup;
     lsf_iteration_begin(&renderer->iteration, renderer->next);
     setup->technique->run(renderer->technique, &renderer->iteration, &renderer->outputs);

@@ -1,6 +1,5 @@
 /* Reading a renderer's pictures and statistics. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,23 +11,8 @@
 static uint32_t name_channels(const lsf_setup *setup, char (*names)[LSF_CHANNEL_NAME_SIZE])
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < setup->layer_count; i++) {
-        const char *letters = "RGB";
-        if (setup->layer_aovs[i] & (LSF_AOV_NORMAL | LSF_AOV_VOXEL_NORMAL))
-            letters = "XYZ";
-        else if (setup->layer_aovs[i] == LSF_AOV_MOTION)
-            letters = "XY";
-        else if (setup->layer_aovs[i] == LSF_AOV_DEPTH)
-            letters = "Z";
-        else if (setup->layer_aovs[i] == LSF_LAYER_COVERAGE)
-            letters = "A";
-        for (; *letters; letters++)
-            if (i == 0 || setup->layer_aovs[i] == LSF_LAYER_COVERAGE)
-                snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%c", *letters);
-            else
-                snprintf(names[count++], LSF_CHANNEL_NAME_SIZE, "%s.%c", setup->layer_names[i],
-                         *letters);
-    }
+    for (uint32_t i = 0; i < setup->layer_count; i++)
+        count += lsf_layer_channels(lsf_layer_of(setup->layer_aovs[i]), names + count);
     return count;
 }
 
@@ -81,15 +65,7 @@ static void copy_layer(const float *texels, uint32_t first_row, uint32_t rows, v
 
 static uint32_t channels_of(uint32_t aov)
 {
-    switch (aov) {
-    case LSF_AOV_DEPTH:
-    case LSF_LAYER_COVERAGE:
-        return 1;
-    case LSF_AOV_MOTION:
-        return 2;
-    default:
-        return 3;
-    }
+    return (uint32_t)strlen(lsf_layer_of(aov)->channels);
 }
 
 lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
@@ -98,8 +74,8 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
         return NULL;
     const lsf_setup *setup = &renderer->setup;
     const lsf_plan *plan = setup->plan;
-    char names[3 * LSF_ACCUMULATE_MAX_LAYERS][LSF_CHANNEL_NAME_SIZE];
-    const char *name_list[3 * LSF_ACCUMULATE_MAX_LAYERS];
+    char names[3 * LSF_LAYER_COUNT][LSF_CHANNEL_NAME_SIZE];
+    const char *name_list[3 * LSF_LAYER_COUNT];
     uint32_t channel_count = name_channels(setup, names);
     for (uint32_t i = 0; i < channel_count; i++)
         name_list[i] = names[i];

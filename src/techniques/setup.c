@@ -10,41 +10,6 @@
 #include "scene/checks.h"
 #include "scene/tessellate.h"
 
-static const struct {
-    uint32_t bit;
-    const char *name;
-} aov_names[] = {
-    {LSF_AOV_ALBEDO, "albedo"},
-    {LSF_AOV_NORMAL, "normal"},
-    {LSF_AOV_DEPTH, "depth"},
-    {LSF_AOV_EMISSION, "emission"},
-    {LSF_AOV_DIRECT, "direct"},
-    {LSF_AOV_INDIRECT_DIFFUSE, "indirect_diffuse"},
-    {LSF_AOV_INDIRECT_SPECULAR, "indirect_specular"},
-    {LSF_AOV_MOTION, "motion"},
-    {LSF_AOV_VOXEL_ALBEDO, "voxel_albedo"},
-    {LSF_AOV_VOXEL_NORMAL, "voxel_normal"},
-    {LSF_AOV_VOXEL_RADIANCE, "voxel_radiance"},
-};
-
-uint32_t lsf_aov_from_name(const char *name)
-{
-    if (!name)
-        return 0;
-    for (size_t i = 0; i < LSF_COUNT(aov_names); i++)
-        if (strcmp(aov_names[i].name, name) == 0)
-            return aov_names[i].bit;
-    return 0;
-}
-
-const char *lsf_aov_name(uint32_t aovs)
-{
-    for (size_t i = 0; i < LSF_COUNT(aov_names); i++)
-        if (aovs & aov_names[i].bit)
-            return aov_names[i].name;
-    return NULL;
-}
-
 static bool check_params(const lsf_render_params *params, lsf_error *error)
 {
     if (params->width == 0 || params->height == 0)
@@ -67,16 +32,12 @@ static bool check_params(const lsf_render_params *params, lsf_error *error)
 
 static void set_layers(lsf_setup *setup, uint32_t aovs)
 {
-    setup->layer_names[setup->layer_count++] = "picture";
-    if (setup->plan->background.coverage) {
-        setup->layer_aovs[setup->layer_count] = LSF_LAYER_COVERAGE;
-        setup->layer_names[setup->layer_count++] = "coverage";
-    }
-    for (size_t i = 0; i < LSF_COUNT(aov_names); i++) {
-        if (!(aovs & aov_names[i].bit))
+    uint32_t asked = aovs | (setup->plan->background.coverage ? LSF_LAYER_COVERAGE : 0);
+    for (size_t i = 0; i < LSF_LAYER_COUNT; i++) {
+        if (lsf_layers[i].bit != 0 && !(asked & lsf_layers[i].bit))
             continue;
-        setup->layer_aovs[setup->layer_count] = aov_names[i].bit;
-        setup->layer_names[setup->layer_count++] = aov_names[i].name;
+        setup->layer_aovs[setup->layer_count] = lsf_layers[i].bit;
+        setup->layer_names[setup->layer_count++] = lsf_layers[i].name;
     }
 }
 

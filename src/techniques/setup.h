@@ -3,11 +3,9 @@
 #define LSF_TECHNIQUES_SETUP_H
 
 #include "passes/accumulate.h"
+#include "scene/layer.h"
 #include "scene/state.h"
 #include "techniques/technique.h"
-
-/* The layer of coverage, beside those of lsf_aov: channel A of the picture. */
-#define LSF_LAYER_COVERAGE (1u << 31)
 
 /* What of the scene and its state decides on a plan, beside the parameters. */
 typedef struct lsf_plan_basis {
@@ -33,9 +31,9 @@ typedef struct lsf_setup {
     lsf_changes changes; /* from that one */
     lsf_plan_basis basis;
     lsf_plan *plan;
-    uint32_t layer_count; /* of the result; the first is the picture */
-    const char *layer_names[LSF_ACCUMULATE_MAX_LAYERS]; /* "picture", "albedo", ... */
-    uint32_t layer_aovs[LSF_ACCUMULATE_MAX_LAYERS];     /* 0 for the picture */
+    uint32_t layer_count;                     /* of the result; the first is the picture */
+    const char *layer_names[LSF_LAYER_COUNT]; /* "picture", "albedo", ... */
+    uint32_t layer_aovs[LSF_LAYER_COUNT];     /* 0 for the picture */
 } lsf_setup;
 
 /* Options, scene, state, and a plan that lists what the scene takes, without a technique.

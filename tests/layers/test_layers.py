@@ -1,15 +1,17 @@
-"""Reads the #include lines: every layer may use those to its left, never one to its right.
+"""Reads #include lines and objects' symbols: every layer may use those to its left, never one to its
+right.
 
 src/ARCHITECTURE.md says why; ALLOWED below is the whole rule.
 """
 import os
 import pathlib
 import re
+import subprocess
 import unittest
 
 ROOT = pathlib.Path(os.environ["LSF_SOURCE_ROOT"])
 
-# Layer -> layers it may include besides itself and shared/ (what C and GLSL have in common).
+# Layer -> layers it may use besides itself and shared/ (what C and GLSL have in common).
 ALLOWED = {
     "base": {"base"},
     "math": {"base"},
@@ -21,7 +23,7 @@ ALLOWED = {
     "techniques": {"base", "math", "gl", "scene", "plan", "passes"},
     "reference": {"base", "math", "scene"},
     "measure": {"base", "io"},
-    "bench": {"base", "math", "scene", "plan", "passes", "techniques", "reference"},
+    "bench": {"base", "math", "gl", "scene", "plan", "passes", "techniques", "reference"},
     "tools": {"base", "math", "gl", "scene", "io", "plan", "passes", "techniques", "measure"},
 }
 # Headers that a layer offers to one that may not see the rest of it.
@@ -29,6 +31,8 @@ EXCEPTIONS = {
     ("measure", "io"): {"io/io.h", "io/image.h"},
     ("tools", "gl"): {"gl/gl.h"},
 }
+# Layers whose functions another one calls by public headers alone.
+PUBLIC = {"tools": {"bench", "reference"}}
 SOURCES = (".c", ".h", ".cpp", ".hpp")
 LONGEST = 600  # lines: a file is one idea
 # Work left for later, and paths of one machine; split so that this line is not found itself.
@@ -117,6 +121,40 @@ class Layers(unittest.TestCase):
                     self.assertEqual(path.parent.name, "reference", path)
                 if name.startswith("OpenImageIO/"):
                     self.assertEqual(path.name, "openimageio.cpp", path)
+
+
+class Symbols(unittest.TestCase):
+    """What public headers declare, #include lines do not tell apart."""
+
+    def layer_of(self, path):
+        """Meson names an object by the way to its source: io_image_load.c.o, src_tools_main.c.o."""
+        match = re.match(r"(?:src_|\.\._)?([a-z]+)_", path.name)
+        return match[1] if match and match[1] in ALLOWED else path.parent.parent.name
+
+    def objects(self):
+        """Layer and symbols of each object: those that it defines, and those that it lacks."""
+        build = pathlib.Path(os.environ["LSF_BUILD_ROOT"])
+        found = {path: (self.layer_of(path), path.name, set(), set())
+                 for pattern in ("src/**/*.o", "lightsheaf.p/*.o") for path in build.glob(pattern)
+                 if self.layer_of(path) in ALLOWED}
+        symbols = subprocess.run(["nm", "--print-file-name", "--format=posix", *found],
+                                 capture_output=True, text=True, check=True).stdout
+        for line in symbols.splitlines():
+            path, name, kind = re.match(r"(.*): (\S+) (\w)", line).groups()
+            if kind in "TDBRU":
+                found[pathlib.Path(path)][3 if kind == "U" else 2].add(name)
+        return list(found.values())
+
+    def test_calls_follow_the_layers(self):
+        objects = self.objects()
+        home = {name: layer for layer, _, defined, _ in objects for name in defined}
+        self.assertEqual({layer for layer, *_ in objects}, set(ALLOWED))
+        self.assertGreater(len(home), 500)
+        wrong = [f"{path} ({layer}) uses {name} of {home[name]}"
+                 for layer, path, _, lacking in objects for name in sorted(lacking)
+                 if name in home and home[name] != layer
+                 and home[name] not in ALLOWED[layer] | PUBLIC.get(layer, set())]
+        self.assertEqual(wrong, [])
 
 
 class Files(unittest.TestCase):

@@ -1,7 +1,9 @@
-#include "io/io.h"
+#include <lightsheaf/image.h>
 
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/base.h"
 
 lsf_image *lsf_image_create(uint32_t width, uint32_t height, uint32_t channel_count,
                             const char *const *channel_names, lsf_error *error)
