@@ -87,6 +87,8 @@ typedef struct lsf_render_params {
     float background_radiance[3];
     double time;                /* seconds, where node animations are sampled */
     uint32_t aovs;              /* lsf_aov bits */
+    bool raw;                   /* the mean of iterations alone: not filtered, and neighbouring
+                                 * pixels take the same samples unless options say otherwise */
     bool rgb8;                  /* lsf_renderer_read_rgb8 will be called */
     bool present;               /* lsf_renderer_present will be called */
     const char *const *options; /* "pass.key=value", see lsf_option_list */
@@ -100,7 +102,7 @@ typedef struct lsf_render_params {
     .time_limit = 1.0 / 0.0, .bounces = LSF_BOUNCES_AUTO, .seed = 0, .camera = NULL,               \
     .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f,                          \
     .background = LSF_BACKGROUND_AUTO, .background_radiance = {0}, .time = 0.0, .aovs = 0,         \
-    .rgb8 = false, .present = false, .options = NULL, .option_count = 0, .progress = NULL,         \
+    .raw = false, .rgb8 = false, .present = false, .options = NULL, .option_count = 0, .progress = NULL,         \
     .progress_user = NULL
 
 /* The view of the camera that these parameters choose, at their time: where a program may go on

@@ -6,10 +6,9 @@
 #include "base/base.h"
 
 const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT] = {
-    {"blur.when", LSF_OPTION_ENUM, offsetof(lsf_blur_params, when), 0, 0, "auto|on|off", "",
-     "blurs what few paths or cones find; auto: in pictures of one sample"},
     {"blur.phases", LSF_OPTION_INT, offsetof(lsf_blur_params, phases), 0, 8, NULL, "",
-     "of the blur, each for rougher surfaces than the one before; 0: no blur"},
+     "of a blur of what few paths or cones find, in each iteration, each phase for rougher "
+     "surfaces than the one before; 0: no blur, 5: as in the frames of the papers"},
     {"blur.step", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, step), 1.0, 64.0, NULL, "texels",
      "between the taps of the first phase, at the viewer"},
     {"blur.ratio", LSF_OPTION_FLOAT, offsetof(lsf_blur_params, ratio), 1.0, 4.0, NULL, "",
@@ -34,28 +33,23 @@ static void add_light(lsf_plan *plan, const char *irradiance, const char *specul
         lsf_plan_texture_add(plan, specular, GL_RGBA32F, width, height, "%s", why);
 }
 
-bool lsf_blur_wanted(const lsf_plan *plan, const lsf_blur_params *params)
+bool lsf_blur_wanted(const lsf_blur_params *params)
 {
-    return params->phases > 0 &&
-           (params->when == LSF_BLUR_ON || (params->when == LSF_BLUR_AUTO && plan->samples == 1));
+    return params->phases > 0;
 }
 
 void lsf_blur_remark(lsf_plan *plan, const lsf_blur_params *params)
 {
-    if (lsf_blur_wanted(plan, params) && plan->samples > 1)
-        lsf_plan_remark(plan, "blur.when=on blurs each iteration: the picture converges to a "
+    if (lsf_blur_wanted(params) && plan->samples > 1)
+        lsf_plan_remark(plan, "blur.phases blurs each iteration: the picture converges to a "
                               "blurred one");
 }
 
 void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width, uint32_t height)
 {
     const lsf_requirements *r = &plan->requirements;
-    if (!lsf_blur_wanted(plan, params)) {
-        lsf_plan_omit(plan, "blur", "%s",
-                      params->phases == 0            ? "blur.phases is 0"
-                      : params->when == LSF_BLUR_OFF ? "blur.when is off"
-                                                     : "more than one sample: the picture "
-                                                       "converges without");
+    if (!lsf_blur_wanted(params)) {
+        lsf_plan_omit(plan, "blur", "blur.phases is 0");
         return;
     }
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;

@@ -6,14 +6,7 @@
 #include "plan/maps.h"
 #include "plan/option.h"
 
-typedef enum lsf_blur_when {
-    LSF_BLUR_AUTO, /* in pictures of one sample: where iterations converge it would be a bias */
-    LSF_BLUR_ON,
-    LSF_BLUR_OFF,
-} lsf_blur_when;
-
 typedef struct lsf_blur_params {
-    int32_t when;   /* lsf_blur_when */
     int32_t phases; /* 0: no blur */
     float step;     /* between the taps of the first phase at the viewer [texels] */
     float ratio;    /* of a phase's step to that of the one before */
@@ -25,14 +18,14 @@ typedef struct lsf_blur_params {
 } lsf_blur_params;
 
 #define LSF_BLUR_PARAMS_DEFAULTS                                                                   \
-    .when = LSF_BLUR_AUTO, .phases = 5, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f,              \
+    .phases = 0, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f,              \
     .min_roughness = 0.1f, .cutoff = 6.0f, .slope = 0.25f, .normal_weight = 4.0f
 
-#define LSF_BLUR_OPTION_COUNT 9
+#define LSF_BLUR_OPTION_COUNT 8
 extern const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT];
 
 /* Whether light is to be blurred; says so where it is a bias. */
-bool lsf_blur_wanted(const lsf_plan *plan, const lsf_blur_params *params);
+bool lsf_blur_wanted(const lsf_blur_params *params);
 void lsf_blur_remark(lsf_plan *plan, const lsf_blur_params *params);
 
 /* All of the grid's size. */

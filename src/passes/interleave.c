@@ -3,8 +3,8 @@
 #include <string.h>
 
 const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT] = {
-    {"interleave.size", LSF_OPTION_INT, offsetof(lsf_interleave_params, size), 1, 8, NULL, "pixels",
-     "side of the pattern in which neighbouring pixels take different samples; 1: all the same"},
+    {"interleave.size", LSF_OPTION_INT, offsetof(lsf_interleave_params, size), 0, 8, NULL, "pixels",
+     "side of the pattern in which neighbouring pixels take different samples; 1: all the same; 0: by the number of iterations"},
     {"interleave.periods", LSF_OPTION_INT, offsetof(lsf_interleave_params, periods), 0, 8, NULL,
      "patterns", "width of the filter that removes the pattern; 0: no filter"},
     {"interleave.depth_weight", LSF_OPTION_FLOAT, offsetof(lsf_interleave_params, depth_weight),
@@ -35,6 +35,13 @@ lsf_region lsf_interleave_region(const lsf_plan *plan, uint32_t size, uint32_t i
                         .height = tile_length(plan->height, size, y),
                         .tile_x = (int32_t)x,
                         .tile_y = (int32_t)y};
+}
+
+uint32_t lsf_interleave_tile(uint32_t size, uint32_t slot, uint32_t iteration)
+{
+    uint32_t tiles = size * size;
+    uint32_t turned = iteration % size * size + iteration / size % size; /* radical inverse */
+    return (slot + turned) % tiles;
 }
 
 static void add_light(lsf_plan *plan, const char *irradiance, const char *specular, const char *why)

@@ -16,7 +16,7 @@ typedef struct lsf_interleave_params {
 } lsf_interleave_params;
 
 #define LSF_INTERLEAVE_PARAMS_DEFAULTS                                                             \
-    .size = 1, .periods = 2, .depth_weight = 0.5f, .normal_weight = 32.0f
+    .size = 0, .periods = 0, .depth_weight = 0.5f, .normal_weight = 32.0f
 
 #define LSF_INTERLEAVE_OPTION_COUNT 4
 extern const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT];
@@ -36,6 +36,11 @@ typedef struct lsf_interleave {
  * (x % size, y % size) and lies at the tile's corner plus (x / size, y / size). A region is empty
  * when the picture is smaller than the pattern. */
 lsf_region lsf_interleave_region(const lsf_plan *plan, uint32_t size, uint32_t index);
+
+/* The tile that takes the samples i with i % (size * size) == slot in an iteration. Over as many
+ * iterations each tile takes those of every slot, in an order in which they are far apart: of a
+ * low-discrepancy sequence, every size * size-th number keeps to a part of the range. */
+uint32_t lsf_interleave_tile(uint32_t size, uint32_t slot, uint32_t iteration);
 
 /* Lists "interleave_split", "interleave_gather" and "interleave_filter", for a size above 1. */
 void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params);

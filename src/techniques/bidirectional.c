@@ -193,6 +193,16 @@ static float suppressed_iterations(const bidirectional *b, const lsf_iteration *
                : lsf_iteration_expected(iteration);
 }
 
+/* Solid angle of as many samples as suppression spreads a lobe over, were they uniform over the
+ * half sphere [sr]. */
+static float suppressed_angle(const bidirectional *b, const lsf_iteration *iteration)
+{
+    const lsf_bidirectional_sampling *s = &b->sampling;
+    float samples = suppressed_iterations(b, iteration) *
+                    (float)(s->vpl_count + s->emitter_count + s->bundle_count);
+    return samples > 0.0f ? 2.0f * LSF_PI * b->shade_params.kernel_samples / samples : 0.0f;
+}
+
 static float light_probability(const bidirectional *b, uint32_t light)
 {
     return (float)lsf_distribution_probability(&b->light_picks, light);
@@ -374,10 +384,11 @@ static void run_sample(sample_turn *turn, uint32_t i, uint32_t light)
 {
     bidirectional *b = turn->b;
     const lsf_bidirectional_sampling *s = &b->sampling;
-    uint32_t tile = i % s->tiles;
+    uint32_t slot = i % s->tiles;
+    uint32_t tile = lsf_interleave_tile(s->interleave, slot, turn->iteration->index);
     turn->region = lsf_interleave_region(turn->iteration->plan, s->interleave, tile);
-    turn->tile_vpls = dealt(s->vpl_light ? s->vpl_count : s->emitter_count, s->tiles, tile);
-    turn->tile_bundles = dealt(s->bundle_count, s->tiles, tile);
+    turn->tile_vpls = dealt(s->vpl_light ? s->vpl_count : s->emitter_count, s->tiles, slot);
+    turn->tile_bundles = dealt(s->bundle_count, s->tiles, slot);
     if (i < s->vpl_count) {
         turn->vpl = i;
         turn->light_probability = light_probability(b, light);
@@ -428,7 +439,7 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
     sample_turn turn = {.b = b,
                         .iteration = iteration,
                         .inputs = *inputs,
-                        .iterations = suppressed_iterations(b, iteration),
+                        .iterations = suppressed_iterations(b, iteration) * (float)s->tiles,
                         .vpl = LSF_NONE,
                         .emitter = LSF_NONE,
                         .light_probability = 1.0f};
@@ -490,6 +501,16 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
         .indirect_specular =
             b->compose.indirect_specular ? b->compose.indirect_specular : light->specular,
         .motion = gbuffer->motion,
+        .kernel = suppressed_angle(b, iteration),
+        .light = {.depth = gbuffer->depth,
+                  .surface = gbuffer->surface,
+                  .gloss = gbuffer->gloss,
+                  .tint = gbuffer->tint,
+                  .absorption = gbuffer->absorption,
+                  .irradiance = irradiance,
+                  .specular = specular,
+                  .direct_irradiance = parts.direct_irradiance,
+                  .direct_specular = parts.direct_specular},
         .gate = b->bundle ? lsf_ray_bundle_gate(b->bundle) : 0,
     };
 }

@@ -111,7 +111,7 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
            (c->way.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
-           (!lsf_blur_wanted(plan, &params->blur) ||
+           (!lsf_blur_wanted(&params->blur) ||
             lsf_blur_create(&c->blur, context, plan, &params->blur, error)) &&
            (!c->way.coarse || lsf_upsample_search_create(&c->upsample, context, plan,
                                                          &params->upsample_search, error));
@@ -230,6 +230,15 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
         .indirect_specular =
             c->compose.indirect_specular ? c->compose.indirect_specular : light.specular,
         .motion = gbuffer->motion,
+        .light = {.depth = gbuffer->depth,
+                  .surface = gbuffer->surface,
+                  .gloss = gbuffer->gloss,
+                  .tint = gbuffer->tint,
+                  .absorption = gbuffer->absorption,
+                  .irradiance = light.irradiance,
+                  .specular = light.specular,
+                  .direct_irradiance = parts.direct_irradiance,
+                  .direct_specular = parts.direct_specular},
     };
     if (c->way.traced)
         lsf_voxel_chain_view(&c->chain, iteration, outputs);

@@ -23,6 +23,15 @@ lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error)
 
 /* --- making, and going over to another plan --- */
 
+static bool create_filter(lsf_renderer *renderer, lsf_error *error)
+{
+    const lsf_setup *setup = &renderer->setup;
+    return !lsf_plan_find_pass(setup->plan, "light_filter") ||
+           (lsf_light_mean_create(&renderer->light_mean, renderer->context, setup->plan, error) &&
+            lsf_light_filter_create(&renderer->light_filter, renderer->context, setup->plan,
+                                    &setup->pass_params.light_filter, error));
+}
+
 /* What depends on the plan but for the scene on the GPU. */
 static bool create_technique(lsf_renderer *renderer, lsf_error *error)
 {
@@ -35,6 +44,7 @@ static bool create_technique(lsf_renderer *renderer, lsf_error *error)
                                     &renderer->scene, &setup->state, error) &&
            lsf_accumulate_create(&renderer->accumulate, context, setup->plan, setup->layer_count,
                                  setup->layer_names, error) &&
+           create_filter(renderer, error) &&
            (!(setup->params.rgb8 || setup->params.present) ||
             lsf_tonemap_create(&renderer->tonemap, context, setup->plan, setup->params.rgb8,
                                error));
@@ -43,6 +53,8 @@ static bool create_technique(lsf_renderer *renderer, lsf_error *error)
 static void destroy_technique(lsf_renderer *renderer)
 {
     lsf_tonemap_destroy(&renderer->tonemap);
+    lsf_light_filter_destroy(&renderer->light_filter);
+    lsf_light_mean_destroy(&renderer->light_mean);
     lsf_accumulate_destroy(&renderer->accumulate);
     if (renderer->setup.technique)
         renderer->setup.technique->destroy(renderer->technique);
@@ -230,6 +242,25 @@ GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov)
     }
 }
 
+GLuint lsf_renderer_picture(lsf_renderer *renderer)
+{
+    const lsf_light_mean *mean = &renderer->light_mean;
+    if (!renderer->light_filter.timer || renderer->samples == 0)
+        return renderer->accumulate.means[0];
+    if (!renderer->filtered) {
+        const lsf_light_filter_inputs inputs = {
+            .guide = mean->guide,
+            .picture = renderer->accumulate.means[0],
+            .kernel = renderer->outputs.kernel,
+            .parts = {{mean->diffuse.light, mean->diffuse.factor},
+                      {mean->specular.light, mean->specular.factor}}};
+        lsf_light_filter_run(&renderer->light_filter, renderer->setup.plan, renderer->samples,
+                             &inputs);
+    }
+    renderer->filtered = true;
+    return renderer->light_filter.picture;
+}
+
 static void run_iteration(lsf_renderer *renderer)
 {
     GLuint layers[LSF_LAYER_COUNT];
@@ -242,6 +273,10 @@ static void run_iteration(lsf_renderer *renderer)
         layers[i] = lsf_renderer_layer(&renderer->outputs, setup->layer_aovs[i]);
     lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers, renderer->outputs.depth,
                        renderer->outputs.gate);
+    if (renderer->light_mean.timer)
+        lsf_light_mean_run(&renderer->light_mean, &renderer->iteration, &renderer->outputs.light,
+                           renderer->outputs.gate);
+    renderer->filtered = false;
     renderer->next++;
 }
 

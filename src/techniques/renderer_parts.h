@@ -6,7 +6,7 @@
 #include "passes/tonemap.h"
 #include "techniques/setup.h"
 
-#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 2)
+#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 4)
 
 struct lsf_renderer {
     lsf_context *context;
@@ -16,6 +16,9 @@ struct lsf_renderer {
     void *technique;
     lsf_technique_outputs outputs;
     lsf_accumulate accumulate;
+    lsf_light_mean light_mean;     /* empty unless the plan has a filter */
+    lsf_light_filter light_filter; /* likewise */
+    bool filtered;                 /* its picture is of the mean as it is */
     lsf_tonemap tonemap;
     bool broken; /* no frame is in progress: going over to another plan has failed */
     bool grain_checked;
@@ -32,6 +35,8 @@ struct lsf_renderer {
 lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error);
 /* Runs until what was asked for went into the means; without `wait`, as far as it is known. */
 bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error);
+/* The mean of the picture, filtered where the plan has a filter. Of a renderer that has caught up. */
+GLuint lsf_renderer_picture(lsf_renderer *renderer);
 /* The texture of a layer; 0 when the technique has none, and the layer stays black. */
 GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov);
 

@@ -94,8 +94,8 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
                                .width = plan->width,
                                .height = plan->height,
                                .channels = channels};
-        if (present && !read_strips(renderer->accumulate.means[i], plan->width, plan->height,
-                                    copy_layer, &target))
+        GLuint mean = i == 0 ? lsf_renderer_picture(renderer) : renderer->accumulate.means[i];
+        if (present && !read_strips(mean, plan->width, plan->height, copy_layer, &target))
             good =
                 lsf_error_set(error, LSF_ERROR_RENDER, "no memory left to read the picture back");
         channel += channels;
@@ -109,12 +109,12 @@ lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error)
 
 /* The mean of the picture (0) or of a layer; 0 where there is none. Of a renderer that is entered
  * and has caught up. */
-static GLuint find_mean(const lsf_renderer *renderer, uint32_t aov, lsf_error *error)
+static GLuint find_mean(lsf_renderer *renderer, uint32_t aov, lsf_error *error)
 {
     const lsf_setup *setup = &renderer->setup;
     for (uint32_t i = 0; i < setup->layer_count; i++)
         if (setup->layer_aovs[i] == aov && lsf_renderer_layer(&renderer->outputs, aov))
-            return renderer->accumulate.means[i];
+            return i == 0 ? lsf_renderer_picture(renderer) : renderer->accumulate.means[i];
     lsf_error_set(error, LSF_ERROR_USAGE,
                   "no such layer was asked for in lsf_render_params.aovs, or nothing was rendered");
     return 0;
@@ -159,7 +159,7 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_cur
     LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
     if (!entered || !lsf_renderer_catch_up(renderer, true, error))
         return false;
-    lsf_tonemap_run(&renderer->tonemap, renderer->accumulate.means[0], exposure, curve);
+    lsf_tonemap_run(&renderer->tonemap, lsf_renderer_picture(renderer), exposure, curve);
     uint32_t most = strip_rows(plan->width, 3);
     for (uint32_t y = 0; y < plan->height; y += most) {
         uint32_t rows = plan->height - y < most ? plan->height - y : most;
@@ -201,7 +201,7 @@ bool lsf_renderer_present(lsf_renderer *renderer, uint32_t framebuffer, const in
         return lsf_error_set(
             error, LSF_ERROR_USAGE,
             "framebuffer %u is not there or not complete in the renderer's context", framebuffer);
-    lsf_tonemap_present(&renderer->tonemap, renderer->accumulate.means[0], framebuffer, viewport,
+    lsf_tonemap_present(&renderer->tonemap, lsf_renderer_picture(renderer), framebuffer, viewport,
                         exposure, curve);
     return lsf_context_check(renderer->context, error);
 }
@@ -247,6 +247,10 @@ lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
     lsf_renderer_catch_up(renderer, true, &ignored);
     uint32_t count = renderer->setup.technique->report(renderer->technique, reports);
     reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
+    if (renderer->light_filter.timer) {
+        reports[count++] = (lsf_pass_report){.timer = renderer->light_mean.timer};
+        reports[count++] = (lsf_pass_report){.timer = renderer->light_filter.timer};
+    }
     if (renderer->tonemap.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->tonemap.timer};
     double iterations = renderer->iterations ? (double)renderer->iterations : 1.0;

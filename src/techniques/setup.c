@@ -90,6 +90,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);
+    plan->filtered = !params->raw && setup->pass_params.light_filter.steps > 0;
     plan->orthographic = setup->state.camera.orthographic;
     plan->background = lsf_background_resolve(setup->source, params);
     lsf_scene_gpu_plan(plan, setup->scene);
@@ -169,6 +170,8 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
             !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count,
                             &setup->pass_params, params->options[i], error))
             return false;
+    if (setup->pass_params.interleave.size == 0)
+        setup->pass_params.interleave.size = params->raw ? 1 : 4;
     if (!keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
     lsf_view_params view = view_of(setup, params->time, NULL);
@@ -188,6 +191,10 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         lsf_plan_remark(plan, "light goes straight through materials that transmit, neither "
                               "scattered nor refracted; voxel_path and the reference do that");
     lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
+    if (plan->filtered && lsf_plan_switch_value(plan, "compose", "LSF_INDIRECT")) {
+        lsf_light_mean_plan(plan, lsf_plan_switch_value(plan, "compose", "LSF_SPLIT_DIRECT"));
+        lsf_light_filter_plan(plan, &setup->pass_params.light_filter);
+    }
     if (params->rgb8 || params->present)
         lsf_tonemap_plan(plan, params->rgb8);
     else

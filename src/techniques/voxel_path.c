@@ -41,7 +41,7 @@ static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *
     if (lsf_voxel_chain_has_voxels(plan))
         use.segments = lsf_voxel_path_segments(plan, state->light_count > 0);
     use.split_direct = use.segments > 0 && (r->emissive || r->unlit || r->environment) &&
-                       (plan->aovs & layers) && !lsf_blur_wanted(plan, &params->blur) &&
+                       (plan->aovs & layers) && !lsf_blur_wanted(&params->blur) &&
                        !lsf_coarse_grid_is_coarse(plan, use.width, use.height);
     return use;
 }
@@ -87,7 +87,7 @@ static bool create_paths(voxel_path *v, lsf_context *context, const lsf_plan *pl
     v->height = use->height;
     return lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, scene, state,
                                  error) &&
-           (!lsf_blur_wanted(plan, &params->blur) ||
+           (!lsf_blur_wanted(&params->blur) ||
             lsf_blur_create(&v->blur, context, plan, &params->blur, error)) &&
            lsf_upsample_search_create(&v->upsample, context, plan, &params->upsample_search, error);
 }
@@ -167,6 +167,13 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
         .indirect_diffuse = v->compose.indirect_diffuse,
         .indirect_specular = parts.indirect.specular,
         .motion = gbuffer->motion,
+        .light = {.depth = gbuffer->depth,
+                  .surface = gbuffer->surface,
+                  .gloss = gbuffer->gloss,
+                  .irradiance = parts.irradiance,
+                  .specular = parts.specular,
+                  .direct_irradiance = parts.direct_irradiance,
+                  .direct_specular = parts.direct_specular},
     };
     lsf_voxel_chain_view(&v->chain, iteration, outputs);
 }

@@ -122,6 +122,9 @@ static const lsf_command_option options[] = {
      NULL, NULL,
      "indirect bounces of light; 0 is direct light only; without it 1, and 5 where materials "
      "transmit light, for each side of a wall of glass takes one"},
+    {"raw", 0, NULL, PLANNING, "Picture", LSF_VALUE_FLAG, AT(raw), 0, 0, NULL, NULL,
+     "the mean of the iterations alone: no filter, and all pixels take the same samples unless "
+     "interleave.size says otherwise"},
     {"seed", 0, "N", STAGING, "Picture", LSF_VALUE_SEED, AT(seed), 0, 0, NULL, "0",
      "start of the random numbers: the same seed gives the same bits"},
     {"define", 'D', "pass.key=value", STAGING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,

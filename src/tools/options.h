@@ -130,6 +130,7 @@ typedef struct lsf_settings {
     uint32_t samples;  /* 0: not given */
     double time_limit; /* seconds; infinity: none */
     uint32_t bounces;
+    bool raw;
     uint64_t seed;
     uint32_t aovs;
     lsf_list_setting defines;

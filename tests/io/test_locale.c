@@ -36,7 +36,7 @@ static texts describe(void)
     free(path);
     if (!scene)
         fail_msg("%s", error.message);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     const char *const options[] = {"shadow.texels_per_pixel=1.5"};
     params.technique = "direct";
     params.options = options;

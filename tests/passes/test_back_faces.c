@@ -33,7 +33,7 @@ static lsf_scene *sheet_over_floor(const sheet *s, bool lit)
 static void look_down(const lsf_scene *scene, bool reference, double rgb[3])
 {
     static const float eye[3] = {0.1f, 3.0f, 0.2f}, target[3] = {0, 0, 0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     lsf_error error = {0};
     params.technique = "direct";
     params.width = params.height = 8;

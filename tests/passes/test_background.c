@@ -38,7 +38,7 @@ static lsf_image *render_wall(const lsf_scene *scene, const char *technique,
                               lsf_background background)
 {
     static const char *const options[] = {"voxel.resolution=16"};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = technique;
     params.width = params.height = 8;
     params.samples = 16;

@@ -27,7 +27,7 @@ static void check(const test_case *test)
     lsf_scene *scene = lsf_scene_load(path, &scene_params, &error);
     if (!scene)
         fail_msg("%s", error.message);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "bidirectional";
     params.width = params.height = 48;
     params.samples = test->samples;

@@ -19,7 +19,7 @@ static lsf_image *take(const char *technique, const lsf_scene *scene, const look
 {
     const float eye[3] = {l->eye.x, l->eye.y, l->eye.z};
     const float target[3] = {l->target.x, l->target.y, l->target.z};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     lsf_error error = {0};
     params.width = params.height = l->size;
     params.samples = l->samples;
@@ -181,7 +181,7 @@ static void same_bits(void **unused)
     for (size_t i = 0; i < LSF_COUNT(techniques); i++) {
         static const char *const options[] = {"voxel.resolution=32"};
         lsf_render_params params =
-            corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS}, 16);
+            corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true}, 16);
         params.technique = techniques[i];
         params.samples = 2;
         params.options = options;

@@ -19,8 +19,7 @@ typedef struct rig {
 static void rig_begin_view(rig *r, uint32_t width, uint32_t height, bool orthographic)
 {
     memset(r, 0, sizeof *r);
-    r->params = (lsf_blur_params){LSF_BLUR_PARAMS_DEFAULTS};
-    r->params.when = LSF_BLUR_ON;
+    r->params = (lsf_blur_params){LSF_BLUR_PARAMS_DEFAULTS, .phases = 5};
     surface_rig_begin(&r->s, width, height, orthographic);
     r->in = calloc(width * height, sizeof *r->in);
     r->out = calloc(width * height, sizeof *r->out);

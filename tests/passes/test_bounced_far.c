@@ -19,7 +19,7 @@ static double mean_light(const lsf_float3 *stray)
         build_triangles(scene, corners, 1);
     }
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "bidirectional";
     params.samples = 48;
     params.bounces = 3;
@@ -62,7 +62,7 @@ static int warnings(const char *technique, uint32_t bounces, float ground, bool 
     if (stray)
         build_triangles(scene, corners, 1);
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = technique;
     params.samples = 2;
     params.bounces = bounces;

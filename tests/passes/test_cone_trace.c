@@ -198,7 +198,7 @@ static const char *const small_grid[] = {"voxel.resolution=64"};
 
 static lsf_render_params cone_params(void)
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "cone";
     params.width = params.height = 16;
     params.samples = 16;
@@ -405,7 +405,7 @@ static void sheen_counts_once(void **unused)
     finish_gl_scene(scene);
     for (int t = 0; t < 2; t++) {
         static const char *const coarse[] = {"voxel.resolution=32"};
-        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
         params.technique = techniques[t];
         params.samples = 32;
         params.fov_y = 20.0f; /* nothing but the sphere */

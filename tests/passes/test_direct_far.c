@@ -22,7 +22,7 @@ static lsf_scene *small_scene(lsf_light_type type)
 static lsf_image *render_small(lsf_scene *scene)
 {
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.samples = 8;
     return render_gl_from(scene, params, SIZE, lsf_f3(1, 3, 5), lsf_f3(0, 0.3f, 0));
@@ -86,7 +86,7 @@ static lsf_image *render_from(double distance, bool orthographic)
     camera->near_plane = 0.01f;
     camera->fov_y = (float)(2.0 * atan(2.0 / distance));
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = params.height = SIZE;
     params.samples = 8;
@@ -119,7 +119,7 @@ static void too_far_or_too_narrow(void **unused)
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_scene *scene = small_scene(LSF_LIGHT_POINT);
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = params.height = 16;
     lsf_error error = {0};

@@ -34,7 +34,7 @@ static void check_file(const char *name, const char *root_variable, const char *
     lsf_scene *scene = lsf_scene_load(path, &scene_params, &error);
     if (!scene)
         fail_msg("%s", error.message);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.width = params.height = 80;
     params.samples = SAMPLES;
     params.options = &option;
@@ -116,7 +116,7 @@ static void put_ground(lsf_scene *scene)
 static void check_view(const char *name, lsf_scene *scene, const float position[3], double limit)
 {
     static const float target[3] = {0, -0.2f, 0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.width = 96;
     params.height = 64;
     params.samples = SAMPLES;

@@ -33,7 +33,7 @@ static lsf_image *render_view(const lsf_scene *scene, const lsf_render_params *b
 static void lights_add_up(void **unused)
 {
     (void)unused;
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = 48;
     params.height = 32;
@@ -71,7 +71,7 @@ static lsf_image *render_moved(double x, double y, double z)
     const double camera[16] = {1, 0, 0, 0, 0, c, -s, 0, 0, s, c, 0, 1 + x, 3 + y, 5 + z, 1};
     memcpy(scene->cameras[0].matrix, camera, sizeof camera);
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = 96;
     params.height = 64;
@@ -116,7 +116,7 @@ static lsf_image *render_shadow(lsf_light_type type, bool box, const char *filte
     lsf_light *light = build_light(scene, type, lsf_f3(-6, 4, 0), lsf_f3(0.8f, -0.5f, 0), 30.0f);
     light->outer_cone = 0.9f;
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = params.height = SIDE;
     params.samples = 1;
@@ -202,7 +202,7 @@ static void tone_curve(void **unused)
     static uint8_t rgb[SIDE * SIDE * 3];
     lsf_scene *scene = bright_environment();
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = params.height = SIDE;
     params.samples = 2;

@@ -37,7 +37,7 @@ static lsf_image *render_extreme(lsf_backend backend, const lsf_scene *scene, fl
                                  uint32_t width, uint32_t height)
 {
     const float position[3] = {scale, 3 * scale, 5 * scale}, target[3] = {0, 0.3f * scale, 0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = width;
     params.height = height;
@@ -161,7 +161,7 @@ static void odd_sizes(void **unused)
         lsf_image_destroy(image);
     }
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = 1000000;
     params.height = 1;
@@ -251,7 +251,7 @@ static void every_allocation_may_fail(void **unused)
     (void)unused;
     lsf_scene *scene = extreme_scene(1.0f);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = params.height = 16;
     params.aovs = LSF_AOV_MOTION | LSF_AOV_EMISSION;

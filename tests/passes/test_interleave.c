@@ -104,7 +104,7 @@ static lsf_image *render_floor(int periods)
     build_environment(scene, 1.0f);
     finish_gl_scene(scene);
     const float eye[3] = {0, 1, 0.01f}, target[3] = {0, 0, 0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "bidirectional";
     params.samples = 1;
     params.seed = 2; /* none of its directions grazes the floor */

@@ -46,7 +46,7 @@ static outcome render(const lsf_scene *scene, uint32_t bounces, double chained, 
     char text[64];
     snprintf(text, sizeof text, "bundle.room=%.9g", chained / (SIDE * SIDE));
     const char *const options[] = {text, "bundle.resolution=64", "bundle.slices=0"};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     lsf_error error = {0};
     params.technique = "bidirectional";
     params.width = 40;
@@ -167,7 +167,7 @@ static void thousands_of_layers(void **unused)
     for (int many = 0; many < 2; many++) {
         lsf_scene *scene = under_layers(many ? 3200 : 1);
         const char *const options[] = {"bundle.resolution=64", "bundle.slices=0", "vpl.count=0"};
-        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
         params.technique = "bidirectional";
         params.samples = 6;
         params.bounces = 0;

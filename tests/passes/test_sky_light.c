@@ -61,7 +61,7 @@ static lsf_scene *plane_scene(lsf_float3 *normal)
 static void render_plane(const lsf_scene *scene, const char *technique, uint32_t samples,
                          float rgb[3])
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     const char *const options[] = {"voxel.resolution=16", "environment.directions=16"};
     params.technique = technique;
     params.samples = samples;
@@ -174,7 +174,7 @@ static void glossy_plane_under_a_constant(void **unused)
             double expected =
                 specular_albedo((double)cases[i].f0, (double)roughness, (double)cosine);
             for (uint64_t seed = 0; seed < SEEDS; seed++) {
-                lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+                lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
                 params.technique = techniques[t];
                 params.samples = 64;
                 params.bounces = 0;
@@ -305,7 +305,7 @@ static void corner_in_each_technique(void **unused)
     add_sky(scene, 60.0f);
     finish_gl_scene(scene);
     lsf_error error = {0};
-    lsf_render_params params = corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS}, SIZE);
+    lsf_render_params params = corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true}, SIZE);
     params.samples = 512;
     lsf_image *truth = lsf_reference_render(scene, &params, 0, NULL, &error);
     if (!truth)

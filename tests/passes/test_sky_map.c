@@ -46,7 +46,7 @@ static lsf_scene *square_scene(float height, float half_side, int parts)
 
 static lsf_image *render_floor(const lsf_scene *scene, float fov_y, uint32_t samples)
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     const char *const options[] = {"environment.directions=24"};
     params.technique = "direct";
     params.samples = samples;
@@ -107,7 +107,7 @@ static void same_bits_for_any_threads(void **unused)
 {
     (void)unused;
     lsf_scene *scene = square_scene(1.0f, 1.0f, 64);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.samples = 2;
     params.width = params.height = 24;

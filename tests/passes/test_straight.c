@@ -14,7 +14,7 @@ static double schlick(double f0, double cosine)
 static void look(const lsf_scene *scene, const char *technique, uint32_t samples, lsf_float3 eye,
                  lsf_float3 target, double rgb[3])
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = technique;
     params.bounces = 0;
     params.samples = samples;
@@ -150,7 +150,7 @@ static void bundles_and_vpls_pass(void **unused)
             if (pane)
                 build_floor(scene, 0.15f, 4.0f);
             finish_gl_scene(scene);
-            lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+            lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
             params.bounces = 0;
             params.samples = 32;
             params.fov_y = 2.0f;
@@ -185,7 +185,7 @@ static void bits_are_the_same_for_any_threads(void **unused)
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 1.8f, 1.2f), lsf_f3(0, -1, 0), 2.0f);
     build_environment(scene, 0.3f);
     finish_gl_scene(scene);
-    lsf_render_params params = corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS}, 24);
+    lsf_render_params params = corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true}, 24);
     params.samples = 2;
     params.bounces = 2;
     assert_same_for_any_threads(scene, &params);

@@ -12,7 +12,7 @@ static lsf_image *render(const lsf_scene *scene, uint32_t size, uint32_t samples
                          lsf_float3 eye, lsf_float3 target, float fov_y,
                          const char *const options[MAX_OPTIONS])
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "voxel_path";
     params.samples = samples;
     params.bounces = bounces;

@@ -42,7 +42,7 @@ static double room_light(const way *w, const lsf_scene *scene, float room)
 {
     /* Towards the wall between the rooms, and its edges. */
     const float eye[3] = {1.9f * room, 0.4f, -0.8f}, target[3] = {0.0f, -0.4f, 0.5f};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     const char *options[3] = {"voxel.resolution=64", w->option[0], w->option[1]};
     params.technique = w->technique;
     params.width = params.height = 32;

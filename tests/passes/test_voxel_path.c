@@ -10,7 +10,7 @@ enum { MAX_OPTIONS = 4 };
 
 static lsf_render_params params_of(uint32_t samples, uint32_t bounces, const char *const *options)
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "voxel_path";
     params.samples = samples;
     params.bounces = bounces;
@@ -33,7 +33,7 @@ static const char *const coarse_grid[MAX_OPTIONS] = {"voxel.resolution=32"};
 static const char *const by_texture[MAX_OPTIONS] = {"voxel.resolution=32",
                                                     "voxel_path.sequence=texture"};
 static const char *const upsampled[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5"};
-static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "blur.when=on"};
+static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "blur.phases=5"};
 
 /* A closed box seen from inside, every wall emitting 1 and reflecting rho:
  * L = 1 + rho + ... + rho^(N + 1): emission seen, direct light of the walls, N bounces. Voxels hold
@@ -160,7 +160,7 @@ static void same_bits_again(void **unused)
 {
     (void)unused;
     static const char *const single[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5",
-                                                    "blur.when=on"};
+                                                    "blur.phases=5"};
     const char *const *const options[] = {coarse_grid, single};
     lsf_scene *scene = room(1.0f);
     for (int k = 0; k < 2; k++) {
@@ -256,7 +256,7 @@ static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
     static const char *const options[MAX_OPTIONS] = {"voxel.resolution=16", "voxel_path.scale=0.5",
-                                                     "blur.when=on", "voxel_path.sequence=texture"};
+                                                     "blur.phases=5", "voxel_path.sequence=texture"};
     lsf_scene *scene = room(1.0f);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = params_of(1, 1, options);

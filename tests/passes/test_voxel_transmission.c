@@ -13,7 +13,7 @@ static void look(const lsf_scene *scene, uint32_t samples, uint32_t bounces, uin
 {
     static const char *const options[] = {"voxel.resolution=32", "voxel_path.min_samples=64",
                                           "voxel_path.max_samples=64"};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "voxel_path";
     params.samples = samples;
     params.bounces = bounces;

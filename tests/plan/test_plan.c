@@ -28,7 +28,7 @@ static lsf_plan *plan_with(feature add, uint32_t aovs)
     build_floor(scene, 0.0f, 1.0f);
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = WIDTH;
     params.height = HEIGHT;
@@ -202,7 +202,7 @@ static void no_light_no_shadow(void **unused)
     build_floor(scene, 0.0f, 1.0f);
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     lsf_plan *plan = lsf_plan_create(scene, &params, NULL);
     assert_null(lsf_plan_find_pass(plan, "shadow_map"));
@@ -221,7 +221,7 @@ static void bad_params(void **unused)
                                       "shadow.nothing=1",   "shadow.texels_per_pixel=1e9",
                                       "shadow.filter=pcf ", "shadow.texels_per_pixel=nan"};
     for (int i = 0; i < 6; i++) {
-        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
         params.technique = "direct";
         lsf_error error = {0};
         params.options = &bad[i];
@@ -230,7 +230,7 @@ static void bad_params(void **unused)
         assert_int_equal(error.code, LSF_ERROR_USAGE);
         assert_non_null(strstr(error.message, bad[i]));
     }
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     lsf_error error = {0};
     params.camera = "nowhere";

@@ -59,7 +59,7 @@ void render_point(const lsf_scene *scene, lsf_float3 eye, lsf_float3 target, uin
                   uint32_t bounces, float rgb[3])
 {
     const float position[3] = {eye.x, eye.y, eye.z}, at[3] = {target.x, target.y, target.z};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.width = params.height = 1;
     params.samples = samples;
     params.bounces = bounces;

@@ -84,7 +84,7 @@ static double *reduce(const lsf_image *image, uint32_t factor)
 static lsf_image *render(const lsf_scene *scene, const view *v, uint32_t width, uint32_t height,
                          uint32_t half)
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     lsf_error error;
     params.width = width;
     params.height = height;

@@ -187,7 +187,7 @@ static void closed_emissive_body(void **unused)
     static const uint32_t all_bounces[] = {0, 1, 2, 3, 8};
     static const float eye[3] = {0.2f, -0.1f, 0.3f}, target[3] = {1, 0.5f, -0.2f};
     for (int i = 0; i < 5; i++) {
-        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
         params.width = params.height = 16;
         params.samples = 256;
         params.bounces = all_bounces[i];

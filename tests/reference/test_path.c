@@ -51,7 +51,7 @@ static lsf_scene *rich_scene(float s)
 
 static lsf_render_params small_picture(uint32_t size, uint32_t samples, uint32_t bounces)
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.width = params.height = size;
     params.samples = samples;
     params.bounces = bounces;
@@ -382,7 +382,7 @@ static void background_fills_what_is_not_covered(void **state)
     build_environment(scene, 2.0f);
     finish_scene(scene);
     static const float eye[3] = {0, 0, 4}, target[3] = {0, 0, 0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.width = params.height = 16;
     params.samples = 64;
     params.bounces = 0;

@@ -269,7 +269,7 @@ static void every_stream_is_carried(void **unused)
 
 static void setup_with(lsf_setup *setup, const lsf_scene *scene, const char *option)
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     lsf_error error = {0};
     params.options = &option;
     params.option_count = 1;

@@ -134,7 +134,7 @@ static void test_defaults_are_the_librarys(void **state)
     (void)state;
     must_parse(LSF_COMMAND_RENDER, "render");
     lsf_render_params given = lsf_settings_render_params(&settings);
-    lsf_render_params expected = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params expected = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     assert_string_equal(given.technique, expected.technique);
     assert_int_equal(given.width, expected.width);
     assert_int_equal(given.height, expected.height);

@@ -1,0 +1,22 @@
+/* Light without the tint of what reflected it, and in alpha the variance of its mean's luminance. */
+layout(binding = 2) uniform sampler2D light_texture;  /* of lsf_light_mean_part */
+layout(binding = 3) uniform sampler2D factor_texture;
+layout(location = 1) uniform float iterations;
+layout(location = 0) out vec4 light_out;
+
+float luminance(vec3 c)
+{
+    return dot(c, vec3(0.2126, 0.7152, 0.0722));
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 light = texelFetch(light_texture, pixel, 0);
+    vec3 factor = texelFetch(factor_texture, pixel, 0).rgb;
+    vec3 clear = vec3(factor.r > 0.0 ? light.r / factor.r : 0.0, factor.g > 0.0 ? light.g / factor.g : 0.0,
+                      factor.b > 0.0 ? light.b / factor.b : 0.0);
+    float tint = luminance(factor);
+    float variance = iterations > 1.0 && tint > 0.0 ? light.a / (iterations * (iterations - 1.0) * tint * tint) : 0.0;
+    light_out = vec4(clear, variance);
+}

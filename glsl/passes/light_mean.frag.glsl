@@ -1,0 +1,110 @@
+/* Running means of the parts of reflected light and of what they were reflected by; see
+ * src/passes/light_mean.md. Switch LSF_SPLIT_DIRECT: some of the light is in textures of its own. */
+#include "lib/brdf.glsl"
+#include "lib/gbuffer_textures.glsl"
+#include "lib/view.glsl"
+
+layout(binding = 3) uniform sampler2D irradiance_texture;
+#if LSF_SPECULAR
+layout(binding = 4) uniform sampler2D specular_texture;
+#endif
+#if LSF_SPLIT_DIRECT
+layout(binding = 7) uniform sampler2D direct_irradiance_texture;
+#if LSF_SPECULAR
+layout(binding = 8) uniform sampler2D direct_specular_texture;
+#endif
+#endif
+#if LSF_STRAIGHT
+layout(binding = 10) uniform sampler2D tint_texture;
+#if LSF_ABSORPTION
+layout(binding = 11) uniform sampler2D absorption_texture;
+#endif
+#endif
+layout(binding = 0, rgba32f) uniform image2D guide_image;
+layout(binding = 1, rgba32f) uniform image2D diffuse_image;
+layout(binding = 2, rgba32f) uniform image2D diffuse_factor_image;
+#if LSF_SPECULAR
+layout(binding = 3, rgba32f) uniform image2D specular_image;
+layout(binding = 4, rgba32f) uniform image2D specular_factor_image;
+#endif
+layout(location = 0) uniform float weight; /* 1 / n */
+
+float luminance(vec3 c)
+{
+    return dot(c, vec3(0.2126, 0.7152, 0.0722));
+}
+
+/* The mean with one more value, by Welford 1962; in alpha the sum of squared deviations of the
+ * luminance. */
+vec4 with_light(vec4 mean, vec3 x)
+{
+    vec3 next = mean.rgb + (x - mean.rgb) * weight;
+    return vec4(next, mean.a + (luminance(x) - luminance(mean.rgb)) * (luminance(x) - luminance(next)));
+}
+
+/* What is left of light on its way from the surface in the pixel. */
+vec3 left_on_the_way(ivec2 pixel)
+{
+    vec3 tint = vec3(1.0);
+#if LSF_STRAIGHT
+    tint = texelFetch(tint_texture, pixel, 0).rgb;
+#if LSF_ABSORPTION
+    tint *= exp(-max(texelFetch(absorption_texture, pixel, 0).rgb, 0.0));
+#endif
+#endif
+    return tint;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 guide = vec4(0.0);
+    vec3 diffuse = vec3(0.0), diffuse_factor = vec3(0.0);
+    vec3 specular = vec3(0.0), specular_factor = vec3(0.0);
+    float depth = texelFetch(depth_texture, pixel, 0).r, roughness = 0.0;
+    if (depth != 0.0) {
+        vec3 left = left_on_the_way(pixel);
+        surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
+#if LSF_GLOSS
+        gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+#endif
+        guide = vec4(s.normal, depth);
+        vec3 irradiance = texelFetch(irradiance_texture, pixel, 0).rgb;
+#if LSF_SPLIT_DIRECT
+        irradiance += texelFetch(direct_irradiance_texture, pixel, 0).rgb;
+#endif
+        if (!s.unlit)
+            diffuse_factor = left * surface_diffuse(s) / LSF_PI;
+        diffuse = diffuse_factor * irradiance;
+#if LSF_SPECULAR
+        specular = texelFetch(specular_texture, pixel, 0).rgb;
+#if LSF_SPLIT_DIRECT
+        specular += texelFetch(direct_specular_texture, pixel, 0).rgb;
+#endif
+        specular *= left;
+        roughness = s.roughness;
+        if (!s.unlit) {
+            vec3 view = -normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy)));
+            vec3 f0 = mix(surface_f0(s), s.base_color, s.metallic);
+            float f90 = mix(surface_f90(s), 1.0, s.metallic);
+            specular_factor = left * lobe_albedo(f0, f90, dot(s.normal, view), pow(s.roughness, 4.0));
+        }
+#endif
+    }
+    bool first = weight == 1.0;
+    vec4 mean = first ? vec4(0.0) : imageLoad(guide_image, pixel);
+    vec4 next = mean + (guide - mean) * weight;
+    float spread = first ? 0.0 : (guide.a - mean.a) * (guide.a - next.a);
+    imageStore(guide_image, pixel, next);
+    mean = first ? vec4(0.0) : imageLoad(diffuse_image, pixel);
+    imageStore(diffuse_image, pixel, with_light(mean, diffuse));
+    mean = first ? vec4(0.0) : imageLoad(diffuse_factor_image, pixel);
+    imageStore(diffuse_factor_image, pixel,
+               vec4(mean.rgb + (diffuse_factor - mean.rgb) * weight, mean.a + spread));
+#if LSF_SPECULAR
+    mean = first ? vec4(0.0) : imageLoad(specular_image, pixel);
+    imageStore(specular_image, pixel, with_light(mean, specular));
+    mean = first ? vec4(0.0) : imageLoad(specular_factor_image, pixel);
+    imageStore(specular_factor_image, pixel, mean + (vec4(specular_factor, roughness) - mean) * weight);
+#endif
+}

@@ -1,0 +1,61 @@
+/* A variance-guided, edge-avoiding filter of mean light that vanishes as its noise does. See
+ * light_filter.md. */
+#ifndef LSF_PASSES_LIGHT_FILTER_H
+#define LSF_PASSES_LIGHT_FILTER_H
+
+#include "plan/iteration.h"
+#include "plan/option.h"
+
+typedef struct lsf_light_filter_params {
+    int32_t steps;       /* the last one's neighbours are 2^(steps - 1) pixels apart; 0: no filter */
+    float tolerance;     /* standard deviations that count as noise */
+    float depth_weight;  /* pixels that a neighbour may be off the pixel's plane, for each pixel
+                          * that it is away */
+    float normal_weight; /* exponent of the cosine between normals */
+    int32_t limit;       /* bool: no more is changed than noise explains */
+} lsf_light_filter_params;
+
+#define LSF_LIGHT_FILTER_PARAMS_DEFAULTS                                                           \
+    .steps = 5, .tolerance = 2.0f, .depth_weight = 0.5f, .normal_weight = 32.0f, .limit = 1
+
+#define LSF_LIGHT_FILTER_OPTION_COUNT 5
+extern const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT];
+
+/* Mean light and what it is multiplied by, as lsf_light_mean_part. */
+typedef struct lsf_light_filter_part {
+    GLuint light, factor; /* 0: there is no such part */
+} lsf_light_filter_part;
+
+typedef struct lsf_light_filter_inputs {
+    GLuint guide;   /* as lsf_light_mean's */
+    GLuint picture; /* RGBA32F mean of the whole picture */
+    float kernel;   /* solid angle that glossy lobes were spread over, for want of samples [sr] */
+    lsf_light_filter_part parts[2]; /* diffuse, specular */
+} lsf_light_filter_inputs;
+
+typedef struct lsf_light_filter_programs {
+    GLuint variance, step, blend;
+} lsf_light_filter_programs;
+
+typedef struct lsf_light_filter {
+    lsf_context *context;
+    lsf_light_filter_params params;
+    GLuint picture; /* output: RGBA32F */
+    GLuint slope, light, turns[2];
+    GLuint slope_framebuffer, light_framebuffer, turn_framebuffers[2], picture_framebuffer;
+    GLuint slope_program, divide_program;
+    lsf_light_filter_programs programs[2]; /* of each part */
+    float kernel; /* of the run in progress, and whether it is in the specular part */
+    bool lobe;
+    lsf_timer *timer;
+} lsf_light_filter;
+
+void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params);
+bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const lsf_plan *plan,
+                             const lsf_light_filter_params *params, lsf_error *error);
+/* Of the mean of `iterations` iterations. */
+void lsf_light_filter_run(lsf_light_filter *pass, const lsf_plan *plan, uint32_t iterations,
+                          const lsf_light_filter_inputs *inputs);
+void lsf_light_filter_destroy(lsf_light_filter *pass);
+
+#endif

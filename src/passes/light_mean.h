@@ -1,0 +1,40 @@
+/* Running means of the parts of reflected light over iterations, with their variance and with what
+ * reflected them, for filters that work on light without its tint. See light_mean.md. */
+#ifndef LSF_PASSES_LIGHT_MEAN_H
+#define LSF_PASSES_LIGHT_MEAN_H
+
+#include "plan/iteration.h"
+
+typedef struct lsf_light_mean_inputs {
+    GLuint depth, surface, gloss;              /* of the G-buffer; gloss 0 where it has none */
+    GLuint tint, absorption;                   /* of the G-buffer; 0: light loses nothing */
+    GLuint irradiance, specular;               /* RGBA32F; specular 0 where nothing is glossy */
+    GLuint direct_irradiance, direct_specular; /* the same of direct light; 0: none */
+} lsf_light_mean_inputs;
+
+/* RGBA32F, of the picture's size. */
+typedef struct lsf_light_mean_part {
+    GLuint light;  /* R, G, B: mean radiance towards the eye; A: sum of squared deviations of its
+                    * luminance from the mean */
+    GLuint factor; /* mean of what light without tint is multiplied by to become that radiance; A of
+                    * the specular part: roughness */
+} lsf_light_mean_part;
+
+typedef struct lsf_light_mean {
+    lsf_context *context;
+    lsf_light_mean_part diffuse, specular; /* outputs; specular 0 where nothing is glossy */
+    GLuint guide; /* output: mean shading normal, 0 where nothing is seen; A: mean reverse-Z depth */
+    GLuint framebuffer, program;
+    lsf_timer *timer;
+} lsf_light_mean;
+
+/* `split_direct`: direct light comes in textures of its own. */
+void lsf_light_mean_plan(lsf_plan *plan, bool split_direct);
+bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf_plan *plan,
+                           lsf_error *error);
+/* Adds an iteration; `gate` as for lsf_accumulate_run. */
+void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
+                        const lsf_light_mean_inputs *inputs, GLuint gate);
+void lsf_light_mean_destroy(lsf_light_mean *pass);
+
+#endif
