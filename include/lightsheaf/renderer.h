@@ -102,8 +102,8 @@ typedef struct lsf_render_params {
     .time_limit = 1.0 / 0.0, .bounces = LSF_BOUNCES_AUTO, .seed = 0, .camera = NULL,               \
     .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f,                          \
     .background = LSF_BACKGROUND_AUTO, .background_radiance = {0}, .time = 0.0, .aovs = 0,         \
-    .raw = false, .rgb8 = false, .present = false, .options = NULL, .option_count = 0, .progress = NULL,         \
-    .progress_user = NULL
+    .raw = false, .rgb8 = false, .present = false, .options = NULL, .option_count = 0,             \
+    .progress = NULL, .progress_user = NULL
 
 /* The view of the camera that these parameters choose, at their time: where a program may go on
  * from. LSF_ERROR_USAGE where there is no such camera. */

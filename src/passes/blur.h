@@ -18,8 +18,8 @@ typedef struct lsf_blur_params {
 } lsf_blur_params;
 
 #define LSF_BLUR_PARAMS_DEFAULTS                                                                   \
-    .phases = 0, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f,              \
-    .min_roughness = 0.1f, .cutoff = 6.0f, .slope = 0.25f, .normal_weight = 4.0f
+    .phases = 0, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f, .min_roughness = 0.1f,              \
+    .cutoff = 6.0f, .slope = 0.25f, .normal_weight = 4.0f
 
 #define LSF_BLUR_OPTION_COUNT 8
 extern const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT];

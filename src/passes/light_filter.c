@@ -6,8 +6,8 @@
 #include "base/base.h"
 
 const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
-    {"light_filter.steps", LSF_OPTION_INT, offsetof(lsf_light_filter_params, steps), 0, 8, NULL,
-     "", "steps of the filter, each twice as wide as the one before; 0: no filter"},
+    {"light_filter.steps", LSF_OPTION_INT, offsetof(lsf_light_filter_params, steps), 0, 8, NULL, "",
+     "steps of the filter, each twice as wide as the one before; 0: no filter"},
     {"light_filter.tolerance", LSF_OPTION_FLOAT, offsetof(lsf_light_filter_params, tolerance), 1e-3,
      1e3, NULL, "standard deviations", "differences between neighbours that count as noise"},
     {"light_filter.depth_weight", LSF_OPTION_FLOAT, offsetof(lsf_light_filter_params, depth_weight),

@@ -7,10 +7,10 @@
 #include "plan/option.h"
 
 typedef struct lsf_light_filter_params {
-    int32_t steps;       /* the last one's neighbours are 2^(steps - 1) pixels apart; 0: no filter */
-    float tolerance;     /* standard deviations that count as noise */
-    float depth_weight;  /* pixels that a neighbour may be off the pixel's plane, for each pixel
-                          * that it is away */
+    int32_t steps;      /* the last one's neighbours are 2^(steps - 1) pixels apart; 0: no filter */
+    float tolerance;    /* standard deviations that count as noise */
+    float depth_weight; /* pixels that a neighbour may be off the pixel's plane, for each pixel
+                         * that it is away */
     float normal_weight; /* exponent of the cosine between normals */
     int32_t limit;       /* bool: no more is changed than noise explains */
 } lsf_light_filter_params;

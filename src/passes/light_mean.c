@@ -7,7 +7,7 @@
 void lsf_light_mean_plan(lsf_plan *plan, bool split_direct)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_plan_find(plan, "gbuffer.gloss") != NULL;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "light_mean", "means of the parts of light, for its filter");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
@@ -42,7 +42,8 @@ bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf
         {"light_mean.specular_factor", &pass->specular.factor},
     };
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        if (!lsf_plan_create_texture(plan, context, textures[i].name, textures[i].texture, error))
+        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
+                                                textures[i].texture, error))
             return false;
     glCreateFramebuffers(1, &pass->framebuffer);
     glNamedFramebufferParameteri(pass->framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH,
@@ -63,15 +64,13 @@ void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
     glUniform1f(0, 1.0f / ((float)iteration->done + 1.0f));
-    lsf_bind_texture(0, inputs->depth);
-    lsf_bind_texture(1, inputs->surface);
-    lsf_bind_texture(2, inputs->gloss);
-    lsf_bind_texture(3, inputs->irradiance);
-    lsf_bind_texture(4, inputs->specular);
-    lsf_bind_texture(7, inputs->direct_irradiance);
-    lsf_bind_texture(8, inputs->direct_specular);
-    lsf_bind_texture(10, inputs->tint);
-    lsf_bind_texture(11, inputs->absorption);
+    lsf_surface_maps_bind(&inputs->gbuffer->seen);
+    lsf_bind_texture(3, inputs->indirect.irradiance);
+    lsf_bind_texture(4, inputs->indirect.specular);
+    lsf_bind_texture(7, inputs->direct.irradiance);
+    lsf_bind_texture(8, inputs->direct.specular);
+    lsf_bind_texture(10, inputs->gbuffer->tint);
+    lsf_bind_texture(11, inputs->gbuffer->absorption);
     for (GLuint i = 0; i < LSF_COUNT(means); i++)
         if (means[i])
             glBindImageTexture(i, means[i], 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);

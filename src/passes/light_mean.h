@@ -4,12 +4,12 @@
 #define LSF_PASSES_LIGHT_MEAN_H
 
 #include "plan/iteration.h"
+#include "plan/maps.h"
 
 typedef struct lsf_light_mean_inputs {
-    GLuint depth, surface, gloss;              /* of the G-buffer; gloss 0 where it has none */
-    GLuint tint, absorption;                   /* of the G-buffer; 0: light loses nothing */
-    GLuint irradiance, specular;               /* RGBA32F; specular 0 where nothing is glossy */
-    GLuint direct_irradiance, direct_specular; /* the same of direct light; 0: none */
+    const lsf_gbuffer_maps *gbuffer;
+    lsf_split_light indirect;
+    lsf_split_light direct; /* beside it; no irradiance: none */
 } lsf_light_mean_inputs;
 
 /* RGBA32F, of the picture's size. */
@@ -23,7 +23,8 @@ typedef struct lsf_light_mean_part {
 typedef struct lsf_light_mean {
     lsf_context *context;
     lsf_light_mean_part diffuse, specular; /* outputs; specular 0 where nothing is glossy */
-    GLuint guide; /* output: mean shading normal, 0 where nothing is seen; A: mean reverse-Z depth */
+    GLuint
+        guide; /* output: mean shading normal, 0 where nothing is seen; A: mean reverse-Z depth */
     GLuint framebuffer, program;
     lsf_timer *timer;
 } lsf_light_mean;

@@ -61,7 +61,7 @@ struct lsf_plan {
     bool transmission; /* there are materials that transmit light */
     bool straight;     /* ... and it goes straight through them, for the technique cannot refract */
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
-    bool filtered;     /* light_filter takes the noise out of the mean */
+    bool filtered;       /* light_filter takes the noise out of the mean */
     bool failed;         /* memory ran out while it was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;

@@ -185,12 +185,14 @@ static float dealt(uint32_t count, uint32_t tiles, uint32_t tile)
     return (float)(count / tiles + (tile < count % tiles));
 }
 
-/* Iterations that suppression may count on; 0: there is none. */
+/* Iterations that suppression may count on; 0: there is none. A filter shares what the tiles of a
+ * pattern find, as if each had as many more. */
 static float suppressed_iterations(const bidirectional *b, const lsf_iteration *iteration)
 {
-    return b->shade_params.suppression == LSF_GLOSSY_SUPPRESSION_NONE
-               ? 0.0f
-               : lsf_iteration_expected(iteration);
+    if (b->shade_params.suppression == LSF_GLOSSY_SUPPRESSION_NONE)
+        return 0.0f;
+    float tiles = iteration->plan->filtered ? (float)b->sampling.tiles : 1.0f;
+    return tiles * lsf_iteration_expected(iteration);
 }
 
 /* Solid angle of as many samples as suppression spreads a lobe over, were they uniform over the
@@ -199,7 +201,7 @@ static float suppressed_angle(const bidirectional *b, const lsf_iteration *itera
 {
     const lsf_bidirectional_sampling *s = &b->sampling;
     float samples = suppressed_iterations(b, iteration) *
-                    (float)(s->vpl_count + s->emitter_count + s->bundle_count);
+                    (float)(s->vpl_count + s->emitter_count + s->bundle_count) / (float)s->tiles;
     return samples > 0.0f ? 2.0f * LSF_PI * b->shade_params.kernel_samples / samples : 0.0f;
 }
 
@@ -439,7 +441,7 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
     sample_turn turn = {.b = b,
                         .iteration = iteration,
                         .inputs = *inputs,
-                        .iterations = suppressed_iterations(b, iteration) * (float)s->tiles,
+                        .iterations = suppressed_iterations(b, iteration),
                         .vpl = LSF_NONE,
                         .emitter = LSF_NONE,
                         .light_probability = 1.0f};
@@ -502,15 +504,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
             b->compose.indirect_specular ? b->compose.indirect_specular : light->specular,
         .motion = gbuffer->motion,
         .kernel = suppressed_angle(b, iteration),
-        .light = {.depth = gbuffer->depth,
-                  .surface = gbuffer->surface,
-                  .gloss = gbuffer->gloss,
-                  .tint = gbuffer->tint,
-                  .absorption = gbuffer->absorption,
-                  .irradiance = irradiance,
-                  .specular = specular,
-                  .direct_irradiance = parts.direct_irradiance,
-                  .direct_specular = parts.direct_specular},
+        .light = {.gbuffer = gbuffer, .indirect = parts.indirect, .direct = parts.split_direct},
         .gate = b->bundle ? lsf_ray_bundle_gate(b->bundle) : 0,
     };
 }

@@ -230,15 +230,7 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
         .indirect_specular =
             c->compose.indirect_specular ? c->compose.indirect_specular : light.specular,
         .motion = gbuffer->motion,
-        .light = {.depth = gbuffer->depth,
-                  .surface = gbuffer->surface,
-                  .gloss = gbuffer->gloss,
-                  .tint = gbuffer->tint,
-                  .absorption = gbuffer->absorption,
-                  .irradiance = light.irradiance,
-                  .specular = light.specular,
-                  .direct_irradiance = parts.direct_irradiance,
-                  .direct_specular = parts.direct_specular},
+        .light = {.gbuffer = gbuffer, .indirect = parts.indirect, .direct = parts.split_direct},
     };
     if (c->way.traced)
         lsf_voxel_chain_view(&c->chain, iteration, outputs);

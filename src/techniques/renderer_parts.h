@@ -35,7 +35,8 @@ struct lsf_renderer {
 lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error);
 /* Runs until what was asked for went into the means; without `wait`, as far as it is known. */
 bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error);
-/* The mean of the picture, filtered where the plan has a filter. Of a renderer that has caught up. */
+/* The mean of the picture, filtered where the plan has a filter. Of a renderer that has caught up.
+ */
 GLuint lsf_renderer_picture(lsf_renderer *renderer);
 /* The texture of a layer; 0 when the technique has none, and the layer stays black. */
 GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov);

@@ -49,7 +49,7 @@ typedef struct lsf_pass_params {
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
     .cone = {LSF_CONE_PARAMS_DEFAULTS}, .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
-    .blur = {LSF_BLUR_PARAMS_DEFAULTS}, .upsample_search = {LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS},                                       \
+    .blur = {LSF_BLUR_PARAMS_DEFAULTS}, .upsample_search = {LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS},  \
     .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
@@ -62,8 +62,8 @@ typedef struct lsf_technique_outputs {
     GLuint depth, surface; /* of the G-buffer */
     GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
     GLuint motion;
-    lsf_light_mean_inputs light; /* its parts; irradiance 0: there are none */
-    float kernel; /* solid angle that glossy lobes are spread over, for want of samples [sr] */
+    lsf_light_mean_inputs light; /* its parts; gbuffer NULL: there are none */
+    float kernel;    /* solid angle that glossy lobes are spread over, for want of samples [sr] */
     GLuint coverage; /* RGBA32F, 1 or 0; where the plan's background asks for it */
     GLuint voxel_albedo, voxel_normal, voxel_radiance; /* RGBA32F layers */
     GLuint gate; /* see lsf_accumulate_run; of a technique that settles */

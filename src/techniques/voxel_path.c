@@ -167,13 +167,7 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
         .indirect_diffuse = v->compose.indirect_diffuse,
         .indirect_specular = parts.indirect.specular,
         .motion = gbuffer->motion,
-        .light = {.depth = gbuffer->depth,
-                  .surface = gbuffer->surface,
-                  .gloss = gbuffer->gloss,
-                  .irradiance = parts.irradiance,
-                  .specular = parts.specular,
-                  .direct_irradiance = parts.direct_irradiance,
-                  .direct_specular = parts.direct_specular},
+        .light = {.gbuffer = gbuffer, .indirect = parts.indirect, .direct = parts.split_direct},
     };
     lsf_voxel_chain_view(&v->chain, iteration, outputs);
 }

@@ -14,7 +14,8 @@ static double lost(const char *option, uint32_t samples, float *brightest)
     finish_gl_scene(scene);
     const char *const options[] = {"bundle.window=visible", option};
     lsf_render_params params = corner_params(
-        (lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .technique = "bidirectional"}, 24);
+        (lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .technique = "bidirectional"},
+        24);
     params.samples = samples;
     params.bounces = 2;
     params.options = options;

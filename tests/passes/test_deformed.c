@@ -41,7 +41,8 @@ static lsf_image *render(mover by, const char *technique)
         carry(scene, joint - i, shift);
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
     finish_gl_scene(scene);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true,
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS,
+                                .raw = true,
                                 .technique = technique,
                                 .samples = 4,
                                 .bounces = 1,

@@ -305,7 +305,8 @@ static void corner_in_each_technique(void **unused)
     add_sky(scene, 60.0f);
     finish_gl_scene(scene);
     lsf_error error = {0};
-    lsf_render_params params = corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true}, SIZE);
+    lsf_render_params params =
+        corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true}, SIZE);
     params.samples = 512;
     lsf_image *truth = lsf_reference_render(scene, &params, 0, NULL, &error);
     if (!truth)

@@ -185,7 +185,8 @@ static void bits_are_the_same_for_any_threads(void **unused)
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 1.8f, 1.2f), lsf_f3(0, -1, 0), 2.0f);
     build_environment(scene, 0.3f);
     finish_gl_scene(scene);
-    lsf_render_params params = corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true}, 24);
+    lsf_render_params params =
+        corner_params((lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .raw = true}, 24);
     params.samples = 2;
     params.bounces = 2;
     assert_same_for_any_threads(scene, &params);

@@ -256,7 +256,8 @@ static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
     static const char *const options[MAX_OPTIONS] = {"voxel.resolution=16", "voxel_path.scale=0.5",
-                                                     "blur.phases=5", "voxel_path.sequence=texture"};
+                                                     "blur.phases=5",
+                                                     "voxel_path.sequence=texture"};
     lsf_scene *scene = room(1.0f);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = params_of(1, 1, options);
