@@ -34,6 +34,27 @@ const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPT
 static const char *const vpl_names[2] = {"bidirectional_shade_vpl", "bidirectional_shade_vpl_deep"};
 static const char *const hit_names[2] = {"bidirectional_shade_hit", "bidirectional_shade_hit_deep"};
 
+/* Conditions of textures, beside LSF_TEXTURE_SPECULAR. */
+enum { DIRECT = 2, DEEP = 4 };
+
+#define AT(member) offsetof(lsf_bidirectional_shade, member)
+
+static const lsf_texture_row textures[] = {
+    {"bidirectional_shade.irradiance", GL_RGBA32F, AT(outputs.light.irradiance), 0,
+     "light for the diffuse lobe, without its albedo"},
+    {"bidirectional_shade.specular", GL_RGBA32F, AT(outputs.light.specular), LSF_TEXTURE_SPECULAR,
+     "light of the specular lobe"},
+    {"bidirectional_shade.direct_irradiance", GL_RGBA32F, AT(outputs.direct.irradiance), DIRECT,
+     "direct light is asked for apart"},
+    {"bidirectional_shade.direct_specular", GL_RGBA32F, AT(outputs.direct.specular),
+     DIRECT | LSF_TEXTURE_SPECULAR, "direct light is asked for apart"},
+    {"bidirectional_shade.position", GL_RGBA32F, AT(outputs.position), DEEP, "vertices of paths"},
+    {"bidirectional_shade.surface", GL_RGBA32UI, AT(outputs.surface), DEEP, "vertices of paths"},
+    {"bidirectional_shade.throughput", GL_RGBA32UI, AT(throughput), DEEP,
+     "what vertices hand on, as half floats"},
+    {"bidirectional_shade.gloss", GL_NONE, AT(outputs.gloss), DEEP, "roughness of vertices"},
+};
+
 /* Of lib/ray_bundle.glsl. */
 static const char *const bundle_switches[] = {"LSF_BUNDLE_SIDE",     "LSF_BUNDLE_SLICES",
                                               "LSF_BUNDLE_GLOSS",    "LSF_BUNDLE_ANISOTROPY",
@@ -100,18 +121,9 @@ static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *param
                         "paths go on from here");
 }
 
-static void add_target(lsf_plan *plan, bool wanted, const char *name, GLenum format,
-                       const char *why)
-{
-    if (wanted)
-        lsf_plan_texture_add(plan, name, format, plan->width, plan->height, "%s", why);
-}
-
 void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
                                   const lsf_bidirectional_shade_use *use)
 {
-    GLenum gloss = lsf_gbuffer_gloss(plan);
-    bool specular = plan->requirements.specular;
     bool vpl = use->vpl_light || use->vpl_emitter;
     if (vpl)
         plan_vpl(plan, params, use, false);
@@ -121,43 +133,8 @@ void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_
         plan_hit(plan, params, use, false);
     if (use->segments > 1)
         plan_hit(plan, params, use, true);
-    bool deep = use->vertices > 0;
-    add_target(plan, true, "bidirectional_shade.irradiance", GL_RGBA32F,
-               "light for the diffuse lobe, without its albedo");
-    add_target(plan, specular, "bidirectional_shade.specular", GL_RGBA32F,
-               "light of the specular lobe");
-    add_target(plan, use->split_direct, "bidirectional_shade.direct_irradiance", GL_RGBA32F,
-               "direct light is asked for apart");
-    add_target(plan, use->split_direct && specular, "bidirectional_shade.direct_specular",
-               GL_RGBA32F, "direct light is asked for apart");
-    add_target(plan, deep, "bidirectional_shade.position", GL_RGBA32F, "vertices of paths");
-    add_target(plan, deep, "bidirectional_shade.surface", GL_RGBA32UI, "vertices of paths");
-    add_target(plan, deep, "bidirectional_shade.throughput", GL_RGBA32UI,
-               "what vertices hand on, as half floats");
-    add_target(plan, deep && gloss, "bidirectional_shade.gloss", gloss, "roughness of vertices");
-}
-
-static bool create_textures(lsf_bidirectional_shade *pass, const lsf_plan *plan, lsf_error *error)
-{
-    lsf_bidirectional_shade_outputs *out = &pass->outputs;
-    const struct {
-        const char *name;
-        GLuint *texture;
-    } textures[] = {
-        {"bidirectional_shade.irradiance", &out->light.irradiance},
-        {"bidirectional_shade.specular", &out->light.specular},
-        {"bidirectional_shade.direct_irradiance", &out->direct.irradiance},
-        {"bidirectional_shade.direct_specular", &out->direct.specular},
-        {"bidirectional_shade.position", &out->position},
-        {"bidirectional_shade.surface", &out->surface},
-        {"bidirectional_shade.throughput", &pass->throughput},
-        {"bidirectional_shade.gloss", &out->gloss},
-    };
-    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        if (!lsf_plan_create_texture_if_planned(plan, pass->context, textures[i].name,
-                                                textures[i].texture, error))
-            return false;
-    return true;
+    uint32_t given = (use->split_direct ? DIRECT : 0) | (use->vertices > 0 ? DEEP : 0);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), given, plan->width, plan->height);
 }
 
 static bool create_hit(lsf_bidirectional_shade *pass, const lsf_plan *plan, bool deep,
@@ -192,8 +169,8 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
     static const char *const vpl_files[5] = {"lib/fullscreen.vert.glsl",
                                              "passes/bidirectional_shade_vpl.frag.glsl"};
     *pass = (lsf_bidirectional_shade){.context = context, .params = *params};
-    if (!create_textures(pass, plan, error) || !create_hit(pass, plan, false, error) ||
-        !create_hit(pass, plan, true, error))
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
+        !create_hit(pass, plan, false, error) || !create_hit(pass, plan, true, error))
         return false;
     const lsf_bidirectional_shade_outputs *out = &pass->outputs;
     const GLuint sums[2][2] = {{out->light.irradiance, out->light.specular},
@@ -325,17 +302,7 @@ void lsf_bidirectional_shade_destroy(lsf_bidirectional_shade *pass)
 {
     if (!pass->context)
         return;
-    lsf_bidirectional_shade_outputs *out = &pass->outputs;
-    GLuint *textures[] = {&out->light.irradiance,
-                          &out->light.specular,
-                          &out->direct.irradiance,
-                          &out->direct.specular,
-                          &out->position,
-                          &out->surface,
-                          &out->gloss,
-                          &pass->throughput};
-    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     for (int i = 0; i < 2; i++) {
         lsf_framebuffer_destroy(pass->context, &pass->vpl_framebuffers[i]);
         lsf_framebuffer_destroy(pass->context, &pass->hit_framebuffers[i]);

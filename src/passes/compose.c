@@ -4,14 +4,30 @@
 
 #include "shared/scene_data.h"
 
+enum { RADIANCE, SEEN, INDIRECT_DIFFUSE, DIRECT, INDIRECT_SPECULAR, COVERAGE, TEXTURES };
+
+#define AT(member) offsetof(lsf_compose, member)
+
+static const lsf_texture_row textures[TEXTURES] = {
+    [RADIANCE] = {"compose.radiance", GL_RGBA32F, AT(radiance), 0, "the iteration's picture"},
+    [SEEN] = {"compose.seen", GL_RGBA32F, AT(seen), 0, "the emission layer is asked for"},
+    [INDIRECT_DIFFUSE] = {"compose.indirect_diffuse", GL_RGBA32F, AT(indirect_diffuse), 0,
+                          "the indirect_diffuse layer is asked for"},
+    [DIRECT] = {"compose.direct", GL_RGBA32F, AT(direct), 0, "the direct layer is asked for"},
+    [INDIRECT_SPECULAR] = {"compose.indirect_specular", GL_RGBA32F, AT(indirect_specular), 0,
+                           "the indirect_specular layer is asked for, behind what transmits"},
+    [COVERAGE] = {"compose.coverage", GL_RGBA32F, AT(coverage), 0, "the background is transparent"},
+};
+
 /* Layers beside the picture: attachments are numbered without gaps, and a layer's switch is its
  * number, 0 without it. */
-static void plan_layer(lsf_plan *plan, bool wanted, const char *define, const char *texture,
-                       const char *why, int *target)
+static void plan_layer(lsf_plan *plan, bool wanted, const char *define, int layer, int *target)
 {
-    lsf_plan_switch_add(plan, define, wanted ? (*target)++ : 0, "%s; its attachment's number", why);
+    const lsf_texture_row *row = &textures[layer];
+    lsf_plan_switch_add(plan, define, wanted ? (*target)++ : 0, "%s; its attachment's number",
+                        row->why);
     if (wanted)
-        lsf_plan_texture_add(plan, texture, GL_RGBA32F, plan->width, plan->height, "%s", why);
+        lsf_plan_textures_add(plan, row, 1, 0, plan->width, plan->height);
 }
 
 void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
@@ -37,23 +53,18 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_scene_gpu_environment_switches(plan, "an environment is seen");
     lsf_plan_switch_add(plan, "LSF_BACKGROUND", !plan->background.environment,
                         "something else is seen instead of the environment");
-    lsf_plan_texture_add(plan, "compose.radiance", GL_RGBA32F, plan->width, plan->height,
-                         "the iteration's picture");
+    lsf_plan_textures_add(plan, &textures[RADIANCE], 1, 0, plan->width, plan->height);
     int target = 1;
-    plan_layer(plan, (plan->aovs & LSF_AOV_EMISSION) != 0, "LSF_SEEN", "compose.seen",
-               "the emission layer is asked for", &target);
+    plan_layer(plan, (plan->aovs & LSF_AOV_EMISSION) != 0, "LSF_SEEN", SEEN, &target);
     plan_layer(plan, use->indirect && (plan->aovs & LSF_AOV_INDIRECT_DIFFUSE),
-               "LSF_INDIRECT_DIFFUSE", "compose.indirect_diffuse",
-               "the indirect_diffuse layer is asked for", &target);
+               "LSF_INDIRECT_DIFFUSE", INDIRECT_DIFFUSE, &target);
     plan_layer(plan, (use->split_direct || plan->straight) && (plan->aovs & LSF_AOV_DIRECT),
-               "LSF_ALL_DIRECT", "compose.direct", "the direct layer is asked for", &target);
+               "LSF_ALL_DIRECT", DIRECT, &target);
     plan_layer(plan,
                plan->straight && use->indirect && r->specular &&
                    (plan->aovs & LSF_AOV_INDIRECT_SPECULAR),
-               "LSF_INDIRECT_SPECULAR", "compose.indirect_specular",
-               "the indirect_specular layer is asked for, behind what transmits", &target);
-    plan_layer(plan, plan->background.coverage, "LSF_COVERAGE", "compose.coverage",
-               "the background is transparent", &target);
+               "LSF_INDIRECT_SPECULAR", INDIRECT_SPECULAR, &target);
+    plan_layer(plan, plan->background.coverage, "LSF_COVERAGE", COVERAGE, &target);
 }
 
 bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan *plan,
@@ -61,16 +72,7 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/compose.frag.glsl"};
     *pass = (lsf_compose){.context = context};
-    if (!lsf_plan_create_texture(plan, context, "compose.radiance", &pass->radiance, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "compose.seen", &pass->seen, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "compose.indirect_diffuse",
-                                            &pass->indirect_diffuse, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "compose.direct", &pass->direct,
-                                            error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "compose.indirect_specular",
-                                            &pass->indirect_specular, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "compose.coverage", &pass->coverage,
-                                            error))
+    if (!lsf_plan_create_textures(plan, context, textures, TEXTURES, pass, error))
         return false;
     lsf_framebuffer_desc desc = {.label = "compose",
                                  .color_count = 6,
@@ -112,12 +114,7 @@ void lsf_compose_destroy(lsf_compose *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    lsf_texture_destroy(pass->context, &pass->radiance);
-    lsf_texture_destroy(pass->context, &pass->seen);
-    lsf_texture_destroy(pass->context, &pass->indirect_diffuse);
-    lsf_texture_destroy(pass->context, &pass->direct);
-    lsf_texture_destroy(pass->context, &pass->indirect_specular);
-    lsf_texture_destroy(pass->context, &pass->coverage);
+    lsf_textures_destroy(pass->context, textures, TEXTURES, pass);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

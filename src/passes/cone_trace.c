@@ -22,6 +22,15 @@
  * sqrt(2) of its half aperture, which is sqrt(8) alpha then. */
 #define LOBE_SPREAD (2.0f * 2.8284271f)
 
+#define AT(member) offsetof(lsf_cone_trace, light.member)
+
+static const lsf_texture_row textures[] = {
+    {"cone_trace.irradiance", GL_RGBA32F, AT(irradiance), 0,
+     "light for the diffuse lobe, without its albedo"},
+    {"cone_trace.specular", GL_RGBA32F, AT(specular), LSF_TEXTURE_SPECULAR,
+     "light of the specular lobe"},
+};
+
 void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t width,
                          uint32_t height)
 {
@@ -40,13 +49,8 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
-    lsf_plan_texture_add(plan, "cone_trace.irradiance", GL_RGBA32F, width, height,
-                         "light for the diffuse lobe, without its albedo");
-    if (!r->specular)
-        return;
-    lsf_plan_texture_add(plan, "cone_trace.specular", GL_RGBA32F, width, height,
-                         "light of the specular lobe");
-    if (!lsf_cone_marches(params, r))
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, width, height);
+    if (!r->specular || !lsf_cone_marches(params, r))
         return;
     lsf_plan_texture_add(plan, "cone_trace.lobe_albedo", GL_RG32F, ALBEDO_SIDE, ALBEDO_SIDE,
                          "what the specular lobe reflects, by view and roughness");
@@ -96,10 +100,8 @@ bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/cone_trace.frag.glsl"};
     *pass = (lsf_cone_trace){.context = context, .params = *params, .grid = *grid};
-    lsf_split_light *out = &pass->light;
-    if (!lsf_plan_create_texture(plan, context, "cone_trace.irradiance", &out->irradiance, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "cone_trace.specular", &out->specular,
-                                            error) ||
+    const lsf_split_light *out = &pass->light;
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         !lsf_plan_create_texture_if_planned(plan, context, "cone_trace.lobe_albedo",
                                             &pass->lobe_albedo, error))
         return false;
@@ -140,8 +142,7 @@ void lsf_cone_trace_destroy(lsf_cone_trace *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    lsf_texture_destroy(pass->context, &pass->light.irradiance);
-    lsf_texture_destroy(pass->context, &pass->light.specular);
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     lsf_texture_destroy(pass->context, &pass->lobe_albedo);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

@@ -14,21 +14,30 @@ const lsf_option_row lsf_upsample_search_options[LSF_UPSAMPLE_SEARCH_OPTION_COUN
      1.0, NULL, "", "how far a place of the same surface may rise from it for its distance"},
 };
 
+#define AT(member) offsetof(lsf_upsample_search, member)
+
+/* Of the grid's size. */
+static const lsf_texture_row coarse[] = {
+    {"upsample_search.depth", GL_R32F, AT(coarse.depth), 0, "what the grid sees"},
+    {"upsample_search.surface", GL_RGBA32UI, AT(coarse.surface), 0, "what the grid sees"},
+    {"upsample_search.gloss", GL_NONE, AT(coarse.gloss), 0, "what the grid sees"},
+};
+
+/* Of the picture's size. */
+static const lsf_texture_row fine[] = {
+    {"upsample_search.irradiance", GL_RGBA32F, AT(light.irradiance), 0, "upsampled"},
+    {"upsample_search.specular", GL_RGBA32F, AT(light.specular), LSF_TEXTURE_SPECULAR, "upsampled"},
+};
+
 static void plan_split(lsf_plan *plan, uint32_t width, uint32_t height)
 {
-    GLenum gloss = lsf_gbuffer_gloss(plan);
     lsf_plan_pass_add(plan, "upsample_search_split", "what %u x %u places of the picture see",
                       width, height);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != GL_NONE, "roughness or metallic vary");
-    lsf_plan_texture_add(plan, "upsample_search.depth", GL_R32F, width, height,
-                         "what the grid sees");
-    lsf_plan_texture_add(plan, "upsample_search.surface", GL_RGBA32UI, width, height,
-                         "what the grid sees");
-    if (gloss != GL_NONE)
-        lsf_plan_texture_add(plan, "upsample_search.gloss", gloss, width, height,
-                             "what the grid sees");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", lsf_gbuffer_gloss(plan) != GL_NONE,
+                        "roughness or metallic vary");
+    lsf_plan_textures_add(plan, coarse, LSF_COUNT(coarse), 0, width, height);
 }
 
 void lsf_upsample_search_plan(lsf_plan *plan, const lsf_upsample_search_params *params,
@@ -39,17 +48,13 @@ void lsf_upsample_search_plan(lsf_plan *plan, const lsf_upsample_search_params *
         lsf_plan_omit(plan, "upsample_search", "light is traced for every pixel");
         return;
     }
-    bool specular = plan->requirements.specular;
     plan_split(plan, width, height);
     lsf_plan_pass_add(plan, "upsample_search", "light of the grid for every pixel");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
-    lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
-    lsf_plan_texture_add(plan, "upsample_search.irradiance", GL_RGBA32F, plan->width, plan->height,
-                         "upsampled");
-    if (specular)
-        lsf_plan_texture_add(plan, "upsample_search.specular", GL_RGBA32F, plan->width,
-                             plan->height, "upsampled");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
+                        "materials have a specular lobe");
+    lsf_plan_textures_add(plan, fine, LSF_COUNT(fine), 0, plan->width, plan->height);
 }
 
 bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
@@ -63,20 +68,9 @@ bool lsf_upsample_search_create(lsf_upsample_search *pass, lsf_context *context,
     *pass = (lsf_upsample_search){.context = context, .params = *params};
     if (!lsf_plan_find_pass(plan, "upsample_search"))
         return true;
-    const struct {
-        const char *name;
-        GLuint *texture;
-    } textures[] = {
-        {"upsample_search.depth", &pass->coarse.depth},
-        {"upsample_search.surface", &pass->coarse.surface},
-        {"upsample_search.gloss", &pass->coarse.gloss},
-        {"upsample_search.irradiance", &pass->light.irradiance},
-        {"upsample_search.specular", &pass->light.specular},
-    };
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
-                                                textures[i].texture, error))
-            return false;
+    if (!lsf_plan_create_textures(plan, context, coarse, LSF_COUNT(coarse), pass, error) ||
+        !lsf_plan_create_textures(plan, context, fine, LSF_COUNT(fine), pass, error))
+        return false;
     const lsf_plan_resource *depth = lsf_plan_find(plan, "upsample_search.depth");
     pass->grid.width = depth->texture.width;
     pass->grid.height = depth->texture.height;
@@ -141,10 +135,8 @@ void lsf_upsample_search_destroy(lsf_upsample_search *pass)
 {
     if (!pass->context)
         return;
-    GLuint *textures[] = {&pass->coarse.depth, &pass->coarse.surface, &pass->coarse.gloss,
-                          &pass->light.irradiance, &pass->light.specular};
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_textures_destroy(pass->context, coarse, LSF_COUNT(coarse), pass);
+    lsf_textures_destroy(pass->context, fine, LSF_COUNT(fine), pass);
     lsf_framebuffer_destroy(pass->context, &pass->split_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->light_framebuffer);
     lsf_timer_destroy(pass->split_timer);

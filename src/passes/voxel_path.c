@@ -25,6 +25,22 @@ const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
      "", "sides of the grid of pixels on which paths begin, to those of the picture"},
 };
 
+/* Condition of textures, beside LSF_TEXTURE_SPECULAR. */
+enum { DIRECT = 2 };
+
+#define AT(member) offsetof(lsf_voxel_path, outputs.member)
+
+static const lsf_texture_row textures[] = {
+    {"voxel_path.irradiance", GL_RGBA32F, AT(light.irradiance), 0,
+     "the diffuse part, without albedo"},
+    {"voxel_path.specular", GL_RGBA32F, AT(light.specular), LSF_TEXTURE_SPECULAR,
+     "the specular part"},
+    {"voxel_path.direct_irradiance", GL_RGBA32F, AT(direct.irradiance), DIRECT,
+     "direct light, apart"},
+    {"voxel_path.direct_specular", GL_RGBA32F, AT(direct.specular), DIRECT | LSF_TEXTURE_SPECULAR,
+     "direct light, apart"},
+};
+
 uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -61,19 +77,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
-    const struct {
-        const char *name, *why;
-        bool wanted;
-    } textures[] = {
-        {"voxel_path.irradiance", "the diffuse part, without albedo", true},
-        {"voxel_path.specular", "the specular part", r->specular},
-        {"voxel_path.direct_irradiance", "direct light, apart", use->split_direct},
-        {"voxel_path.direct_specular", "direct light, apart", use->split_direct && r->specular},
-    };
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        if (textures[i].wanted)
-            lsf_plan_texture_add(plan, textures[i].name, GL_RGBA32F, use->width, use->height, "%s",
-                                 textures[i].why);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), use->split_direct ? DIRECT : 0,
+                          use->width, use->height);
     if (texture)
         lsf_plan_texture_add(plan, "voxel_path.random", GL_RGBA32F, RANDOM_SIZE, RANDOM_SIZE,
                              "random numbers, the same for all iterations");
@@ -105,27 +110,17 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/voxel_path.frag.glsl"};
     *pass = (lsf_voxel_path){.context = context, .params = *params, .segments = use->segments};
-    lsf_voxel_path_outputs *out = &pass->outputs;
-    const struct {
-        const char *name;
-        GLuint *texture;
-    } textures[] = {
-        {"voxel_path.irradiance", &out->light.irradiance},
-        {"voxel_path.direct_irradiance", &out->direct.irradiance},
-        {"voxel_path.specular", &out->light.specular},
-        {"voxel_path.direct_specular", &out->direct.specular},
-    };
-    lsf_framebuffer_desc desc = {.label = "voxel_path", .layer = -1};
-    for (size_t i = 0; i < LSF_COUNT(textures); i++) {
-        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
-                                                textures[i].texture, error))
-            return false;
-        if (*textures[i].texture)
-            desc.colors[desc.color_count++] = *textures[i].texture;
-    }
-    if (!create_random(pass, plan, error) ||
+    const lsf_voxel_path_outputs *out = &pass->outputs;
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
+        !create_random(pass, plan, error) ||
         !lsf_voxel_path_emitters_create(&pass->emitters, context, plan, scene, state, error))
         return false;
+    lsf_framebuffer_desc desc = {.label = "voxel_path", .layer = -1};
+    const GLuint targets[] = {out->light.irradiance, out->direct.irradiance, out->light.specular,
+                              out->direct.specular};
+    for (size_t i = 0; i < LSF_COUNT(targets); i++)
+        if (targets[i])
+            desc.colors[desc.color_count++] = targets[i];
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "voxel_path", files, error);
     pass->timer = lsf_timer_create(context, "voxel_path", error);
@@ -172,11 +167,8 @@ void lsf_voxel_path_destroy(lsf_voxel_path *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    GLuint *textures[] = {&pass->outputs.light.irradiance, &pass->outputs.light.specular,
-                          &pass->outputs.direct.irradiance, &pass->outputs.direct.specular,
-                          &pass->random};
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
+    lsf_texture_destroy(pass->context, &pass->random);
     lsf_voxel_path_emitters_destroy(&pass->emitters, pass->context);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

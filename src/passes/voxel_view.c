@@ -2,19 +2,22 @@
 
 #include <string.h>
 
+#include "base/base.h"
 #include "shared/scene_data.h"
 
-#define LAYERS (LSF_AOV_VOXEL_ALBEDO | LSF_AOV_VOXEL_NORMAL | LSF_AOV_VOXEL_RADIANCE)
+#define AT(member) offsetof(lsf_voxel_view, outputs.member)
+
+/* Conditions are bits of lsf_aov. */
+static const lsf_texture_row layers[] = {
+    {"voxel_view.albedo", GL_RGBA32F, AT(albedo), LSF_AOV_VOXEL_ALBEDO, "asked for"},
+    {"voxel_view.normal", GL_RGBA32F, AT(normal), LSF_AOV_VOXEL_NORMAL, "asked for"},
+    {"voxel_view.radiance", GL_RGBA32F, AT(radiance), LSF_AOV_VOXEL_RADIANCE, "asked for"},
+};
 
 bool lsf_voxel_view_needed(const lsf_plan *plan)
 {
-    return (plan->aovs & LAYERS) != 0;
-}
-
-static void plan_layer(lsf_plan *plan, uint32_t aov, const char *name)
-{
-    if (plan->aovs & aov)
-        lsf_plan_texture_add(plan, name, GL_RGBA32F, plan->width, plan->height, "asked for");
+    return (plan->aovs & (LSF_AOV_VOXEL_ALBEDO | LSF_AOV_VOXEL_NORMAL | LSF_AOV_VOXEL_RADIANCE)) !=
+           0;
 }
 
 void lsf_voxel_view_plan(lsf_plan *plan, uint32_t sides)
@@ -22,9 +25,7 @@ void lsf_voxel_view_plan(lsf_plan *plan, uint32_t sides)
     lsf_plan_pass_add(plan, "voxel_view", "voxels as the camera sees them");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)sides, "sides that radiance is kept for");
-    plan_layer(plan, LSF_AOV_VOXEL_ALBEDO, "voxel_view.albedo");
-    plan_layer(plan, LSF_AOV_VOXEL_NORMAL, "voxel_view.normal");
-    plan_layer(plan, LSF_AOV_VOXEL_RADIANCE, "voxel_view.radiance");
+    lsf_plan_textures_add(plan, layers, LSF_COUNT(layers), plan->aovs, plan->width, plan->height);
 }
 
 bool lsf_voxel_view_create(lsf_voxel_view *pass, lsf_context *context, const lsf_plan *plan,
@@ -35,12 +36,7 @@ bool lsf_voxel_view_create(lsf_voxel_view *pass, lsf_context *context, const lsf
                                       GL_COLOR_ATTACHMENT2};
     *pass = (lsf_voxel_view){.context = context};
     lsf_voxel_view_outputs *o = &pass->outputs;
-    if (!lsf_plan_create_texture_if_planned(plan, context, "voxel_view.albedo", &o->albedo,
-                                            error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "voxel_view.normal", &o->normal,
-                                            error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "voxel_view.radiance", &o->radiance,
-                                            error))
+    if (!lsf_plan_create_textures(plan, context, layers, LSF_COUNT(layers), pass, error))
         return false;
     const GLuint textures[3] = {o->albedo, o->normal, o->radiance};
     lsf_framebuffer_desc desc = {.label = "voxel_view", .layer = -1};
@@ -75,9 +71,7 @@ void lsf_voxel_view_destroy(lsf_voxel_view *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
-    lsf_texture_destroy(pass->context, &pass->outputs.albedo);
-    lsf_texture_destroy(pass->context, &pass->outputs.normal);
-    lsf_texture_destroy(pass->context, &pass->outputs.radiance);
+    lsf_textures_destroy(pass->context, layers, LSF_COUNT(layers), pass);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

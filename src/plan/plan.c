@@ -226,6 +226,43 @@ bool lsf_plan_create_buffer_if_planned(const lsf_plan *plan, lsf_context *contex
            lsf_plan_create_buffer(plan, context, name, data, flags, buffer, error);
 }
 
+void lsf_plan_textures_add(lsf_plan *plan, const lsf_texture_row *rows, size_t count,
+                           uint32_t given, uint32_t width, uint32_t height)
+{
+    const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
+    GLenum gloss_format = gloss ? gloss->texture.internal_format : GL_NONE;
+    if (plan->requirements.specular)
+        given |= LSF_TEXTURE_SPECULAR;
+    for (size_t i = 0; i < count; i++) {
+        GLenum format = rows[i].format ? rows[i].format : gloss_format;
+        if (format && !(rows[i].when & ~given))
+            lsf_plan_texture_add(plan, rows[i].name, format, width, height, "%s", rows[i].why);
+    }
+}
+
+static GLuint *texture_of(void *pass, const lsf_texture_row *row)
+{
+    return (GLuint *)(void *)((char *)pass + row->offset);
+}
+
+bool lsf_plan_create_textures(const lsf_plan *plan, lsf_context *context,
+                              const lsf_texture_row *rows, size_t count, void *pass,
+                              lsf_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!lsf_plan_create_texture_if_planned(plan, context, rows[i].name,
+                                                texture_of(pass, &rows[i]), error))
+            return false;
+    return true;
+}
+
+void lsf_textures_destroy(lsf_context *context, const lsf_texture_row *rows, size_t count,
+                          void *pass)
+{
+    for (size_t i = 0; i < count; i++)
+        lsf_texture_destroy(context, texture_of(pass, &rows[i]));
+}
+
 bool lsf_plan_resize_buffer(lsf_plan *plan, lsf_context *context, const char *name, uint64_t bytes,
                             GLbitfield flags, GLuint *buffer, lsf_error *error)
 {

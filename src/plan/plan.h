@@ -103,6 +103,28 @@ const lsf_plan_resource *lsf_plan_find(const lsf_plan *plan, const char *name);
 /* The switch's value, 0 when the pass does not have it. */
 int lsf_plan_switch_value(const lsf_plan *plan, const char *pass, const char *name);
 
+/* A texture of a pass: what its plan, its creation and its end have to know. */
+typedef struct lsf_texture_row {
+    const char *name;
+    GLenum format; /* GL_NONE: the G-buffer's gloss, and not there without */
+    size_t offset; /* of the GLuint in the pass */
+    uint32_t when; /* bits that are all given where the texture is there; 0: always */
+    const char *why;
+} lsf_texture_row;
+
+#define LSF_TEXTURE_SPECULAR                                                                       \
+    1u /* given where materials have a specular lobe; others are a pass's own */
+
+/* Lists those that are there, all of one size. */
+void lsf_plan_textures_add(lsf_plan *plan, const lsf_texture_row *rows, size_t count,
+                           uint32_t given, uint32_t width, uint32_t height);
+/* Creates those that are listed in `pass`, whose others stay 0. */
+bool lsf_plan_create_textures(const lsf_plan *plan, lsf_context *context,
+                              const lsf_texture_row *rows, size_t count, void *pass,
+                              lsf_error *error);
+void lsf_textures_destroy(lsf_context *context, const lsf_texture_row *rows, size_t count,
+                          void *pass);
+
 /* Creates the texture, which is an error when the plan does not list it. */
 bool lsf_plan_create_texture(const lsf_plan *plan, lsf_context *context, const char *name,
                              GLuint *texture, lsf_error *error);
