@@ -25,13 +25,16 @@ const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT] = {
      NULL, "", "exponent of the cosine between the normals of neighbours"},
 };
 
-static void add_light(lsf_plan *plan, const char *irradiance, const char *specular, uint32_t width,
-                      uint32_t height, const char *why)
-{
-    lsf_plan_texture_add(plan, irradiance, GL_RGBA32F, width, height, "%s", why);
-    if (plan->requirements.specular)
-        lsf_plan_texture_add(plan, specular, GL_RGBA32F, width, height, "%s", why);
-}
+#define AT(member) offsetof(lsf_blur, member)
+
+static const lsf_texture_row textures[] = {
+    {"blur.guide", GL_RGBA32UI, AT(guide), 0, "positions, normals and phases"},
+    {"blur.irradiance", GL_RGBA32F, AT(light.irradiance), 0, "blurred"},
+    {"blur.specular", GL_RGBA32F, AT(light.specular), LSF_TEXTURE_SPECULAR, "blurred"},
+    {"blur.between_irradiance", GL_RGBA32F, AT(between.irradiance), 0, "blurred along x"},
+    {"blur.between_specular", GL_RGBA32F, AT(between.specular), LSF_TEXTURE_SPECULAR,
+     "blurred along x"},
+};
 
 bool lsf_blur_wanted(const lsf_blur_params *params)
 {
@@ -59,14 +62,10 @@ void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
-    lsf_plan_texture_add(plan, "blur.guide", GL_RGBA32UI, width, height,
-                         "positions, normals and phases");
     lsf_plan_pass_add(plan, "blur", "removes the noise of few samples, the rougher the wider");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    add_light(plan, "blur.irradiance", "blur.specular", width, height, "blurred");
-    add_light(plan, "blur.between_irradiance", "blur.between_specular", width, height,
-              "blurred along x");
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, width, height);
 }
 
 static GLuint create_framebuffer(lsf_context *context, const char *label, GLuint first,
@@ -86,15 +85,8 @@ bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
     *pass = (lsf_blur){.context = context, .params = *params};
     if (params->phases == 0)
         return true;
-    lsf_split_light *out = &pass->light, *between = &pass->between;
-    if (!lsf_plan_create_texture(plan, context, "blur.guide", &pass->guide, error) ||
-        !lsf_plan_create_texture(plan, context, "blur.irradiance", &out->irradiance, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "blur.specular", &out->specular,
-                                            error) ||
-        !lsf_plan_create_texture(plan, context, "blur.between_irradiance", &between->irradiance,
-                                 error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "blur.between_specular",
-                                            &between->specular, error))
+    const lsf_split_light *out = &pass->light, *between = &pass->between;
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error))
         return false;
     pass->guide_framebuffer = create_framebuffer(context, "blur_guide", pass->guide, 0, error);
     pass->framebuffer = create_framebuffer(context, "blur", out->irradiance, out->specular, error);
@@ -153,10 +145,7 @@ void lsf_blur_destroy(lsf_blur *pass)
 {
     if (!pass->context)
         return;
-    GLuint *textures[] = {&pass->guide, &pass->light.irradiance, &pass->light.specular,
-                          &pass->between.irradiance, &pass->between.specular};
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->between_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->guide_framebuffer);

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/base.h"
+
 const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT] = {
     {"interleave.size", LSF_OPTION_INT, offsetof(lsf_interleave_params, size), 0, 8, NULL, "pixels",
      "side of the pattern in which neighbouring pixels take different samples; 1: all the same; 0: "
@@ -45,31 +47,36 @@ uint32_t lsf_interleave_tile(uint32_t size, uint32_t slot, uint32_t iteration)
     return (slot + turned) % tiles;
 }
 
-static void add_light(lsf_plan *plan, const char *irradiance, const char *specular, const char *why)
-{
-    lsf_plan_texture_add(plan, irradiance, GL_RGBA32F, plan->width, plan->height, "%s", why);
-    if (plan->requirements.specular)
-        lsf_plan_texture_add(plan, specular, GL_RGBA32F, plan->width, plan->height, "%s", why);
-}
+/* Condition of textures, beside LSF_TEXTURE_SPECULAR. */
+enum { FILTERED = 2 };
+
+#define AT(member) offsetof(lsf_interleave, member)
+
+static const lsf_texture_row textures[] = {
+    {"interleave.depth", GL_R32F, AT(split.depth), 0, "in split order"},
+    {"interleave.surface", GL_RGBA32UI, AT(split.surface), 0, "in split order"},
+    {"interleave.gloss", GL_NONE, AT(split.gloss), 0, "in split order"},
+    {"interleave.irradiance", GL_RGBA32F, AT(light.irradiance), 0, "gathered, and filtered"},
+    {"interleave.specular", GL_RGBA32F, AT(light.specular), LSF_TEXTURE_SPECULAR,
+     "gathered, and filtered"},
+    {"interleave.between_irradiance", GL_RGBA32F, AT(between.irradiance), FILTERED,
+     "filtered along x"},
+    {"interleave.between_specular", GL_RGBA32F, AT(between.specular),
+     FILTERED | LSF_TEXTURE_SPECULAR, "filtered along x"},
+};
 
 void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
 {
-    GLenum gloss = lsf_gbuffer_gloss(plan);
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     bool specular = plan->requirements.specular;
     lsf_plan_pass_add(plan, "interleave_split", "pixels that take the same samples side by side");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != GL_NONE, "roughness or metallic vary");
-    lsf_plan_texture_add(plan, "interleave.depth", GL_R32F, plan->width, plan->height,
-                         "in split order");
-    lsf_plan_texture_add(plan, "interleave.surface", GL_RGBA32UI, plan->width, plan->height,
-                         "in split order");
-    if (gloss != GL_NONE)
-        lsf_plan_texture_add(plan, "interleave.gloss", gloss, plan->width, plan->height,
-                             "in split order");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_pass_add(plan, "interleave_gather", "light back into the picture's order");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
-    add_light(plan, "interleave.irradiance", "interleave.specular", "gathered, and filtered");
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), params->periods > 0 ? FILTERED : 0,
+                          plan->width, plan->height);
     if (params->periods == 0) {
         lsf_plan_omit(plan, "interleave_filter", "interleave.periods is 0");
         return;
@@ -77,21 +84,14 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
     lsf_plan_pass_add(plan, "interleave_filter", "removes the pattern, and noise with it");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss != GL_NONE, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
-    add_light(plan, "interleave.between_irradiance", "interleave.between_specular",
-              "filtered along x");
 }
 
 static bool create_filter(lsf_interleave *pass, const lsf_plan *plan, lsf_error *error)
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl",
                                          "passes/interleave_filter.frag.glsl"};
-    if (!lsf_plan_create_texture(plan, pass->context, "interleave.between_irradiance",
-                                 &pass->between.irradiance, error) ||
-        !lsf_plan_create_texture_if_planned(plan, pass->context, "interleave.between_specular",
-                                            &pass->between.specular, error))
-        return false;
     lsf_framebuffer_desc desc = {.label = "interleave_filter",
                                  .color_count = 2,
                                  .colors = {pass->between.irradiance, pass->between.specular},
@@ -110,20 +110,8 @@ bool lsf_interleave_create(lsf_interleave *pass, lsf_context *context, const lsf
     static const char *const gather_files[5] = {"lib/fullscreen.vert.glsl",
                                                 "passes/interleave_gather.frag.glsl"};
     *pass = (lsf_interleave){.context = context, .params = *params};
-    const struct {
-        const char *name;
-        GLuint *texture;
-    } textures[] = {
-        {"interleave.depth", &pass->split.depth},
-        {"interleave.surface", &pass->split.surface},
-        {"interleave.gloss", &pass->split.gloss},
-        {"interleave.irradiance", &pass->light.irradiance},
-        {"interleave.specular", &pass->light.specular},
-    };
-    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
-                                                textures[i].texture, error))
-            return false;
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error))
+        return false;
     lsf_framebuffer_desc points = {
         .label = "interleave_split",
         .color_count = 3,
@@ -199,11 +187,7 @@ void lsf_interleave_destroy(lsf_interleave *pass)
 {
     if (!pass->context)
         return;
-    GLuint *textures[] = {&pass->split.depth,      &pass->split.surface,  &pass->split.gloss,
-                          &pass->light.irradiance, &pass->light.specular, &pass->between.irradiance,
-                          &pass->between.specular};
-    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     lsf_framebuffer_destroy(pass->context, &pass->split_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->light_framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->between_framebuffer);

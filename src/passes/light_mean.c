@@ -4,6 +4,18 @@
 
 #include "base/base.h"
 
+#define AT(member) offsetof(lsf_light_mean, member)
+
+static const lsf_texture_row textures[] = {
+    {"light_mean.guide", GL_RGBA32F, AT(guide), 0, "for light_filter"},
+    {"light_mean.diffuse", GL_RGBA32F, AT(diffuse.light), 0, "for light_filter"},
+    {"light_mean.diffuse_factor", GL_RGBA32F, AT(diffuse.factor), 0, "for light_filter"},
+    {"light_mean.specular", GL_RGBA32F, AT(specular.light), LSF_TEXTURE_SPECULAR,
+     "for light_filter"},
+    {"light_mean.specular_factor", GL_RGBA32F, AT(specular.factor), LSF_TEXTURE_SPECULAR,
+     "for light_filter"},
+};
+
 void lsf_light_mean_plan(lsf_plan *plan, bool split_direct)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -19,11 +31,7 @@ void lsf_light_mean_plan(lsf_plan *plan, bool split_direct)
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", split_direct, "direct light is asked for apart");
-    const char *names[] = {"light_mean.guide", "light_mean.diffuse", "light_mean.diffuse_factor",
-                           "light_mean.specular", "light_mean.specular_factor"};
-    for (uint32_t i = 0; i < (r->specular ? 5 : 3); i++)
-        lsf_plan_texture_add(plan, names[i], GL_RGBA32F, plan->width, plan->height,
-                             "for light_filter");
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
 }
 
 bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf_plan *plan,
@@ -31,20 +39,8 @@ bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/light_mean.frag.glsl"};
     *pass = (lsf_light_mean){.context = context};
-    const struct {
-        const char *name;
-        GLuint *texture;
-    } textures[] = {
-        {"light_mean.guide", &pass->guide},
-        {"light_mean.diffuse", &pass->diffuse.light},
-        {"light_mean.diffuse_factor", &pass->diffuse.factor},
-        {"light_mean.specular", &pass->specular.light},
-        {"light_mean.specular_factor", &pass->specular.factor},
-    };
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        if (!lsf_plan_create_texture_if_planned(plan, context, textures[i].name,
-                                                textures[i].texture, error))
-            return false;
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error))
+        return false;
     glCreateFramebuffers(1, &pass->framebuffer);
     glNamedFramebufferParameteri(pass->framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH,
                                  (GLint)plan->width);
@@ -86,10 +82,7 @@ void lsf_light_mean_destroy(lsf_light_mean *pass)
 {
     if (!pass->context)
         return;
-    GLuint *textures[] = {&pass->guide, &pass->diffuse.light, &pass->diffuse.factor,
-                          &pass->specular.light, &pass->specular.factor};
-    for (size_t i = 0; i < LSF_COUNT(textures); i++)
-        lsf_texture_destroy(pass->context, textures[i]);
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     glDeleteFramebuffers(1, &pass->framebuffer);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
