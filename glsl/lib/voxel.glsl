@@ -1,14 +1,16 @@
 /* The voxel grid, and what its textures hold, packed and unpacked in one place.
  *
  * voxelize.albedo R32UI    square roots of R and G in 11 bits each, of B in 10
- * voxelize.normal R32UI    unit normal of the triangle's plane, octahedral, 2 x 12 bits | turn of the tangent
- *                          about it << 24; with LSF_VOXEL_BENT RG32UI, the other word: the shading normal
+ * voxelize.normal R32UI    unit normal of the triangle's plane, octahedral, 2 x 12 bits | what is beside the
+ *                          voxel, VOXEL_BESIDE, << 24
+ * voxelize.shading R32UI   the shading normal as well | turn of the tangent about the plane's << 24
  * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30 |
  *                          unlit << 31
  * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
  * voxelize.gloss R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
  *                          index n, metallic; 8 bits each
- * voxelize.transmission R32UI  as gloss.z of lib/gbuffer.glsl, seen from the front */
+ * voxelize.transmission R32UI  as gloss.z of lib/gbuffer.glsl, seen from the front
+ * voxelize.shining R32UI   bricks that hold voxels which emit, as occupancy has bricks */
 #ifndef LSF_LIB_VOXEL
 #define LSF_LIB_VOXEL
 
@@ -59,6 +61,27 @@ ivec3 voxel_brick_unpack(uint bits)
     return ivec3(uvec3(bits, bits >> 10, bits >> 20) & 1023u);
 }
 
+/* How far a voxel's plane may be from its surface [voxels]: places are kept to 2^-11, normals to about
+ * 2^-11 in direction, over three voxels at most. */
+#define VOXEL_PLANE (1.0 / 256.0)
+
+/* Below this cosine between the normals of two voxels beside each other surfaces meet in an edge. */
+#define VOXEL_EDGE 0.7
+
+/* What a voxel keeps of the six beside it, along -x, x, -y, y, -z and z: a bit for each whose surface is not in
+ * its own plane, and whether some make an edge with it, on its front and on its back. */
+#define VOXEL_NORMAL_BITS 0xffffffu
+#define VOXEL_BESIDE_SHIFT 24u
+#define VOXEL_BESIDE_ANY 63u
+#define VOXEL_BESIDE_EDGE_FRONT 64u
+#define VOXEL_BESIDE_EDGE_BACK 128u
+
+ivec3 voxel_beside(ivec3 cell, int side)
+{
+    cell[side >> 1] += 2 * (side & 1) - 1;
+    return cell;
+}
+
 uint voxel_albedo_pack(vec3 albedo)
 {
     uvec3 q = uvec3(sqrt(clamp(albedo, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0) + 0.5);
@@ -72,14 +95,13 @@ vec3 voxel_albedo_unpack(uint bits)
     return root * root;
 }
 
-/* `turn`: of the tangent in the normal's orthonormal_basis, 0..1. */
-uint voxel_normal_pack(vec3 n, float turn)
+uint voxel_normal_pack(vec3 n)
 {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     if (n.z < 0.0)
         p = (1.0 - abs(p.yx)) * octahedral_sign(p);
     uvec2 q = uvec2(clamp(p * 2047.0 + 2047.5, 0.0, 4094.0));
-    return q.x | (q.y << 12) | (uint(fract(turn) * 256.0) << 24);
+    return q.x | (q.y << 12);
 }
 
 vec3 voxel_normal_unpack(uint bits)
@@ -91,14 +113,10 @@ vec3 voxel_normal_unpack(uint bits)
     return normalize(n);
 }
 
-/* Of the surface that the texel's plane belongs to, seen from its front. */
-vec3 voxel_shading_normal(uvec2 texel)
+/* Turn of the tangent in the orthonormal_basis of the plane's normal, 0..1. */
+uint voxel_turn_pack(float turn)
 {
-#if defined(LSF_VOXEL_BENT) && LSF_VOXEL_BENT
-    return voxel_normal_unpack(texel.y);
-#else
-    return voxel_normal_unpack(texel.x);
-#endif
+    return uint(fract(turn) * 256.0) << 24;
 }
 
 float voxel_turn_unpack(uint bits)

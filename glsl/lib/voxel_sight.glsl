@@ -7,11 +7,7 @@
 #include "lib/voxel_trace.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
-layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal; /* r: of the plane */
-
-/* How far a voxel's plane may be from its surface [voxels]: places are kept to 2^-11, normals to about
- * 2^-11 in direction, over three voxels at most. */
-#define VOXEL_PLANE (1.0 / 256.0)
+layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal;
 
 /* A voxel that touches a plane with the unit normal n reaches |n_x| + |n_y| + |n_z| above it at most. */
 vec3 voxel_lift(vec3 n)
@@ -50,52 +46,51 @@ bool voxel_crossed(vec2 height, float first, float last)
     return min(abs(before), abs(after)) < VOXEL_PLANE || before * after < 0.0;
 }
 
-/* Below this cosine between the normals of two voxels beside each other surfaces meet in an edge. */
-#define VOXEL_EDGE 0.7
-
-/* Whether the ray, between two distances within a cell, crosses the surface there. Where surfaces meet or bend,
- * either has won the voxel, and those of the six cells about it count, too, as far as they are known to be on the
- * side of the cell's own plane that the ray is on: round an edge they are not. `corners`: an edge that is on the
- * ray's side, as those of a room are from within, is closed, whatever the ray crosses: where three surfaces
- * meet, none of the seven voxels may hold the third. */
-bool voxel_blocks(ivec3 cell, voxel_ray ray, float first, float last, bool corners)
-{
-    vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
-    vec3 q = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
-    vec2 own = vec2(dot(n, ray.origin - q), dot(n, ray.direction));
-    if (voxel_crossed(own, first, last))
-        return true;
-    float ray_side = own.x + first * own.y;
-    for (int side = 0; side < 6; side++) {
-        ivec3 beside = cell;
-        beside[side >> 1] += 2 * (side & 1) - 1;
-        if (!voxel_inside(beside) || !voxel_occupied(beside))
-            continue;
-        vec3 beside_n = voxel_normal_unpack(texelFetch(voxel_normal, beside, 0).r);
-        vec3 beside_q = vec3(beside) + voxel_point_unpack(texelFetch(voxel_point, beside, 0).r);
-        float beside_side = dot(n, beside_q - q);
-        if (abs(beside_side) >= VOXEL_PLANE && ray_side * beside_side <= 0.0)
-            continue;
-        vec2 height = vec2(dot(beside_n, ray.origin - beside_q), dot(beside_n, ray.direction));
-        if ((corners && abs(dot(n, beside_n)) < VOXEL_EDGE) || voxel_crossed(height, first, last))
-            return true;
-    }
-    return false;
-}
-
 /* On to the first surface that the ray crosses before `end`, in the voxel `met`; the ray is then beyond that.
- * False: there is none. `corners` as above. */
+ * False: there is none. Where surfaces meet or bend, either has won the voxel, and those of the six voxels beside it
+ * count, too, as far as they are known to be on the side of the voxel's own plane that the ray is on: round an edge
+ * they are not. `corners`: an edge that is on the ray's side, as those of a room are from within, is closed, whatever
+ * the ray crosses: where three surfaces meet, none of the seven voxels may hold the third.
+ *
+ * A turn of the loop looks at one voxel, either met or beside that: rays that go in step wait less for each other. */
 bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
 {
-    int steps = voxel_ray_steps();
-    for (int i = 0; i < steps && voxel_ray_trace(ray, end); i++) {
-        float entry = ray.distance;
-        met = ray.cell;
-        voxel_ray_step(ray, met, ivec3(1));
-        if (voxel_blocks(met, ray, entry, min(ray.distance, end), corners))
+    int turns = 7 * voxel_ray_steps();
+    uint beside = 0u;                            /* `met`, those still to be looked at */
+    float entry = 0.0, leave = 0.0, ahead = 0.0; /* of `met`; height above its plane where the ray enters */
+    vec3 n = vec3(0.0), q = vec3(0.0);
+    for (int i = 0; i < turns; i++) {
+        bool own = beside == 0u;
+        if (own) {
+            if (!voxel_inside(ray.cell) || !voxel_ray_trace(ray, end))
+                return false;
+            met = ray.cell;
+            entry = ray.distance;
+            voxel_ray_step(ray, met, ivec3(1));
+            leave = min(ray.distance, end);
+        }
+        ivec3 cell = own ? met : voxel_beside(met, findLSB(beside));
+        uint bits = texelFetch(voxel_normal, cell, 0).r;
+        vec3 cell_n = voxel_normal_unpack(bits);
+        vec3 cell_q = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
+        vec2 height = vec2(dot(cell_n, ray.origin - cell_q), dot(cell_n, ray.direction));
+        bool counts = true;
+        if (own) {
+            n = cell_n;
+            q = cell_q;
+            ahead = height.x + entry * height.y;
+            beside = bits >> VOXEL_BESIDE_SHIFT;
+            uint edge = ahead > 0.0 ? VOXEL_BESIDE_EDGE_FRONT : VOXEL_BESIDE_EDGE_BACK;
+            if (corners && (beside & edge) != 0u)
+                return true;
+            beside &= VOXEL_BESIDE_ANY;
+        } else {
+            float apart = dot(n, cell_q - q);
+            counts = abs(apart) < VOXEL_PLANE || ahead * apart > 0.0;
+            beside &= beside - 1u;
+        }
+        if (counts && voxel_crossed(height, entry, leave))
             return true;
-        if (!voxel_inside(ray.cell))
-            return false;
     }
     return false;
 }

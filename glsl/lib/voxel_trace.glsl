@@ -78,6 +78,17 @@ bool voxel_occupied(ivec3 cell)
     return occupancy_holds(texelFetch(occupancy_voxels, occupancy_texel(cell), 0).r, cell);
 }
 
+/* Of a word's cells those that a ray in `cell` may still come to: it goes back along no axis. */
+uint occupancy_ahead(ivec3 cell, ivec3 up)
+{
+    uvec3 at = uvec3(cell & ivec3(3, 3, 1)) << uvec3(0u, 2u, 4u);
+    uvec3 back = uvec3(1 - up) * uvec3(3u, 12u, 0u);
+    uint row = ((15u << at.x) >> back.x) & 15u;
+    uint layer = ((0xffffu << at.y) >> back.y) & 0xffffu;
+    uint layers = up.z == 1 ? ~0u << at.z : ~0u >> (16u - at.z);
+    return (row * 0x11111111u) & (layer * 0x10001u) & layers;
+}
+
 /* Most steps that a ray may take. */
 int voxel_ray_steps()
 {
@@ -97,11 +108,11 @@ bool voxel_ray_trace(inout voxel_ray ray, float end)
         uint voxels = texelFetch(occupancy_voxels, occupancy_texel(ray.cell), 0).r;
         if (occupancy_holds(voxels, ray.cell))
             return true;
-        /* What the two words show to be empty: 4 x 4 x 2 bricks, a brick, or half of it. */
-        ivec3 shift = bricks == 0u                         ? ivec3(4, 4, 3)
-                      : !occupancy_holds(bricks, brick) ? ivec3(2)
-                      : voxels == 0u                       ? ivec3(2, 2, 1)
-                                                           : ivec3(0);
+        /* Out of 4 x 4 x 2 bricks, a brick, or half of it, where the two words show what is left of it to be empty. */
+        ivec3 shift = (bricks & occupancy_ahead(brick, ray.up)) == 0u      ? ivec3(4, 4, 3)
+                      : !occupancy_holds(bricks, brick)                    ? ivec3(2)
+                      : (voxels & occupancy_ahead(ray.cell, ray.up)) == 0u ? ivec3(2, 2, 1)
+                                                                           : ivec3(0);
         voxel_ray_step(ray, (ray.cell >> shift) << shift, ivec3(1) << shift);
         if (!voxel_inside(ray.cell))
             return false;
@@ -112,6 +123,23 @@ bool voxel_ray_trace(inout voxel_ray ray, float end)
 bool voxel_ray_trace(inout voxel_ray ray)
 {
     return voxel_ray_trace(ray, VOXEL_FAR);
+}
+
+/* Whether the ray comes through one of the bricks whose bits are set, whatever is before it. */
+bool voxel_ray_passes(voxel_ray ray, usampler3D bricks)
+{
+    int steps = voxel_ray_steps();
+    for (int i = 0; i < steps; i++) {
+        ivec3 brick = ray.cell >> 2;
+        uint ahead = texelFetch(bricks, occupancy_texel(brick), 0).r & occupancy_ahead(brick, ray.up);
+        if (occupancy_holds(ahead, brick))
+            return true;
+        ivec3 shift = ahead == 0u ? ivec3(4, 4, 3) : ivec3(2);
+        voxel_ray_step(ray, (ray.cell >> shift) << shift, ivec3(1) << shift);
+        if (!voxel_inside(ray.cell))
+            return false;
+    }
+    return false;
 }
 
 #endif

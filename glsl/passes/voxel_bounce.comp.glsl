@@ -4,6 +4,7 @@
 #include "lib/sky.glsl"
 #include "lib/voxel_cone.glsl"
 #include "lib/voxel_reflect.glsl"
+#include "lib/voxel_shading.glsl"
 #include "lib/voxel_sides.glsl"
 
 layout(binding = 1) uniform sampler3D base_texture;
@@ -58,9 +59,10 @@ void write(ivec3 cell, int slice, float share, vec3 reflected)
 
 void light_side(ivec3 cell, bool back)
 {
-    uvec2 normals = texelFetch(normal_texture, cell, 0).rg;
+    uint normal = texelFetch(normal_texture, cell, 0).r;
     float sign = back ? -1.0 : 1.0;
-    vec3 n = sign * voxel_normal_unpack(normals.x), shading = sign * voxel_shading_normal(normals);
+    vec3 n = sign * voxel_normal_unpack(normal);
+    vec3 shading = sign * voxel_normal_unpack(voxel_shading_bits(cell, normal));
     vec3 reflected = vec3(0.0);
     if (sum_of.z) {
         uint point = texelFetch(point_texture, cell, 0).r;

@@ -1,6 +1,7 @@
 /* What each voxel sends out. Switches LSF_EMIT: what it emits, in the place of what was there, else what
  * follows is added; LSF_REFLECT: what it reflects of the light in turn, from the side that faces it. */
 #include "lib/voxel_reflect.glsl"
+#include "lib/voxel_shading.glsl"
 #include "lib/voxel_sides.glsl"
 #include "shared/brdf.h"
 #if LSF_REFLECT
@@ -111,11 +112,12 @@ uint put_side(ivec3 cell, vec3 n, bool front, vec3 radiance)
 
 uint light_voxel(ivec3 cell)
 {
-    uvec2 normals = texelFetch(normal_texture, cell, 0).rg;
-    vec3 n = voxel_normal_unpack(normals.x);
+    uint normal = texelFetch(normal_texture, cell, 0).r;
+    vec3 n = voxel_normal_unpack(normal);
 #if LSF_REFLECT
     bool lit_front;
-    vec3 light = reflected(cell, n, voxel_shading_normal(normals), lit_front);
+    vec3 shading = voxel_normal_unpack(voxel_shading_bits(cell, normal));
+    vec3 light = reflected(cell, n, shading, lit_front);
 #endif
 #if LSF_EMIT
     vec3 front = vec3(0.0), back = vec3(0.0);

@@ -8,6 +8,7 @@
 #include "lib/gbuffer_textures.glsl"
 #include "lib/path_random.glsl"
 #include "lib/sky.glsl"
+#include "lib/voxel_shading.glsl"
 #include "lib/voxel_sight.glsl"
 #if LSF_ABSORPTION
 #include "lib/scene.glsl"
@@ -18,6 +19,9 @@
 
 #if LSF_EMISSION && !LSF_EMITTERS
 layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
+#endif
+#if LSF_EMISSION && !LSF_ENVIRONMENT
+layout(binding = LSF_UNIT_VOXEL_SHINING) uniform usampler3D shining_bricks;
 #endif
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance;
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
@@ -68,8 +72,8 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
     indirect.specular += through.specular * radiance;
 }
 
-/* The voxel that a path meets on its way from v. */
-bool trace(path_vertex v, vec3 direction, out ivec3 cell)
+/* The voxel that a path meets on its way from v; in its last segment only where something shines on the way. */
+bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
 {
     vec3 lift = voxel_lift(v.s.geometric_normal);
     vec3 start = v.position + lift;
@@ -82,16 +86,21 @@ bool trace(path_vertex v, vec3 direction, out ivec3 cell)
     }
 #endif
     voxel_ray ray;
-    return voxel_ray_begin(start, direction, ray) && voxel_leave_start(ray) &&
-           voxel_ray_meet(ray, VOXEL_FAR, true, cell);
+    if (!voxel_ray_begin(start, direction, ray))
+        return false;
+#if LSF_EMISSION && !LSF_ENVIRONMENT
+    if (last && !voxel_ray_passes(ray, shining_bricks))
+        return false;
+#endif
+    return voxel_leave_start(ray) && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
 }
 
 /* A voxel's surface as it is seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
 path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 {
     path_vertex v;
-    uvec2 normals = texelFetch(voxel_normal, cell, 0).rg;
-    vec3 n = voxel_normal_unpack(normals.x), shading = voxel_shading_normal(normals);
+    uint normal = texelFetch(voxel_normal, cell, 0).r, shading_bits = voxel_shading_bits(cell, normal);
+    vec3 n = voxel_normal_unpack(normal), shading = voxel_normal_unpack(shading_bits);
     side = dot(n, direction) <= 0.0 ? 0 : 1;
     uint point = texelFetch(voxel_point, cell, 0).r;
     v.position = vec3(cell) + voxel_point_unpack(point);
@@ -118,7 +127,7 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     vec3 t, b, own_t, own_b;
     orthonormal_basis(n, t, b);
     orthonormal_basis(v.s.normal, own_t, own_b);
-    float angle = 2.0 * LSF_PI * voxel_turn_unpack(normals.x);
+    float angle = 2.0 * LSF_PI * voxel_turn_unpack(shading_bits);
     vec3 along = cos(angle) * t + sin(angle) * b;
     v.s.anisotropy_turn = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
 #endif
@@ -264,7 +273,7 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
                             direction, pdf))
             return;
         ivec3 cell;
-        if (!trace(v, direction, cell)) {
+        if (!trace(v, direction, segment == lengths.x, cell)) {
 #if LSF_ENVIRONMENT
             add_light(through, sky_found(v, direction, pdf, segment, float(count)), segment == 0);
 #endif

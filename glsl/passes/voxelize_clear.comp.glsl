@@ -1,8 +1,11 @@
-/* Empties what was occupied. */
+/* Empties what was occupied. Switch LSF_EMISSION. */
 #include "lib/voxel_brick.glsl"
 
 layout(binding = 0, r32ui) writeonly uniform uimage3D key_image;
 layout(binding = 1, r32ui) writeonly uniform uimage3D occupancy_image[LSF_VOXEL_OCCUPANCY_LEVELS];
+#if LSF_EMISSION
+layout(binding = 1 + LSF_VOXEL_OCCUPANCY_LEVELS, r32ui) writeonly uniform uimage3D shining_image;
+#endif
 
 void main()
 {
@@ -19,6 +22,8 @@ void main()
                    occupancy_texel(corner * LSF_VOXEL_BRICK) + ivec3(lane, 0, 0), uvec4(0u));
     if (lane == 0) {
         imageStore(occupancy_image[1], occupancy_texel(corner), uvec4(0u));
-        imageStore(occupancy_image[2], occupancy_texel(corner >> 2), uvec4(0u));
+#if LSF_EMISSION
+        imageStore(shining_image, occupancy_texel(corner), uvec4(0u));
+#endif
     }
 }

@@ -66,7 +66,6 @@ void bid(voxel_triangle t, ivec3 cell, vec3 low)
     uint bit = occupancy_bit(brick);
     if ((imageAtomicOr(occupancy_image[1], occupancy_texel(brick), bit) & bit) != 0u)
         return;
-    imageAtomicOr(occupancy_image[2], occupancy_texel(brick >> 2), occupancy_bit(brick >> 2));
     uint at = atomicAdd(brick_count, 1u);
     bricks[at].place = voxel_brick_pack(brick);
     bricks[at].sides = 0u;

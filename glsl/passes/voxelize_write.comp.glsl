@@ -13,11 +13,7 @@ layout(local_size_x = LSF_VOXELIZE_GROUP) in;
 layout(location = 28) uniform uint draw; /* the instance's place in the order of draws */
 
 layout(binding = 1, r32ui) writeonly uniform uimage3D albedo_image;
-#if LSF_VOXEL_BENT
-layout(binding = 2, rg32ui) writeonly uniform uimage3D normal_image;
-#else
 layout(binding = 2, r32ui) writeonly uniform uimage3D normal_image;
-#endif
 layout(binding = 3, r32ui) writeonly uniform uimage3D point_image;
 #if LSF_EMISSION
 layout(binding = 4, r32ui) writeonly uniform uimage3D emission_image;
@@ -27,6 +23,9 @@ layout(binding = 5, r32ui) writeonly uniform uimage3D gloss_image;
 #endif
 #if LSF_TRANSMISSION
 layout(binding = 6, r32ui) writeonly uniform uimage3D transmission_image;
+#endif
+#if LSF_VOXEL_BENT
+layout(binding = 7, r32ui) writeonly uniform uimage3D shading_image;
 #endif
 
 void write_surface(voxel_triangle t, ivec3 cell)
@@ -50,17 +49,19 @@ void write_surface(voxel_triangle t, ivec3 cell)
     inside = t.axis == 0 ? inside.zxy : t.axis == 1 ? inside.yzx : inside;
     imageStore(albedo_image, cell,
                uvec4(voxel_albedo_pack(s.unlit ? vec3(0.0) : s.base_color)));
-    float turn = 0.0;
+    imageStore(normal_image, cell, uvec4(voxel_normal_pack(n)));
+#if LSF_VOXEL_BENT
+    uint shading = voxel_normal_pack(s.normal);
 #if LSF_ANISOTROPY
     vec3 basis_t, basis_b, along_t, along_b;
     orthonormal_basis(s.normal, basis_t, basis_b);
     float angle = 2.0 * LSF_PI * s.anisotropy_turn;
     vec3 along = cos(angle) * basis_t + sin(angle) * basis_b;
     orthonormal_basis(n, along_t, along_b);
-    turn = fract(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));
+    shading |= voxel_turn_pack(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));
 #endif
-    imageStore(normal_image, cell,
-               uvec4(voxel_normal_pack(n, turn), voxel_normal_pack(s.normal, 0.0), 0u, 0u));
+    imageStore(shading_image, cell, uvec4(shading));
+#endif
     imageStore(point_image, cell,
                uvec4(voxel_point_pack(inside, material_emits(material, false), s.unlit)));
 #if LSF_EMISSION

@@ -11,10 +11,10 @@ struct lsf_voxel_grid_data {
     vec4 unit;   /* x: what stored radiance is multiplied with, a power of two; y: 1 / x */
 };
 
-/* Occupancy is kept in three levels, each with a bit for a cell: a voxel, a brick of 4^3 voxels, a
- * block of 4^3 bricks. A texel holds 4 x 4 x 2 bits, so that two texels beside each other in x are
- * a cell of the next level. */
-#define LSF_VOXEL_OCCUPANCY_LEVELS 3
+/* Occupancy is kept in two levels, each with a bit for a cell: a voxel, a brick of 4^3 voxels. A
+ * texel holds 4 x 4 x 2 bits, so that two texels beside each other in x are a cell of the next
+ * level. */
+#define LSF_VOXEL_OCCUPANCY_LEVELS 2
 #define LSF_VOXEL_BRICK 4
 
 /* The sides that radiance is kept for, slices of the grid stacked along z. Of a surface's two sides
@@ -33,10 +33,12 @@ struct lsf_voxel_grid_data {
 #define LSF_UNIT_VOXEL_POINT 6
 #define LSF_UNIT_VOXEL_TRANSMISSION 8
 #define LSF_UNIT_VOXEL_RADIANCE 9
-#define LSF_UNIT_VOXEL_OCCUPANCY 10 /* and the next two */
+#define LSF_UNIT_VOXEL_OCCUPANCY 10 /* and the next */
 #define LSF_UNIT_VOXEL_ALBEDO 13
 #define LSF_UNIT_VOXEL_NORMAL 14
 #define LSF_UNIT_VOXEL_GLOSS 15
+#define LSF_UNIT_VOXEL_SHINING 12
+#define LSF_UNIT_VOXEL_SHADING 16
 #define LSF_UNIT_PATH_RANDOM 7
 
 /* Lists, storage buffers: how many work groups a dispatch takes, as rows of LSF_VOXEL_LIST_ROW

@@ -94,6 +94,7 @@ static void bind_voxels(const lsf_voxels *voxels)
     lsf_voxels_bind_grid(voxels);
     lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, voxels->albedo);
     lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, voxels->normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_SHADING, voxels->shading);
     lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, voxels->point);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, voxels->gloss);
     lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, voxels->emission);

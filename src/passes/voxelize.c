@@ -79,10 +79,17 @@ static void plan_switches(lsf_plan *plan)
     lsf_plan_switch_add(plan, "LSF_BINDING_WON", BINDING_WON, "always");
 }
 
+static void beside_switches(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
+                        "some material emits or is unlit");
+}
+
 static void plan_programs(lsf_plan *plan)
 {
     lsf_plan_pass_add(plan, "voxelize_clear", "what the grid held in the iteration before");
-    lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    beside_switches(plan);
     lsf_plan_pass_add(plan, "voxelize_mark", "triangles bid for the voxels that they touch");
     plan_switches(plan);
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_SMALL", SMALL_COLUMNS, "columns of an invocation");
@@ -99,23 +106,33 @@ static void plan_programs(lsf_plan *plan)
     lsf_voxel_bend_switch(plan);
     lsf_scene_gpu_material_switches(plan, lsf_voxel_gloss(plan), lsf_plan_surfaces_shine(plan));
     lsf_scene_gpu_fold_lobes(plan);
+    lsf_plan_pass_add(plan, "voxelize_beside", "what spares rays a look at voxels beside others");
+    beside_switches(plan);
 }
 
-static void plan_occupancy(lsf_plan *plan, const lsf_voxel_grid *grid)
+/* A bit for each cell, whose side is `cell` voxels. */
+static void plan_bits(lsf_plan *plan, const lsf_voxel_grid *grid, const char *name, uint32_t cell,
+                      const char *why)
 {
-    uint32_t cell = LSF_VOXEL_BRICK;
-    for (int level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++, cell *= LSF_VOXEL_BRICK) {
-        char name[64];
-        lsf_texture_desc desc = {.target = GL_TEXTURE_3D,
-                                 .internal_format = GL_R32UI,
-                                 .width = 2 * ((grid->size[0] + cell - 1) / cell),
-                                 .height = (grid->size[1] + cell - 1) / cell,
-                                 .depth = (grid->size[2] + cell - 1) / cell,
-                                 .levels = 1};
-        snprintf(name, sizeof name, "voxelize.occupancy_%d", level);
-        lsf_plan_texture_desc_add(plan, name, &desc, "a bit for each cell of %u voxel%s", cell / 4,
-                                  lsf_plural(cell / 4));
+    uint32_t side = LSF_VOXEL_BRICK * cell;
+    lsf_texture_desc desc = {.target = GL_TEXTURE_3D,
+                             .internal_format = GL_R32UI,
+                             .width = 2 * ((grid->size[0] + side - 1) / side),
+                             .height = (grid->size[1] + side - 1) / side,
+                             .depth = (grid->size[2] + side - 1) / side,
+                             .levels = 1};
+    lsf_plan_texture_desc_add(plan, name, &desc, "%s", why);
+}
+
+static void plan_emission(lsf_plan *plan, const lsf_voxel_grid *grid)
+{
+    if (!lsf_plan_surfaces_shine(plan)) {
+        lsf_plan_omit(plan, "voxelize.emission", "no material emits");
+        return;
     }
+    lsf_voxel_texture_plan(plan, grid, "voxelize.emission", GL_R32UI, 1, 1,
+                           "some material emits or is unlit");
+    plan_bits(plan, grid, "voxelize.shining", LSF_VOXEL_BRICK, "a bit for each brick that emits");
 }
 
 static uint64_t list_bytes(const lsf_voxel_grid *grid)
@@ -138,18 +155,16 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                         "where the grid lies: %u x %u x %u voxels", grid->size[0], grid->size[1],
                         grid->size[2]);
     lsf_voxel_texture_plan(plan, grid, "voxelize.key", GL_R32UI, 1, 1, "the winning triangle");
-    plan_occupancy(plan, grid);
+    plan_bits(plan, grid, "voxelize.occupancy_0", 1, "a bit for each voxel");
+    plan_bits(plan, grid, "voxelize.occupancy_1", LSF_VOXEL_BRICK, "a bit for each brick of 4^3");
     lsf_voxel_texture_plan(plan, grid, "voxelize.albedo", GL_R32UI, 1, 1, "base colour");
-    lsf_voxel_texture_plan(plan, grid, "voxelize.normal",
-                           lsf_voxel_bends(plan) ? GL_RG32UI : GL_R32UI, 1, 1,
-                           "normals and tangent");
+    lsf_voxel_texture_plan(plan, grid, "voxelize.normal", GL_R32UI, 1, 1, "the plane's normal");
+    if (lsf_voxel_bends(plan))
+        lsf_voxel_texture_plan(plan, grid, "voxelize.shading", GL_R32UI, 1, 1,
+                               "shading normal and tangent");
     lsf_voxel_texture_plan(plan, grid, "voxelize.point", GL_R32UI, 1, 1,
                            "where the surface is in the voxel");
-    if (lsf_plan_surfaces_shine(plan))
-        lsf_voxel_texture_plan(plan, grid, "voxelize.emission", GL_R32UI, 1, 1,
-                               "some material emits or is unlit");
-    else
-        lsf_plan_omit(plan, "voxelize.emission", "no material emits");
+    plan_emission(plan, grid);
     if (lsf_voxel_gloss(plan))
         lsf_voxel_texture_plan(plan, grid, "voxelize.gloss", GL_R32UI, 1, 1,
                                "some material is glossy");
@@ -180,11 +195,12 @@ void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[LSF
         {"voxelize.key", &pass->key},
         {"voxelize.occupancy_0", &o->occupancy[0]},
         {"voxelize.occupancy_1", &o->occupancy[1]},
-        {"voxelize.occupancy_2", &o->occupancy[2]},
         {"voxelize.albedo", &o->albedo},
         {"voxelize.normal", &o->normal},
+        {"voxelize.shading", &o->shading},
         {"voxelize.point", &o->point},
         {"voxelize.emission", &o->emission},
+        {"voxelize.shining", &o->shining},
         {"voxelize.gloss", &o->gloss},
         {"voxelize.transmission", &o->transmission}};
     memcpy(textures, list, sizeof list);
@@ -201,6 +217,8 @@ static bool create_textures(lsf_voxelize *pass, const lsf_plan *plan, lsf_error 
     glClearTexImage(pass->key, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     for (int level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
         glClearTexImage(pass->outputs.occupancy[level], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    if (pass->outputs.shining)
+        glClearTexImage(pass->outputs.shining, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     return true;
 }
 
@@ -251,6 +269,7 @@ static bool create_programs(lsf_voxelize *pass, const lsf_plan *plan, bool raste
         {"voxelize_list", {"passes/voxelize_sum.comp.glsl"}, &pass->sum_program, true},
         {"voxelize_list", {"passes/voxelize_place.comp.glsl"}, &pass->place_program, true},
         {"voxelize_write", {"passes/voxelize_write.comp.glsl"}, &pass->write_program, true},
+        {"voxelize_beside", {"passes/voxelize_beside.comp.glsl"}, &pass->beside_program, true},
     };
     for (size_t i = 0; i < LSF_COUNT(programs); i++)
         if (programs[i].wanted &&
@@ -292,9 +311,7 @@ bool lsf_voxelize_create(lsf_voxelize **created, lsf_context *context, const lsf
 
 static void bind_image(GLuint unit, GLuint texture)
 {
-    GLint format = GL_R32UI;
-    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
-    glBindImageTexture(unit, texture, 0, GL_TRUE, 0, GL_READ_WRITE, (GLenum)format);
+    glBindImageTexture(unit, texture, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
 }
 
 static void bind_occupancy(const lsf_voxelize *pass)
@@ -302,13 +319,15 @@ static void bind_occupancy(const lsf_voxelize *pass)
     bind_image(0, pass->key);
     for (GLuint level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
         bind_image(1 + level, pass->outputs.occupancy[level]);
+    if (pass->outputs.shining)
+        bind_image(1 + LSF_VOXEL_OCCUPANCY_LEVELS, pass->outputs.shining);
 }
 
 static void bind_attributes(const lsf_voxelize *pass)
 {
     const lsf_voxels *o = &pass->outputs;
-    const GLuint images[] = {pass->key,   o->albedo, o->normal,      o->point,
-                             o->emission, o->gloss,  o->transmission};
+    const GLuint images[] = {pass->key,   o->albedo, o->normal,       o->point,
+                             o->emission, o->gloss,  o->transmission, o->shading};
     for (GLuint unit = 0; unit < LSF_COUNT(images); unit++)
         if (images[unit])
             bind_image(unit, images[unit]);
@@ -454,7 +473,23 @@ static void add_group(lsf_voxelize *pass, const lsf_iteration *iteration, instan
     bind_attributes(pass);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->draws);
     for_group(pass, iteration, group, write_surfaces);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+/* What spares rays work. */
+static void look_beside(lsf_voxelize *pass)
+{
+    const lsf_voxels *o = &pass->outputs;
+    bind_image(0, o->normal);
+    if (o->shining)
+        bind_image(1, o->shining);
+    lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, o->occupancy[0]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, o->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, o->emission);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, o->bricks);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, o->bricks);
+    glUseProgram(pass->beside_program);
+    glDispatchComputeIndirect(0);
 }
 
 /* The numbers of each instance's triangles, which draws keep. */
@@ -518,8 +553,9 @@ const lsf_voxels *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iter
     }
     if (pass->still.moves)
         add_group(pass, iteration, GROUP_MOVING);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                    GL_COMMAND_BARRIER_BIT);
+    look_beside(pass);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     lsf_timer_end(pass->timer);
     return o;
 }

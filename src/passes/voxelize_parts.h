@@ -5,7 +5,7 @@
 #include "passes/voxelize.h"
 #include "plan/triangle_fetch.h"
 
-#define LSF_VOXELIZE_TEXTURES 10
+#define LSF_VOXELIZE_TEXTURES 11
 
 /* The grid with what stands still, where something moves: each run begins with a copy of it. */
 typedef struct lsf_voxelize_still {
@@ -29,7 +29,7 @@ struct lsf_voxelize {
     GLuint bricks[2];   /* lists of this run and of the run before */
     uint32_t runs;
     bool stale; /* what stands still is otherwise than in the run before */
-    GLuint clear_program, count_program, sum_program, place_program, write_program;
+    GLuint clear_program, count_program, sum_program, place_program, write_program, beside_program;
     /* Bids: an instance's small triangles, then its large ones; or all on the raster pipeline. */
     GLuint small_program, large_program, raster_program;
     GLuint framebuffer;

@@ -135,7 +135,9 @@ void lsf_voxels_bind(const lsf_voxels *voxels)
     lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, voxels->albedo);
     lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, voxels->normal);
     lsf_bind_texture(LSF_UNIT_VOXEL_POINT, voxels->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_SHADING, voxels->shading);
     lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, voxels->emission);
+    lsf_bind_texture(LSF_UNIT_VOXEL_SHINING, voxels->shining);
     lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, voxels->gloss);
     lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, voxels->transmission);
 }
@@ -155,13 +157,14 @@ void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const ch
 
 bool lsf_voxel_bends(const lsf_plan *plan)
 {
-    return plan->requirements.smooth || plan->requirements.normal_mapped;
+    const lsf_requirements *r = &plan->requirements;
+    return r->smooth || r->normal_mapped || r->anisotropic;
 }
 
 void lsf_voxel_bend_switch(lsf_plan *plan)
 {
     lsf_plan_switch_add(plan, "LSF_VOXEL_BENT", lsf_voxel_bends(plan),
-                        "normals are smooth or mapped: voxels keep them beside their planes'");
+                        "normals are smooth or mapped, or tangents count: voxels keep them, too");
 }
 
 bool lsf_voxel_gloss(const lsf_plan *plan)

@@ -53,8 +53,10 @@ typedef struct lsf_voxels {
     GLuint grid_buffer;                           /* struct lsf_voxel_grid_data */
     GLuint occupancy[LSF_VOXEL_OCCUPANCY_LEVELS]; /* R32UI */
     GLuint albedo, point;                         /* R32UI */
-    GLuint normal;                                /* R32UI; RG32UI where shading normals bend */
+    GLuint normal;                                /* R32UI, of planes */
+    GLuint shading;                               /* R32UI; 0 where normals are the planes' */
     GLuint emission;                              /* R32UI; 0 without emitting materials */
+    GLuint shining;                               /* R32UI, bricks that emit; 0 likewise */
     GLuint gloss;                                 /* R32UI; 0 unless some material is glossy */
     GLuint transmission;                          /* R32UI; 0 unless light passes some material */
     GLuint bricks;                                /* occupied bricks; voxel_data.h has the layout */
@@ -72,8 +74,8 @@ void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const ch
                             GLenum internal_format, uint32_t sides, uint32_t levels,
                             const char *why);
 
-/* Whether voxels keep shading normals beside those of their planes; adds the switch of the pass in
- * turn that reads them. */
+/* Whether voxels keep shading normals and tangents beside those of their planes; adds the switch of
+ * the pass in turn that reads them. */
 bool lsf_voxel_bends(const lsf_plan *plan);
 void lsf_voxel_bend_switch(lsf_plan *plan);
 /* The same of roughness, metallic and f0. */

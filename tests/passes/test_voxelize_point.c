@@ -1,6 +1,6 @@
 /* The surface that a voxel keeps is the one nearest to its centre, at the nearest point of it,
  * against closest points on triangles in double precision; with the normals of its plane and of its
- * shading.
+ * shading, and with what is beside it.
  */
 #include <math.h>
 
@@ -196,23 +196,25 @@ static void check_normals(lsf_scene *scene, lsf_float3 plane, lsf_float3 shading
     voxel_rig_run(&v, 0);
     size_t count = voxel_rig_voxel_count(&v);
     uint8_t *set = voxel_rig_read_occupancy(&v);
-    uint32_t(*normals)[2] = malloc(8 * count);
-    glGetTextureImage(v.outputs->normal, 0, GL_RG_INTEGER, GL_UNSIGNED_INT, (GLsizei)(8 * count),
-                      normals);
+    uint32_t *normals = voxel_rig_read_texture(v.outputs->normal, count);
+    uint32_t *bends = NULL;
+    if (bent)
+        bends = voxel_rig_read_texture(v.outputs->shading, count);
+    else
+        assert_int_equal(v.outputs->shading, 0);
     uint32_t found = 0;
     for (size_t i = 0; i < count; i++) {
         if (!set[i])
             continue;
         found++;
-        assert_true(lsf_f3_dot(unpack_normal(normals[i][0]), plane) > 0.999998f);
-        if (bent)
-            assert_true(lsf_f3_dot(unpack_normal(normals[i][1]), shading) > 0.999998f);
-        else
-            assert_int_equal(normals[i][1], 0);
+        assert_true(lsf_f3_dot(unpack_normal(normals[i]), plane) > 0.999998f);
+        assert_int_equal(normals[i] >> 24, 0); /* all beside it are in its plane */
+        assert_true(!bent || lsf_f3_dot(unpack_normal(bends[i]), shading) > 0.999998f);
     }
     assert_true(found > 100);
     free(set);
     free(normals);
+    free(bends);
     voxel_rig_finish(&v);
     destroy_scene(scene);
 }
@@ -232,12 +234,62 @@ static void normals_of_plane_and_shading(void **unused)
     }
 }
 
+/* A floor and a wall whose edge is on both fronts: voxels along it know, and all others have only
+ * their own plane beside them. */
+static void edge_of_two_planes(void **unused)
+{
+    (void)unused;
+    const shapes corner = {{{0, 0, 0},
+                            {0, 0, 1},
+                            {1, 0, 1},
+                            {0, 0, 0},
+                            {1, 0, 1},
+                            {1, 0, 0},
+                            {0, 0, 0},
+                            {0, 1, 0},
+                            {0, 1, 1},
+                            {0, 0, 0},
+                            {0, 1, 1},
+                            {0, 0, 1}},
+                           4};
+    point3 corners[3 * MOST];
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    build_triangles(scene, corner.corners, corner.count);
+    finish_gl_scene(scene);
+    voxel_rig v;
+    voxel_rig_init(&v, scene, 32, LSF_VOXELIZE_COMPUTE, true, 0);
+    voxel_rig_run(&v, 0);
+    to_grid(&v, &corner, corners);
+    uint8_t *set = voxel_rig_read_occupancy(&v);
+    uint32_t *normals = voxel_rig_read_texture(v.outputs->normal, voxel_rig_voxel_count(&v));
+    uint32_t edges = 0;
+    for (uint32_t z = 0, i = 0; z < v.grid.size[2]; z++)
+        for (uint32_t y = 0; y < v.grid.size[1]; y++)
+            for (uint32_t x = 0; x < v.grid.size[0]; x++, i++) {
+                double off = fmax(fabs(x + 0.5 - corners[0].x), fabs(y + 0.5 - corners[0].y));
+                if (!set[i])
+                    continue;
+                /* On the front in any case: what ends at a height of 0 is on the back as well. */
+                assert_true((normals[i] >> 30 & 3u) != 2u);
+                assert_true(off < 2.0 || normals[i] >> 24 == 0);
+                edges += normals[i] >> 30 & 1u;
+            }
+    print_message("%u voxels along the edge\n", edges);
+    assert_in_range(edges, 30, 90);
+    free(set);
+    free(normals);
+    voxel_rig_finish(&v);
+    destroy_scene(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(long_triangles),
         cmocka_unit_test(any_triangles),
         cmocka_unit_test(normals_of_plane_and_shading),
+        cmocka_unit_test(edge_of_two_planes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,66 @@
+/* What spares rays work: what each voxel keeps of those beside it, VOXEL_BESIDE in lib/voxel.glsl; and which bricks
+ * hold voxels that emit. Switch LSF_EMISSION. */
+#include "lib/voxel_brick.glsl"
+#include "lib/voxel_trace.glsl"
+
+layout(binding = 0, r32ui) uniform uimage3D normal_image;
+layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
+#if LSF_EMISSION
+layout(binding = 1, r32ui) uniform uimage3D shining_image;
+layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
+#endif
+
+/* Voxels of one plane have the same normal, and points that are rounded to 2^-11 along each axis. */
+#define SAME_PLANE (1.0 / 512.0)
+
+vec3 point_in(ivec3 cell)
+{
+    return vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
+}
+
+uint look_beside(ivec3 cell, uint normal)
+{
+    vec3 n = voxel_normal_unpack(normal), q = point_in(cell);
+    uint seen = 0u;
+    for (int side = 0; side < 6; side++) {
+        ivec3 beside = voxel_beside(cell, side);
+        if (!voxel_inside(beside) || !voxel_occupied(beside))
+            continue;
+        uint other = imageLoad(normal_image, beside).r;
+        vec3 beside_n = voxel_normal_unpack(other), beside_q = point_in(beside);
+        float height = dot(n, beside_q - q);
+        bool same = ((normal ^ other) & VOXEL_NORMAL_BITS) == 0u && abs(height) < SAME_PLANE;
+        /* Whether the other's plane comes through the cell, so that a ray may cross it there. */
+        float reach = 0.5 * (abs(beside_n.x) + abs(beside_n.y) + abs(beside_n.z)) + 2.0 * VOXEL_PLANE;
+        if (!same && abs(dot(beside_n, vec3(cell) + 0.5 - beside_q)) < reach)
+            seen |= 1u << side;
+        if (abs(dot(n, beside_n)) < VOXEL_EDGE)
+            seen |= (height > -VOXEL_PLANE ? VOXEL_BESIDE_EDGE_FRONT : 0u) |
+                    (height < VOXEL_PLANE ? VOXEL_BESIDE_EDGE_BACK : 0u);
+    }
+    return seen;
+}
+
+void main()
+{
+    uint at;
+    if (!voxel_brick_listed(at))
+        return;
+    lsf_voxel_brick_data brick = bricks[at];
+    int voxels = voxel_brick_voxels(brick);
+    bool shines = false;
+    for (int n = voxel_brick_lane(); n < voxels; n += VOXEL_BRICK_LANES) {
+        ivec3 cell = voxel_brick_cell(brick, n);
+        /* Others may read it meanwhile, but only the normal's bits, which stay the same. */
+        uint normal = imageLoad(normal_image, cell).r & VOXEL_NORMAL_BITS;
+        imageStore(normal_image, cell, uvec4(normal | look_beside(cell, normal) << VOXEL_BESIDE_SHIFT));
+#if LSF_EMISSION
+        shines = shines || voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r) != vec3(0.0);
+#endif
+    }
+#if LSF_EMISSION
+    ivec3 place = voxel_brick_unpack(brick.place);
+    if (shines)
+        imageAtomicOr(shining_image, occupancy_texel(place), occupancy_bit(place));
+#endif
+}
