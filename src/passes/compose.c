@@ -6,11 +6,11 @@
 
 enum { RADIANCE, SEEN, INDIRECT_DIFFUSE, DIRECT, INDIRECT_SPECULAR, COVERAGE, TEXTURES };
 
-#define AT(member) offsetof(lsf_compose, member)
+#define AT(member) offsetof(lsf_compose, own.member)
 
 static const lsf_texture_row textures[TEXTURES] = {
-    [RADIANCE] = {"compose.radiance", GL_RGBA32F, AT(radiance), 0, "the iteration's picture"},
-    [SEEN] = {"compose.seen", GL_RGBA32F, AT(seen), 0, "the emission layer is asked for"},
+    [RADIANCE] = {"compose.radiance", GL_RGBA32F, AT(picture), 0, "the iteration's picture"},
+    [SEEN] = {"compose.seen", GL_RGBA32F, AT(emission), 0, "the emission layer is asked for"},
     [INDIRECT_DIFFUSE] = {"compose.indirect_diffuse", GL_RGBA32F, AT(indirect_diffuse), 0,
                           "the indirect_diffuse layer is asked for"},
     [DIRECT] = {"compose.direct", GL_RGBA32F, AT(direct), 0, "the direct layer is asked for"},
@@ -74,10 +74,11 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
     *pass = (lsf_compose){.context = context};
     if (!lsf_plan_create_textures(plan, context, textures, TEXTURES, pass, error))
         return false;
+    const lsf_composed *own = &pass->own;
     lsf_framebuffer_desc desc = {.label = "compose",
                                  .color_count = 6,
-                                 .colors = {pass->radiance, pass->seen, pass->indirect_diffuse,
-                                            pass->direct, pass->indirect_specular, pass->coverage},
+                                 .colors = {own->picture, own->emission, own->indirect_diffuse,
+                                            own->direct, own->indirect_specular, own->coverage},
                                  .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "compose", files, error);
@@ -86,26 +87,31 @@ bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan 
 }
 
 void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
-                     const lsf_compose_inputs *inputs)
+                     const lsf_light_parts *parts)
 {
-    const lsf_gbuffer_maps *gbuffer = inputs->gbuffer;
+    const lsf_gbuffer_maps *gbuffer = parts->gbuffer;
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
     lsf_bind_texture(0, gbuffer->seen.depth);
     lsf_bind_texture(1, gbuffer->emission);
-    lsf_bind_texture(2, inputs->direct);
+    lsf_bind_texture(2, parts->direct);
     lsf_bind_texture(3, gbuffer->seen.surface);
-    lsf_bind_texture(4, inputs->indirect.irradiance);
-    lsf_bind_texture(6, inputs->indirect.specular);
-    lsf_bind_texture(7, inputs->split_direct.irradiance);
-    lsf_bind_texture(8, inputs->split_direct.specular);
+    lsf_bind_texture(4, parts->indirect.irradiance);
+    lsf_bind_texture(6, parts->indirect.specular);
+    lsf_bind_texture(7, parts->split_direct.irradiance);
+    lsf_bind_texture(8, parts->split_direct.specular);
     lsf_bind_texture(9, gbuffer->seen.gloss);
     lsf_bind_texture(10, gbuffer->tint);
     lsf_bind_texture(11, gbuffer->absorption);
     lsf_scene_gpu_bind_environment(iteration->scene);
     glUniform3fv(0, 1, iteration->plan->background.radiance);
     lsf_draw_fullscreen(pass->context);
+    pass->outputs = pass->own;
+    if (!pass->own.direct)
+        pass->outputs.direct = parts->direct;
+    if (!pass->own.indirect_specular)
+        pass->outputs.indirect_specular = parts->indirect.specular;
     lsf_timer_end(pass->timer);
 }
 

@@ -5,13 +5,6 @@
 #include "plan/iteration.h"
 #include "plan/maps.h"
 
-typedef struct lsf_compose_inputs {
-    const lsf_gbuffer_maps *gbuffer;
-    GLuint direct; /* RGBA32F radiance; 0: none */
-    lsf_split_light indirect;
-    lsf_split_light split_direct; /* direct light beside that in `direct` */
-} lsf_compose_inputs;
-
 /* What there is to add up. */
 typedef struct lsf_compose_use {
     bool direct;       /* radiance of punctual lights */
@@ -19,15 +12,20 @@ typedef struct lsf_compose_use {
     bool split_direct; /* the same of direct light apart */
 } lsf_compose_use;
 
-/* RGBA32F. Layers are 0 unless asked for and different from an input. */
+/* RGBA32F; but for the picture 0 unless asked for. */
+typedef struct lsf_composed {
+    GLuint picture;
+    GLuint coverage;          /* 1 where a surface is, else 0 */
+    GLuint emission;          /* with the environment: what is seen itself */
+    GLuint direct;            /* all kinds of direct light */
+    GLuint indirect_diffuse;  /* irradiance reflected */
+    GLuint indirect_specular; /* tinted */
+} lsf_composed;
+
 typedef struct lsf_compose {
     lsf_context *context;
-    GLuint radiance;
-    GLuint coverage;          /* 1 where a surface is, else 0 */
-    GLuint seen;              /* emission and environment alone */
-    GLuint indirect_diffuse;  /* irradiance reflected */
-    GLuint direct;            /* all kinds of direct light */
-    GLuint indirect_specular; /* tinted */
+    lsf_composed outputs; /* of the last run: textures of its own, and parts that are a layer */
+    lsf_composed own;
     GLuint framebuffer, program;
     lsf_timer *timer;
 } lsf_compose;
@@ -36,7 +34,7 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use);
 bool lsf_compose_create(lsf_compose *pass, lsf_context *context, const lsf_plan *plan,
                         lsf_error *error);
 void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
-                     const lsf_compose_inputs *inputs);
+                     const lsf_light_parts *parts);
 void lsf_compose_destroy(lsf_compose *pass);
 
 #endif

@@ -52,7 +52,7 @@ bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf
 }
 
 void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
-                        const lsf_light_mean_inputs *inputs, GLuint gate)
+                        const lsf_light_parts *parts, GLuint gate)
 {
     const GLuint means[] = {pass->guide, pass->diffuse.light, pass->diffuse.factor,
                             pass->specular.light, pass->specular.factor};
@@ -60,13 +60,13 @@ void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
     glUniform1f(0, 1.0f / ((float)iteration->done + 1.0f));
-    lsf_surface_maps_bind(&inputs->gbuffer->seen);
-    lsf_bind_texture(3, inputs->indirect.irradiance);
-    lsf_bind_texture(4, inputs->indirect.specular);
-    lsf_bind_texture(7, inputs->direct.irradiance);
-    lsf_bind_texture(8, inputs->direct.specular);
-    lsf_bind_texture(10, inputs->gbuffer->tint);
-    lsf_bind_texture(11, inputs->gbuffer->absorption);
+    lsf_surface_maps_bind(&parts->gbuffer->seen);
+    lsf_bind_texture(3, parts->indirect.irradiance);
+    lsf_bind_texture(4, parts->indirect.specular);
+    lsf_bind_texture(7, parts->split_direct.irradiance);
+    lsf_bind_texture(8, parts->split_direct.specular);
+    lsf_bind_texture(10, parts->gbuffer->tint);
+    lsf_bind_texture(11, parts->gbuffer->absorption);
     for (GLuint i = 0; i < LSF_COUNT(means); i++)
         if (means[i])
             glBindImageTexture(i, means[i], 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);

@@ -6,12 +6,6 @@
 #include "plan/iteration.h"
 #include "plan/maps.h"
 
-typedef struct lsf_light_mean_inputs {
-    const lsf_gbuffer_maps *gbuffer;
-    lsf_split_light indirect;
-    lsf_split_light direct; /* beside it; no irradiance: none */
-} lsf_light_mean_inputs;
-
 /* RGBA32F, of the picture's size. */
 typedef struct lsf_light_mean_part {
     GLuint light;  /* R, G, B: mean radiance towards the eye; A: sum of squared deviations of its
@@ -33,9 +27,9 @@ typedef struct lsf_light_mean {
 void lsf_light_mean_plan(lsf_plan *plan, bool split_direct);
 bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf_plan *plan,
                            lsf_error *error);
-/* Adds an iteration; `gate` as for lsf_accumulate_run. */
+/* Adds an iteration's parts but for `direct`; `gate` as for lsf_accumulate_run. */
 void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
-                        const lsf_light_mean_inputs *inputs, GLuint gate);
+                        const lsf_light_parts *parts, GLuint gate);
 void lsf_light_mean_destroy(lsf_light_mean *pass);
 
 #endif

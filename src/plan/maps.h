@@ -27,6 +27,14 @@ typedef struct lsf_gbuffer_maps {
     GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye; 0: none is lost */
 } lsf_gbuffer_maps;
 
+/* The parts of an iteration's picture before they are added up. */
+typedef struct lsf_light_parts {
+    const lsf_gbuffer_maps *gbuffer;
+    GLuint direct;                /* RGBA32F, reflected radiance of direct light; 0: none */
+    lsf_split_light split_direct; /* direct light beside that */
+    lsf_split_light indirect;
+} lsf_light_parts;
+
 /* The format of the G-buffer's gloss, once that is planned; GL_NONE: it has none. */
 GLenum lsf_gbuffer_gloss(const lsf_plan *plan);
 

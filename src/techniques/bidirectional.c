@@ -486,25 +486,16 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
         lsf_interleave_gather(&b->interleave, iteration, &gbuffer->seen, light);
         light = &b->interleave.light;
     }
-    const lsf_compose_inputs parts = {.gbuffer = gbuffer,
-                                      .direct = b->chain.direct_light.radiance,
-                                      .indirect = *light,
-                                      .split_direct = b->shade.outputs.direct};
+    const lsf_light_parts parts = {.gbuffer = gbuffer,
+                                   .direct = b->chain.direct_light.radiance,
+                                   .indirect = *light,
+                                   .split_direct = b->shade.outputs.direct};
     lsf_compose_run(&b->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
-        .picture = b->compose.radiance,
+        .parts = parts,
+        .layers = b->compose.outputs,
         .bounded = b->shade_params.bound > 0.0f,
-        .depth = gbuffer->seen.depth,
-        .surface = gbuffer->seen.surface,
-        .emission = b->compose.seen,
-        .coverage = b->compose.coverage,
-        .direct = b->compose.direct ? b->compose.direct : b->chain.direct_light.radiance,
-        .indirect_diffuse = b->compose.indirect_diffuse,
-        .indirect_specular =
-            b->compose.indirect_specular ? b->compose.indirect_specular : light->specular,
-        .motion = gbuffer->motion,
         .kernel = suppressed_angle(b, iteration),
-        .light = {.gbuffer = gbuffer, .indirect = parts.indirect, .direct = parts.split_direct},
         .gate = b->bundle ? lsf_ray_bundle_gate(b->bundle) : 0,
     };
 }

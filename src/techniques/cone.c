@@ -216,24 +216,12 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
         light = trace(c, iteration);
     else
         lsf_direct_chain_run(&c->chain.direct, iteration);
-    const lsf_compose_inputs parts = {
+    const lsf_light_parts parts = {
         .gbuffer = gbuffer, .direct = direct->direct_light.radiance, .indirect = light};
     lsf_compose_run(&c->compose, iteration, &parts);
-    *outputs = (lsf_technique_outputs){
-        .picture = c->compose.radiance,
-        .depth = gbuffer->seen.depth,
-        .surface = gbuffer->seen.surface,
-        .emission = c->compose.seen,
-        .coverage = c->compose.coverage,
-        .direct = c->compose.direct ? c->compose.direct : direct->direct_light.radiance,
-        .indirect_diffuse = c->compose.indirect_diffuse,
-        .indirect_specular =
-            c->compose.indirect_specular ? c->compose.indirect_specular : light.specular,
-        .motion = gbuffer->motion,
-        .light = {.gbuffer = gbuffer, .indirect = parts.indirect, .direct = parts.split_direct},
-    };
+    *outputs = (lsf_technique_outputs){.parts = parts, .layers = c->compose.outputs};
     if (c->way.traced)
-        lsf_voxel_chain_view(&c->chain, iteration, outputs);
+        outputs->voxels = lsf_voxel_chain_view(&c->chain, iteration);
 }
 
 static void destroy_cone(void *self)

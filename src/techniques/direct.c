@@ -59,22 +59,14 @@ static bool create_direct(void **self, lsf_context *context, const lsf_plan *pla
 static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
 {
     direct *d = self;
-    const lsf_gbuffer_maps *gbuffer = &d->chain.gbuffer.outputs;
+    const lsf_light_parts parts = {.gbuffer = &d->chain.gbuffer.outputs,
+                                   .direct = d->chain.direct_light.radiance};
     lsf_direct_chain_run(&d->chain, iteration);
-    if (d->composed) {
-        const lsf_compose_inputs inputs = {.gbuffer = gbuffer,
-                                           .direct = d->chain.direct_light.radiance};
-        lsf_compose_run(&d->compose, iteration, &inputs);
-    }
-    *outputs = (lsf_technique_outputs){
-        .picture = d->composed ? d->compose.radiance : d->chain.direct_light.radiance,
-        .depth = gbuffer->seen.depth,
-        .surface = gbuffer->seen.surface,
-        .emission = d->compose.seen,
-        .coverage = d->compose.coverage,
-        .direct = d->compose.direct ? d->compose.direct : d->chain.direct_light.radiance,
-        .motion = gbuffer->motion,
-    };
+    if (d->composed)
+        lsf_compose_run(&d->compose, iteration, &parts);
+    *outputs = (lsf_technique_outputs){.parts = parts, .layers = d->compose.outputs};
+    if (!d->composed)
+        outputs->layers.picture = outputs->layers.direct = parts.direct;
 }
 
 static void destroy_direct(void *self)

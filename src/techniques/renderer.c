@@ -59,6 +59,7 @@ static void destroy_technique(lsf_renderer *renderer)
     if (renderer->setup.technique)
         renderer->setup.technique->destroy(renderer->technique);
     renderer->technique = NULL;
+    renderer->outputs = (lsf_technique_outputs){0};
     lsf_iteration_destroy(&renderer->iteration);
 }
 
@@ -213,32 +214,35 @@ const lsf_plan *lsf_renderer_plan(const lsf_renderer *renderer)
 
 GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov)
 {
+    const lsf_gbuffer_maps *gbuffer = outputs->parts.gbuffer;
+    if (!gbuffer)
+        return 0; /* no iteration has run */
     switch (aov) {
     case LSF_AOV_ALBEDO:
     case LSF_AOV_NORMAL:
-        return outputs->surface;
+        return gbuffer->seen.surface;
     case LSF_AOV_DEPTH:
-        return outputs->depth;
+        return gbuffer->seen.depth;
     case LSF_LAYER_COVERAGE:
-        return outputs->coverage;
+        return outputs->layers.coverage;
     case LSF_AOV_EMISSION:
-        return outputs->emission;
+        return outputs->layers.emission;
     case LSF_AOV_DIRECT:
-        return outputs->direct;
+        return outputs->layers.direct;
     case LSF_AOV_INDIRECT_DIFFUSE:
-        return outputs->indirect_diffuse;
+        return outputs->layers.indirect_diffuse;
     case LSF_AOV_INDIRECT_SPECULAR:
-        return outputs->indirect_specular;
+        return outputs->layers.indirect_specular;
     case LSF_AOV_MOTION:
-        return outputs->motion;
+        return gbuffer->motion;
     case LSF_AOV_VOXEL_ALBEDO:
-        return outputs->voxel_albedo;
+        return outputs->voxels.albedo;
     case LSF_AOV_VOXEL_NORMAL:
-        return outputs->voxel_normal;
+        return outputs->voxels.normal;
     case LSF_AOV_VOXEL_RADIANCE:
-        return outputs->voxel_radiance;
+        return outputs->voxels.radiance;
     default:
-        return outputs->picture;
+        return outputs->layers.picture;
     }
 }
 
@@ -271,10 +275,10 @@ static void run_iteration(lsf_renderer *renderer)
         return;
     for (uint32_t i = 0; i < setup->layer_count; i++)
         layers[i] = lsf_renderer_layer(&renderer->outputs, setup->layer_aovs[i]);
-    lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers, renderer->outputs.depth,
-                       renderer->outputs.gate);
+    lsf_accumulate_run(&renderer->accumulate, &renderer->iteration, layers,
+                       renderer->outputs.parts.gbuffer->seen.depth, renderer->outputs.gate);
     if (renderer->light_mean.timer)
-        lsf_light_mean_run(&renderer->light_mean, &renderer->iteration, &renderer->outputs.light,
+        lsf_light_mean_run(&renderer->light_mean, &renderer->iteration, &renderer->outputs.parts,
                            renderer->outputs.gate);
     renderer->filtered = false;
     renderer->next++;
@@ -383,7 +387,7 @@ bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
     bool good = run_until_stopped(renderer, error);
     renderer->iteration.question = NULL;
     if (good && !renderer->grain_checked && renderer->samples > 0) {
-        lsf_grain_check(&renderer->iteration, renderer->outputs.depth);
+        lsf_grain_check(&renderer->iteration, renderer->outputs.parts.gbuffer->seen.depth);
         renderer->grain_checked = true;
     }
     return good;

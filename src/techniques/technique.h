@@ -4,6 +4,7 @@
 
 #include "passes/bidirectional_shade.h"
 #include "passes/blur.h"
+#include "passes/compose.h"
 #include "passes/gbuffer.h"
 #include "passes/interleave.h"
 #include "passes/light_filter.h"
@@ -13,6 +14,7 @@
 #include "passes/shadow_map.h"
 #include "passes/upsample_search.h"
 #include "passes/voxel_path.h"
+#include "passes/voxel_view.h"
 #include "passes/voxelize.h"
 #include "passes/vpl.h"
 #include "plan/cone.h"
@@ -57,16 +59,12 @@ extern const uint32_t lsf_pass_option_table_count;
 
 /* What an iteration left, valid until the next; 0 where the technique has none. */
 typedef struct lsf_technique_outputs {
-    GLuint picture;        /* RGBA32F radiance */
-    bool bounded;          /* its alpha holds the luminance that a bound took away */
-    GLuint depth, surface; /* of the G-buffer */
-    GLuint emission, direct, indirect_diffuse, indirect_specular; /* RGBA32F layers */
-    GLuint motion;
-    lsf_light_mean_inputs light; /* its parts; gbuffer NULL: there are none */
-    float kernel;    /* solid angle that glossy lobes are spread over, for want of samples [sr] */
-    GLuint coverage; /* RGBA32F, 1 or 0; where the plan's background asks for it */
-    GLuint voxel_albedo, voxel_normal, voxel_radiance; /* RGBA32F layers */
-    GLuint gate; /* see lsf_accumulate_run; of a technique that settles */
+    lsf_light_parts parts;
+    lsf_composed layers;
+    lsf_voxel_view_outputs voxels;
+    bool bounded; /* the picture's alpha holds the luminance that a bound took away */
+    float kernel; /* solid angle that glossy lobes are spread over, for want of samples [sr] */
+    GLuint gate;  /* see lsf_accumulate_run; of a technique that settles */
 } lsf_technique_outputs;
 
 /* A pass as statistics show it. */

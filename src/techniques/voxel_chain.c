@@ -136,15 +136,11 @@ void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iterati
     lsf_voxel_chain_emit(chain); /* where no light has brought it along */
 }
 
-void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration,
-                          lsf_technique_outputs *outputs)
+lsf_voxel_view_outputs lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration)
 {
-    if (!chain->view.program)
-        return;
-    lsf_voxel_view_run(&chain->view, iteration, chain->voxels, chain->light.radiance);
-    outputs->voxel_albedo = chain->view.outputs.albedo;
-    outputs->voxel_normal = chain->view.outputs.normal;
-    outputs->voxel_radiance = chain->view.outputs.radiance;
+    if (chain->view.program)
+        lsf_voxel_view_run(&chain->view, iteration, chain->voxels, chain->light.radiance);
+    return chain->view.outputs;
 }
 
 void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration)

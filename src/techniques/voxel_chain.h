@@ -45,9 +45,8 @@ void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration)
 void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 void lsf_voxel_chain_emit(lsf_voxel_chain *chain);
 void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels);
-/* Sets the layers of voxels, where asked for; to be called when the voxels' light is complete. */
-void lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration,
-                          lsf_technique_outputs *outputs);
+/* The layers of voxels, where asked for; to be called when the voxels' light is complete. */
+lsf_voxel_view_outputs lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 void lsf_voxel_chain_destroy(lsf_voxel_chain *chain);
 /* As lsf_technique's report. */
 uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports);

@@ -119,7 +119,7 @@ static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
 }
 
 /* Indirect light of the picture's size, in `parts`, and direct light that is asked for apart. */
-static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_compose_inputs *parts)
+static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_light_parts *parts)
 {
     const lsf_surface_maps *all = &v->chain.direct.gbuffer.outputs.seen, *seen = all;
     lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, v->width, v->height);
@@ -150,26 +150,15 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
                            lsf_technique_outputs *outputs)
 {
     voxel_path *v = self;
-    const lsf_gbuffer_maps *gbuffer = &v->chain.direct.gbuffer.outputs;
     lsf_voxel_chain_run(&v->chain, iteration);
-    GLuint direct = v->chain.direct.direct_light.radiance;
-    lsf_compose_inputs parts = {.gbuffer = gbuffer, .direct = direct};
+    lsf_light_parts parts = {.gbuffer = &v->chain.direct.gbuffer.outputs,
+                             .direct = v->chain.direct.direct_light.radiance};
     if (v->width > 0)
         run_paths(v, iteration, &parts);
     lsf_compose_run(&v->compose, iteration, &parts);
-    *outputs = (lsf_technique_outputs){
-        .picture = v->compose.radiance,
-        .depth = gbuffer->seen.depth,
-        .surface = gbuffer->seen.surface,
-        .emission = v->compose.seen,
-        .coverage = v->compose.coverage,
-        .direct = v->compose.direct ? v->compose.direct : direct,
-        .indirect_diffuse = v->compose.indirect_diffuse,
-        .indirect_specular = parts.indirect.specular,
-        .motion = gbuffer->motion,
-        .light = {.gbuffer = gbuffer, .indirect = parts.indirect, .direct = parts.split_direct},
-    };
-    lsf_voxel_chain_view(&v->chain, iteration, outputs);
+    *outputs = (lsf_technique_outputs){.parts = parts,
+                                       .layers = v->compose.outputs,
+                                       .voxels = lsf_voxel_chain_view(&v->chain, iteration)};
 }
 
 static void destroy_voxel_path(void *self)
