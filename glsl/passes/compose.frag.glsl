@@ -10,14 +10,22 @@ layout(binding = 1) uniform sampler2D emission_texture;
 #if LSF_DIRECT
 layout(binding = 2) uniform sampler2D direct_texture;
 #endif
-#if LSF_INDIRECT
+#if LSF_INDIRECT || LSF_SKY_LIGHT
 layout(binding = 3) uniform usampler2D surface_texture;
-layout(binding = 4) uniform sampler2D irradiance_texture;
 #if LSF_TRANSMISSION
 layout(binding = 9) uniform usampler2D gloss_texture;
 #endif
+#endif
+#if LSF_INDIRECT
+layout(binding = 4) uniform sampler2D irradiance_texture;
 #if LSF_SPECULAR
 layout(binding = 6) uniform sampler2D specular_texture;
+#endif
+#endif
+#if LSF_SKY_LIGHT
+layout(binding = 12) uniform sampler2D sky_irradiance_texture;
+#if LSF_SPECULAR
+layout(binding = 13) uniform sampler2D sky_specular_texture;
 #endif
 #endif
 #if LSF_SPLIT_DIRECT
@@ -98,7 +106,7 @@ void main()
 #if LSF_DIRECT
     direct += texelFetch(direct_texture, pixel, 0).rgb;
 #endif
-#if LSF_INDIRECT
+#if LSF_INDIRECT || LSF_SKY_LIGHT
     vec3 reflected = vec3(0.0); /* by an irradiance of 1 */
     if (depth != 0.0) {
         surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
@@ -107,6 +115,14 @@ void main()
 #endif
         reflected = surface_diffuse(s) / LSF_PI;
     }
+#endif
+#if LSF_SKY_LIGHT
+    direct += reflected * texelFetch(sky_irradiance_texture, pixel, 0).rgb;
+#if LSF_SPECULAR
+    direct += texelFetch(sky_specular_texture, pixel, 0).rgb;
+#endif
+#endif
+#if LSF_INDIRECT
     vec4 irradiance = texelFetch(irradiance_texture, pixel, 0);
     indirect += reflected * irradiance.rgb;
     lost += dot(reflected, vec3(0.2126, 0.7152, 0.0722)) * irradiance.a;

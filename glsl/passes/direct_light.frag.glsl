@@ -1,6 +1,7 @@
 /* Light that one light sends to the eye by one reflection: f V E, added to the target. Switches LSF_SHADOW_SKY: not
  * one light's, but that of a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: what else
- * finds the environment, and leaves a share of it. */
+ * finds the environment, and leaves a share of it; LSF_SKY_PATTERN: light of these directions stays split, and pixels
+ * take turns. */
 #include "lib/brdf.glsl"
 #if LSF_SKY_CHANCE
 #include "lib/brdf_sample.glsl"
@@ -12,10 +13,29 @@
 #endif
 #include "lib/view.glsl"
 
+#if LSF_SKY_PATTERN
+layout(location = 0) out vec4 irradiance_out;
+#if LSF_SPECULAR
+layout(location = 1) out vec4 specular_out;
+#endif
+#else
 layout(location = 0) out vec4 radiance_out;
+#endif
 
 #if LSF_SHADOW_SKY
 layout(location = 0) uniform int sky_map_count;
+#endif
+#if LSF_SKY_PATTERN
+layout(location = 2) uniform ivec2 sky_turn; /* first direction of the batch; iteration */
+
+/* The place of a direction in the pattern of pixels, from which it begins anew: as lsf_interleave_tile. */
+bool takes_direction(ivec2 pixel, int direction)
+{
+    const int tiles = LSF_SKY_PATTERN * LSF_SKY_PATTERN;
+    int turned = sky_turn.y % LSF_SKY_PATTERN * LSF_SKY_PATTERN + sky_turn.y / LSF_SKY_PATTERN % LSF_SKY_PATTERN;
+    int tile = (direction + turned) % tiles;
+    return tile == pixel.x % LSF_SKY_PATTERN + pixel.y % LSF_SKY_PATTERN * LSF_SKY_PATTERN;
+}
 #endif
 
 #if LSF_SKY_CHANCE
@@ -46,18 +66,22 @@ void share_sky(surface s, vec3 view_direction, vec3 direction, float density, in
 }
 #endif
 
+struct light_parts {
+    vec3 irradiance, specular;
+};
+
 /* What a visible point reflects of the light from a direction, `irradiance` on a plane that faces it. `density`: of
  * the environment's directions, 0: it is no part of it. */
-vec3 reflected(surface s, vec3 position, vec3 view_direction, vec3 direction, vec3 irradiance,
+light_parts reflected(surface s, vec3 position, vec3 view_direction, vec3 direction, vec3 irradiance,
                float density, float kernel)
 {
     float cosine = dot(s.normal, direction);
     if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
         max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0)
-        return vec3(0.0);
+        return light_parts(vec3(0.0), vec3(0.0));
     float visibility = shadow_visibility(position, s.geometric_normal);
     if (visibility == 0.0)
-        return vec3(0.0);
+        return light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_TINT
     irradiance *= shadow_tint(position, s.geometric_normal, s.transmission > 0.0);
 #endif
@@ -68,13 +92,21 @@ vec3 reflected(surface s, vec3 position, vec3 view_direction, vec3 direction, ve
 #else
     brdf_value f = brdf_evaluate(s, view_direction, direction, kernel);
 #endif
-    return brdf_sum(s, f) * irradiance * (cosine * visibility);
+    irradiance *= cosine * visibility;
+    return light_parts(f.diffuse * irradiance, f.specular * irradiance);
 }
 
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
+#if LSF_SKY_PATTERN
+    irradiance_out = vec4(0.0);
+#if LSF_SPECULAR
+    specular_out = vec4(0.0);
+#endif
+#else
     radiance_out = vec4(0.0);
+#endif
     float depth = texelFetch(depth_texture, pixel, 0).r;
     if (depth == 0.0)
         return;
@@ -87,16 +119,32 @@ void main()
     vec2 ndc = sample_ndc(gl_FragCoord.xy);
     vec3 position = position_from_depth(ndc, depth);
     vec3 view_direction = -normalize(view_ray_direction(ndc));
+    light_parts sum = light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_SKY
-    for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++)
-        radiance_out.rgb +=
-            reflected(s, position, view_direction, sky_maps[shadow_sky_map].to_sky.xyz,
-                      sky_maps[shadow_sky_map].irradiance.rgb, sky_maps[shadow_sky_map].to_sky.w,
-                      sky_maps[shadow_sky_map].irradiance.w);
+    for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
+#if LSF_SKY_PATTERN
+        if (!takes_direction(pixel, sky_turn.x + shadow_sky_map))
+            continue;
+#endif
+        light_parts r = reflected(s, position, view_direction, sky_maps[shadow_sky_map].to_sky.xyz,
+                                  sky_maps[shadow_sky_map].irradiance.rgb, sky_maps[shadow_sky_map].to_sky.w,
+                                  sky_maps[shadow_sky_map].irradiance.w);
+        sum.irradiance += r.irradiance;
+        sum.specular += r.specular;
+    }
 #else
     vec3 irradiance;
     float distance2;
     vec3 direction = light_direction(position, irradiance, distance2);
-    radiance_out.rgb = reflected(s, position, view_direction, direction, irradiance, 0.0, 0.0);
+    sum = reflected(s, position, view_direction, direction, irradiance, 0.0, 0.0);
+#endif
+#if LSF_SKY_PATTERN
+    const float tiles = float(LSF_SKY_PATTERN * LSF_SKY_PATTERN); /* each takes one of as many directions */
+    irradiance_out.rgb = tiles * sum.irradiance;
+#if LSF_SPECULAR
+    specular_out.rgb = tiles * sum.specular;
+#endif
+#else
+    radiance_out.rgb = surface_diffuse(s) / LSF_PI * sum.irradiance + sum.specular;
 #endif
 }

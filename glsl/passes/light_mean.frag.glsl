@@ -1,12 +1,21 @@
 /* Running means of the parts of reflected light and of what they were reflected by; see
- * src/passes/light_mean.md. Switch LSF_SPLIT_DIRECT: some of the light is in textures of its own. */
+ * src/passes/light_mean.md. Switches LSF_INDIRECT, LSF_SPLIT_DIRECT, LSF_SKY_LIGHT: there
+ * is light of that kind. */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/view.glsl"
 
+#if LSF_INDIRECT
 layout(binding = 3) uniform sampler2D irradiance_texture;
 #if LSF_SPECULAR
 layout(binding = 4) uniform sampler2D specular_texture;
+#endif
+#endif
+#if LSF_SKY_LIGHT
+layout(binding = 12) uniform sampler2D sky_irradiance_texture;
+#if LSF_SPECULAR
+layout(binding = 13) uniform sampler2D sky_specular_texture;
+#endif
 #endif
 #if LSF_SPLIT_DIRECT
 layout(binding = 7) uniform sampler2D direct_irradiance_texture;
@@ -69,7 +78,13 @@ void main()
         gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
 #endif
         guide = vec4(s.normal, depth);
-        vec3 irradiance = texelFetch(irradiance_texture, pixel, 0).rgb;
+        vec3 irradiance = vec3(0.0);
+#if LSF_INDIRECT
+        irradiance += texelFetch(irradiance_texture, pixel, 0).rgb;
+#endif
+#if LSF_SKY_LIGHT
+        irradiance += texelFetch(sky_irradiance_texture, pixel, 0).rgb;
+#endif
 #if LSF_SPLIT_DIRECT
         irradiance += texelFetch(direct_irradiance_texture, pixel, 0).rgb;
 #endif
@@ -77,7 +92,12 @@ void main()
             diffuse_factor = left * surface_diffuse(s) / LSF_PI;
         diffuse = diffuse_factor * irradiance;
 #if LSF_SPECULAR
-        specular = texelFetch(specular_texture, pixel, 0).rgb;
+#if LSF_INDIRECT
+        specular += texelFetch(specular_texture, pixel, 0).rgb;
+#endif
+#if LSF_SKY_LIGHT
+        specular += texelFetch(sky_specular_texture, pixel, 0).rgb;
+#endif
 #if LSF_SPLIT_DIRECT
         specular += texelFetch(direct_specular_texture, pixel, 0).rgb;
 #endif

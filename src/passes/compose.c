@@ -40,10 +40,14 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_plan_switch_add(plan, "LSF_DIRECT", use->direct,
                         "there are punctual lights, or directions of the environment");
     lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light comes by VPLs or bundles");
-    lsf_plan_switch_add(plan, "LSF_SPECULAR", use->indirect && r->specular,
+    lsf_plan_switch_add(plan, "LSF_SKY_LIGHT", plan->sky_pattern > 0,
+                        "light of the environment's directions is filtered");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR",
+                        (use->indirect || plan->sky_pattern > 0) && r->specular,
                         "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: lobes were evaluated before");
-    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", use->indirect && plan->transmission,
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION",
+                        (use->indirect || plan->sky_pattern > 0) && plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
@@ -58,7 +62,9 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     plan_layer(plan, (plan->aovs & LSF_AOV_EMISSION) != 0, "LSF_SEEN", SEEN, &target);
     plan_layer(plan, use->indirect && (plan->aovs & LSF_AOV_INDIRECT_DIFFUSE),
                "LSF_INDIRECT_DIFFUSE", INDIRECT_DIFFUSE, &target);
-    plan_layer(plan, (use->split_direct || plan->straight) && (plan->aovs & LSF_AOV_DIRECT),
+    plan_layer(plan,
+               (use->split_direct || plan->straight || plan->sky_pattern > 0) &&
+                   (plan->aovs & LSF_AOV_DIRECT),
                "LSF_ALL_DIRECT", DIRECT, &target);
     plan_layer(plan,
                plan->straight && use->indirect && r->specular &&
@@ -104,6 +110,8 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     lsf_bind_texture(9, gbuffer->seen.gloss);
     lsf_bind_texture(10, gbuffer->tint);
     lsf_bind_texture(11, gbuffer->absorption);
+    lsf_bind_texture(12, parts->sky.irradiance);
+    lsf_bind_texture(13, parts->sky.specular);
     lsf_scene_gpu_bind_environment(iteration->scene);
     glUniform3fv(0, 1, iteration->plan->background.radiance);
     lsf_draw_fullscreen(pass->context);

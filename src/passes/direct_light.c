@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/base.h"
+
 #include "plan/light_walls.h"
 #include "shared/scene_data.h"
 
@@ -40,7 +42,15 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
         lsf_plan_switch_add(plan, "LSF_SHADOW_SKY", 1, "directions of the environment");
         lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", (int)use->chance,
                             "what else finds the environment");
+        lsf_plan_switch_add(plan, "LSF_SKY_PATTERN", (int)plan->sky_pattern,
+                            "their light is filtered: pixels of such a pattern take turns");
     }
+    if (plan->sky_pattern > 0)
+        lsf_plan_texture_add(plan, "direct_light.sky_irradiance", GL_RGBA32F, plan->width,
+                             plan->height, "light of the environment, to be filtered");
+    if (plan->sky_pattern > 0 && plan->requirements.specular)
+        lsf_plan_texture_add(plan, "direct_light.sky_specular", GL_RGBA32F, plan->width,
+                             plan->height, "light of the environment, to be filtered");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
                          "the sum over lights");
 }
@@ -58,6 +68,23 @@ static bool create_program(lsf_context *context, const lsf_plan *plan, const cha
     return *timer != NULL;
 }
 
+static bool create_sky(lsf_direct_light *pass, const lsf_plan *plan, lsf_error *error)
+{
+    if (plan->sky_pattern == 0)
+        return true;
+    if (!lsf_plan_create_texture(plan, pass->context, "direct_light.sky_irradiance",
+                                 &pass->sky.irradiance, error) ||
+        !lsf_plan_create_texture_if_planned(plan, pass->context, "direct_light.sky_specular",
+                                            &pass->sky.specular, error))
+        return false;
+    const lsf_framebuffer_desc desc = {.label = "sky_light",
+                                       .color_count = 2,
+                                       .colors = {pass->sky.irradiance, pass->sky.specular},
+                                       .layer = -1};
+    pass->sky_framebuffer = lsf_framebuffer_create(pass->context, &desc, error);
+    return pass->sky_framebuffer != 0;
+}
+
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_direct_light_use *use, lsf_error *error)
 {
@@ -67,14 +94,17 @@ bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const
     lsf_framebuffer_desc desc = {
         .label = "direct_light", .color_count = 1, .colors = {pass->radiance}, .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
-    return pass->framebuffer &&
+    return pass->framebuffer && create_sky(pass, plan, error) &&
            create_program(context, plan, "direct_light", &pass->program, &pass->timer, error) &&
            create_program(context, plan, "sky_light", &pass->sky_program, &pass->sky_timer, error);
 }
 
 void lsf_direct_light_clear(lsf_direct_light *pass)
 {
-    glClearTexImage(pass->radiance, 0, GL_RGBA, GL_FLOAT, NULL);
+    const GLuint textures[] = {pass->radiance, pass->sky.irradiance, pass->sky.specular};
+    for (size_t i = 0; i < LSF_COUNT(textures); i++)
+        if (textures[i])
+            glClearTexImage(textures[i], 0, GL_RGBA, GL_FLOAT, NULL);
 }
 
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
@@ -83,13 +113,16 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     bool sky = inputs->directions > 0;
     lsf_timer *timer = sky ? pass->sky_timer : pass->timer;
     lsf_timer_begin(timer);
-    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
-                         sky ? pass->sky_program : pass->program);
-    lsf_blend_add(1);
+    bool split = sky && pass->sky_framebuffer;
+    lsf_begin_fullscreen(split ? pass->sky_framebuffer : pass->framebuffer, iteration->plan->width,
+                         iteration->plan->height, sky ? pass->sky_program : pass->program);
+    lsf_blend_add(split && pass->sky.specular ? 2 : 1);
     lsf_surface_maps_bind(inputs->seen);
     lsf_shadow_bind(inputs->shadow);
     if (sky)
         glUniform1i(0, (GLint)inputs->directions);
+    if (split)
+        glUniform2i(2, (GLint)inputs->first, (GLint)iteration->index);
     if (sky && pass->use.chance != LSF_SKY_CHANCE_NONE)
         glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.paths);
     lsf_draw_fullscreen(pass->context);
@@ -101,7 +134,10 @@ void lsf_direct_light_destroy(lsf_direct_light *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->sky_framebuffer);
     lsf_texture_destroy(pass->context, &pass->radiance);
+    lsf_texture_destroy(pass->context, &pass->sky.irradiance);
+    lsf_texture_destroy(pass->context, &pass->sky.specular);
     lsf_timer_destroy(pass->timer);
     lsf_timer_destroy(pass->sky_timer);
     memset(pass, 0, sizeof *pass);

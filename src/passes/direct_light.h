@@ -8,6 +8,7 @@
 typedef struct lsf_direct_light_inputs {
     const lsf_surface_maps *seen;
     const lsf_shadow *shadow;
+    uint32_t first;      /* of the directions, among those of the iteration */
     uint32_t directions; /* of the environment that the shadow is of; 0: it is of a light */
 } lsf_direct_light_inputs;
 
@@ -28,7 +29,10 @@ typedef struct lsf_direct_light_use {
 
 typedef struct lsf_direct_light {
     lsf_context *context;
-    GLuint radiance; /* output: RGBA32F, the sum over lights since lsf_direct_light_clear */
+    GLuint radiance;     /* output: RGBA32F, the sum over lights since lsf_direct_light_clear */
+    lsf_split_light sky; /* output: light of the environment's directions where it is filtered, of
+                          * which a pixel has its share of the pattern; else it is in `radiance` */
+    GLuint sky_framebuffer;
     GLuint framebuffer, program, sky_program; /* 0: there are no such lights */
     lsf_direct_light_use use;
     lsf_timer *timer, *sky_timer;

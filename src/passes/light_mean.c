@@ -16,7 +16,7 @@ static const lsf_texture_row textures[] = {
      "for light_filter"},
 };
 
-void lsf_light_mean_plan(lsf_plan *plan, bool split_direct)
+void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
@@ -30,7 +30,10 @@ void lsf_light_mean_plan(lsf_plan *plan, bool split_direct)
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
     lsf_scene_gpu_lobe_switches(plan, gloss);
-    lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", split_direct, "direct light is asked for apart");
+    lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light bounces, or comes by chance");
+    lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
+                        "direct light is asked for apart");
+    lsf_plan_switch_add(plan, "LSF_SKY_LIGHT", use->sky, "directions of the environment");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
 }
 
@@ -65,6 +68,8 @@ void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
     lsf_bind_texture(4, parts->indirect.specular);
     lsf_bind_texture(7, parts->split_direct.irradiance);
     lsf_bind_texture(8, parts->split_direct.specular);
+    lsf_bind_texture(12, parts->sky.irradiance);
+    lsf_bind_texture(13, parts->sky.specular);
     lsf_bind_texture(10, parts->gbuffer->tint);
     lsf_bind_texture(11, parts->gbuffer->absorption);
     for (GLuint i = 0; i < LSF_COUNT(means); i++)

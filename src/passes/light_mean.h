@@ -6,6 +6,11 @@
 #include "plan/iteration.h"
 #include "plan/maps.h"
 
+/* Which parts of light there are. */
+typedef struct lsf_light_mean_use {
+    bool indirect, split_direct, sky;
+} lsf_light_mean_use;
+
 /* RGBA32F, of the picture's size. */
 typedef struct lsf_light_mean_part {
     GLuint light;  /* R, G, B: mean radiance towards the eye; A: sum of squared deviations of its
@@ -23,8 +28,7 @@ typedef struct lsf_light_mean {
     lsf_timer *timer;
 } lsf_light_mean;
 
-/* `split_direct`: direct light comes in textures of its own. */
-void lsf_light_mean_plan(lsf_plan *plan, bool split_direct);
+void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use);
 bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf_plan *plan,
                            lsf_error *error);
 /* Adds an iteration's parts but for `direct`; `gate` as for lsf_accumulate_run. */

@@ -32,6 +32,7 @@ typedef struct lsf_light_parts {
     const lsf_gbuffer_maps *gbuffer;
     GLuint direct;                /* RGBA32F, reflected radiance of direct light; 0: none */
     lsf_split_light split_direct; /* direct light beside that */
+    lsf_split_light sky;          /* ... of the environment's directions, beside both */
     lsf_split_light indirect;
 } lsf_light_parts;
 

@@ -60,9 +60,11 @@ struct lsf_plan {
     lsf_seen_background background;
     bool transmission; /* there are materials that transmit light */
     bool straight;     /* ... and it goes straight through them, for the technique cannot refract */
-    bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
-    bool filtered;       /* light_filter takes the noise out of the mean */
-    bool failed;         /* memory ran out while it was filled */
+    bool random_samples;  /* plain random numbers pick light samples, not low-discrepancy ones */
+    uint32_t sky_pattern; /* side of the pattern in which pixels take different ones of these; 0:
+                           * their light is not filtered, all pixels take all */
+    bool filtered;        /* light_filter takes the noise out of the mean */
+    bool failed;          /* memory ran out while it was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;
     lsf_plan_resource *resources;

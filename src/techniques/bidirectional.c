@@ -488,6 +488,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     }
     const lsf_light_parts parts = {.gbuffer = gbuffer,
                                    .direct = b->chain.direct_light.radiance,
+                                   .sky = b->chain.direct_light.sky,
                                    .indirect = *light,
                                    .split_direct = b->shade.outputs.direct};
     lsf_compose_run(&b->compose, iteration, &parts);

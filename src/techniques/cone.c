@@ -216,8 +216,10 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
         light = trace(c, iteration);
     else
         lsf_direct_chain_run(&c->chain.direct, iteration);
-    const lsf_light_parts parts = {
-        .gbuffer = gbuffer, .direct = direct->direct_light.radiance, .indirect = light};
+    const lsf_light_parts parts = {.gbuffer = gbuffer,
+                                   .direct = direct->direct_light.radiance,
+                                   .sky = direct->direct_light.sky,
+                                   .indirect = light};
     lsf_compose_run(&c->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){.parts = parts, .layers = c->compose.outputs};
     if (c->way.traced)

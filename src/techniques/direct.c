@@ -17,7 +17,8 @@ static bool needs_compose(const lsf_plan *plan, bool lit)
 {
     const lsf_requirements *r = &plan->requirements;
     return r->emissive || r->unlit || r->environment || !lit || plan->straight ||
-           !plan->background.environment || (plan->aovs & LSF_AOV_EMISSION);
+           plan->sky_pattern > 0 || !plan->background.environment ||
+           (plan->aovs & LSF_AOV_EMISSION);
 }
 
 static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
@@ -60,7 +61,8 @@ static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique
 {
     direct *d = self;
     const lsf_light_parts parts = {.gbuffer = &d->chain.gbuffer.outputs,
-                                   .direct = d->chain.direct_light.radiance};
+                                   .direct = d->chain.direct_light.radiance,
+                                   .sky = d->chain.direct_light.sky};
     lsf_direct_chain_run(&d->chain, iteration);
     if (d->composed)
         lsf_compose_run(&d->compose, iteration, &parts);

@@ -75,6 +75,7 @@ void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteratio
     while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(&chain->sky_map, iteration)) {
         lsf_direct_light_inputs inputs = {.seen = &chain->gbuffer.outputs.seen,
                                           .shadow = &maps->shadow,
+                                          .first = maps->first,
                                           .directions = maps->count};
         lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
     }

@@ -69,6 +69,15 @@ static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
     basis->height = setup->params.height;
 }
 
+/* The largest pattern, up to that of interleaving, of whose places each gets as many directions. */
+static uint32_t sky_pattern(uint32_t directions, int32_t interleave)
+{
+    uint32_t side = (uint32_t)interleave;
+    while (directions % (side * side) != 0)
+        side--;
+    return side;
+}
+
 static bool begin_plan(lsf_setup *setup, lsf_error *error)
 {
     const lsf_render_params *params = &setup->params;
@@ -82,15 +91,17 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->width = params->width;
     plan->height = params->height;
     plan->samples = params->samples;
+    plan->filtered = !params->raw && setup->pass_params.light_filter.steps > 0;
     bool by_scene = params->bounces == LSF_BOUNCES_AUTO;
     if (technique && technique->bounces)
         plan->bounces = by_scene ? plan->requirements.bounces : params->bounces;
     plan->aovs = params->aovs;
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
+    if (plan->filtered && plan->sky_lights > 0)
+        plan->sky_pattern = sky_pattern(plan->sky_lights, setup->pass_params.interleave.size);
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);
-    plan->filtered = !params->raw && setup->pass_params.light_filter.steps > 0;
     plan->orthographic = setup->state.camera.orthographic;
     plan->background = lsf_background_resolve(setup->source, params);
     lsf_scene_gpu_plan(plan, setup->scene);
@@ -191,8 +202,12 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         lsf_plan_remark(plan, "light goes straight through materials that transmit, neither "
                               "scattered nor refracted; voxel_path and the reference do that");
     lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
-    if (plan->filtered && lsf_plan_switch_value(plan, "compose", "LSF_INDIRECT")) {
-        lsf_light_mean_plan(plan, lsf_plan_switch_value(plan, "compose", "LSF_SPLIT_DIRECT"));
+    const lsf_light_mean_use light = {
+        .indirect = lsf_plan_switch_value(plan, "compose", "LSF_INDIRECT"),
+        .split_direct = lsf_plan_switch_value(plan, "compose", "LSF_SPLIT_DIRECT"),
+        .sky = lsf_plan_switch_value(plan, "compose", "LSF_SKY_LIGHT")};
+    if (plan->filtered && (light.indirect || light.sky)) {
+        lsf_light_mean_plan(plan, &light);
         lsf_light_filter_plan(plan, &setup->pass_params.light_filter);
     }
     if (params->rgb8 || params->present)
