@@ -38,6 +38,22 @@ static void take_out_indices(json &root, gltf_checked &checked)
     }
 }
 
+/* Channels without a node are legal: extensions say what they target. False when there are none. */
+static bool name_no_nodes(json &root)
+{
+    bool any = false;
+    auto animations = root.find("animations");
+    for (size_t a = 0; animations != root.end() && a < animations->size(); a++)
+        for (json &channel : (*animations)[a]["channels"]) {
+            json &target = channel["target"];
+            if (target.contains("node"))
+                continue;
+            target["node"] = -1;
+            any = true;
+        }
+    return any;
+}
+
 void adapt_document(json &root, gltf_checked &checked)
 {
     bool placeholders = false;
@@ -50,7 +66,8 @@ void adapt_document(json &root, gltf_checked &checked)
                                    buffer["byteLength"].get<uint64_t>(), placeholder});
     }
     take_out_indices(root, checked);
-    if (!placeholders && checked.indices_without_view.empty())
+    bool nodeless = name_no_nodes(root);
+    if (!placeholders && !nodeless && checked.indices_without_view.empty())
         return;
     for (size_t i = 0; i < checked.buffers.size(); i++) {
         json &buffer = (*buffers)[i];

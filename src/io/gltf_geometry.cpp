@@ -101,7 +101,7 @@ static stream_choice choose_streams(const gltf_import &import)
             if (!mode_is_triangles(primitive.mode))
                 continue;
             const lsf_material &material = material_of(import, primitive);
-            streams.tangent = streams.tangent || lsf_material_wants_tangents(&material);
+            streams.tangent = streams.tangent || material.has_tangents;
             streams.uv0 = streams.uv0 || lsf_material_wants_uv(&material, 0);
             streams.uv1 = streams.uv1 || lsf_material_wants_uv(&material, 1);
             streams.color = streams.color || find_attribute(primitive, "COLOR_0") >= 0;
@@ -348,8 +348,7 @@ void geometry_importer::add_primitive(const tinygltf::Primitive &source, size_t 
     primitive.deformer = LSF_NONE;
     primitive.material = (uint32_t)(&material - scene_->materials);
     bool flat = find_attribute(source, "NORMAL") < 0;
-    bool tangents =
-        lsf_material_wants_tangents(&material) && (flat || find_attribute(source, "TANGENT") < 0);
+    bool tangents = material.has_tangents && (flat || find_attribute(source, "TANGENT") < 0);
     if (flat || tangents)
         add_computed(source, mesh, location, flat, tangents, primitive);
     else

@@ -5,6 +5,7 @@
 
 #include "io/io.h"
 #include "scene/mesh_frame.h"
+#include "scene/property.h"
 
 /* Images are decoded elsewhere. */
 #define TINYGLTF_NO_STB_IMAGE
@@ -17,8 +18,10 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace lsf
@@ -163,6 +166,18 @@ struct gltf_repairs {
     uint64_t textures_without_image = 0, negative_colors = 0;
 };
 
+/* What a channel of an animation changes. */
+struct gltf_target {
+    std::string location, pointer; /* no pointer: a node's own path */
+    size_t animation = 0, channel = 0;
+    lsf_kind of = LSF_KIND_NODE;
+    size_t index = 0;                       /* of the file's node, material, light or camera */
+    const lsf_property *property = nullptr; /* NULL: `path` of the node */
+    uint32_t slot = LSF_NONE;
+    lsf_animation_path path = LSF_PATH_TRANSLATION;
+    int weight = -1; /* of the node's, -1: all */
+};
+
 struct gltf_import {
     gltf_import(lsf_scene *s, const lsf_scene_params *p)
         : scene(s), params(p), budget(p->memory_limit)
@@ -175,7 +190,10 @@ struct gltf_import {
     std::string_view memory;  /* the content; without data: it is read from the file */
     memory_budget budget;
     tinygltf::Model model;
-    std::vector<bool> placeholders; /* by file's buffer */
+    std::vector<bool> placeholders;   /* by file's buffer */
+    std::vector<gltf_target> targets; /* of the animations that play */
+    /* Kind, index and property of those that are not a node's path. */
+    std::set<std::tuple<lsf_kind, size_t, const lsf_property *>> animated;
     gltf_repairs repairs;
 
     size_t chosen_scene = 0;         /* by file's index; no meaning without scenes */
@@ -185,6 +203,9 @@ struct gltf_import {
     std::vector<uint32_t> skin_of;   /* file's skin -> scene's; LSF_NONE: not used yet */
     uint64_t shape_capacity = 0;
     std::vector<uint32_t> material_of; /* file's material -> scene's; LSF_NONE: not used */
+    std::vector<uint32_t> light_of;    /* file's light -> scene's; LSF_NONE: not used */
+    std::vector<size_t> camera_source; /* scene's camera -> file's */
+    std::vector<bool> never_seen;      /* scene's nodes that no animation shows, with those below */
 };
 
 /* What a node of that name takes, its matrix included once all are placed (gltf_nodes.cpp). */
@@ -193,6 +214,7 @@ uint64_t node_bytes(const char *name);
 void gltf_document_read(gltf_import &import);     /* gltf_document.cpp */
 void gltf_meshopt_decode(gltf_import &import);    /* gltf_meshopt.cpp */
 void gltf_choices_make(gltf_import &import);      /* gltf_choices.cpp */
+void gltf_targets_read(gltf_import &import);      /* gltf_targets.cpp: of animations */
 void gltf_nodes_import(gltf_import &import);      /* gltf_nodes.cpp */
 void gltf_draco_decode(gltf_import &import);      /* gltf_draco.cpp */
 void gltf_instancing_import(gltf_import &import); /* gltf_instancing.cpp */
@@ -201,6 +223,10 @@ void gltf_materials_import(gltf_import &import);  /* gltf_materials.cpp */
 void gltf_geometry_import(gltf_import &import);   /* gltf_geometry.cpp */
 void gltf_animations_import(gltf_import &import); /* gltf_animations.cpp */
 void gltf_notes_add(gltf_import &import);         /* gltf_notes.cpp */
+
+/* Whether an animation that plays changes what stands there in the object model, behind the index.
+ */
+bool is_animated(const gltf_import &import, lsf_kind of, size_t index, const char *name);
 
 /* Sets the transform of a node without a matrix; the rotation (x, y, z, w) is made unit. */
 void set_trs(gltf_import &import, const double translation[3], const double rotation[4],

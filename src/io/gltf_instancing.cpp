@@ -126,7 +126,7 @@ void gltf_instancing_import(gltf_import &import)
         const tinygltf::Node &source = import.model.nodes[i];
         auto extension = source.extensions.find("EXT_mesh_gpu_instancing");
         if (extension == source.extensions.end() || source.mesh < 0 ||
-            import.node_of[i] == LSF_NONE)
+            import.node_of[i] == LSF_NONE || import.never_seen[import.node_of[i]])
             continue;
         add_instances(import, import.node_of[i], extension->second.Get("attributes"),
                       location_of("nodes", i) + "/extensions/EXT_mesh_gpu_instancing");

@@ -84,6 +84,7 @@ static uint64_t import_scene(lsf_scene *scene, const lsf_gltf_source &source,
     gltf_meshopt_decode(import);
     accessors_check(import);
     gltf_choices_make(import);
+    gltf_targets_read(import);
     gltf_nodes_import(import);
     gltf_draco_decode(import);
     gltf_instancing_import(import);

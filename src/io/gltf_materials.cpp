@@ -190,37 +190,27 @@ void texture_importer::finish()
 
 /* --- texture slots --- */
 
-static const lsf_texture_slot empty_slot = {LSF_NONE, 0, {1, 0, 0, 0, 1, 0}};
+static const lsf_texture_slot empty_slot = lsf_default_material(false).normal_texture;
 
 static double number_in(const Value &object, const char *key, double otherwise)
 {
     return object.IsObject() && object.Has(key) ? object.Get(key).GetNumberAsDouble() : otherwise;
 }
 
-/* KHR_texture_transform: T * R * S, where R turns the coordinates counter-clockwise as seen in the
- * image (v points down), as Khronos' TextureTransformTest shows. */
 static void apply_transform(const tinygltf::ExtensionMap &extensions, lsf_texture_slot &slot)
 {
     auto found = extensions.find("KHR_texture_transform");
     if (found == extensions.end())
         return;
     const Value &transform = found->second;
-    double angle = number_in(transform, "rotation", 0.0);
-    glm::dvec2 offset(0.0), scale(1.0);
+    double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0};
     for (int i = 0; i < 2; i++) {
         if (transform.Has("offset"))
             offset[i] = transform.Get("offset").Get(i).GetNumberAsDouble();
         if (transform.Has("scale"))
             scale[i] = transform.Get("scale").Get(i).GetNumberAsDouble();
     }
-    double c = std::cos(angle), s = std::sin(angle);
-    glm::dmat2 rotation(c, -s, s, c); /* by columns */
-    glm::dmat2 matrix = rotation * glm::dmat2(scale.x, 0.0, 0.0, scale.y);
-    for (int row = 0; row < 2; row++) {
-        slot.transform[3 * row] = (float)matrix[0][row];
-        slot.transform[3 * row + 1] = (float)matrix[1][row];
-        slot.transform[3 * row + 2] = (float)offset[row];
-    }
+    lsf_texture_slot_place(&slot, offset, number_in(transform, "rotation", 0.0), scale);
     slot.uv_set = (uint32_t)number_in(transform, "texCoord", slot.uv_set);
 }
 
@@ -301,7 +291,9 @@ static void read_base(texture_importer &textures, const tinygltf::Material &sour
     auto found = source.extensions.find("KHR_materials_emissive_strength");
     if (found != source.extensions.end())
         strength = number_in(found->second, "emissiveStrength", 1.0);
+    material.emissive_strength = (float)strength;
     for (size_t c = 0; c < 3; c++) {
+        material.emissive_factor[c] = (float)source.emissiveFactor[c];
         material.emission[c] = (float)(source.emissiveFactor[c] * strength);
         if (!std::isfinite(material.emission[c]))
             fail("VALUE_NOT_IN_RANGE", location,
@@ -320,12 +312,12 @@ static void read_specular(texture_importer &textures, const Value &extension,
 }
 
 static void read_sheen(texture_importer &textures, const Value &extension,
-                       const std::string &location, lsf_material &material)
+                       const std::string &location, bool animated, lsf_material &material)
 {
     read_color(extension, "sheenColorFactor", material.sheen_color);
     material.sheen_roughness = (float)number_in(extension, "sheenRoughnessFactor", 0.0);
     const float *color = material.sheen_color;
-    if (!(color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f))
+    if (!(color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f || animated))
         return;
     material.sheen_color_texture =
         extension_slot(textures, extension, "sheenColorTexture", location, true);
@@ -334,11 +326,11 @@ static void read_sheen(texture_importer &textures, const Value &extension,
 }
 
 static void read_coat(texture_importer &textures, const Value &extension,
-                      const std::string &location, lsf_material &material)
+                      const std::string &location, bool animated, lsf_material &material)
 {
     material.coat = (float)number_in(extension, "clearcoatFactor", 0.0);
     material.coat_roughness = (float)number_in(extension, "clearcoatRoughnessFactor", 0.0);
-    if (!(material.coat > 0.0f))
+    if (!(material.coat > 0.0f || animated))
         return;
     material.coat_texture = extension_slot(textures, extension, "clearcoatTexture", location);
     material.coat_roughness_texture =
@@ -391,9 +383,14 @@ static void read_metallic_roughness(texture_importer &textures,
         core_slot(textures, pbr.metallicRoughnessTexture, false, location);
 }
 
-static void read_surface(texture_importer &textures, const tinygltf::Material &source,
-                         const std::string &location, lsf_material &material)
+static void read_surface(const gltf_import &import, texture_importer &textures, size_t index,
+                         lsf_material &material)
 {
+    static const char SHEEN_COLOR[] = "extensions/KHR_materials_sheen/sheenColorFactor";
+    static const char COAT[] = "extensions/KHR_materials_clearcoat/clearcoatFactor";
+    static const char ANISOTROPY[] = "extensions/KHR_materials_anisotropy/anisotropyStrength";
+    const tinygltf::Material &source = import.model.materials[index];
+    std::string location = location_of("materials", index);
     auto glossiness = source.extensions.find(SPECULAR_GLOSSINESS);
     if (glossiness == source.extensions.end())
         read_metallic_roughness(textures, source.pbrMetallicRoughness, location, material);
@@ -416,9 +413,11 @@ static void read_surface(texture_importer &textures, const tinygltf::Material &s
         } else if (name == "KHR_materials_specular") {
             read_specular(textures, extension, location, material);
         } else if (name == "KHR_materials_sheen") {
-            read_sheen(textures, extension, location, material);
+            read_sheen(textures, extension, location,
+                       is_animated(import, LSF_KIND_MATERIAL, index, SHEEN_COLOR), material);
         } else if (name == "KHR_materials_clearcoat") {
-            read_coat(textures, extension, location, material);
+            read_coat(textures, extension, location,
+                      is_animated(import, LSF_KIND_MATERIAL, index, COAT), material);
         } else if (name == "KHR_materials_anisotropy") {
             material.anisotropy_strength = (float)number_in(extension, "anisotropyStrength", 0.0);
             material.anisotropy_rotation = (float)number_in(extension, "anisotropyRotation", 0.0);
@@ -428,6 +427,8 @@ static void read_surface(texture_importer &textures, const tinygltf::Material &s
     }
     if (glossiness != source.extensions.end())
         read_specular_glossiness(textures, glossiness->second, location, material);
+    material.has_tangents = lsf_material_wants_tangents(&material) ||
+                            is_animated(import, LSF_KIND_MATERIAL, index, ANISOTROPY);
 }
 
 static std::vector<bool> find_used(const gltf_import &import)
@@ -456,8 +457,7 @@ void gltf_materials_import(gltf_import &import)
         lsf_material material = lsf_default_material(import.params->diffuse_only);
         read_base(textures, source, location, material);
         if (!import.params->diffuse_only)
-            read_surface(textures, source, location, material);
-        material.has_tangents = lsf_material_wants_tangents(&material);
+            read_surface(import, textures, i, material);
         import.material_of[i] = (uint32_t)materials.size();
         materials.push_back(material);
         names.push_back(source.name);

@@ -115,6 +115,15 @@ static void set_transform(gltf_import &import, const tinygltf::Node &source,
              "the last row must be 0, 0, 0, 1; export the file again");
 }
 
+/* KHR_node_visibility, unless an animation shows it. */
+static bool is_never_seen(const gltf_import &import, uint32_t index)
+{
+    auto extension = import.model.nodes[index].extensions.find("KHR_node_visibility");
+    return extension != import.model.nodes[index].extensions.end() &&
+           extension->second.Has("visible") && !extension->second.Get("visible").Get<bool>() &&
+           !is_animated(import, LSF_KIND_NODE, index, lsf_property_visible->name);
+}
+
 uint64_t node_bytes(const char *name)
 {
     const uint64_t block_bytes = 32; /* what a short text takes of the heap */
@@ -147,8 +156,12 @@ void gltf_nodes_import(gltf_import &import)
         node.mesh = source.mesh >= 0 ? (uint32_t)source.mesh : LSF_NONE;
         node.camera = node.light = LSF_NONE;
         set_transform(import, source, location_of("nodes", order[i]), node);
-        if (source.mesh >= 0)
-            import.mesh_used[(size_t)source.mesh] = true;
+        bool below = node.parent != LSF_NONE && import.never_seen[node.parent];
+        import.never_seen.push_back(below || is_never_seen(import, order[i]));
+        if (import.never_seen[i])
+            node.mesh = LSF_NONE;
+        if (node.mesh != LSF_NONE)
+            import.mesh_used[node.mesh] = true;
     }
 }
 

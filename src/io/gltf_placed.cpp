@@ -49,6 +49,7 @@ static void import_cameras(gltf_import &import)
         lsf_camera camera = make_camera(source, location_of("cameras", (size_t)node.camera));
         camera.node = import.node_of[i];
         import.scene->nodes[camera.node].camera = (uint32_t)cameras.size();
+        import.camera_source.push_back((size_t)node.camera);
         cameras.push_back(camera);
         const std::string &name = source.name.empty() ? node.name : source.name;
         import.budget.take(2, name.size(), location_of("nodes", i)); /* in both lists */
@@ -67,10 +68,12 @@ static lsf_light make_light(const tinygltf::Light &source, const std::string &lo
                                          : LSF_LIGHT_DIRECTIONAL;
     for (size_t c = 0; c < 3; c++) {
         double color = source.color.empty() ? 1.0 : source.color[c];
+        light.color[c] = (float)color;
         light.intensity[c] = (float)(color * source.intensity);
         if (!std::isfinite(light.intensity[c]))
             fail("VALUE_NOT_IN_RANGE", location, "color times intensity is too large for a float");
     }
+    light.strength = (float)source.intensity;
     light.range = source.range > 0.0 ? (float)source.range : INFINITY;
     if (light.type == LSF_LIGHT_SPOT) {
         double inner = source.spot.innerConeAngle, outer = source.spot.outerConeAngle;
@@ -89,11 +92,13 @@ static void import_lights(gltf_import &import)
 {
     std::vector<lsf_light> lights;
     std::vector<std::string> names;
-    std::vector<uint32_t> light_of(import.model.lights.size(), LSF_NONE);
+    std::vector<uint32_t> &light_of = import.light_of;
+    light_of.assign(import.model.lights.size(), LSF_NONE);
     for (size_t i = 0; i < import.model.nodes.size(); i++) {
         const tinygltf::Node &node = import.model.nodes[i];
         auto extension = node.extensions.find("KHR_lights_punctual");
-        if (extension == node.extensions.end() || import.node_of[i] == LSF_NONE)
+        if (extension == node.extensions.end() || import.node_of[i] == LSF_NONE ||
+            import.never_seen[import.node_of[i]])
             continue;
         size_t index = (size_t)extension->second.Get("light").GetNumberAsInt();
         if (light_of[index] == LSF_NONE) {

@@ -19,7 +19,8 @@ static const uint64_t DEPTH_MAX = 64;
 
 static const char *const supported_extensions[] = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
-    "EXT_texture_webp",           "KHR_draco_mesh_compression",
+    "EXT_texture_webp",           "KHR_animation_pointer",
+    "KHR_draco_mesh_compression", "KHR_node_visibility",
     "KHR_lights_punctual",        "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
     "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",

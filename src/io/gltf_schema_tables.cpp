@@ -289,9 +289,12 @@ static const rule node_light_rules[] = {reference("light", REQUIRED, "lights")};
 static const schema node_light = of(node_light_rules);
 static const rule instancing_rules[] = {{"attributes", shape::attributes, REQUIRED}};
 static const schema instancing = of(instancing_rules);
+static const rule visibility_rules[] = {flag("visible")};
+static const schema visibility = of(visibility_rules);
 static const rule node_extension_rules[] = {
     object("EXT_mesh_gpu_instancing", OPTIONAL, &instancing),
-    object("KHR_lights_punctual", OPTIONAL, &node_light)};
+    object("KHR_lights_punctual", OPTIONAL, &node_light),
+    object("KHR_node_visibility", OPTIONAL, &visibility)};
 static const schema node_extensions = of(node_extension_rules);
 
 static const rule node_rules[] = {reference("camera", OPTIONAL, "cameras"),
@@ -312,7 +315,12 @@ static const schema scene = of(scene_rules);
 
 /* --- animations, skins --- */
 
-static const rule target_rules[] = {reference("node", OPTIONAL, "nodes"), text("path", REQUIRED)};
+static const rule pointer_rules[] = {text("pointer", REQUIRED)};
+static const schema pointer = of(pointer_rules);
+static const rule target_extension_rules[] = {object("KHR_animation_pointer", OPTIONAL, &pointer)};
+static const schema target_extensions = of(target_extension_rules);
+static const rule target_rules[] = {reference("node", OPTIONAL, "nodes"), text("path", REQUIRED),
+                                    extensions(&target_extensions)};
 static const schema target = of(target_rules);
 static const rule channel_rules[] = {integer("sampler", REQUIRED, 0, ANY_INT),
                                      object("target", REQUIRED, &target)};

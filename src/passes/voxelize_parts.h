@@ -11,6 +11,7 @@
 typedef struct lsf_voxelize_still {
     bool *moves;             /* of each instance; NULL: nothing is kept */
     float (*transforms)[12]; /* of each instance, as of the last run */
+    bool *drawn;             /* whether it was there then */
     uint32_t instance_count;
     const lsf_scene *scene;
     float *values;                          /* of the pose, as of the last run */

@@ -60,7 +60,8 @@ static bool find_moving(lsf_voxelize_still *still, const lsf_scene *scene)
     still->moves = lsf_alloc(scene->instance_count, sizeof *still->moves);
     still->transforms = lsf_alloc(scene->instance_count, sizeof *still->transforms);
     still->values = lsf_alloc(lsf_pose_value_count(scene), sizeof *still->values);
-    return still->moves && still->transforms && still->values &&
+    still->drawn = lsf_alloc(scene->instance_count, sizeof *still->drawn);
+    return still->moves && still->transforms && still->values && still->drawn &&
            lsf_scene_moving_instances(scene, still->moves);
 }
 
@@ -93,6 +94,8 @@ bool lsf_voxelize_still_moved(lsf_voxelize *pass, const lsf_state *state)
         const float *now = state->instances[i].transform;
         moved = moved || memcmp(still->transforms[i], now, sizeof still->transforms[i]) != 0;
         memcpy(still->transforms[i], now, sizeof still->transforms[i]);
+        moved = moved || still->drawn[i] == state->instances[i].skipped;
+        still->drawn[i] = !state->instances[i].skipped;
     }
     const float *values = state->pose.values;
     if (still->moves && values) {
@@ -152,5 +155,6 @@ void lsf_voxelize_still_destroy(lsf_voxelize *pass)
     lsf_buffer_destroy(pass->context, &still->bricks);
     free(still->moves);
     free(still->transforms);
+    free(still->drawn);
     free(still->values);
 }

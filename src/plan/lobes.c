@@ -79,7 +79,7 @@ bool lsf_scene_gpu_create_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_er
 void lsf_scene_gpu_update_lobes(lsf_scene_gpu *gpu)
 {
     for (uint32_t i = 0; gpu->lobes && i < gpu->scene->material_count; i++) {
-        const struct lsf_lobe_data data = lobe_data(&gpu->scene->materials[i]);
+        const struct lsf_lobe_data data = lobe_data(&gpu->surfaces[i]);
         glNamedBufferSubData(gpu->lobes, (GLintptr)(i * sizeof data), sizeof data, &data);
     }
 }

@@ -42,6 +42,10 @@ bool lsf_scene_dynamic_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_erro
         if (!gpu->posed || !gpu->posed_before)
             return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for joints and weights");
     }
+    gpu->material_values = lsf_alloc(scene->animated_width, sizeof *gpu->material_values);
+    gpu->drawn = lsf_alloc(scene->instance_count, sizeof *gpu->drawn);
+    if (!gpu->material_values || !gpu->drawn)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for what is animated");
     gpu->anew = true;
     return lsf_plan_create_buffer_if_planned(plan, gpu->context, "scene.instances", NULL, dynamic,
                                              &gpu->instances, error) &&
@@ -68,6 +72,10 @@ void lsf_scene_dynamic_destroy(lsf_scene_gpu *gpu)
     free(gpu->posed);
     free(gpu->posed_before);
     free(gpu->corners);
+    free(gpu->material_values);
+    free(gpu->drawn);
+    gpu->material_values = NULL;
+    gpu->drawn = NULL;
     gpu->posed = gpu->posed_before = NULL;
     gpu->placed = NULL;
     gpu->placed_before = NULL;
@@ -77,7 +85,7 @@ void lsf_scene_dynamic_destroy(lsf_scene_gpu *gpu)
 static void update_materials(lsf_scene_gpu *gpu)
 {
     for (uint32_t i = 0; i < gpu->scene->material_count; i++) {
-        const material_data data = lsf_scene_gpu_material(gpu->scene, i);
+        const material_data data = lsf_scene_gpu_material(gpu->scene, &gpu->surfaces[i], i);
         glNamedBufferSubData(gpu->materials, (GLintptr)(i * sizeof data), sizeof data, &data);
     }
     lsf_scene_gpu_update_lobes(gpu);
@@ -88,7 +96,7 @@ static void update_materials(lsf_scene_gpu *gpu)
 /* Whether it holds those of an instance. */
 static bool is_listed(const lsf_scene_gpu *gpu, const lsf_instance_state *instance)
 {
-    const lsf_material *material = &gpu->scene->materials[instance->material];
+    const lsf_material *material = &gpu->surfaces[instance->material];
     return !instance->skipped && material->alpha_mode == LSF_ALPHA_OPAQUE &&
            !(gpu->straight && material->transmission > 0.0f);
 }
@@ -194,12 +202,15 @@ static instance_data place(const lsf_instance_state *instance, uint32_t index)
                            {n[6], n[7], n[8], (float)index}};
 }
 
-/* Whether some instance moved. */
+/* Whether some instance moved, came or went. */
 static bool update_instances(lsf_scene_gpu *gpu, const lsf_state *state)
 {
     bool any = false;
     for (uint32_t i = 0; i < state->instance_count; i++) {
         const instance_data data = place(&state->instances[i], i);
+        bool drawn = !state->instances[i].skipped;
+        any = any || gpu->drawn[i] != drawn;
+        gpu->drawn[i] = drawn;
         if (!gpu->anew && memcmp(&data, &gpu->placed[i], sizeof data) == 0)
             continue;
         gpu->placed[i] = data;
@@ -272,11 +283,26 @@ static void update_previous(lsf_scene_gpu *gpu, const lsf_state *previous, bool 
     }
 }
 
+/* Whether the materials are others than those that were uploaded, by an edit or an animation. */
+static bool materials_changed(lsf_scene_gpu *gpu, const lsf_animated *animated)
+{
+    const lsf_scene *scene = gpu->scene;
+    uint64_t edits = scene->edits.materials;
+    bool changed = gpu->anew || gpu->material_edits != edits ||
+                   !lsf_animated_has(scene, LSF_KIND_MATERIAL, animated, gpu->material_values);
+    gpu->material_edits = edits;
+    if (changed && animated->values)
+        memcpy(gpu->material_values, animated->values,
+               scene->animated_width * sizeof *gpu->material_values);
+    return changed;
+}
+
 void lsf_scene_gpu_update(lsf_scene_gpu *gpu, const lsf_state *state, const lsf_state *previous)
 {
-    bool edited = gpu->anew || gpu->material_edits != gpu->scene->edits.materials;
+    gpu->surfaces = state->animated.materials;
     if (!gpu->positions)
         return;
+    bool edited = materials_changed(gpu, &state->animated);
     if (edited)
         update_materials(gpu);
     bool moved = update_instances(gpu, state);
@@ -285,6 +311,5 @@ void lsf_scene_gpu_update(lsf_scene_gpu *gpu, const lsf_state *state, const lsf_
         update_triangles(gpu, state);
     if (previous)
         update_previous(gpu, previous, gpu->anew);
-    gpu->material_edits = gpu->scene->edits.materials;
     gpu->anew = false;
 }

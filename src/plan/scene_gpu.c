@@ -172,9 +172,9 @@ struct lsf_texture_slot_data lsf_scene_gpu_slot(const lsf_texture_slot *slot)
         {t[3], t[4], t[5], (float)slot->uv_set}};
 }
 
-struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t material)
+struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, const lsf_material *m,
+                                                uint32_t material)
 {
-    const lsf_material *m = &scene->materials[material];
     float absorption[3];
     lsf_scene_absorption(scene, m, absorption);
     return (material_data){
@@ -453,18 +453,17 @@ void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_dr
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, gpu->materials);
     for (uint32_t i = 0; i < gpu->draw_count; i++) {
         const lsf_instance_state *instance = &state->instances[gpu->draw_order[i]];
-        if (!takes_part(gpu, &gpu->scene->materials[instance->material], mode))
+        if (!takes_part(gpu, &gpu->surfaces[instance->material], mode))
             continue;
         if (instance->skipped || (region && !lsf_clusters_inside(region, instance))) {
             counts[LSF_DRAW_CULLED]++;
             continue;
         }
         if (instance->material != bound)
-            bind_material(gpu, &gpu->scene->materials[bound = instance->material], mode);
+            bind_material(gpu, &gpu->surfaces[bound = instance->material], mode);
         if (mode == LSF_DRAW_SEEN)
-            lsf_cull_back(
-                lsf_material_hides_back(gpu->scene, &gpu->scene->materials[instance->material]),
-                instance->mirrored);
+            lsf_cull_back(lsf_material_hides_back(gpu->scene, &gpu->surfaces[instance->material]),
+                          instance->mirrored);
         const lsf_primitive *primitive = &gpu->scene->primitives[instance->primitive];
         counts[LSF_DRAW_INSTANCES]++;
         lsf_cluster_walk walk = lsf_clusters_walk(&gpu->clusters, gpu->scene, instance, region);
@@ -489,7 +488,7 @@ void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu)
 
 void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material, lsf_draw_mode mode)
 {
-    bind_material(gpu, &gpu->scene->materials[material], mode);
+    bind_material(gpu, &gpu->surfaces[material], mode);
 }
 
 void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state, GLuint buffer)

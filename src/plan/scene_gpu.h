@@ -34,11 +34,14 @@ typedef struct lsf_scene_gpu {
     uint32_t draw_count;
     /* What was uploaded of each instance, to tell what has changed. */
     struct lsf_instance_data *placed;
-    float (*placed_before)[12];  /* NULL without motion */
-    float *posed, *posed_before; /* values of the pose; NULL: nothing deforms */
-    float (*corners)[9];         /* of `triangles`, while something moves; else NULL */
-    uint64_t material_edits;     /* of the scene, when materials were uploaded */
-    bool anew;                   /* nothing was uploaded yet */
+    float (*placed_before)[12];   /* NULL without motion */
+    float *posed, *posed_before;  /* values of the pose; NULL: nothing deforms */
+    float (*corners)[9];          /* of `triangles`, while something moves; else NULL */
+    const lsf_material *surfaces; /* the materials of the state that was uploaded last */
+    uint64_t material_edits;      /* of the scene, when materials were uploaded */
+    double *material_values;      /* what was animated then */
+    bool *drawn;                  /* which instances were, then */
+    bool anew;                    /* nothing was uploaded yet */
 } lsf_scene_gpu;
 
 /* Lists what lsf_scene_gpu_create will create. */
@@ -117,7 +120,8 @@ void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu);
 /* For passes that rasterise by themselves: a material as shaders have it; its textures, bound as
  * `mode` says; and draws of triangles that such a pass lists in `buffer`: a
  * DrawElementsIndirectCommand for each instance, and indices anywhere. */
-struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, uint32_t material);
+struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, const lsf_material *m,
+                                                uint32_t material);
 void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material, lsf_draw_mode mode);
 void lsf_scene_gpu_draw_listed(const lsf_scene_gpu *gpu, const lsf_state *state, GLuint buffer);
 

@@ -38,7 +38,8 @@ void lsf_triangle_fetch_instance(const lsf_iteration *iteration, uint32_t instan
     const lsf_instance_state *state = &iteration->state->instances[instance];
     const lsf_scene *scene = iteration->scene->scene;
     const lsf_primitive *primitive = &scene->primitives[state->primitive];
-    struct lsf_material_data material = lsf_scene_gpu_material(scene, state->material);
+    struct lsf_material_data material = lsf_scene_gpu_material(
+        scene, &iteration->state->animated.materials[state->material], state->material);
     float normal[12] = {0};
     for (int row = 0; row < 3; row++)
         memcpy(normal + 4 * row, state->normal_transform + 3 * row, 3 * sizeof *normal);

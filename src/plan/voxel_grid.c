@@ -58,7 +58,7 @@ void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const
         brightest = fmaxf(brightest, largest(state->lights[i].intensity));
     brightest = fmaxf(brightest, (float)lsf_sky_fluence(&scene->environment));
     for (uint32_t i = 0; i < state->instance_count; i++) {
-        const lsf_material *material = &scene->materials[state->instances[i].material];
+        const lsf_material *material = &state->animated.materials[state->instances[i].material];
         brightest = fmaxf(brightest, largest(material->emission) / 256.0f);
         if (material->unlit)
             brightest = fmaxf(brightest, largest(material->base_color) / 256.0f);

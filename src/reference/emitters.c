@@ -14,7 +14,7 @@
 
 static const lsf_material *material_of(const lsf_reference_geometry *geometry, uint32_t instance)
 {
-    return &geometry->scene->materials[geometry->state->instances[instance].material];
+    return &geometry->state->animated.materials[geometry->state->instances[instance].material];
 }
 
 static bool emission_varies(const lsf_scene *scene, const lsf_material *material)

@@ -66,7 +66,8 @@ static void reject_hidden_backs(const struct RTCFilterFunctionNArguments *argume
             continue;
         uint32_t index = numbers[6 * count + i];
         const lsf_instance_state *instance = &geometry->state->instances[index];
-        if (!lsf_material_hides_back(scene, &scene->materials[instance->material]))
+        if (!lsf_material_hides_back(scene,
+                                     &geometry->state->animated.materials[instance->material]))
             continue;
         lsf_float3 direction =
             lsf_f3(rays[4 * count + i], rays[5 * count + i], rays[6 * count + i]);
@@ -133,7 +134,7 @@ static bool add_instance(lsf_reference_geometry *geometry, uint32_t index, lsf_r
                                0, 3 * sizeof(float), primitive->vertex_count);
     rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->indices, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
-    lsf_alpha_mode mode = scene->materials[instance->material].alpha_mode;
+    lsf_alpha_mode mode = geometry->state->animated.materials[instance->material].alpha_mode;
     if (mode == LSF_ALPHA_MASK || (mode == LSF_ALPHA_BLEND && use == LSF_REFERENCE_USE_PICTURE)) {
         rtcSetGeometryUserData(shape, mesh);
         rtcSetGeometryIntersectFilterFunction(shape, reject_cut_out);

@@ -61,7 +61,7 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
     memset(world, 0, sizeof *world);
     world->bounces = bounces;
     for (uint32_t i = 0; i < scene->material_count; i++)
-        world->thin_walls |= lsf_material_is_thin_wall(&scene->materials[i]);
+        world->thin_walls |= lsf_material_is_thin_wall(&state->animated.materials[i]);
     if (!lsf_reference_geometry_init(&world->geometry, scene, state, LSF_REFERENCE_USE_PICTURE,
                                      error))
         return false;

@@ -62,7 +62,7 @@ static lsf_texel base_color(const lsf_scene *scene, const lsf_material *material
 static const lsf_material *material_of(const lsf_reference_geometry *geometry,
                                        const lsf_reference_hit *hit)
 {
-    return &geometry->scene->materials[geometry->state->instances[hit->instance].material];
+    return &geometry->state->animated.materials[geometry->state->instances[hit->instance].material];
 }
 
 float lsf_reference_coverage(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit)
@@ -305,7 +305,7 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
 {
     const lsf_scene *scene = geometry->scene;
     const lsf_instance_state *instance = &geometry->state->instances[hit->instance];
-    const lsf_material *material = &scene->materials[instance->material];
+    const lsf_material *material = &geometry->state->animated.materials[instance->material];
     lsf_float3 corners[3];
     lsf_reference_corners(geometry, hit->instance, hit->triangle, corners);
     corner_weights at = find_weights(geometry, hit);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/base.h"
+#include "scene/animated.h"
 
 /* Channel of a texel's alpha; 0: the image has none. */
 static uint32_t alpha_channel(const lsf_texture_image *image)
@@ -65,9 +66,12 @@ void lsf_scene_settle_alpha(lsf_scene *scene)
     found *known = lsf_alloc(scene->image_count, sizeof *known);
     bool *opaque = lsf_alloc(scene->material_count, sizeof *opaque);
     uint8_t *vertices_known = lsf_alloc(scene->vertices.color ? scene->vertices.count : 0, 1);
+    lsf_animated_range range;
+    if (!lsf_animated_find_range(&range, scene))
+        goto done;
     for (uint32_t m = 0; known && opaque && m < scene->material_count; m++)
         opaque[m] = scene->materials[m].alpha_mode == LSF_ALPHA_BLEND &&
-                    is_opaque(scene, &scene->materials[m], known);
+                    is_opaque(scene, &range.materials[0][m], known);
     for (uint32_t p = 0; known && opaque && vertices_known && p < scene->primitive_count; p++) {
         const lsf_primitive *primitive = &scene->primitives[p];
         if (opaque[primitive->material])
@@ -76,6 +80,8 @@ void lsf_scene_settle_alpha(lsf_scene *scene)
     for (uint32_t m = 0; known && opaque && vertices_known && m < scene->material_count; m++)
         if (opaque[m])
             scene->materials[m].alpha_mode = LSF_ALPHA_OPAQUE;
+    lsf_animated_range_finish(&range);
+done:
     free(known);
     free(opaque);
     free(vertices_known);

@@ -93,7 +93,7 @@ static bool open_stream(growth *g, lsf_stream_kind kind, bool wanted)
 
 static bool open_streams(growth *g)
 {
-    return open_stream(g, LSF_STREAM_TANGENT, lsf_material_wants_tangents(g->material)) &&
+    return open_stream(g, LSF_STREAM_TANGENT, g->material->has_tangents) &&
            open_stream(g, LSF_STREAM_UV0, lsf_material_wants_uv(g->material, 0)) &&
            open_stream(g, LSF_STREAM_UV1, lsf_material_wants_uv(g->material, 1)) &&
            open_stream(g, LSF_STREAM_COLOR, g->part->colors != NULL);
@@ -188,7 +188,7 @@ static bool complete_tangents(growth *g)
     if (g->scene->vertices.tangent && !g->flat && g->part->tangents)
         lsf_unit_tangents(g->scene->vertices.normal + 3 * g->first,
                           g->scene->vertices.tangent + 4 * g->first, g->count, g->repairs);
-    else if (lsf_material_wants_tangents(g->material))
+    else if (g->material->has_tangents)
         return make_tangents(g);
     return true;
 }

@@ -17,14 +17,19 @@ static uint32_t count_placed(const lsf_scene *scene, lsf_light_type type)
     return count;
 }
 
-/* Time of the last key. */
+static double last_key(const lsf_curve *curve)
+{
+    return (double)curve->times[curve->key_count - 1];
+}
+
+/* Time of the last key of all. */
 static double animation_duration(const lsf_scene *scene)
 {
     double duration = 0.0;
-    for (uint32_t i = 0; i < scene->channel_count; i++) {
-        const lsf_animation_channel *channel = &scene->channels[i];
-        duration = fmax(duration, channel->times[channel->key_count - 1]);
-    }
+    for (uint32_t i = 0; i < scene->channel_count; i++)
+        duration = fmax(duration, last_key(&scene->channels[i].curve));
+    for (uint32_t i = 0; i < scene->animated_count; i++)
+        duration = fmax(duration, last_key(&scene->animated[i].curve));
     return duration;
 }
 
@@ -200,7 +205,8 @@ static void describe_json(lsf_string *out, const lsf_scene *scene)
     add_choices_json(out, "animations", &scene->animations);
     add_choices_json(out, "variants", &scene->variants);
     add_extensions_json(out, scene);
-    lsf_string_add(out, "  \"animation\": {\"channels\": %u, \"seconds\": ", scene->channel_count);
+    lsf_string_add(out, "  \"animation\": {\"channels\": %u, \"seconds\": ",
+                   scene->channel_count + scene->animated_count);
     lsf_string_add_json_number(out, animation_duration(scene));
     lsf_string_add(out, "},\n  \"bounds\": {");
     add_vector(out, "min", r->bounds_min);
@@ -302,9 +308,10 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
     for (uint32_t i = 0; i < scene->extension_count; i++)
         lsf_string_add(out, "extension    %s, %s\n", scene->extensions[i].name,
                        kind_of(&scene->extensions[i]));
-    if (scene->channel_count > 0)
-        lsf_string_add(out, "animated     %u channel%s, %.9g s\n", scene->channel_count,
-                       lsf_plural(scene->channel_count), animation_duration(scene));
+    uint32_t channels = scene->channel_count + scene->animated_count;
+    if (channels > 0)
+        lsf_string_add(out, "animated     %u channel%s, %.9g s\n", channels, lsf_plural(channels),
+                       animation_duration(scene));
     if (r->bounds_min[0] <= r->bounds_max[0])
         lsf_string_add(out, "bounds       %.9g %.9g %.9g to %.9g %.9g %.9g\n", r->bounds_min[0],
                        r->bounds_min[1], r->bounds_min[2], r->bounds_max[0], r->bounds_max[1],

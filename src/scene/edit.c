@@ -125,6 +125,7 @@ bool lsf_scene_set_light(lsf_scene *scene, uint32_t light, const lsf_light_desc 
     if (!lsf_check_light(light, desc, unit, error))
         return false;
     lsf_light_set(&scene->lights[light], desc, unit);
+    scene->lights[light].edited = true;
     scene->edits.lights++;
     return update_requirements(scene, error);
 }
@@ -155,6 +156,7 @@ bool lsf_scene_set_material(lsf_scene *scene, uint32_t material, const lsf_mater
                              "follow; load it with anisotropy or a normal map",
                              material, (double)desc->anisotropy);
     lsf_material_set(m, desc, scene->diffuse_only);
+    m->edited = true;
     scene->edits.materials++;
     return update_requirements(scene, error);
 }

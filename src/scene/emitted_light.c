@@ -88,7 +88,7 @@ static surface_point surfaces_sample(const surfaces *s, const double u[2])
     return (surface_point){
         .position = lsf_f3_load(position),
         .normal = lsf_f3((float)placed.normal[0], (float)placed.normal[1], (float)placed.normal[2]),
-        .double_sided = s->scene->materials[material].double_sided,
+        .double_sided = s->state->animated.materials[material].double_sided,
     };
 }
 

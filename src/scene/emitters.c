@@ -24,13 +24,13 @@ typedef struct triangle_point {
 
 static const lsf_material *material_of(const lsf_emitters *e, uint32_t instance)
 {
-    return &e->scene->materials[e->state->instances[instance].material];
+    return &e->state->animated.materials[e->state->instances[instance].material];
 }
 
 static uint32_t triangle_count(const lsf_emitters *e, uint32_t instance)
 {
     const lsf_instance_state *s = &e->state->instances[instance];
-    const lsf_material *material = &e->scene->materials[s->material];
+    const lsf_material *material = &e->state->animated.materials[s->material];
     bool emits = !material->unlit && lsf_f3_max(lsf_f3_load(material->emission)) > 0.0f;
     return emits && !s->skipped ? e->scene->primitives[s->primitive].index_count / 3 : 0;
 }

@@ -47,12 +47,12 @@ static void hermite(const float *from, const float *to, uint32_t width, double t
 }
 
 /* The last key at or before `time`; 0 when all are later. */
-static uint32_t find_key(const lsf_animation_channel *channel, double time)
+static uint32_t find_key(const lsf_curve *curve, double time)
 {
-    uint32_t low = 0, high = channel->key_count;
+    uint32_t low = 0, high = curve->key_count;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
-        if (channel->times[middle] <= time)
+        if (curve->times[middle] <= time)
             low = middle;
         else
             high = middle;
@@ -60,24 +60,23 @@ static uint32_t find_key(const lsf_animation_channel *channel, double time)
     return low;
 }
 
-void lsf_animation_sample(const lsf_animation_channel *channel, double time, double *value)
+/* `rotation`: the values are quaternions. */
+static void sample(const lsf_curve *curve, bool rotation, double time, double *value)
 {
-    bool rotation = channel->path == LSF_PATH_ROTATION;
-    uint32_t width = channel->path == LSF_PATH_WEIGHTS ? channel->weight_count : rotation ? 4 : 3;
-    bool cubic = channel->interpolation == LSF_CUBIC;
+    uint32_t width = curve->width;
+    bool cubic = curve->interpolation == LSF_CUBIC;
     size_t stride = (size_t)width * (cubic ? 3 : 1);
-    uint32_t key = find_key(channel, time);
-    const float *from = channel->values + key * stride;
-    double start = channel->times[key];
+    uint32_t key = find_key(curve, time);
+    const float *from = curve->values + key * stride;
+    double start = curve->times[key];
 
-    bool held =
-        key + 1 == channel->key_count || time <= start || channel->interpolation == LSF_STEP;
+    bool held = key + 1 == curve->key_count || time <= start || curve->interpolation == LSF_STEP;
     if (held) {
         for (uint32_t i = 0; i < width; i++)
             value[i] = from[(cubic ? width : 0) + i];
     } else {
         const float *to = from + stride;
-        double length = (double)channel->times[key + 1] - start;
+        double length = (double)curve->times[key + 1] - start;
         double t = (time - start) / length;
         if (cubic)
             hermite(from, to, width, t, length, value);
@@ -89,6 +88,11 @@ void lsf_animation_sample(const lsf_animation_channel *channel, double time, dou
     }
     if (rotation)
         normalize_rotation(value);
+}
+
+void lsf_curve_sample(const lsf_curve *curve, double time, double *value)
+{
+    sample(curve, false, time, value);
 }
 
 static void compose(const double scratch[10], double matrix[16])
@@ -148,8 +152,8 @@ void lsf_scene_world_matrices(const lsf_scene *scene, double time, double *matri
         static const int offsets[] = {[LSF_PATH_TRANSLATION] = TRANSLATION,
                                       [LSF_PATH_ROTATION] = ROTATION,
                                       [LSF_PATH_SCALE] = SCALE};
-        lsf_animation_sample(channel, time,
-                             matrices + (size_t)16 * channel->node + offsets[channel->path]);
+        sample(&channel->curve, channel->path == LSF_PATH_ROTATION, time,
+               matrices + (size_t)16 * channel->node + offsets[channel->path]);
     }
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const lsf_node *node = &scene->nodes[i];
@@ -173,7 +177,8 @@ void lsf_scene_weights(const lsf_scene *scene, double time, double *weights)
     for (uint32_t i = 0; i < scene->channel_count; i++) {
         const lsf_animation_channel *channel = &scene->channels[i];
         if (channel->path == LSF_PATH_WEIGHTS)
-            lsf_animation_sample(channel, time, weights + scene->nodes[channel->node].first_weight);
+            sample(&channel->curve, false, time,
+                   weights + scene->nodes[channel->node].first_weight + channel->first_weight);
     }
 }
 
@@ -181,9 +186,8 @@ uint32_t lsf_scene_moments(const lsf_scene *scene, double *first, double *last)
 {
     *first = *last = 0.0;
     for (uint32_t i = 0; i < scene->channel_count; i++) {
-        const lsf_animation_channel *channel = &scene->channels[i];
-        double from = (double)channel->times[0],
-               to = (double)channel->times[channel->key_count - 1];
+        const lsf_curve *curve = &scene->channels[i].curve;
+        double from = (double)curve->times[0], to = (double)curve->times[curve->key_count - 1];
         *first = i == 0 ? from : fmin(*first, from);
         *last = i == 0 ? to : fmax(*last, to);
     }

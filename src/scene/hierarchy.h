@@ -24,9 +24,9 @@ double lsf_moment(uint32_t index, uint32_t moments, double first, double last);
 /* A node's own transform as the file or a program gives it, column-major, without animations. */
 void lsf_node_matrix(const lsf_node *node, double matrix[16]);
 
-/* Samples one channel: 3 doubles, a unit quaternion x,y,z,w for rotations, or
- * as many weights as its node has. */
-void lsf_animation_sample(const lsf_animation_channel *channel, double time, double *value);
+/* Values at `time`, clamped to the keys; not of rotations, which are not interpolated one by one.
+ */
+void lsf_curve_sample(const lsf_curve *curve, double time, double *value);
 
 /* a * b of affine column-major matrices. */
 void lsf_multiply_affine(const double a[16], const double b[16], double result[16]);

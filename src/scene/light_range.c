@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "math/vector.h"
+#include "scene/animated.h"
 
 /* `unit`: what a normalised unit of this light is in the scene's. */
 static bool bound(lsf_scene *scene, float light[3], double unit, const char *kind, const char *name,
@@ -39,23 +40,51 @@ static bool bound_environment(lsf_scene *scene, lsf_error *error)
     return true;
 }
 
+/* What animations make of light is held against the upper end alone: below the lower one it is
+ * none whenever it is so dim. */
+static bool bound_animated(lsf_scene *scene, const float light[3], double unit, const char *kind,
+                           const char *name, lsf_error *error)
+{
+    float most[3] = {light[0], light[1], light[2]};
+    return (double)lsf_f3_max(lsf_f3_load(most)) < LSF_LIGHT_DIMMEST * unit ||
+           bound(scene, most, unit, kind, name, error);
+}
+
+static bool no_memory(const lsf_scene *scene, lsf_error *error)
+{
+    return lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory", scene->path);
+}
+
 bool lsf_bound_radiance(lsf_scene *scene, lsf_error *error)
 {
-    for (uint32_t i = 0; i < scene->material_count; i++) {
+    lsf_animated_range range;
+    if (!lsf_animated_find_range(&range, scene))
+        return no_memory(scene, error);
+    bool good = true;
+    for (uint32_t i = 0; good && i < scene->material_count; i++) {
         lsf_material *material = &scene->materials[i];
-        if (!bound(scene, material->emission, 1.0, "material", material->name, error))
-            return false;
+        good = bound(scene, material->emission, 1.0, "material", material->name, error) &&
+               bound_animated(scene, range.materials[1][i].emission, 1.0, "material",
+                              material->name, error);
     }
-    return bound_environment(scene, error);
+    lsf_animated_range_finish(&range);
+    return good && bound_environment(scene, error);
 }
 
 bool lsf_bound_lights(lsf_scene *scene, lsf_error *error)
 {
-    for (uint32_t i = 0; i < scene->light_count; i++) {
+    lsf_animated_range range;
+    if (!lsf_animated_find_range(&range, scene))
+        return no_memory(scene, error);
+    bool good = true;
+    for (uint32_t i = 0; good && i < scene->light_count; i++) {
         lsf_light *light = &scene->lights[i];
         double scale = light->type == LSF_LIGHT_DIRECTIONAL ? 1.0 : scene->requirements.scale;
-        if (!bound(scene, light->intensity, 1.0 / (scale * scale), "light", light->name, error))
-            return false;
+        double unit = 1.0 / (scale * scale);
+        good =
+            bound(scene, light->intensity, unit, "light", light->name, error) &&
+            bound_animated(scene, range.lights[1][i].intensity, unit, "light", light->name, error);
     }
-    return true;
+    lsf_animated_range_finish(&range);
+    return good;
 }

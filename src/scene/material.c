@@ -29,6 +29,21 @@ lsf_texture_slot *lsf_material_slot(lsf_material *material, uint32_t use)
     return (lsf_texture_slot *)((char *)material + slot_offsets[use]);
 }
 
+void lsf_texture_slot_place(lsf_texture_slot *slot, const double offset[2], double rotation,
+                            const double scale[2])
+{
+    double c = cos(rotation), s = sin(rotation);
+    const double rows[2][3] = {{c * scale[0], s * scale[1], offset[0]},
+                               {0.0 - s * scale[0], c * scale[1], offset[1]}};
+    for (int i = 0; i < 6; i++)
+        slot->transform[i] = (float)rows[i / 3][i % 3];
+    slot->rotation = (float)rotation;
+    for (int i = 0; i < 2; i++) {
+        slot->offset[i] = (float)offset[i];
+        slot->scale[i] = (float)scale[i];
+    }
+}
+
 lsf_material lsf_default_material(bool diffuse_only)
 {
     static const lsf_material_desc desc = {LSF_MATERIAL_DESC_DEFAULTS};
@@ -39,8 +54,8 @@ lsf_material lsf_default_material(bool diffuse_only)
         material.roughness = 1.0f;
     }
     for (uint32_t use = 0; use < LSF_SLOT_COUNT; use++)
-        *lsf_material_slot(&material, use) =
-            (lsf_texture_slot){.texture = LSF_NONE, .transform = {1, 0, 0, 0, 1, 0}};
+        *lsf_material_slot(&material, use) = (lsf_texture_slot){
+            .texture = LSF_NONE, .transform = {1, 0, 0, 0, 1, 0}, .scale = {1, 1}};
     return material;
 }
 

@@ -1,8 +1,10 @@
 #include "scene/scene.h"
 
 #include "base/base.h"
+#include "scene/animated.h"
 #include "scene/hierarchy.h"
 #include "scene/pose.h"
+#include "scene/property.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -95,12 +97,16 @@ static void add_lights(const lsf_scene *scene, lsf_requirements *r)
     r->directional_lights += scene->key_light.present;
 }
 
-/* By an animation or a program, by themselves or with an ancestor. */
+/* By an animation or a program, by themselves or with an ancestor; what comes and goes moves, too.
+ */
 static bool *find_moving_nodes(const lsf_scene *scene)
 {
     bool *moves = lsf_alloc(scene->node_count, sizeof *moves);
     for (uint32_t i = 0; moves && i < scene->channel_count; i++)
         moves[scene->channels[i].node] |= scene->channels[i].path != LSF_PATH_WEIGHTS;
+    for (uint32_t i = 0; moves && i < scene->animated_count; i++)
+        if (scene->animated[i].property == lsf_property_visible)
+            moves[scene->animated[i].index] = true;
     for (uint32_t i = 0; moves && i < scene->node_count; i++) {
         uint32_t parent = scene->nodes[i].parent;
         moves[i] = moves[i] || scene->nodes[i].edited || (parent != LSF_NONE && moves[parent]);
@@ -155,7 +161,7 @@ bool lsf_scene_moving_instances(const lsf_scene *scene, bool *moves)
 /* Finds whether an instance, a light or a camera moves. False without memory. */
 static bool find_moving(const lsf_scene *scene, lsf_requirements *r)
 {
-    if (scene->channel_count == 0 && scene->edits.nodes == 0)
+    if (scene->channel_count == 0 && scene->animated_count == 0 && scene->edits.nodes == 0)
         return true;
     bool *nodes = find_moving_nodes(scene);
     bool *instances = lsf_alloc(scene->instance_count, sizeof *instances);
@@ -365,23 +371,30 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
     return enough;
 }
 
-/* False without memory. */
+/* With whatever animations make of them. False without memory. */
 static bool add_materials(const lsf_scene *scene, lsf_requirements *r)
 {
     bool *seen = lsf_alloc(scene->material_count, sizeof(bool));
-    for (uint32_t i = 0; seen && i < scene->instance_count; i++) {
+    lsf_animated_range range;
+    if (!seen || !lsf_animated_find_range(&range, scene)) {
+        free(seen);
+        return false;
+    }
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
         const lsf_primitive *primitive = &scene->primitives[scene->instances[i].primitive];
         if (primitive->index_count == 0 || seen[primitive->material])
             continue;
         seen[primitive->material] = true;
         r->materials++;
-        add_material(r, &scene->materials[primitive->material], scene->diffuse_only);
+        for (int end = 0; end < 2; end++)
+            add_material(r, &range.materials[end][primitive->material], scene->diffuse_only);
     }
     free(seen);
+    lsf_animated_range_finish(&range);
     /* Every crossing of a surface is a bounce. Seen through a vase or a bottle, the world lies
      * behind two walls of glass with two sides each; through solid bodies, behind two of them. */
     r->bounces = r->transmissive ? 5 : 1;
-    return seen != NULL;
+    return true;
 }
 
 static void add_environment(const lsf_scene *scene, lsf_requirements *r)

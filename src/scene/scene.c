@@ -148,8 +148,12 @@ void lsf_scene_destroy(lsf_scene *scene)
     for (uint32_t i = 0; i < scene->camera_count; i++)
         free(scene->cameras[i].name);
     for (uint32_t i = 0; i < scene->channel_count; i++) {
-        free(scene->channels[i].times);
-        free(scene->channels[i].values);
+        free(scene->channels[i].curve.times);
+        free(scene->channels[i].curve.values);
+    }
+    for (uint32_t i = 0; i < scene->animated_count; i++) {
+        free(scene->animated[i].curve.times);
+        free(scene->animated[i].curve.values);
     }
     for (uint32_t i = 0; i < scene->shape_count; i++) {
         free(scene->shapes[i].position_deltas);
@@ -178,6 +182,7 @@ void lsf_scene_destroy(lsf_scene *scene)
     free(scene->lights);
     free(scene->cameras);
     free(scene->channels);
+    free(scene->animated);
     free(scene->skins);
     free(scene->joints);
     free(scene->shapes);

@@ -117,20 +117,23 @@ typedef struct lsf_texture_slot {
     uint32_t texture;   /* LSF_NONE: none */
     uint32_t uv_set;    /* 0 or 1 */
     float transform[6]; /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 (KHR_texture_transform) */
+    float offset[2], rotation, scale[2]; /* that a file makes it of, for animations of them */
 } lsf_texture_slot;
 
 /* glTF 2.0 metallic-roughness with the extensions that Lightsheaf reads. */
 typedef struct lsf_material {
     char *name;
-    float base_color[4];       /* linear factor */
-    float metallic, roughness; /* factors */
-    float emission[3];         /* radiance [W/(m^2 sr)]: emissiveFactor * emissiveStrength */
+    float base_color[4];                         /* linear factor */
+    float metallic, roughness;                   /* factors */
+    float emission[3];                           /* radiance [W/(m^2 sr)] */
+    float emissive_factor[3], emissive_strength; /* whose product it is in a file, for animations */
     float normal_scale;
     lsf_alpha_mode alpha_mode;
     float alpha_cutoff;
     bool double_sided; /* also emits from its back */
     bool unlit;        /* shown as emission of its base colour */
     bool has_tangents; /* so do vertices of its surfaces, that were read or made */
+    bool edited;       /* by a program: animations leave it alone */
     float ior;
     float specular, specular_color[3];     /* of the dielectric's reflection: weight; tint of f0 */
     float sheen_color[3], sheen_roughness; /* factors */
@@ -150,9 +153,11 @@ typedef struct lsf_material {
 typedef struct lsf_light {
     char *name;
     lsf_light_type type;
-    float intensity[3];           /* colour * intensity: W/sr, directional W/m^2 */
+    float intensity[3];           /* W/sr, directional W/m^2 */
+    float color[3], strength;     /* whose product it is in a file, for animations */
     float range;                  /* scene units; INFINITY: none */
     float inner_cone, outer_cone; /* radians, spot only */
+    bool edited;                  /* by a program: animations leave it alone */
 } lsf_light;
 
 typedef struct lsf_camera {
@@ -175,16 +180,31 @@ typedef enum lsf_animation_path {
 } lsf_animation_path;
 typedef enum lsf_interpolation { LSF_STEP, LSF_LINEAR, LSF_CUBIC } lsf_interpolation;
 
+/* Values over time. */
+typedef struct lsf_curve {
+    lsf_interpolation interpolation;
+    uint32_t key_count;
+    uint32_t width; /* values a key */
+    float *times;   /* seconds, strictly increasing */
+    float *values;  /* `width` a key; cubic: in-tangent, value, out-tangent */
+} lsf_curve;
+
 typedef struct lsf_animation_channel {
     uint32_t node;
     lsf_animation_path path;
-    lsf_interpolation interpolation;
-    uint32_t key_count;
-    uint32_t weight_count; /* of the node, for its weights */
-    float *times;          /* seconds, strictly increasing */
-    float *values;         /* 3 (4 for rotation, or the weights) a key; cubic: in-tangent, value,
-                              out-tangent */
+    uint32_t first_weight; /* of the node's, for its weights */
+    lsf_curve curve;       /* of 3 values, 4 of rotation, or as many weights as it changes */
 } lsf_animation_channel;
+
+/* What an animation changes of a material, a light, a camera, or whether a node is there
+ * (animated.h). */
+typedef struct lsf_animated_value {
+    const struct lsf_property *property;
+    uint32_t index; /* of the material, light, camera or node */
+    uint32_t slot;  /* of a material's texture; LSF_NONE: it is none of a texture's */
+    uint32_t first; /* among the values of all at one instant */
+    lsf_curve curve;
+} lsf_animated_value;
 
 /* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi + turn, v = acos(y) / pi
  * from the top row. width == 0: uniform `radiance`. */
@@ -251,6 +271,8 @@ struct lsf_scene {
     lsf_light *lights;
     lsf_camera *cameras; /* at least 1 */
     lsf_animation_channel *channels;
+    uint32_t animated_count, animated_width; /* width: of all their values */
+    lsf_animated_value *animated;
     uint32_t skin_count, joint_count, shape_count, deformer_count, weight_count;
     lsf_skin *skins;
     lsf_joint *joints;

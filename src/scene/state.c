@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "math/vector.h"
+#include "scene/checks.h"
 #include "scene/framing.h"
 #include "scene/hierarchy.h"
 #include "scene/reach.h"
@@ -115,7 +116,8 @@ static void update_instance(lsf_instance_state *out, const lsf_state *state,
     out->primitive = instance->primitive;
     out->material = primitive->material;
     out->mirrored = determinant < 0.0;
-    out->skipped = factor == 0.0 || primitive->index_count == 0;
+    out->skipped = factor == 0.0 || primitive->index_count == 0 ||
+                   (state->animated.hidden && state->animated.hidden[instance->node]);
     transform_bounds(out, primitive);
     for (int axis = 0; axis < 3; axis++)
         if (!isfinite(out->bounds_min[axis]) || !isfinite(out->bounds_max[axis]))
@@ -153,6 +155,7 @@ static void update_light(lsf_light_state *out, const lsf_state *state, const lsf
     double factor = light->type == LSF_LIGHT_DIRECTIONAL ? 1.0 : state->scale * state->scale;
     for (int i = 0; i < 3; i++)
         out->intensity[i] = (float)(light->intensity[i] * factor);
+    lsf_store_light(out->intensity, out->intensity, 1.0);
     out->range = (float)(light->range * state->scale);
     out->cos_inner = (float)cos(light->inner_cone);
     out->cos_outer = (float)cos(light->outer_cone);
@@ -186,7 +189,11 @@ static bool update_lights(lsf_state *state, const lsf_scene *scene, const double
         uint32_t light = scene->nodes[i].light;
         if (light == LSF_NONE)
             continue;
-        update_light(&state->lights[at++], state, &scene->lights[light], worlds + 16 * (size_t)i);
+        update_light(&state->lights[at], state, &state->animated.lights[light],
+                     worlds + 16 * (size_t)i);
+        if (state->animated.hidden && state->animated.hidden[i])
+            memset(state->lights[at].intensity, 0, sizeof state->lights[at].intensity);
+        at++;
     }
     if (scene->key_light.present)
         update_key_light(&state->lights[count - 1], state, &scene->key_light);
@@ -424,6 +431,7 @@ static bool choose_camera(lsf_state *state, lsf_camera *camera, const lsf_scene 
     if (index < 0)
         return no_such_camera(scene, params->camera, error);
     *camera = scene->cameras[index];
+    lsf_animated_set_camera(scene, (uint32_t)index, params->time, camera);
     return !camera->frames_scene || frame_scene(state, scene, camera, params->aspect) ||
            lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u nodes", scene->node_count);
 }
@@ -432,7 +440,7 @@ static bool choose_camera(lsf_state *state, lsf_camera *camera, const lsf_scene 
 static bool is_current(const lsf_state *state, const lsf_scene *scene, double time)
 {
     return state->worlds && memcmp(&state->edits, &scene->edits, sizeof state->edits) == 0 &&
-           (state->time == time || scene->channel_count == 0);
+           (state->time == time || (scene->channel_count == 0 && scene->animated_count == 0));
 }
 
 static bool update_scene(lsf_state *state, const lsf_scene *scene, double time)
@@ -449,7 +457,8 @@ static bool update_scene(lsf_state *state, const lsf_scene *scene, double time)
     memcpy(state->center, scene->requirements.center, sizeof state->center);
     state->scale = scene->requirements.scale;
     lsf_scene_world_matrices(scene, time, state->worlds);
-    if (!lsf_pose_update(&state->pose, scene, time, state->worlds))
+    if (!lsf_pose_update(&state->pose, scene, time, state->worlds) ||
+        !lsf_animated_update(&state->animated, scene, time))
         return false;
     for (uint32_t i = 0; i < scene->instance_count; i++)
         update_instance(&state->instances[i], state, &scene->instances[i],
@@ -509,6 +518,7 @@ void lsf_state_finish(lsf_state *state)
     free(state->lights);
     free(state->worlds);
     lsf_pose_finish(&state->pose);
+    lsf_animated_finish(&state->animated);
     memset(state, 0, sizeof *state);
 }
 

@@ -8,6 +8,7 @@
 #define LSF_SCENE_STATE_H
 
 #include "math/vector.h"
+#include "scene/animated.h"
 #include "scene/pose.h"
 #include "scene/scene.h"
 #include <lightsheaf/renderer.h>
@@ -22,8 +23,8 @@ typedef struct lsf_instance_state {
                                 * normals need normalising after it */
     uint32_t primitive;
     uint32_t material;
-    bool mirrored;                      /* negative determinant: the winding flips */
-    bool skipped;                       /* the transform collapses it: nothing to draw */
+    bool mirrored; /* negative determinant: the winding flips */
+    bool skipped;  /* the transform collapses it, or its node is hidden: nothing to draw */
     float bounds_min[3], bounds_max[3]; /* normalised space */
 } lsf_instance_state;
 
@@ -53,6 +54,7 @@ typedef struct lsf_state {
     uint32_t instance_count, light_count;
     lsf_instance_state *instances; /* index as in scene->instances */
     lsf_pose pose;                 /* their vertices */
+    lsf_animated animated;         /* materials, and what lights are made of */
     lsf_light_state *lights;       /* one for each node that carries a light, then the key light */
     lsf_camera_state camera;
     lsf_view view;                      /* the same, as a program would place it */

@@ -243,6 +243,12 @@ static bool follow_edits(lsf_setup *setup, lsf_error *error)
            lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for an edit of the scene");
 }
 
+/* Whether an animation has changed something of a kind from one state to that of now. */
+static bool is_animated(const lsf_setup *setup, lsf_kind kind, const lsf_state *before)
+{
+    return !lsf_animated_has(setup->scene, kind, &setup->state.animated, before->animated.values);
+}
+
 bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error)
 {
     lsf_state *state = &setup->previous; /* the oldest */
@@ -254,9 +260,13 @@ bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error)
     setup->previous = before;
     const lsf_edits *now = &setup->scene->edits;
     bool animated = before.time != frame->time && setup->scene->channel_count > 0;
-    setup->changes = (lsf_changes){.moved = animated || before.edits.nodes != now->nodes,
-                                   .lights = before.edits.lights != now->lights,
-                                   .materials = before.edits.materials != now->materials};
+    setup->changes = (lsf_changes){.moved = animated || before.edits.nodes != now->nodes ||
+                                            is_animated(setup, LSF_KIND_NODE, &before),
+                                   .lights = before.edits.lights != now->lights ||
+                                             is_animated(setup, LSF_KIND_LIGHT, &before) ||
+                                             is_animated(setup, LSF_KIND_NODE, &before),
+                                   .materials = before.edits.materials != now->materials ||
+                                                is_animated(setup, LSF_KIND_MATERIAL, &before)};
     if (setup->changes.moved && setup->plan && setup->plan->islands.count > 0)
         lsf_islands_find(&setup->plan->islands, setup->scene, &setup->state);
     return !frame->cut || update_previous(setup, frame->time, frame->view, error);

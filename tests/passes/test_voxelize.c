@@ -336,22 +336,14 @@ static void move_to(voxel_rig *v, double time)
 /* A room in which a box slides along. */
 static lsf_scene *sliding_box(void)
 {
-    static const float times[2] = {0.0f, 1.0f}, places[6] = {0.0f, 0.0f, 0.0f, 0.4f, 0.1f, 0.013f};
+    static const float places[6] = {0.0f, 0.0f, 0.0f, 0.4f, 0.1f, 0.013f};
     lsf_scene *scene = build_scene();
     build_material(scene, 0.5f, 0.5f, 0.5f);
     build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
     build_material(scene, 0.9f, 0.1f, 0.1f);
     lsf_node *box = build_box(scene, lsf_f3(-0.5f, -1, -0.3f), lsf_f3(0, 0.1f, 0.3f), false);
-    scene->channels = calloc(1, sizeof *scene->channels);
-    scene->channel_count = 1;
-    scene->channels[0] = (lsf_animation_channel){.node = (uint32_t)(box - scene->nodes),
-                                                 .path = LSF_PATH_TRANSLATION,
-                                                 .interpolation = LSF_LINEAR,
-                                                 .key_count = 2,
-                                                 .times = malloc(sizeof times),
-                                                 .values = malloc(sizeof places)};
-    memcpy(scene->channels[0].times, times, sizeof times);
-    memcpy(scene->channels[0].values, places, sizeof places);
+    build_channel(scene, (uint32_t)(box - scene->nodes), LSF_PATH_TRANSLATION, places,
+                  sizeof places);
     finish_gl_scene(scene);
     scene->requirements.moving = true; /* nodes made by hand carry no mesh to find */
     return scene;

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "base/base.h"
+#include "scene/property.h"
 
 static void *grow(void *array, uint64_t count, size_t size)
 {
@@ -46,9 +47,14 @@ void destroy_scene(lsf_scene *scene)
         free(scene->images[i].texels);
     }
     for (uint32_t i = 0; i < scene->channel_count; i++) {
-        free(scene->channels[i].times);
-        free(scene->channels[i].values);
+        free(scene->channels[i].curve.times);
+        free(scene->channels[i].curve.values);
     }
+    for (uint32_t i = 0; i < scene->animated_count; i++) {
+        free(scene->animated[i].curve.times);
+        free(scene->animated[i].curve.values);
+    }
+    free(scene->animated);
     for (uint32_t i = 0; i < scene->shape_count; i++) {
         free(scene->shapes[i].position_deltas);
         free(scene->shapes[i].joints);
@@ -313,13 +319,36 @@ void build_channel(lsf_scene *scene, uint32_t node, lsf_animation_path path, con
     lsf_animation_channel *channel = &scene->channels[scene->channel_count++];
     *channel = (lsf_animation_channel){.node = node,
                                        .path = path,
-                                       .interpolation = LSF_LINEAR,
-                                       .key_count = 2,
-                                       .weight_count = scene->nodes[node].weight_count,
-                                       .times = malloc(sizeof times),
-                                       .values = malloc(bytes)};
-    memcpy(channel->times, times, sizeof times);
-    memcpy(channel->values, values, bytes);
+                                       .curve = {.interpolation = LSF_LINEAR,
+                                                 .key_count = 2,
+                                                 .width = path == LSF_PATH_WEIGHTS
+                                                              ? scene->nodes[node].weight_count
+                                                          : path == LSF_PATH_ROTATION ? 4
+                                                                                      : 3,
+                                                 .times = malloc(sizeof times),
+                                                 .values = malloc(bytes)}};
+    memcpy(channel->curve.times, times, sizeof times);
+    memcpy(channel->curve.values, values, bytes);
+}
+
+void build_value(lsf_scene *scene, lsf_kind kind, uint32_t index, const char *name,
+                 const float *values)
+{
+    static const float times[] = {0, 1};
+    scene->animated = grow(scene->animated, scene->animated_count + 1, sizeof *scene->animated);
+    lsf_animated_value *value = &scene->animated[scene->animated_count++];
+    *value = (lsf_animated_value){.index = index, .first = scene->animated_width};
+    value->property = lsf_property_find(kind, name, &value->slot);
+    assert_non_null(value->property);
+    size_t bytes = 2 * value->property->width * sizeof *values;
+    value->curve = (lsf_curve){.interpolation = kind == LSF_KIND_NODE ? LSF_STEP : LSF_LINEAR,
+                               .key_count = 2,
+                               .width = value->property->width,
+                               .times = malloc(sizeof times),
+                               .values = malloc(bytes)};
+    memcpy(value->curve.times, times, sizeof times);
+    memcpy(value->curve.values, values, bytes);
+    scene->animated_width += value->curve.width;
 }
 
 lsf_light *build_light(lsf_scene *scene, lsf_light_type type, lsf_float3 position,

@@ -37,6 +37,11 @@ uint32_t build_deformer(lsf_scene *scene, lsf_float3 shift);
 void build_channel(lsf_scene *scene, uint32_t node, lsf_animation_path path, const float *values,
                    size_t bytes);
 
+/* Animates what KHR_animation_pointer calls by that name, behind the thing's index, from the first
+ * to the second of two values within a second; visibility by a step. */
+void build_value(lsf_scene *scene, lsf_kind kind, uint32_t index, const char *name,
+                 const float *values);
+
 /* A uniform environment. */
 void build_environment(lsf_scene *scene, float radiance);
 

@@ -10,6 +10,7 @@
 
 #include <lightsheaf/lightsheaf.h>
 
+#include "../io/glb.h"
 #include "base/base.h"
 #include "rebuild.h"
 
@@ -53,19 +54,10 @@ static lsf_scene *load_squares(void)
     const void *const parts[] = {square, normals, uvs, colors, corners};
     const size_t sizes[] = {sizeof square, sizeof normals, sizeof uvs, sizeof colors,
                             sizeof corners};
-    uint32_t json_bytes = (sizeof json - 1) & ~3u, at = 20 + json_bytes + 8;
-    const uint32_t head[] = {0x46546c67, 2, at + 216, json_bytes, 0x4e4f534a};
-    const uint32_t binary[] = {216, 0x004e4942};
-    char file[4096];
-    assert_true(at + 216 <= sizeof file);
-    memcpy(file, head, sizeof head);
-    memcpy(file + 20, json, json_bytes);
-    memcpy(file + 20 + json_bytes, binary, sizeof binary);
-    for (size_t i = 0; i < LSF_COUNT(parts); i++) {
-        memcpy(file + at, parts[i], sizes[i]);
-        at += (uint32_t)sizes[i];
-    }
-    lsf_scene *scene = lsf_scene_load_memory(file, at, NULL, NULL, &error);
+    char binary[216], *at = binary;
+    for (size_t i = 0; i < LSF_COUNT(parts); at += sizes[i++])
+        memcpy(at, parts[i], sizes[i]);
+    lsf_scene *scene = load_glb(json, binary, sizeof binary, &error);
     if (!scene)
         fail_msg("%s", error.message);
     return scene;

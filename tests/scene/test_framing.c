@@ -120,15 +120,16 @@ static void test_all_of_an_animation(void **state)
     *channel = (lsf_animation_channel){
         .node = (uint32_t)(node - scene->nodes),
         .path = LSF_PATH_TRANSLATION,
-        .interpolation = LSF_LINEAR,
-        .key_count = 3,
-        .times = malloc(sizeof times),
-        .values = malloc(sizeof values),
+        .curve = {.interpolation = LSF_LINEAR,
+                  .key_count = 3,
+                  .width = 3,
+                  .times = malloc(sizeof times),
+                  .values = malloc(sizeof values)},
     };
     for (int i = 0; i < 3; i++)
-        channel->times[i] = times[i];
+        channel->curve.times[i] = times[i];
     for (int i = 0; i < 9; i++)
-        channel->values[i] = values[i];
+        channel->curve.values[i] = values[i];
     scene->channels = channel;
     scene->channel_count = 1;
     node->has_matrix = false;
