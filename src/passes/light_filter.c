@@ -167,10 +167,12 @@ static void blend(lsf_light_filter *pass, const lsf_plan *plan, float iterations
     lsf_draw_fullscreen(pass->context);
 }
 
-void lsf_light_filter_run(lsf_light_filter *pass, const lsf_plan *plan, uint32_t iterations,
-                          const lsf_light_filter_inputs *inputs)
+void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration,
+                          uint32_t iterations, const lsf_light_filter_inputs *inputs)
 {
+    const lsf_plan *plan = iteration->plan;
     lsf_timer_begin(pass->timer);
+    lsf_iteration_bind_view(iteration);
     glCopyImageSubData(inputs->picture, GL_TEXTURE_2D, 0, 0, 0, 0, pass->picture, GL_TEXTURE_2D, 0,
                        0, 0, 0, (GLsizei)plan->width, (GLsizei)plan->height, 1);
     lsf_bind_texture(0, inputs->guide);

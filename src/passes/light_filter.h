@@ -53,9 +53,9 @@ typedef struct lsf_light_filter {
 void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params);
 bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_light_filter_params *params, lsf_error *error);
-/* Of the mean of `iterations` iterations. */
-void lsf_light_filter_run(lsf_light_filter *pass, const lsf_plan *plan, uint32_t iterations,
-                          const lsf_light_filter_inputs *inputs);
+/* Of the mean of `iterations` iterations, of which `iteration` was the last. */
+void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration,
+                          uint32_t iterations, const lsf_light_filter_inputs *inputs);
 void lsf_light_filter_destroy(lsf_light_filter *pass);
 
 #endif

@@ -206,6 +206,11 @@ uint32_t lsf_iteration_seed(const lsf_iteration *iteration, uint32_t purpose)
     return lsf_hash(iteration->seed, purpose);
 }
 
+void lsf_iteration_bind_view(const lsf_iteration *iteration)
+{
+    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VIEW, iteration->view_buffer);
+}
+
 void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done)
 {
     float point[2];
@@ -220,7 +225,7 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done)
     iteration->view.previous_clip = clip_matrix(&iteration->previous_camera, x, y);
     iteration->view.previous_start = vec4_from(iteration->previous_camera.start);
     glNamedBufferSubData(iteration->view_buffer, 0, sizeof iteration->view, &iteration->view);
-    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VIEW, iteration->view_buffer);
+    lsf_iteration_bind_view(iteration);
     draw_sky_lights(iteration);
 }
 

@@ -66,6 +66,10 @@ void lsf_iteration_frame(lsf_iteration *iteration, const lsf_state *state,
  * filter), uploads the view and draws the directions from which the environment lights. */
 void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done);
 
+/* The view of the iteration begun last, which that has bound for its passes: for those that run
+ * after it. */
+void lsf_iteration_bind_view(const lsf_iteration *iteration);
+
 /* Iterations that the picture will have; those so far when that is open. */
 float lsf_iteration_expected(const lsf_iteration *iteration);
 

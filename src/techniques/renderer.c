@@ -258,7 +258,7 @@ GLuint lsf_renderer_picture(lsf_renderer *renderer)
             .kernel = renderer->outputs.kernel,
             .parts = {{mean->diffuse.light, mean->diffuse.factor},
                       {mean->specular.light, mean->specular.factor}}};
-        lsf_light_filter_run(&renderer->light_filter, renderer->setup.plan, renderer->samples,
+        lsf_light_filter_run(&renderer->light_filter, &renderer->iteration, renderer->samples,
                              &inputs);
     }
     renderer->filtered = true;
