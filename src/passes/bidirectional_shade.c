@@ -110,8 +110,7 @@ static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *param
         lsf_plan_switch_add(plan, bundle_switches[i],
                             lsf_plan_switch_value(plan, "ray_bundle_search", bundle_switches[i]),
                             "as in ray_bundle_search");
-    lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE",
-                        lsf_plan_find_pass(plan, "reflective_shadow_map_pdf") != NULL,
+    lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE", lsf_light_emission_is_adaptive(plan),
                         "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_PUNCTUAL", use->hit_light, "hits reflect punctual lights");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");

@@ -42,8 +42,7 @@ static void plan_draw(lsf_plan *plan, uint64_t count)
     bool gloss = lsf_plan_surfaces_differ(plan);
     lsf_plan_pass_add(plan, "vpl_draw", "what punctual lights fall on");
     lsf_light_switches(plan);
-    lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE",
-                        lsf_plan_find_pass(plan, "reflective_shadow_map_pdf") != NULL,
+    lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE", lsf_light_emission_is_adaptive(plan),
                         "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");

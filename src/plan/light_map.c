@@ -51,6 +51,11 @@ void lsf_shadow_bind(const lsf_shadow *shadow)
                           shadow->size);
 }
 
+bool lsf_light_emission_is_adaptive(const lsf_plan *plan)
+{
+    return lsf_plan_find_pass(plan, "reflective_shadow_map_pdf") != NULL;
+}
+
 void lsf_light_switches(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;

@@ -35,6 +35,10 @@ typedef struct lsf_shadow {
 
 void lsf_shadow_bind(const lsf_shadow *shadow);
 
+/* Whether light paths are drawn by what the reflective shadow map, which is planned first, shows.
+ */
+bool lsf_light_emission_is_adaptive(const lsf_plan *plan);
+
 /* Adds to the pass in turn the switches of lib/light.glsl. */
 void lsf_light_switches(lsf_plan *plan);
 

@@ -486,11 +486,9 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
         lsf_interleave_gather(&b->interleave, iteration, &gbuffer->seen, light);
         light = &b->interleave.light;
     }
-    const lsf_light_parts parts = {.gbuffer = gbuffer,
-                                   .direct = b->chain.direct_light.radiance,
-                                   .sky = b->chain.direct_light.sky,
-                                   .indirect = *light,
-                                   .split_direct = b->shade.outputs.direct};
+    lsf_light_parts parts = lsf_direct_chain_parts(&b->chain);
+    parts.indirect = *light;
+    parts.split_direct = b->shade.outputs.direct;
     lsf_compose_run(&b->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
         .parts = parts,

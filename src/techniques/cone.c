@@ -209,17 +209,13 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
 static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
 {
     cone *c = self;
-    const lsf_direct_chain *direct = &c->chain.direct;
-    const lsf_gbuffer_maps *gbuffer = &direct->gbuffer.outputs;
     lsf_split_light light = {0};
     if (c->way.traced)
         light = trace(c, iteration);
     else
         lsf_direct_chain_run(&c->chain.direct, iteration);
-    const lsf_light_parts parts = {.gbuffer = gbuffer,
-                                   .direct = direct->direct_light.radiance,
-                                   .sky = direct->direct_light.sky,
-                                   .indirect = light};
+    lsf_light_parts parts = lsf_direct_chain_parts(&c->chain.direct);
+    parts.indirect = light;
     lsf_compose_run(&c->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){.parts = parts, .layers = c->compose.outputs};
     if (c->way.traced)

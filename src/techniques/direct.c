@@ -60,9 +60,7 @@ static bool create_direct(void **self, lsf_context *context, const lsf_plan *pla
 static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
 {
     direct *d = self;
-    const lsf_light_parts parts = {.gbuffer = &d->chain.gbuffer.outputs,
-                                   .direct = d->chain.direct_light.radiance,
-                                   .sky = d->chain.direct_light.sky};
+    const lsf_light_parts parts = lsf_direct_chain_parts(&d->chain);
     lsf_direct_chain_run(&d->chain, iteration);
     if (d->composed)
         lsf_compose_run(&d->compose, iteration, &parts);

@@ -90,6 +90,13 @@ void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteratio
     lsf_direct_chain_sky(chain, iteration);
 }
 
+lsf_light_parts lsf_direct_chain_parts(const lsf_direct_chain *chain)
+{
+    return (lsf_light_parts){.gbuffer = &chain->gbuffer.outputs,
+                             .direct = chain->direct_light.radiance,
+                             .sky = chain->direct_light.sky};
+}
+
 void lsf_direct_chain_destroy(lsf_direct_chain *chain)
 {
     lsf_direct_light_destroy(&chain->direct_light);

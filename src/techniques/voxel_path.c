@@ -151,9 +151,7 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
 {
     voxel_path *v = self;
     lsf_voxel_chain_run(&v->chain, iteration);
-    lsf_light_parts parts = {.gbuffer = &v->chain.direct.gbuffer.outputs,
-                             .direct = v->chain.direct.direct_light.radiance,
-                             .sky = v->chain.direct.direct_light.sky};
+    lsf_light_parts parts = lsf_direct_chain_parts(&v->chain.direct);
     if (v->width > 0)
         run_paths(v, iteration, &parts);
     lsf_compose_run(&v->compose, iteration, &parts);
