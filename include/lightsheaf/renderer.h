@@ -203,7 +203,7 @@ bool lsf_renderer_present(lsf_renderer *renderer, uint32_t framebuffer, const in
 typedef struct lsf_pass_stats {
     const char *name;
     uint64_t runs;
-    double milliseconds;  /* mean per iteration */
+    double milliseconds;  /* mean per iteration under the plan in use */
     uint32_t count_count; /* what the pass counted, by name */
     const char *const *count_names;
     const uint64_t *counts;
@@ -219,7 +219,22 @@ typedef struct lsf_renderer_stats {
     const lsf_pass_stats *passes; /* owned by the renderer, valid until the next call */
 } lsf_renderer_stats;
 
+/* Of all that was rendered so far under the plan in use. Waits for the GPU, and reads the picture.
+ */
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer);
+
+/* What of a pass has finished since it was last asked for. */
+typedef struct lsf_pass_time {
+    const char *name;
+    uint64_t runs;
+    double milliseconds; /* of these runs together */
+} lsf_pass_time;
+
+/* Points `times` at what has finished since the last call, which may be none, and returns how many
+ * passes there are: for a program that asks in each frame. It neither waits nor reads pixels. GPUs
+ * lag some frames behind; software OpenGL, whose timers wait by themselves, does not. Valid until
+ * the next call; 0 where no frame is in progress. */
+uint32_t lsf_renderer_poll_times(lsf_renderer *renderer, const lsf_pass_time **times);
 
 #if defined(__GNUC__)
 #pragma GCC visibility pop

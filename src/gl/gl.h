@@ -140,6 +140,9 @@ void lsf_timer_end(lsf_timer *timer);
 uint64_t lsf_timer_runs(lsf_timer *timer);
 /* Total over all finished runs; waits for pending ones. */
 double lsf_timer_milliseconds(lsf_timer *timer);
+/* The runs that have finished since the last call, and how long they took together. Waits for none.
+ */
+uint64_t lsf_timer_poll(lsf_timer *timer, double *milliseconds);
 const char *lsf_timer_name(const lsf_timer *timer);
 
 #endif

@@ -13,6 +13,8 @@ struct lsf_timer {
     bool running;
     uint64_t runs;
     double seconds;
+    uint64_t polled_runs; /* told of by lsf_timer_poll */
+    double polled_seconds;
     double start;                   /* software: lsf_now() */
     GLuint queries[PENDING_MAX][2]; /* GPU: timestamps at begin and end, a ring */
     uint32_t first_pending, pending_count;
@@ -119,6 +121,17 @@ double lsf_timer_milliseconds(lsf_timer *timer)
 {
     collect_all(timer);
     return timer->seconds * 1e3;
+}
+
+uint64_t lsf_timer_poll(lsf_timer *timer, double *milliseconds)
+{
+    while (timer->pending_count && collect_oldest(timer, false))
+        ;
+    uint64_t runs = timer->runs - timer->polled_runs;
+    *milliseconds = (timer->seconds - timer->polled_seconds) * 1e3;
+    timer->polled_runs = timer->runs;
+    timer->polled_seconds = timer->seconds;
+    return runs;
 }
 
 const char *lsf_timer_name(const lsf_timer *timer)

@@ -37,6 +37,7 @@ static bool create_technique(lsf_renderer *renderer, lsf_error *error)
 {
     lsf_setup *setup = &renderer->setup;
     lsf_context *context = renderer->context;
+    renderer->iterations = 0;
     return lsf_iteration_create(&renderer->iteration, context, setup->plan, &renderer->scene,
                                 &setup->state, lsf_setup_previous(setup), setup->params.seed,
                                 error) &&

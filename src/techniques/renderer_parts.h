@@ -24,11 +24,12 @@ struct lsf_renderer {
     bool grain_checked;
     uint32_t samples;    /* iterations of the frame that were asked for so far */
     uint32_t next;       /* iteration of it to run next: fewer, where some have to be run again */
-    uint64_t iterations; /* asked for in all frames */
+    uint64_t iterations; /* asked for in all frames, since the passes were made */
     double deadline, next_question; /* in seconds as lsf_now counts them */
     bool stopped;                   /* the iteration in progress is to be dropped */
     double compile_seconds, upload_seconds, render_seconds;
     lsf_pass_stats pass_stats[LSF_RENDERER_MAX_PASSES];
+    lsf_pass_time pass_times[LSF_RENDERER_MAX_PASSES];
 };
 
 /* lsf_context_enter for a function that needs a frame. */

@@ -235,6 +235,39 @@ static void look_at_pixels(const lsf_renderer *renderer, double *lost_share, uin
     *lost_pixels = tally.lost_pixels;
 }
 
+/* The technique's passes, then the renderer's. */
+static uint32_t list_passes(lsf_renderer *renderer,
+                            lsf_pass_report reports[LSF_RENDERER_MAX_PASSES])
+{
+    uint32_t count = renderer->setup.technique->report(renderer->technique, reports);
+    reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
+    if (renderer->light_filter.timer) {
+        reports[count++] = (lsf_pass_report){.timer = renderer->light_mean.timer};
+        reports[count++] = (lsf_pass_report){.timer = renderer->light_filter.timer};
+    }
+    if (renderer->tonemap.timer)
+        reports[count++] = (lsf_pass_report){.timer = renderer->tonemap.timer};
+    return count;
+}
+
+uint32_t lsf_renderer_poll_times(lsf_renderer *renderer, const lsf_pass_time **times)
+{
+    if (!renderer || !times)
+        return 0;
+    lsf_pass_report reports[LSF_RENDERER_MAX_PASSES];
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, NULL);
+    if (!entered)
+        return 0;
+    uint32_t count = list_passes(renderer, reports);
+    for (uint32_t i = 0; i < count; i++) {
+        lsf_pass_time *time = &renderer->pass_times[i];
+        time->name = lsf_timer_name(reports[i].timer);
+        time->runs = lsf_timer_poll(reports[i].timer, &time->milliseconds);
+    }
+    *times = renderer->pass_times;
+    return count;
+}
+
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
 {
     if (!renderer)
@@ -245,14 +278,7 @@ lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
     if (!entered)
         return (lsf_renderer_stats){0};
     lsf_renderer_catch_up(renderer, true, &ignored);
-    uint32_t count = renderer->setup.technique->report(renderer->technique, reports);
-    reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
-    if (renderer->light_filter.timer) {
-        reports[count++] = (lsf_pass_report){.timer = renderer->light_mean.timer};
-        reports[count++] = (lsf_pass_report){.timer = renderer->light_filter.timer};
-    }
-    if (renderer->tonemap.timer)
-        reports[count++] = (lsf_pass_report){.timer = renderer->tonemap.timer};
+    uint32_t count = list_passes(renderer, reports);
     double iterations = renderer->iterations ? (double)renderer->iterations : 1.0;
     for (uint32_t i = 0; i < count; i++)
         renderer->pass_stats[i] = (lsf_pass_stats){

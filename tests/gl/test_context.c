@@ -1,6 +1,9 @@
 #include "gl_test.h"
 
 #include "base/base.h"
+#include "gl/context.h"
+
+#include <math.h>
 
 static const char *const backend_names[] = {
     [LSF_BACKEND_EGL] = "egl", [LSF_BACKEND_OSMESA] = "osmesa", [LSF_BACKEND_GLFW] = "glfw"};
@@ -210,6 +213,36 @@ static void test_messages_reach_the_log(void **state)
     lsf_context_destroy(context);
 }
 
+/* As on a GPU, by timestamps that arrive later: what is polled never runs ahead of them, and all of
+ * it arrives. */
+static void test_timer_by_timestamps(void **state)
+{
+    lsf_context *context = gl_test_context(*(const lsf_backend *)*state, NULL);
+    lsf_error error = {0};
+    bool software = context->software;
+    context->software = false;
+    lsf_timer *timer = lsf_timer_create(context, "late", &error);
+    assert_non_null(timer);
+    double polled, sum = 0.0;
+    uint64_t runs = lsf_timer_poll(timer, &polled);
+    assert_int_equal(runs, 0);
+    for (uint64_t i = 1; i <= 100; i++) {
+        lsf_timer_begin(timer);
+        lsf_timer_end(timer);
+        runs += lsf_timer_poll(timer, &polled);
+        sum += polled;
+        assert_in_range(runs, 0, i);
+    }
+    glFinish();
+    runs += lsf_timer_poll(timer, &polled);
+    sum += polled;
+    assert_int_equal(runs, 100);
+    assert_true(fabs(sum - lsf_timer_milliseconds(timer)) <= 1e-9);
+    lsf_timer_destroy(timer);
+    context->software = software;
+    lsf_context_destroy(context);
+}
+
 static void test_timer(void **state)
 {
     lsf_context *context = gl_test_context(*(const lsf_backend *)*state, NULL);
@@ -232,6 +265,11 @@ static void test_timer(void **state)
         lsf_timer_end(inner);
         lsf_timer_end(outer);
     }
+    double polled;
+    assert_int_equal(lsf_timer_poll(outer, &polled), RUNS);
+    assert_true(polled == lsf_timer_milliseconds(outer));
+    assert_int_equal(lsf_timer_poll(outer, &polled), 0);
+    assert_true(polled == 0.0);
     assert_int_equal(lsf_timer_runs(outer), RUNS);
     assert_true(lsf_timer_milliseconds(inner) > 0.0);
     assert_true(lsf_timer_milliseconds(outer) >= lsf_timer_milliseconds(inner));
@@ -262,6 +300,7 @@ int main(void)
         cmocka_unit_test(test_messages_reach_the_log),
         {"timer, egl", test_timer, NULL, NULL, &backends[1]},
         {"timer, osmesa", test_timer, NULL, NULL, &backends[2]},
+        {"timer by timestamps", test_timer_by_timestamps, NULL, NULL, &backends[2]},
     };
     return cmocka_run_group_tests_name("gl context", tests, NULL, NULL);
 }

@@ -240,11 +240,52 @@ static void voxels_that_are_kept(void **unused)
     lsf_scene_destroy(w.scene);
 }
 
+/* Polled in each frame, passes tell of each of its runs once; after another plan, means are those
+ * of its passes alone. */
+static void times_of_passes(void **unused)
+{
+    (void)unused;
+    world w = build_world(false, false);
+    lsf_render_params params = params_of("direct", NULL, 0);
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_renderer *renderer = create(context, w.scene, &params);
+    const lsf_pass_time *times = NULL;
+    double milliseconds = 0.0;
+    uint64_t runs = 0;
+    for (int k = 0; k < 6; k++) {
+        if (k == 3) /* another plan */
+            set_light(&w, LSF_LIGHT_SPOT, 9.0f);
+        const lsf_frame frame = {.first_sample = (uint32_t)k * SAMPLES};
+        lsf_image_destroy(run_frame(renderer, &frame));
+        uint32_t count = lsf_renderer_poll_times(renderer, &times);
+        assert_in_range(count, 3, 20);
+        for (uint32_t i = 0; i < count; i++) {
+            assert_int_equal(times[i].runs % SAMPLES, 0);
+            assert_true(times[i].runs > 0 && times[i].milliseconds > 0.0);
+        }
+        assert_string_equal(times[0].name, "gbuffer");
+        milliseconds = k < 3 ? 0.0 : milliseconds + times[0].milliseconds;
+        runs = k < 3 ? 0 : runs + times[0].runs;
+        assert_int_equal(lsf_renderer_poll_times(renderer, &times), count);
+        for (uint32_t i = 0; i < count; i++)
+            assert_int_equal(times[i].runs, 0);
+    }
+    const lsf_renderer_stats stats = lsf_renderer_get_stats(renderer);
+    assert_string_equal(stats.passes[0].name, "gbuffer");
+    assert_int_equal(stats.passes[0].runs, runs);
+    double mean = milliseconds / (3 * SAMPLES);
+    assert_true(fabs(stats.passes[0].milliseconds - mean) <= 1e-9 * mean);
+    lsf_renderer_destroy(renderer);
+    lsf_context_destroy(context);
+    lsf_scene_destroy(w.scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_technique),
         cmocka_unit_test(voxels_that_are_kept),
+        cmocka_unit_test(times_of_passes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

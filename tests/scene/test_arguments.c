@@ -42,6 +42,7 @@ static void no_context(void **state)
     FAILS(lsf_renderer_texture(NULL, 0, &error));
     FAILS(lsf_renderer_present(NULL, 0, NULL, 0.0f, LSF_TONE_CURVE_NONE, &error));
     assert_int_equal(lsf_renderer_get_stats(NULL).pass_count, 0);
+    assert_int_equal(lsf_renderer_poll_times(NULL, NULL), 0);
     assert_null(lsf_renderer_plan(NULL));
     lsf_renderer_destroy(NULL);
     FAILS(lsf_ray_bench_create(NULL, NULL, NULL, &error));
