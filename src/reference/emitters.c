@@ -91,27 +91,24 @@ static uint64_t count_emitters(lsf_reference_emitters *emitters,
     return count;
 }
 
-/* Fills the lists; weights receive each triangle's power, up to a common factor. */
-static void list_emitters(lsf_reference_emitters *emitters, const lsf_reference_geometry *geometry,
-                          float *weights)
+static void list_emitters(lsf_reference_emitters *emitters, const lsf_reference_geometry *geometry)
 {
     uint64_t at = 0;
     for (uint32_t i = 0; i < geometry->state->instance_count; i++) {
         if (emitters->first[i] == UINT64_MAX)
             continue;
         const lsf_material *material = material_of(geometry, i);
-        float sides = material->double_sided || material->unlit ? 2.0f : 1.0f;
         float floor = emission_floor(geometry, material);
         for (uint32_t t = 0; t < geometry->meshes[i].triangle_count; t++, at++) {
             lsf_float3 corners[3];
-            float area;
             lsf_reference_corners(geometry, i, t, corners);
-            lsf_reference_triangle_normal(geometry, i, corners, &area);
+            float area;
+            emitters->normal[at] = lsf_reference_triangle_normal(geometry, i, corners, &area);
+            emitters->area[at] = area;
             emitters->instance[at] = i;
             emitters->triangle[at] = t;
-            emitters->area_pdf[at] = area; /* until the probabilities are known */
             float emission = area > 0.0f ? mean_emission(geometry, material, i, t) : 0.0f;
-            weights[at] = sides * area * fmaxf(emission, floor);
+            emitters->intensity[at] = area * fmaxf(emission, floor);
         }
     }
 }
@@ -128,26 +125,17 @@ bool lsf_reference_emitters_init(lsf_reference_emitters *emitters,
         return true;
     emitters->instance = lsf_alloc(count, sizeof *emitters->instance);
     emitters->triangle = lsf_alloc(count, sizeof *emitters->triangle);
-    emitters->area_pdf = lsf_alloc(count, sizeof *emitters->area_pdf);
-    float *weights = lsf_alloc(count, sizeof *weights);
-    bool ok = emitters->instance != NULL && emitters->triangle != NULL &&
-              emitters->area_pdf != NULL && weights != NULL;
-    if (ok) {
-        list_emitters(emitters, geometry, weights);
-        ok = lsf_distribution_init(&emitters->power, weights, count);
-    }
-    free(weights);
-    if (!ok) {
+    emitters->normal = lsf_alloc(count, sizeof *emitters->normal);
+    emitters->area = lsf_alloc(count, sizeof *emitters->area);
+    emitters->intensity = lsf_alloc(count, sizeof *emitters->intensity);
+    if (emitters->instance == NULL || emitters->triangle == NULL || emitters->normal == NULL ||
+        emitters->area == NULL || emitters->intensity == NULL) {
         lsf_reference_emitters_finish(emitters);
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %llu emissive triangles",
                              (unsigned long long)count);
     }
-    for (uint64_t i = 0; i < count; i++) {
-        float area = emitters->area_pdf[i];
-        emitters->area_pdf[i] =
-            area > 0.0f ? (float)(lsf_distribution_probability(&emitters->power, i) / area) : 0.0f;
-    }
-    emitters->count = emitters->power.sum > 0.0 ? count : 0;
+    list_emitters(emitters, geometry);
+    emitters->count = count;
     return true;
 }
 
@@ -156,23 +144,50 @@ void lsf_reference_emitters_finish(lsf_reference_emitters *emitters)
     free(emitters->first);
     free(emitters->instance);
     free(emitters->triangle);
-    free(emitters->area_pdf);
-    lsf_distribution_finish(&emitters->power);
+    free(emitters->normal);
+    free(emitters->area);
+    free(emitters->intensity);
     memset(emitters, 0, sizeof *emitters);
 }
 
-lsf_reference_emitter_sample lsf_reference_emitters_sample(const lsf_reference_emitters *emitters,
-                                                           const lsf_reference_geometry *geometry,
-                                                           lsf_float3 from, double choice,
-                                                           const float u[2])
+lsf_light_bounds lsf_reference_emitter_bounds(const lsf_reference_emitters *emitters,
+                                              const lsf_reference_geometry *geometry,
+                                              uint64_t index)
+{
+    uint32_t instance = emitters->instance[index];
+    const lsf_material *material = material_of(geometry, instance);
+    lsf_float3 corners[3];
+    lsf_reference_corners(geometry, instance, emitters->triangle[index], corners);
+    lsf_light_bounds bounds = {.cos_spread = 1.0f,
+                               .cos_emission = 0.0f,
+                               .intensity = emitters->intensity[index],
+                               .range = INFINITY,
+                               .two_sided = material->double_sided || material->unlit};
+    lsf_f3_store(bounds.axis, emitters->normal[index]);
+    lsf_f3_store(bounds.low, corners[0]);
+    lsf_f3_store(bounds.high, corners[0]);
+    for (int i = 1; i < 3; i++) {
+        const float corner[3] = {corners[i].x, corners[i].y, corners[i].z};
+        for (int axis = 0; axis < 3; axis++) {
+            bounds.low[axis] = fminf(bounds.low[axis], corner[axis]);
+            bounds.high[axis] = fmaxf(bounds.high[axis], corner[axis]);
+        }
+    }
+    return bounds;
+}
+
+lsf_reference_emitter_sample lsf_reference_emitter_draw(const lsf_reference_emitters *emitters,
+                                                        const lsf_reference_geometry *geometry,
+                                                        uint64_t index, lsf_float3 from,
+                                                        const float u[2])
 {
     lsf_reference_emitter_sample sample = {.pdf = 0.0f};
-    uint64_t i = lsf_distribution_sample(&emitters->power, choice, NULL);
-    lsf_reference_hit hit = {emitters->instance[i], emitters->triangle[i], 0.0f, 0.0f, 0.0f};
+    lsf_reference_hit hit = {emitters->instance[index], emitters->triangle[index], 0.0f, 0.0f,
+                             0.0f};
     lsf_sample_triangle(u[0], u[1], &hit.b1, &hit.b2);
     lsf_float3 corners[3];
     lsf_reference_corners(geometry, hit.instance, hit.triangle, corners);
-    lsf_float3 normal = lsf_reference_triangle_normal(geometry, hit.instance, corners, NULL);
+    lsf_float3 normal = emitters->normal[index];
     lsf_float3 point = lsf_f3_scale(corners[0], 1.0f - hit.b1 - hit.b2);
     point = lsf_f3_mad(lsf_f3_mad(point, corners[1], hit.b1), corners[2], hit.b2);
 
@@ -186,26 +201,24 @@ lsf_reference_emitter_sample lsf_reference_emitters_sample(const lsf_reference_e
         return sample;
     sample.radiance = lsf_f3_scale(lsf_reference_emission(geometry, &hit, cosine > 0.0f),
                                    lsf_reference_coverage(geometry, &hit));
-    sample.pdf = emitters->area_pdf[i] * distance2 / fabsf(cosine);
+    sample.pdf = distance2 / (emitters->area[index] * fabsf(cosine));
     float offset = copysignf(lsf_reference_ray_offset(corners), cosine);
     sample.target = lsf_f3_mad(point, normal, offset);
     return sample;
 }
 
-float lsf_reference_emitters_pdf(const lsf_reference_emitters *emitters,
-                                 const lsf_reference_geometry *geometry,
-                                 const lsf_reference_hit *hit, lsf_float3 from,
-                                 lsf_float3 direction)
+uint64_t lsf_reference_emitter_of(const lsf_reference_emitters *emitters,
+                                  const lsf_reference_hit *hit)
 {
     if (emitters->count == 0 || emitters->first[hit->instance] == UINT64_MAX)
-        return 0.0f;
-    lsf_float3 corners[3];
-    lsf_reference_corners(geometry, hit->instance, hit->triangle, corners);
-    lsf_float3 normal = lsf_reference_triangle_normal(geometry, hit->instance, corners, NULL);
-    lsf_float3 point = lsf_f3_scale(corners[0], 1.0f - hit->b1 - hit->b2);
-    point = lsf_f3_mad(lsf_f3_mad(point, corners[1], hit->b1), corners[2], hit->b2);
-    lsf_float3 to = lsf_f3_sub(point, from);
-    float cosine = fabsf(lsf_f3_dot(normal, direction));
-    float area_pdf = emitters->area_pdf[emitters->first[hit->instance] + hit->triangle];
-    return cosine > 0.0f ? area_pdf * lsf_f3_dot(to, to) / cosine : 0.0f;
+        return UINT64_MAX;
+    return emitters->first[hit->instance] + hit->triangle;
+}
+
+float lsf_reference_emitter_pdf(const lsf_reference_emitters *emitters, uint64_t index,
+                                lsf_float3 at, lsf_float3 from, lsf_float3 direction)
+{
+    lsf_float3 to = lsf_f3_sub(at, from);
+    float shown = emitters->area[index] * fabsf(lsf_f3_dot(emitters->normal[index], direction));
+    return shown > 0.0f ? lsf_f3_dot(to, to) / shown : 0.0f;
 }

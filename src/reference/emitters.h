@@ -1,21 +1,27 @@
-/* Emissive triangles as light sources: one is drawn by its power, a point on it by area. */
+/* Emissive triangles as light sources. */
 #ifndef LSF_REFERENCE_EMITTERS_H
 #define LSF_REFERENCE_EMITTERS_H
 
-#include "math/distribution.h"
 #include "reference/geometry.h"
+#include "reference/light_tree.h"
 
 typedef struct lsf_reference_emitters {
     uint64_t count;
     uint32_t *instance, *triangle; /* of each emitter */
-    float *area_pdf;               /* probability of the triangle over its area [1 / area] */
-    uint64_t *first;               /* of each instance; UINT64_MAX: it does not emit */
-    lsf_distribution power;
+    lsf_float3 *normal;            /* of its front, unit; 0: it has no area */
+    float *area;
+    float *intensity; /* mean luminance times area [W/sr]; not 0 where few samples may have missed
+                       * what it has */
+    uint64_t *first;  /* of each instance; UINT64_MAX: it does not emit */
 } lsf_reference_emitters;
 
 bool lsf_reference_emitters_init(lsf_reference_emitters *emitters,
                                  const lsf_reference_geometry *geometry, lsf_error *error);
 void lsf_reference_emitters_finish(lsf_reference_emitters *emitters);
+
+lsf_light_bounds lsf_reference_emitter_bounds(const lsf_reference_emitters *emitters,
+                                              const lsf_reference_geometry *geometry,
+                                              uint64_t index);
 
 typedef struct lsf_reference_emitter_sample {
     lsf_float3 direction; /* unit, towards the emitter */
@@ -24,17 +30,18 @@ typedef struct lsf_reference_emitter_sample {
     float pdf; /* per steradian; 0: nothing was found */
 } lsf_reference_emitter_sample;
 
-/* `choice` and `u` are uniform in [0, 1). */
-lsf_reference_emitter_sample lsf_reference_emitters_sample(const lsf_reference_emitters *emitters,
-                                                           const lsf_reference_geometry *geometry,
-                                                           lsf_float3 from, double choice,
-                                                           const float u[2]);
+/* A point on the emitter, uniform by area; `u` is uniform in [0, 1). */
+lsf_reference_emitter_sample lsf_reference_emitter_draw(const lsf_reference_emitters *emitters,
+                                                        const lsf_reference_geometry *geometry,
+                                                        uint64_t index, lsf_float3 from,
+                                                        const float u[2]);
 
-/* Density per steradian with which the sampling above gives the hit point that a ray of the unit
- * `direction` from `from` found; 0 for what does not emit. */
-float lsf_reference_emitters_pdf(const lsf_reference_emitters *emitters,
-                                 const lsf_reference_geometry *geometry,
-                                 const lsf_reference_hit *hit, lsf_float3 from,
-                                 lsf_float3 direction);
+/* The emitter that was hit; UINT64_MAX: what was hit does not emit. */
+uint64_t lsf_reference_emitter_of(const lsf_reference_emitters *emitters,
+                                  const lsf_reference_hit *hit);
+/* Density per steradian with which its point `at` is drawn, which a ray of the unit `direction`
+ * from `from` found. */
+float lsf_reference_emitter_pdf(const lsf_reference_emitters *emitters, uint64_t index,
+                                lsf_float3 at, lsf_float3 from, lsf_float3 direction);
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "reference/bsdf.h"
+#include "reference/direct.h"
 #include "reference/punctual.h"
 #include "reference/walk.h"
 #include "scene/environment.h"
@@ -14,45 +15,6 @@
 void lsf_reference_pixel_sample(const lsf_reference_sampler *sampler, float point[2])
 {
     lsf_sobol_2d(sampler->index, lsf_hash(sampler->pixel_seed, 0), point);
-}
-
-/* `bulbs`: of point and spot lights alone. */
-static bool init_powers(lsf_distribution *powers, const lsf_state *state, bool bulbs,
-                        lsf_error *error)
-{
-    float *weights = lsf_alloc(state->light_count, sizeof *weights);
-    for (uint32_t i = 0; weights != NULL && i < state->light_count; i++)
-        if (!bulbs || state->lights[i].type != LSF_LIGHT_DIRECTIONAL)
-            weights[i] = lsf_punctual_power(&state->lights[i]);
-    bool ok = weights != NULL && lsf_distribution_init(powers, weights, state->light_count);
-    free(weights);
-    return ok || lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights",
-                               state->light_count);
-}
-
-/* Directional lights begin no paths: of the many that they would, hardly one meets what is seen. */
-static bool init_lights(lsf_reference_world *world, const lsf_state *state, lsf_error *error)
-{
-    if (state->light_count == 0)
-        return true;
-    if (state->light_count > LSF_REFERENCE_ALL_LIGHTS &&
-        !init_powers(&world->light_power, state, false, error))
-        return false;
-    return init_powers(&world->bulbs, state, true, error);
-}
-
-static bool init_sky(lsf_sky *sky, const lsf_environment *environment, lsf_error *error)
-{
-    return lsf_sky_init(sky, environment) ||
-           lsf_error_set(error, LSF_ERROR_RENDER,
-                         "out of memory for a %u x %u environment's distribution",
-                         environment->width, environment->height);
-}
-
-/* Else rays drawn by the BRDF find what there is: nothing, or the same everywhere. */
-static bool sky_is_drawn(const lsf_sky *sky)
-{
-    return sky->weights && sky->mean > 0.0f;
 }
 
 bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene,
@@ -65,8 +27,7 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
     if (!lsf_reference_geometry_init(&world->geometry, scene, state, LSF_REFERENCE_USE_PICTURE,
                                      error))
         return false;
-    if (lsf_reference_emitters_init(&world->emitters, &world->geometry, error) &&
-        init_sky(&world->sky, &scene->environment, error) && init_lights(world, state, error))
+    if (lsf_reference_lights_init(&world->lights, &world->geometry, error))
         return true;
     lsf_reference_world_finish(world);
     return false;
@@ -74,59 +35,8 @@ bool lsf_reference_world_init(lsf_reference_world *world, const lsf_scene *scene
 
 void lsf_reference_world_finish(lsf_reference_world *world)
 {
-    lsf_distribution_finish(&world->light_power);
-    lsf_distribution_finish(&world->bulbs);
-    lsf_sky_finish(&world->sky);
-    lsf_reference_emitters_finish(&world->emitters);
+    lsf_reference_lights_finish(&world->lights);
     lsf_reference_geometry_finish(&world->geometry);
-}
-
-static void add_emitter(lsf_walk *w)
-{
-    const lsf_reference_world *world = w->world;
-    if (world->emitters.count == 0)
-        return;
-    uint32_t index = w->sampler->index;
-    float u[2];
-    uint32_t choice = lsf_sobol_1d_bits(index, lsf_walk_seed(w, LSF_WALK_EMITTER));
-    lsf_sobol_2d(index, lsf_walk_seed(w, LSF_WALK_EMITTER_POINT), u);
-    lsf_reference_emitter_sample light = lsf_reference_emitters_sample(
-        &world->emitters, &world->geometry, w->surface.position, lsf_unit_double(choice), u);
-    if (!(light.pdf > 0.0f) || !(lsf_f3_max(light.radiance) > 0.0f))
-        return;
-    lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, light.direction);
-    if (!(reflection.pdf > 0.0f) || !lsf_walk_reaches(w, light.target))
-        return;
-    float weight = lsf_mis_weight(light.pdf, reflection.pdf) / light.pdf;
-    lsf_float3 to = lsf_f3_sub(light.target, w->surface.position);
-    lsf_float3 left = lsf_left_after(lsf_walk_absorption(w, light.direction), lsf_f3_length(to));
-    lsf_walk_add_reflected(w, &reflection, lsf_f3_scale(lsf_f3_mul(light.radiance, left), weight));
-}
-
-/* Outside of the scene is air: what comes from there to a medium comes through its surface. */
-static void add_sky(lsf_walk *w)
-{
-    const lsf_sky *sky = &w->world->sky;
-    if (!sky_is_drawn(sky))
-        return;
-    uint32_t bits[2];
-    lsf_sobol_2d_bits(w->sampler->index, lsf_walk_seed(w, LSF_WALK_SKY), bits);
-    double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
-    float pdf;
-    lsf_float3 direction = lsf_sky_sample(sky, u, &pdf);
-    lsf_reference_reflection reflection = lsf_reference_bsdf_evaluate(&w->bsdf, direction);
-    if (!(reflection.pdf > 0.0f) || !lsf_walk_reaches_sky(w, direction))
-        return;
-    float weight = lsf_mis_weight(pdf, reflection.pdf) / pdf;
-    lsf_walk_add_reflected(
-        w, &reflection,
-        lsf_f3_scale(lsf_environment_radiance(sky->environment, direction), weight));
-}
-
-/* Whether rays that leave a surface can meet something that shines. */
-static bool rays_find_light(const lsf_reference_world *world)
-{
-    return world->emitters.count != 0 || world->geometry.scene->environment.present;
 }
 
 /* Russian roulette by the throughput, which does not depend on the scene's brightness. */
@@ -159,10 +69,11 @@ static void add_behind(lsf_walk *w, const lsf_reference_reflection *reflection,
         w->path->rays++;
         if (!lsf_reference_trace(&world->geometry, lsf_ray_origin(&wall, direction), direction,
                                  0.0f, INFINITY, lsf_walk_chance(w), &hit)) {
-            if (world->sky.environment->present)
+            if (world->lights.sky.environment->present)
                 lsf_walk_add_reflected(
                     w, reflection,
-                    lsf_f3_mul(left, lsf_environment_radiance(world->sky.environment, direction)));
+                    lsf_f3_mul(left,
+                               lsf_environment_radiance(world->lights.sky.environment, direction)));
             return;
         }
         lsf_reference_surface_init(&wall, &world->geometry, &hit, direction);
@@ -171,13 +82,27 @@ static void add_behind(lsf_walk *w, const lsf_reference_reflection *reflection,
     }
 }
 
+/* The density, per steradian, with which the vertex draws a point that a ray has found. */
+static float drawn_pdf(const lsf_walk *w, const lsf_reference_hit *hit, lsf_float3 at,
+                       lsf_float3 direction)
+{
+    const lsf_reference_lights *lights = &w->world->lights;
+    uint64_t emitter = lsf_reference_emitter_of(&lights->emitters, hit);
+    if (emitter == UINT64_MAX)
+        return 0.0f;
+    lsf_light_receiver receiver = lsf_walk_receiver(w);
+    return lsf_light_tree_probability(&lights->glow, &receiver, 1, (uint32_t)emitter) *
+           lsf_reference_emitter_pdf(&lights->emitters, emitter, at, w->surface.position,
+                                     direction);
+}
+
 /* Follows a direction drawn from the BRDF to the next vertex: adds what shines there, then moves
  * the walk on. False when the path ends. */
 static bool step(lsf_walk *w)
 {
     const lsf_reference_world *world = w->world;
     bool last = lsf_walk_is_last(w), clear = lsf_reference_is_clear(&w->surface);
-    if (last && !clear && !rays_find_light(world))
+    if (last && !clear && !lsf_reference_lights_are_met(&world->lights))
         return false;
     uint32_t index = w->sampler->index;
     float lobe = lsf_sobol_1d(index, lsf_walk_seed(w, LSF_WALK_LOBE));
@@ -193,10 +118,14 @@ static bool step(lsf_walk *w)
     lsf_reference_hit hit;
     if (!lsf_reference_trace(&world->geometry, lsf_ray_origin(&w->surface, direction), direction,
                              0.0f, INFINITY, lsf_walk_chance(w), &hit)) {
-        if (world->sky.environment->present) {
-            float other = sky_is_drawn(&world->sky) ? lsf_sky_pdf(&world->sky, direction) : 0.0f;
+        if (world->lights.sky.environment->present) {
+            lsf_light_receiver receiver = lsf_walk_receiver(w);
+            float other = lsf_sky_probability(&world->lights, &receiver, lsf_walk_most(w));
+            if (other > 0.0f)
+                other *= lsf_sky_pdf(&world->lights.sky, direction);
             float weight = lsf_mis_weight(reflection.pdf, other) / reflection.pdf;
-            lsf_float3 radiance = lsf_environment_radiance(world->sky.environment, direction);
+            lsf_float3 radiance =
+                lsf_environment_radiance(world->lights.sky.environment, direction);
             lsf_walk_add_met(w, &reflection, crosses, lsf_f3_scale(radiance, weight));
         }
         return false;
@@ -208,8 +137,7 @@ static bool step(lsf_walk *w)
     lsf_reference_surface next;
     lsf_reference_surface_init(&next, &world->geometry, &hit, direction);
     if (lsf_f3_max(next.emission) > 0.0f) {
-        float other =
-            lsf_reference_emitters_pdf(&world->emitters, &world->geometry, &hit, from, direction);
+        float other = drawn_pdf(w, &hit, next.position, direction);
         float weight = lsf_mis_weight(reflection.pdf, other) / reflection.pdf;
         lsf_walk_add_met(w, &reflection, crosses, lsf_f3_scale(next.emission, weight));
     }
@@ -247,7 +175,7 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     if (!lsf_reference_see(&world->geometry, origin, along, camera->near_plane - before,
                            lsf_walk_chance(&w), &hit)) {
         path->emission = world->background.environment
-                             ? lsf_environment_radiance(world->sky.environment, direction)
+                             ? lsf_environment_radiance(world->lights.sky.environment, direction)
                              : lsf_f3_load(world->background.radiance);
         return;
     }
@@ -259,10 +187,8 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     path->normal = w.surface.frame.n;
     bool walking = true;
     while (walking && w.bsdf.specular_probability >= 0.0f) {
-        lsf_add_punctual(&w);
+        lsf_add_direct(&w);
         lsf_add_joined(&w);
-        add_emitter(&w);
-        add_sky(&w);
         walking = step(&w);
     }
 }

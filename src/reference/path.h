@@ -2,13 +2,9 @@
 #ifndef LSF_REFERENCE_PATH_H
 #define LSF_REFERENCE_PATH_H
 
-#include "reference/emitters.h"
 #include "reference/geometry.h"
+#include "reference/lights.h"
 #include "scene/background.h"
-#include "scene/sky.h"
-
-/* Up to this many punctual lights are each asked at every vertex; of more, one is drawn. */
-#define LSF_REFERENCE_ALL_LIGHTS 8u
 
 /* Surface hits before Russian roulette may end a path. */
 #define LSF_REFERENCE_ROULETTE_VERTEX 16u
@@ -20,10 +16,7 @@
 /* Everything a path can meet. Borrows scene and state. */
 typedef struct lsf_reference_world {
     lsf_reference_geometry geometry;
-    lsf_reference_emitters emitters;
-    lsf_sky sky;
-    lsf_distribution light_power; /* of state->lights, when there are too many to ask all */
-    lsf_distribution bulbs;       /* point and spot lights among them, that begin paths */
+    lsf_reference_lights lights;
     uint32_t bounces;
     lsf_seen_background background; /* of paths that meet nothing at all; set by the caller */
     bool thin_walls;                /* some material transmits, and bounds no medium */

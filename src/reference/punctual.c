@@ -4,18 +4,13 @@
 #include "shared/brdf.h"
 #include "shared/light.h"
 
-/* Sets of random numbers of paths that lights begin, for every vertex. */
-enum {
-    JOINED_LIGHT,
-    JOINED_DIRECTION,
-    JOINED_DIMENSIONS,
-};
-#define JOINED (UINT64_MAX - 1) /* no dimension's number */
+/* Of the numbers of paths that lights begin, of which each vertex has a pair; no dimension's
+ * number. */
+#define JOINED (UINT64_MAX - 1)
 
-static uint32_t joined_seed(const lsf_walk *w, uint32_t dimension)
+static uint32_t joined_seed(const lsf_walk *w)
 {
-    uint32_t seed = lsf_hash(w->sampler->pixel_seed, JOINED);
-    return lsf_hash(seed, (uint64_t)w->vertex * JOINED_DIMENSIONS + dimension);
+    return lsf_hash(lsf_hash(w->sampler->pixel_seed, JOINED), w->vertex);
 }
 
 static float spot_offset(const lsf_light_state *light, float scale)
@@ -86,7 +81,7 @@ static float short_of(lsf_float3 position)
 }
 
 /* The density, per steradian at `x`, with which lsf_add_joined comes upon y by way of the light. */
-static float joined_pdf(const lsf_reference_world *world, uint64_t index, const sight *s,
+static float joined_pdf(const lsf_reference_world *world, uint32_t index, const sight *s,
                         const lsf_reference_surface *y, lsf_float3 x, lsf_float3 from_x)
 {
     const lsf_light_state *light = &world->geometry.state->lights[index];
@@ -101,31 +96,22 @@ static float joined_pdf(const lsf_reference_world *world, uint64_t index, const 
     lsf_float3 way = lsf_f3_sub(y->position, x);
     float turned = fabsf(lsf_f3_dot(y->geometric_normal, s->direction) /
                          lsf_f3_dot(y->geometric_normal, from_x));
-    float chosen = (float)lsf_distribution_probability(&world->bulbs, index);
+    float chosen = lsf_lit_probability(&world->lights, x, index);
     return chosen * emitted * turned * lsf_f3_dot(way, way) / (s->distance * s->distance);
-}
-
-/* The probability with which lsf_add_punctual asks a light. */
-static float asked(const lsf_reference_world *world, uint64_t index)
-{
-    return world->light_power.count == 0
-               ? 1.0f
-               : (float)lsf_distribution_probability(&world->light_power, index);
 }
 
 /* Of a direction that the walk has drawn, and that led to where a light shines straight on: the
  * share that is not found by a path from the light. */
-static float drawn_share(const lsf_walk *w, uint64_t index, const sight *s)
+static float drawn_share(const lsf_walk *w, uint32_t index, float asked, const sight *s)
 {
     const lsf_walk_arrival *arrival = &w->arrival;
     if (!arrival->joined)
         return 1.0f;
     float joined = joined_pdf(w->world, index, s, &w->surface, arrival->from, arrival->direction);
-    return lsf_mis_weight(arrival->pdf * asked(w->world, index), joined);
+    return lsf_mis_weight(arrival->pdf * asked, joined);
 }
 
-/* Light passes clear walls straight on, and ends at every other surface, as in shadow maps. */
-static void add_light(lsf_walk *w, uint64_t index)
+void lsf_add_punctual(lsf_walk *w, uint32_t index, float asked)
 {
     const lsf_light_state *light = &w->world->geometry.state->lights[index];
     sight s;
@@ -134,7 +120,7 @@ static void add_light(lsf_walk *w, uint64_t index)
     lsf_float3 position = lsf_f3_load(light->position);
     lsf_float3 target = lsf_f3_mad(position, s.direction, -short_of(position));
     bool far = light->type == LSF_LIGHT_DIRECTIONAL;
-    lsf_float3 radiance = lsf_f3_scale(s.radiance, 1.0f / asked(w->world, index));
+    lsf_float3 radiance = lsf_f3_scale(s.radiance, 1.0f / asked);
     uint32_t walls = 0;
     if (w->world->thin_walls)
         radiance =
@@ -142,22 +128,8 @@ static void add_light(lsf_walk *w, uint64_t index)
     else if (!(far ? lsf_walk_reaches_sky(w, s.direction) : lsf_walk_reaches(w, target)))
         return;
     /* No path from a light goes through a wall. */
-    float share = walls == 0 ? drawn_share(w, index, &s) : 1.0f;
+    float share = walls == 0 ? drawn_share(w, index, asked, &s) : 1.0f;
     lsf_walk_add_reflected(w, &s.reflection, lsf_f3_scale(radiance, share));
-}
-
-void lsf_add_punctual(lsf_walk *w)
-{
-    const lsf_reference_world *world = w->world;
-    const lsf_state *state = world->geometry.state;
-    if (world->light_power.count == 0) {
-        for (uint32_t i = 0; i < state->light_count; i++)
-            add_light(w, i);
-    } else if (world->light_power.sum > 0.0) {
-        double u =
-            lsf_unit_double(lsf_sobol_1d_bits(w->sampler->index, lsf_walk_seed(w, LSF_WALK_LIGHT)));
-        add_light(w, lsf_distribution_sample(&world->light_power, u, NULL));
-    }
 }
 
 /* A direction drawn by the light's intensity. */
@@ -172,19 +144,17 @@ static lsf_float3 draw_emitted(const lsf_light_state *light, const float u[2])
     return lsf_basis_to_world(&frame, lsf_f3(sine * cosf(turn), sine * sinf(turn), cosine));
 }
 
-/* The first surface on a way from the light; `far` bounds it. */
-static bool begin_path(lsf_walk *w, const lsf_light_state *light, lsf_reference_hit *hit)
+bool lsf_punctual_begin(const lsf_reference_geometry *geometry, const lsf_light_state *light,
+                        const float u[2], lsf_reference_chance chance, lsf_reference_hit *hit)
 {
-    float u[2];
-    lsf_sobol_2d(w->sampler->index, joined_seed(w, JOINED_DIRECTION), u);
     lsf_float3 position = lsf_f3_load(light->position);
-    return lsf_reference_trace(&w->world->geometry, position, draw_emitted(light, u),
-                               short_of(position), light->range, lsf_walk_chance(w), hit);
+    return lsf_reference_trace(geometry, position, draw_emitted(light, u), short_of(position),
+                               light->range, chance, hit);
 }
 
 bool lsf_may_join(const lsf_walk *w)
 {
-    return w->world->bulbs.sum > 0.0 && !lsf_walk_is_last(w) &&
+    return w->world->lights.bulbs.nodes != NULL && !lsf_walk_is_last(w) &&
            !lsf_reference_is_clear(&w->surface);
 }
 
@@ -194,11 +164,14 @@ void lsf_add_joined(lsf_walk *w)
     const lsf_reference_world *world = w->world;
     if (!lsf_may_join(w))
         return;
-    double u = lsf_unit_double(lsf_sobol_1d_bits(w->sampler->index, joined_seed(w, JOINED_LIGHT)));
-    uint64_t index = lsf_distribution_sample(&world->bulbs, u, NULL);
-    const lsf_light_state *light = &world->geometry.state->lights[index];
+    lsf_light_numbers numbers = {joined_seed(w), w->sampler->index};
+    lsf_light_choice choice;
+    if (!lsf_lit_draw(&world->lights, w->surface.position, numbers, &choice))
+        return;
+    const lsf_light_state *light = &world->geometry.state->lights[choice.light];
+    const float u[2] = {(float)choice.u[0], (float)choice.u[1]};
     lsf_reference_hit hit;
-    if (!begin_path(w, light, &hit))
+    if (!lsf_punctual_begin(&world->geometry, light, u, lsf_walk_chance(w), &hit))
         return;
     lsf_float3 y = lsf_reference_hit_position(&world->geometry, &hit);
     lsf_float3 to = lsf_f3_sub(y, w->surface.position);
@@ -218,8 +191,11 @@ void lsf_add_joined(lsf_walk *w)
     sight s;
     if (!look_at(&next, light, &s))
         return;
-    float joined = joined_pdf(world, index, &s, &surface, w->surface.position, direction);
-    float weight = drawn / joined * lsf_mis_weight(joined, drawn * asked(world, index));
+    float joined = joined_pdf(world, choice.light, &s, &surface, w->surface.position, direction);
+    lsf_light_receiver there = lsf_walk_receiver(&next);
+    float asked = lsf_light_tree_probability(&world->lights.bulbs, &there, lsf_walk_most(&next),
+                                             choice.light);
+    float weight = drawn / joined * lsf_mis_weight(joined, drawn * asked);
     lsf_float3 target = lsf_ray_origin(&surface, lsf_f3_scale(direction, -1.0f));
     if (!(weight > 0.0f) || !lsf_walk_reaches(w, target))
         return;

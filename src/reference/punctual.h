@@ -15,8 +15,13 @@
  * radius sqrt(3) in normalised space. */
 float lsf_punctual_power(const lsf_light_state *light);
 
-/* Adds what lights send straight to the vertex. */
-void lsf_add_punctual(lsf_walk *walk);
+/* Adds what a light sends straight to the vertex, where it is asked with this probability. Its
+ * light passes clear walls straight on, and ends at every other surface, as in shadow maps. */
+void lsf_add_punctual(lsf_walk *walk, uint32_t light, float asked);
+
+/* The first surface on a way that the light draws by its intensity. */
+bool lsf_punctual_begin(const lsf_reference_geometry *geometry, const lsf_light_state *light,
+                        const float u[2], lsf_reference_chance chance, lsf_reference_hit *hit);
 
 /* Adds what reaches the vertex from a point on or spot light by way of one other surface: the share
  * of paths that the light begins. */

@@ -21,6 +21,18 @@ lsf_reference_chance lsf_walk_chance(lsf_walk *w)
     return (lsf_reference_chance){lsf_hash(seed, w->path->rays++), w->sampler->index};
 }
 
+lsf_light_receiver lsf_walk_receiver(const lsf_walk *w)
+{
+    const lsf_reference_surface *s = &w->surface;
+    return (lsf_light_receiver){s->position, s->frame.n, s->transmission > 0.0f};
+}
+
+uint32_t lsf_walk_most(const lsf_walk *w)
+{
+    bool few = w->world->geometry.state->light_count <= LSF_LIGHTS_MOST;
+    return few || w->vertex == w->walls ? LSF_LIGHTS_MOST : LSF_LIGHTS_LATER;
+}
+
 bool lsf_walk_is_last(const lsf_walk *w)
 {
     return w->vertex - w->walls >= w->world->bounces;

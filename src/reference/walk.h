@@ -53,6 +53,11 @@ static inline float lsf_mis_weight(float pdf, float other_pdf)
     return 1.0f / (1.0f + ratio * ratio);
 }
 
+/* The vertex, as light tells it. */
+lsf_light_receiver lsf_walk_receiver(const lsf_walk *walk);
+/* How many point and spot lights the vertex asks, and as many far ones. */
+uint32_t lsf_walk_most(const lsf_walk *walk);
+
 /* Whether a direction that is drawn at the vertex leads to no further one. Clear walls are no
  * bounce: one that crosses them goes on. */
 bool lsf_walk_is_last(const lsf_walk *walk);

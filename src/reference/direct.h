@@ -1,0 +1,9 @@
+/* Light that reaches a vertex straight from what shines: of lights that are drawn. */
+#ifndef LSF_REFERENCE_DIRECT_H
+#define LSF_REFERENCE_DIRECT_H
+
+#include "reference/walk.h"
+
+void lsf_add_direct(lsf_walk *walk);
+
+#endif
