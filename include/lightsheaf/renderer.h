@@ -66,7 +66,7 @@ typedef struct lsf_view {
  * no picture yet. It makes no GL calls. */
 typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 
-/* As many bounces as the scene's materials need: lsf_requirements.bounces. */
+/* As many bounces as the scene asks for: lsf_requirements.bounces. */
 #define LSF_BOUNCES_AUTO UINT32_MAX
 #define LSF_BOUNCES_MAX 1000u
 

@@ -81,8 +81,8 @@ typedef struct lsf_requirements {
     bool transmissive;    /* KHR_materials_transmission with factor > 0 */
     bool refractive;      /* ... on the surface of a medium: KHR_materials_volume */
     bool thin_walls;      /* ... on one that does not bound a medium */
-    uint32_t bounces;     /* of light that show what its materials do: 1, and 4 more where they
-                           * transmit, for a hollow vessel's walls: two walls, two sides each */
+    uint32_t bounces;     /* of light that show the scene as people expect it: 3, and 4 more where
+                           * materials transmit, for a hollow vessel's walls: two, of two sides */
     bool variable_ior;    /* some dielectric reflects other than one of index 1.5 */
     bool sheened;         /* KHR_materials_sheen with a color above 0 */
     bool coated;          /* KHR_materials_clearcoat with factor > 0 */

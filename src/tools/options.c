@@ -120,7 +120,7 @@ static const lsf_command_option options[] = {
      "first"},
     {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, LSF_BOUNCES_MAX,
      NULL, NULL,
-     "indirect bounces of light; 0 is direct light only; without it 1, and 5 where materials "
+     "indirect bounces of light; 0 is direct light only; without it 3, and 7 where materials "
      "transmit light, for each side of a wall of glass takes one"},
     {"raw", 0, NULL, PLANNING, "Picture", LSF_VALUE_FLAG, AT(raw), 0, 0, NULL, NULL,
      "the mean of the iterations alone: no filter, and all pixels take the same samples unless "

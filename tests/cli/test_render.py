@@ -303,10 +303,10 @@ class WithoutGl(CommandTest):
             scene = os.path.join(SOURCE_ROOT, "data/scenes", name)
             return json.loads(self.run_without_gl("plan", scene, "--json", "-", *words).stdout)["bounces"]
 
-        self.assertEqual(planned("cornell_point.gltf"), 1)
-        self.assertEqual(planned("cornell_glass.gltf"), 5)
+        self.assertEqual(planned("cornell_point.gltf"), 3)
+        self.assertEqual(planned("cornell_glass.gltf"), 7)
         self.assertEqual(planned("cornell_glass.gltf", "--bounces", "2"), 2)
-        self.assertEqual(planned("cornell_glass.gltf", "--diffuse-only"), 1)
+        self.assertEqual(planned("cornell_glass.gltf", "--diffuse-only"), 3)
 
     def test_plan_refuses_the_wrong(self):
         self.refuse("plan", self.scene(), "-o", "a.exr", status=USAGE, says=["-o"])

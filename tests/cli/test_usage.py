@@ -49,7 +49,7 @@ class Words(CommandTest):
         self.assertIn("from 0 images\n", text)
         text = self.run_command("info", self.scene(animated=True)).stdout.decode()
         self.assertIn("1 channel, 1 s\n", text)
-        for words, says in ((["-s", "1"], "1 iteration, 1 bounce\n"),
+        for words, says in ((["-s", "1", "-b", "1"], "1 iteration, 1 bounce\n"),
                             (["-s", "2", "-b", "2"], "2 iterations, 2 bounces\n"),
                             (["-s", "2", "-b", "0"], "2 iterations, no bounces\n")):
             text = self.run_command("plan", self.scene(), *words).stdout.decode()

@@ -50,7 +50,7 @@ lsf_image *render_corner(const lsf_scene *scene, lsf_render_params params, uint3
 void render_gl_point(const lsf_scene *scene, lsf_float3 eye, lsf_float3 target, uint32_t samples,
                      float rgb[3])
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
     params.technique = "direct";
     params.samples = samples;
     params.fov_y = 1e-3f;

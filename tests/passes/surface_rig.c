@@ -32,7 +32,7 @@ void surface_rig_begin(surface_rig *r, uint32_t width, uint32_t height, bool ort
 {
     static const float eye[3] = {0.3f, 1.5f, 2.5f}, target[3] = {0, 0, 0};
     lsf_error error = {0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
     memset(r, 0, sizeof *r);
     r->width = width;
     r->height = height;

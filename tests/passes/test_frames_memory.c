@@ -27,8 +27,12 @@ static lsf_scene *moving_scene(void)
 
 static lsf_render_params tiny_params(const char *technique)
 {
-    return (lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS, .technique = technique, .width = 4,
-                               .height = 4, .samples = 1};
+    return (lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS,
+                               .technique = technique,
+                               .bounces = 1,
+                               .width = 4,
+                               .height = 4,
+                               .samples = 1};
 }
 
 static void require(bool good, const lsf_error *error)

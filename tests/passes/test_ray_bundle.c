@@ -10,7 +10,7 @@ static const lsf_float3 along = {0.48f, 0.64f, 0.6f};
 
 static lsf_render_params view_params(uint32_t width, uint32_t height)
 {
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
     params.width = width;
     params.height = height;
     params.camera_position = eye;

@@ -97,7 +97,7 @@ static void check(const char *technique)
     static const char *const options[] = {"voxel.resolution=16", "rsm.resolution=16",
                                           "vpl.shadow_resolution=16", "bundle.resolution=16",
                                           "environment.directions=1"};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
     params.technique = technique;
     params.samples = 1;
     params.aovs = LSF_AOV_ALL;

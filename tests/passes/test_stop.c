@@ -67,7 +67,7 @@ static void check(const char *technique)
     lsf_scene *scene = lit_scene();
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     caller c = {.stop_after = UINT32_MAX};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
     params.technique = technique;
     params.samples = SAMPLES;
     params.options = options;

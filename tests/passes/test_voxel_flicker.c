@@ -39,7 +39,7 @@ static lsf_image *render_frame(const drawn_by *by, moving_part part, int frame)
 {
     static const float eye[3] = {0.6f, 0.3f, 0.95f}, target[3] = {-0.3f, -0.5f, -0.4f};
     lsf_scene *scene = frame_scene(part, frame);
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
     const char *const options[] = {"shadow.filter=pcf", by->option}; /* as frames are drawn */
     params.technique = by->technique;
     params.options = options;

@@ -27,7 +27,7 @@ static void floor_of_voxels(const char *technique, float side)
 {
     const float eye[3] = {0.3f, 2.0f * side, 0.4f}, target[3] = {0.1f, 0.0f, 0.0f};
     lsf_scene *scene = lit_floor();
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
     params.technique = technique;
     params.width = params.height = 16;
     params.samples = 4;

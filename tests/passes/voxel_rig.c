@@ -30,7 +30,7 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
                     lsf_voxelize_method method, bool jitter, uint32_t sides)
 {
     lsf_error error = {0};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
     const lsf_voxelize_params voxelize = {.method = (int32_t)method};
     lsf_voxel_grid_params grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS};
     grid.resolution = resolution;
