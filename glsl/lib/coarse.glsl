@@ -1,4 +1,4 @@
-/* The grid on which light is traced; see src/plan/coarse_grid.h. Switch LSF_COARSE, 0 when its
+/* The grid on which light is traced; see src/frame/coarse_grid.h. Switch LSF_COARSE, 0 when its
  * texels are the picture's pixels. Needs what lib/view.glsl needs. */
 #ifndef LSF_LIB_COARSE
 #define LSF_LIB_COARSE

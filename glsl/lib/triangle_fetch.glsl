@@ -1,5 +1,5 @@
 /* Triangles of the instance in turn, for compute shaders that rasterise by themselves; the host side is
- * plan/triangle_fetch.h. Switches of lib/material_surface.glsl. */
+ * frame/triangle_fetch.h. Switches of lib/material_surface.glsl. */
 #ifndef LSF_LIB_TRIANGLE_FETCH
 #define LSF_LIB_TRIANGLE_FETCH
 

@@ -2,7 +2,7 @@
 #ifndef LSF_BENCH_SCREEN_RAYS_H
 #define LSF_BENCH_SCREEN_RAYS_H
 
-#include "plan/iteration.h"
+#include "frame/iteration.h"
 #include "reference/module.h"
 
 typedef struct lsf_screen_point {

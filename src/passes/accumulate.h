@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_ACCUMULATE_H
 #define LSF_PASSES_ACCUMULATE_H
 
-#include "plan/iteration.h"
+#include "frame/iteration.h"
 #include "scene/layer.h"
 
 typedef enum lsf_accumulate_source {

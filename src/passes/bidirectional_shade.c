@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "plan/light_map.h"
-#include "plan/light_walls.h"
+#include "frame/light_map.h"
+#include "frame/light_walls.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
 

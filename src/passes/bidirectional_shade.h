@@ -3,9 +3,9 @@
 #ifndef LSF_PASSES_BIDIRECTIONAL_SHADE_H
 #define LSF_PASSES_BIDIRECTIONAL_SHADE_H
 
-#include "plan/bundle_nodes.h"
-#include "plan/light_map.h"
-#include "plan/maps.h"
+#include "frame/bundle_nodes.h"
+#include "frame/light_map.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef enum lsf_bidirectional_strategy {

@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_BLUR_H
 #define LSF_PASSES_BLUR_H
 
-#include "plan/coarse_grid.h"
-#include "plan/maps.h"
+#include "frame/coarse_grid.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_blur_params {

@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_COMPOSE_H
 #define LSF_PASSES_COMPOSE_H
 
-#include "plan/iteration.h"
-#include "plan/maps.h"
+#include "frame/iteration.h"
+#include "frame/maps.h"
 
 /* What there is to add up. */
 typedef struct lsf_compose_use {

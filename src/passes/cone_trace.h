@@ -2,9 +2,9 @@
 #ifndef LSF_PASSES_CONE_TRACE_H
 #define LSF_PASSES_CONE_TRACE_H
 
-#include "plan/coarse_grid.h"
-#include "plan/cone.h"
-#include "plan/maps.h"
+#include "frame/coarse_grid.h"
+#include "frame/cone.h"
+#include "frame/maps.h"
 
 typedef struct lsf_cone_trace_inputs {
     const lsf_coarse_grid *grid;

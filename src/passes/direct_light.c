@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-#include "plan/light_walls.h"
+#include "frame/light_walls.h"
 #include "shared/scene_data.h"
 
 static void plan_switches(lsf_plan *plan, const lsf_direct_light_use *use)

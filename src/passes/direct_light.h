@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_DIRECT_LIGHT_H
 #define LSF_PASSES_DIRECT_LIGHT_H
 
-#include "plan/light_map.h"
-#include "plan/maps.h"
+#include "frame/light_map.h"
+#include "frame/maps.h"
 
 typedef struct lsf_direct_light_inputs {
     const lsf_surface_maps *seen;

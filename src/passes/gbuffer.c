@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "plan/purpose.h"
-#include "plan/texture_upload.h"
+#include "frame/purpose.h"
+#include "frame/texture_upload.h"
 #include "shared/scene_data.h"
 
 const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {

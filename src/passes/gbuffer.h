@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_GBUFFER_H
 #define LSF_PASSES_GBUFFER_H
 
-#include "plan/iteration.h"
-#include "plan/maps.h"
+#include "frame/iteration.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_gbuffer_params {

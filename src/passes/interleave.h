@@ -3,8 +3,8 @@
 #ifndef LSF_PASSES_INTERLEAVE_H
 #define LSF_PASSES_INTERLEAVE_H
 
-#include "plan/iteration.h"
-#include "plan/maps.h"
+#include "frame/iteration.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_interleave_params {

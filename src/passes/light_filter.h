@@ -3,7 +3,7 @@
 #ifndef LSF_PASSES_LIGHT_FILTER_H
 #define LSF_PASSES_LIGHT_FILTER_H
 
-#include "plan/iteration.h"
+#include "frame/iteration.h"
 #include "plan/option.h"
 
 typedef struct lsf_light_filter_params {

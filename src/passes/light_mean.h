@@ -3,8 +3,8 @@
 #ifndef LSF_PASSES_LIGHT_MEAN_H
 #define LSF_PASSES_LIGHT_MEAN_H
 
-#include "plan/iteration.h"
-#include "plan/maps.h"
+#include "frame/iteration.h"
+#include "frame/maps.h"
 
 /* Which parts of light there are. */
 typedef struct lsf_light_mean_use {

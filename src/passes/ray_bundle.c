@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "base/base.h"
+#include "frame/purpose.h"
 #include "passes/ray_bundle_parts.h"
-#include "plan/purpose.h"
 #include "shared/scene_data.h"
 
 /* The search walks slices in one loop of this many steps; see LSF_STEPS there. */

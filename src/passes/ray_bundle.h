@@ -3,8 +3,8 @@
 #ifndef LSF_PASSES_RAY_BUNDLE_H
 #define LSF_PASSES_RAY_BUNDLE_H
 
-#include "plan/bundle_nodes.h"
-#include "plan/iteration.h"
+#include "frame/bundle_nodes.h"
+#include "frame/iteration.h"
 #include "plan/option.h"
 #include "shared/bundle_data.h"
 

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "frame/purpose.h"
 #include "math/sampling.h"
 #include "passes/ray_bundle_parts.h"
-#include "plan/purpose.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
 

@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_RAY_BUNDLE_PARTS_H
 #define LSF_PASSES_RAY_BUNDLE_PARTS_H
 
+#include "frame/triangle_fetch.h"
 #include "passes/ray_bundle.h"
-#include "plan/triangle_fetch.h"
 
 /* The nodes of one bundle. */
 typedef struct lsf_ray_bundle_slot {

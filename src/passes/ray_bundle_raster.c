@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "frame/purpose.h"
 #include "passes/ray_bundle_parts.h"
-#include "plan/purpose.h"
 #include "shared/scene_data.h"
 
 #define DRAW_WORDS 5 /* DrawElementsIndirectCommand */

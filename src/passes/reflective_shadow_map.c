@@ -1,5 +1,5 @@
 #include "passes/reflective_shadow_map.h"
-#include "plan/purpose.h"
+#include "frame/purpose.h"
 
 #include <stdio.h>
 #include <string.h>

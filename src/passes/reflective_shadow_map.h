@@ -3,9 +3,9 @@
 #ifndef LSF_PASSES_REFLECTIVE_SHADOW_MAP_H
 #define LSF_PASSES_REFLECTIVE_SHADOW_MAP_H
 
-#include "plan/light_map.h"
-#include "plan/light_walls.h"
-#include "plan/maps.h"
+#include "frame/light_map.h"
+#include "frame/light_walls.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef enum lsf_reflective_shadow_map_pdf {

@@ -1,5 +1,5 @@
 #include "passes/shadow_map.h"
-#include "plan/purpose.h"
+#include "frame/purpose.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_SHADOW_MAP_H
 #define LSF_PASSES_SHADOW_MAP_H
 
-#include "plan/light_map.h"
-#include "plan/light_walls.h"
+#include "frame/light_map.h"
+#include "frame/light_walls.h"
 #include "plan/option.h"
 
 typedef enum lsf_shadow_filter {

@@ -1,5 +1,5 @@
 #include "passes/sky_map.h"
-#include "plan/purpose.h"
+#include "frame/purpose.h"
 
 #include <math.h>
 #include <stdlib.h>

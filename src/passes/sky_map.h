@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_SKY_MAP_H
 #define LSF_PASSES_SKY_MAP_H
 
-#include "plan/light_map.h"
-#include "plan/light_walls.h"
+#include "frame/light_map.h"
+#include "frame/light_walls.h"
 #include "shared/sky_map_data.h"
 
 /* Layers of a batch, valid until the next run. */

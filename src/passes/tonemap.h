@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_TONEMAP_H
 #define LSF_PASSES_TONEMAP_H
 
-#include "plan/iteration.h"
+#include "frame/iteration.h"
 
 typedef struct lsf_tonemap {
     lsf_context *context;

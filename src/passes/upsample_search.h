@@ -3,8 +3,8 @@
 #ifndef LSF_PASSES_UPSAMPLE_SEARCH_H
 #define LSF_PASSES_UPSAMPLE_SEARCH_H
 
-#include "plan/coarse_grid.h"
-#include "plan/maps.h"
+#include "frame/coarse_grid.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_upsample_search_params {

@@ -3,7 +3,7 @@
 #ifndef LSF_PASSES_VOXEL_BOUNCE_H
 #define LSF_PASSES_VOXEL_BOUNCE_H
 
-#include "plan/cone.h"
+#include "frame/cone.h"
 
 /* What becomes of radiance, pyramids as of voxel_light.h. */
 typedef struct lsf_voxel_bounce_sum {

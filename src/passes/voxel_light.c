@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "plan/light_walls.h"
+#include "frame/light_walls.h"
 #include "shared/scene_data.h"
 
 /* Storage buffer. */

@@ -3,8 +3,8 @@
 #ifndef LSF_PASSES_VOXEL_LIGHT_H
 #define LSF_PASSES_VOXEL_LIGHT_H
 
-#include "plan/light_map.h"
-#include "plan/voxel_grid.h"
+#include "frame/light_map.h"
+#include "frame/voxel_grid.h"
 
 typedef struct lsf_voxel_light_use {
     uint32_t sides;  /* 1 (the front), LSF_VOXEL_SIDES_SURFACE or LSF_VOXEL_SIDES_AXES */

@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_VOXEL_MIP_H
 #define LSF_PASSES_VOXEL_MIP_H
 
-#include "plan/voxel_grid.h"
+#include "frame/voxel_grid.h"
 
 typedef struct lsf_voxel_mip {
     lsf_context *context;

@@ -1,5 +1,5 @@
 #include "passes/voxel_path.h"
-#include "plan/purpose.h"
+#include "frame/purpose.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,10 +2,10 @@
 #ifndef LSF_PASSES_VOXEL_PATH_H
 #define LSF_PASSES_VOXEL_PATH_H
 
-#include "plan/coarse_grid.h"
-#include "plan/maps.h"
+#include "frame/coarse_grid.h"
+#include "frame/maps.h"
+#include "frame/voxel_grid.h"
 #include "plan/option.h"
-#include "plan/voxel_grid.h"
 #include "scene/emitters.h"
 #include "shared/emitter_data.h"
 

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "frame/purpose.h"
 #include "math/sampling.h"
 #include "passes/voxel_path.h"
-#include "plan/purpose.h"
 
 #define POINT_COUNT (LSF_EMITTER_CELLS * LSF_EMITTER_CELLS)
 #define CELL_BITS 6

@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_VOXEL_VIEW_H
 #define LSF_PASSES_VOXEL_VIEW_H
 
-#include "plan/voxel_grid.h"
+#include "frame/voxel_grid.h"
 
 /* RGBA32F, 0 where nothing is seen; 0 (the name) unless asked for. */
 typedef struct lsf_voxel_view_outputs {

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "plan/purpose.h"
+#include "frame/purpose.h"
 #include "shared/scene_data.h"
 
 /* Storage buffers beside LSF_BINDING_MATERIALS. */

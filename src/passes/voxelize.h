@@ -3,7 +3,7 @@
 #ifndef LSF_PASSES_VOXELIZE_H
 #define LSF_PASSES_VOXELIZE_H
 
-#include "plan/voxel_grid.h"
+#include "frame/voxel_grid.h"
 
 typedef enum lsf_voxelize_method {
     LSF_VOXELIZE_COMPUTE, /* an exact triangle-box test */

@@ -2,8 +2,8 @@
 #ifndef LSF_PASSES_VOXELIZE_PARTS_H
 #define LSF_PASSES_VOXELIZE_PARTS_H
 
+#include "frame/triangle_fetch.h"
 #include "passes/voxelize.h"
-#include "plan/triangle_fetch.h"
 
 #define LSF_VOXELIZE_TEXTURES 11
 

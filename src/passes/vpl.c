@@ -1,12 +1,12 @@
 #include "passes/vpl.h"
-#include "plan/purpose.h"
+#include "frame/purpose.h"
 
 #include <string.h>
 
 #include "base/base.h"
+#include "frame/light_map.h"
+#include "frame/light_walls.h"
 #include "math/sampling.h"
-#include "plan/light_map.h"
-#include "plan/light_walls.h"
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 

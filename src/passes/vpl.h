@@ -3,8 +3,8 @@
 #ifndef LSF_PASSES_VPL_H
 #define LSF_PASSES_VPL_H
 
-#include "plan/light_map.h"
-#include "plan/maps.h"
+#include "frame/light_map.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 #include "scene/emitters.h"
 #include "shared/vpl_data.h"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/base.h"
+#include "frame/purpose.h"
 #include "math/distribution.h"
 #include "math/sampling.h"
 #include "passes/bidirectional_shade.h"
@@ -13,7 +14,6 @@
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl.h"
-#include "plan/purpose.h"
 #include "scene/environment.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"

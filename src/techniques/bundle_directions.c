@@ -1,5 +1,5 @@
 #include "techniques/bundle_directions.h"
-#include "plan/purpose.h"
+#include "frame/purpose.h"
 
 #include <stdlib.h>
 #include <string.h>

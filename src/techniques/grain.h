@@ -2,7 +2,7 @@
 #ifndef LSF_TECHNIQUES_GRAIN_H
 #define LSF_TECHNIQUES_GRAIN_H
 
-#include "plan/iteration.h"
+#include "frame/iteration.h"
 
 /* Cells across the picture's shorter side, at half of all visible points' depth, below which light
  * that bounces is off by 5 % and more: measured in docs/voxels.md, "Where it fails". */

@@ -2,6 +2,8 @@
 #ifndef LSF_TECHNIQUES_TECHNIQUE_H
 #define LSF_TECHNIQUES_TECHNIQUE_H
 
+#include "frame/cone.h"
+#include "frame/iteration.h"
 #include "passes/bidirectional_shade.h"
 #include "passes/blur.h"
 #include "passes/compose.h"
@@ -17,8 +19,6 @@
 #include "passes/voxel_view.h"
 #include "passes/voxelize.h"
 #include "passes/vpl.h"
-#include "plan/cone.h"
-#include "plan/iteration.h"
 #include "plan/tessellation.h"
 
 /* The params of everything that takes options; lsf_pass_option_tables names them. */

@@ -19,12 +19,13 @@ ALLOWED = {
     "scene": {"base", "math"},
     "io": {"base", "math", "scene"},
     "plan": {"base", "math", "gl", "scene"},
-    "passes": {"base", "math", "gl", "scene", "plan"},
-    "techniques": {"base", "math", "gl", "scene", "plan", "passes"},
+    "frame": {"base", "math", "gl", "scene", "plan"},
+    "passes": {"base", "math", "gl", "scene", "plan", "frame"},
+    "techniques": {"base", "math", "gl", "scene", "plan", "frame", "passes"},
     "reference": {"base", "math", "scene"},
     "measure": {"base", "io"},
-    "bench": {"base", "math", "gl", "scene", "plan", "passes", "techniques", "reference"},
-    "tools": {"base", "math", "gl", "scene", "io", "plan", "passes", "techniques", "measure"},
+    "bench": {"base", "math", "gl", "scene", "plan", "frame", "passes", "techniques", "reference"},
+    "tools": {"base", "math", "gl", "scene", "io", "plan", "frame", "passes", "techniques", "measure"},
 }
 # Headers that a layer offers to one that may not see the rest of it.
 EXCEPTIONS = {
@@ -98,12 +99,17 @@ class Layers(unittest.TestCase):
 
     def test_textures_are_bound_with_their_samplers(self):
         """A unit keeps its sampler, whatever texture is bound next."""
-        allowed = {"src/gl/draw.c", "src/gl/state.c", "src/plan/scene_gpu.c"}
+        allowed = {"src/gl/draw.c", "src/gl/state.c", "src/frame/scene_gpu.c"}
         calls = re.compile(r"\bglBind(TextureUnit|Textures?|Samplers?)\(")
         for path in files("src", endings=(".c",)):
             name = str(path.relative_to(ROOT))
             if name not in allowed and "/glad/" not in name:
                 self.assertIsNone(calls.search(path.read_text()), f"{name}: use lsf_bind_texture")
+
+    def test_the_plan_is_made_without_gl(self):
+        calls = re.compile(r"\bgl[A-Z]\w*\(")
+        for path in files("src/plan"):
+            self.assertIsNone(calls.search(path.read_text()), path)
 
     def test_public_headers_include_public_headers_only(self):
         wrong = []

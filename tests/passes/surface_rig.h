@@ -2,8 +2,8 @@
 #ifndef LSF_TESTS_PASSES_SURFACE_RIG_H
 #define LSF_TESTS_PASSES_SURFACE_RIG_H
 
-#include "plan/coarse_grid.h"
-#include "plan/maps.h"
+#include "frame/coarse_grid.h"
+#include "frame/maps.h"
 #include "render_gl.h"
 #include "techniques/setup.h"
 

@@ -1,8 +1,8 @@
 /* Cones through voxels: the pyramid against the CPU, the set, closed forms, extremes. */
 #include <math.h>
 
+#include "frame/cone.h"
 #include "passes/voxel_mip.h"
-#include "plan/cone.h"
 #include "render_gl.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"

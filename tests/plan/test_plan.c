@@ -11,7 +11,7 @@
 
 #include "../scene/build_scene.h"
 #include "base/base.h"
-#include "plan/plan.h"
+#include "frame/resources.h"
 
 enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
 

@@ -1,0 +1,96 @@
+#include "frame/cone.h"
+#include "frame/purpose.h"
+
+#include <math.h>
+
+#include "math/sampling.h"
+#include "shared/brdf.h"
+#include "shared/cone.h"
+#include "shared/scene_data.h"
+
+const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
+    {"cone.count", LSF_OPTION_INT, offsetof(lsf_cone_params, count), 1, LSF_CONE_MAX, NULL, "",
+     "diffuse cones of a point; more are narrower"},
+    {"cone.sides", LSF_OPTION_ENUM, offsetof(lsf_cone_params, sides), 0, 0, "isotropic|anisotropic",
+     "", "whether voxels look the same from all directions, or not"},
+    {"cone.offset", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, offset), 0.0, 8.0, NULL, "voxels",
+     "that cones start above the surface"},
+    {"cone.step", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, step), 0.1, 2.0, NULL, "texels",
+     "from one look to the next, at the cone's width"},
+    {"cone.opacity", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, opacity), 0.1, 16.0, NULL, "",
+     "factor of the voxels' opacity; above 1 thin walls leak less"},
+    {"cone.distance", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, distance), 0.0, 4.0, NULL,
+     "half extents of the scene", "that cones reach at most"},
+    {"cone.scale", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, scale), 0.01, 1.0, NULL, "",
+     "width and height of the grid that cones are traced on, to the picture's"},
+    {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
+     "other elevations each iteration, so that no direction is left out in the mean"},
+    {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
+     "cones end where their axis meets a voxel: no light comes through walls; off: smooth, and "
+     "leaking"},
+    {"cone.turn", LSF_OPTION_BOOL, offsetof(lsf_cone_params, turn), 0, 0, NULL, "",
+     "other directions for each pixel"},
+};
+
+bool lsf_cone_marches(const lsf_cone_params *params, const lsf_requirements *requirements)
+{
+    return !params->sealed || (requirements->specular && !requirements->environment);
+}
+
+uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements)
+{
+    return lsf_cone_marches(params, requirements) ? LSF_VOXEL_LEVELS : 1;
+}
+
+uint32_t lsf_cone_slices(const lsf_cone_params *params)
+{
+    return params->sides == LSF_CONE_ANISOTROPIC ? LSF_VOXEL_SIDES_AXES : 1;
+}
+
+/* The projected disc is cut into rings of equal area, one a cone, and each is turned from the one
+ * before by the golden angle (Vogel 1979, "A Better Way to Construct the Sunflower Head"). Over all
+ * elevations and turns directions are then distributed exactly by their cosine. A cone is a cap of
+ * the mean solid angle, 2 pi / count: cos(half aperture) = 1 - 1 / count. */
+void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones)
+{
+    const double golden_angle = (double)LSF_PI * (3.0 - sqrt(5.0));
+    double cosine = 1.0 - 1.0 / (double)count;
+    float spread = (float)(2.0 * sqrt(1.0 - cosine * cosine) / fmax(cosine, 0.5));
+    for (uint32_t i = 0; i < count; i++) {
+        double radius2 = (double)lsf_cone_radius2((float)i, elevation, (float)count);
+        double radius = sqrt(radius2), angle = golden_angle * (double)i;
+        cones[i] = (lsf_vec4){(float)(radius * cos(angle)), (float)(radius * sin(angle)),
+                              (float)sqrt(1.0 - radius2), spread};
+    }
+}
+
+/* Steps that the longest cone takes: it crosses the grid's diagonal in texels that are at least an
+ * eighth of its length, or voxels. See texel sizes in lib/voxel_cone.glsl. */
+static int32_t most_steps(const lsf_cone_params *params, const lsf_voxel_grid *grid)
+{
+    float diagonal = 0.0f;
+    for (int axis = 0; axis < 3; axis++)
+        diagonal += (float)grid->size[axis] * (float)grid->size[axis];
+    return 2 + (int32_t)ceilf(sqrtf(diagonal) / params->step);
+}
+
+void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
+                   const lsf_iteration *iteration, GLuint radiance)
+{
+    glTextureParameteri(radiance, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTextureParameteri(radiance, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, radiance);
+    lsf_vec4 cones[LSF_CONE_MAX];
+    uint32_t index = iteration->index;
+    float elevation = 0.5f;
+    if (params->jitter)
+        elevation = lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_ELEVATION));
+    lsf_cone_set((uint32_t)params->count, 0.5f, cones);
+    glUniform4fv(LSF_LOCATION_CONE_SET, params->count, &cones[0].x);
+    glUniform4f(LSF_LOCATION_CONE_TURN,
+                lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_TURN)),
+                params->turn, (float)params->count, elevation);
+    glUniform4f(LSF_LOCATION_CONE, params->step, params->offset, params->distance / grid->side,
+                params->opacity);
+    glUniform1i(LSF_LOCATION_CONE_STEPS, most_steps(params, grid));
+}

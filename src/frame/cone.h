@@ -1,0 +1,55 @@
+/* Cones through the pyramid of voxels' radiance: the set that gathers a hemisphere, and how they
+ * march. lib/voxel_cone.glsl is the other half. */
+#ifndef LSF_FRAME_CONE_H
+#define LSF_FRAME_CONE_H
+
+#include "frame/iteration.h"
+#include "frame/voxel_grid.h"
+#include "plan/option.h"
+
+typedef enum lsf_cone_sides {
+    LSF_CONE_ISOTROPIC,   /* a texel looks the same from everywhere */
+    LSF_CONE_ANISOTROPIC, /* from each of six directions different */
+} lsf_cone_sides;
+
+typedef struct lsf_cone_params {
+    int32_t count;  /* that gather a hemisphere */
+    int32_t sides;  /* lsf_cone_sides */
+    float offset;   /* of the start along the normal [voxels] */
+    float step;     /* texels of the level in turn */
+    float opacity;  /* that of texels counts times this, at most 1 */
+    float distance; /* that cones reach [half extents of the scene] */
+    float scale;    /* of the grid that they are traced on to the picture, along each side */
+    bool jitter;    /* of their elevation, each within its share, from iteration to iteration */
+    bool sealed;    /* cones end where their axis meets a voxel; diffuse ones are no more than it */
+    bool turn;      /* the set is turned from pixel to pixel */
+} lsf_cone_params;
+
+#define LSF_CONE_PARAMS_DEFAULTS                                                                   \
+    .count = 6, .sides = LSF_CONE_ANISOTROPIC, .offset = 1.5f, .step = 1.0f, .opacity = 1.0f,      \
+    .distance = 4.0f, .scale = 1.0f, .jitter = true, .sealed = true, .turn = true
+
+#define LSF_CONE_OPTION_COUNT 10
+extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
+
+/* Whether cones march through the pyramid of radiance in a scene with those requirements. Sealed
+ * diffuse ones are their axis, and so are specular ones under an environment, drawn from the lobe.
+ */
+bool lsf_cone_marches(const lsf_cone_params *params, const lsf_requirements *requirements);
+/* Levels of radiance that they read. */
+uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements);
+
+/* Slices of radiance along z. */
+uint32_t lsf_cone_slices(const lsf_cone_params *params);
+
+/* The set about z: in x y z unit directions, in w a cone's diameter by its length. Each of `count`
+ * cones stands for an equal share of the cosine-weighted hemisphere. `elevation` in [0, 1) says
+ * where in its share each lies. */
+void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones);
+
+/* Sets the uniforms of lib/voxel_cone.glsl and of a set for the program in use, and binds the
+ * pyramid. */
+void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
+                   const lsf_iteration *iteration, GLuint radiance);
+
+#endif

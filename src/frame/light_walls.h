@@ -1,0 +1,48 @@
+/* Thin walls that transmit, in the maps of lights: light goes straight through them. In each
+ * iteration a wall is in the map by chance (lib/straight.glsl); what a map then shows behind walls
+ * is tinted by them. */
+#ifndef LSF_FRAME_LIGHT_WALLS_H
+#define LSF_FRAME_LIGHT_WALLS_H
+
+#include "frame/iteration.h"
+
+/* Of a light's map: unit-range colours, 10 bits each. */
+#define LSF_LIGHT_TINT_FORMAT GL_RGB10_A2
+
+typedef struct lsf_light_walls {
+    lsf_context *context;
+    GLuint depth_program; /* walls that are there: depth and its slope; 0 where nobody draws them
+                             alone */
+    GLuint tint_program;  /* those that are not; 0: no wall transmits */
+} lsf_light_walls;
+
+/* Whether light of some lamp or of the sky passes some surface. */
+bool lsf_light_walls_needed(const lsf_plan *plan);
+
+/* What light of a lamp passes: thin walls. Light of the sky passes whatever light goes straight
+ * through, for all other ways to find the sky do. */
+typedef struct lsf_light_passage {
+    bool any;
+    lsf_draw_mode stops, passes; /* what is drawn as opaque, and what by chance */
+} lsf_light_passage;
+
+lsf_light_passage lsf_light_passage_of(const lsf_iteration *iteration, uint32_t light_index);
+
+/* Adds a pass `name` to the plan, where it is needed. */
+void lsf_light_walls_plan(lsf_plan *plan, const char *name, bool gradient);
+/* With `depth`, for maps that hold nothing but depth and slope. */
+bool lsf_light_walls_create(lsf_light_walls *walls, lsf_context *context, const lsf_plan *plan,
+                            const char *name, bool depth, lsf_error *error);
+
+/* Draws the walls that are there into the map that is bound, as lsf_begin_surfaces has left it. */
+void lsf_light_walls_draw(const lsf_light_walls *walls, const lsf_iteration *iteration, GLint face,
+                          uint32_t purpose, uint32_t light_index, const lsf_draw_region *region,
+                          uint64_t *counts);
+/* Multiplies the others into `framebuffer`, a face of `resolution` texels of the map's tint, after
+ * white; `depth` is the map's; `purpose` as above. The light's buffer is bound. */
+void lsf_light_walls_tint(const lsf_light_walls *walls, const lsf_iteration *iteration,
+                          GLuint framebuffer, uint32_t resolution, GLint face, uint32_t purpose,
+                          uint32_t light_index, GLuint depth, const lsf_draw_region *region,
+                          uint64_t *counts);
+
+#endif

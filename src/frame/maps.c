@@ -1,0 +1,14 @@
+#include "frame/maps.h"
+
+GLenum lsf_gbuffer_gloss(const lsf_plan *plan)
+{
+    const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
+    return gloss ? gloss->texture.internal_format : GL_NONE;
+}
+
+void lsf_surface_maps_bind(const lsf_surface_maps *maps)
+{
+    lsf_bind_texture(0, maps->depth);
+    lsf_bind_texture(1, maps->surface);
+    lsf_bind_texture(2, maps->gloss);
+}

@@ -1,0 +1,45 @@
+/* Textures that passes hand to each other, of the picture's size or of a grid's. Names are
+ * borrowed. */
+#ifndef LSF_FRAME_MAPS_H
+#define LSF_FRAME_MAPS_H
+
+#include "frame/resources.h"
+
+/* Points on surfaces: what the picture's pixels see, or the same in another order or of fewer
+ * pixels. Formats as in lib/gbuffer.glsl. */
+typedef struct lsf_surface_maps {
+    GLuint depth;   /* reverse-Z, 0 where nothing is seen: DEPTH_COMPONENT32F, or a copy in R32F */
+    GLuint surface; /* RGBA32UI */
+    GLuint gloss;   /* R32UI or RG32UI; 0: roughness and metallic are the same everywhere */
+} lsf_surface_maps;
+
+/* Light at such points, RGBA32F; both 0: there is none. */
+typedef struct lsf_split_light {
+    GLuint irradiance; /* for the diffuse lobe, without its albedo */
+    GLuint specular;   /* radiance of the specular lobe; 0: there is no such lobe */
+} lsf_split_light;
+
+/* What the G-buffer holds. */
+typedef struct lsf_gbuffer_maps {
+    lsf_surface_maps seen;
+    GLuint emission;         /* RGBA32F, radiance; 0: nothing emits */
+    GLuint motion;           /* RG32F, pixels; 0 unless asked for */
+    GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye; 0: none is lost */
+} lsf_gbuffer_maps;
+
+/* The parts of an iteration's picture before they are added up. */
+typedef struct lsf_light_parts {
+    const lsf_gbuffer_maps *gbuffer;
+    GLuint direct;                /* RGBA32F, reflected radiance of direct light; 0: none */
+    lsf_split_light split_direct; /* direct light beside that */
+    lsf_split_light sky;          /* ... of the environment's directions, beside both */
+    lsf_split_light indirect;
+} lsf_light_parts;
+
+/* The format of the G-buffer's gloss, once that is planned; GL_NONE: it has none. */
+GLenum lsf_gbuffer_gloss(const lsf_plan *plan);
+
+/* For lib/gbuffer_textures.glsl, to units 0 to 2. */
+void lsf_surface_maps_bind(const lsf_surface_maps *maps);
+
+#endif

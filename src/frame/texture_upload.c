@@ -1,0 +1,295 @@
+#include "frame/texture_upload.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "shared/tonemap.h"
+
+/* How an image is stored. sRGB colour is decoded here, to half floats, which resolve 11 bits at
+ * every brightness: GL's own sRGB formats are decoded by an approximation and filtered with 8-bit
+ * weights in software, which puts a channel's mean off by up to 0.4 % on a brick wall. */
+typedef struct storage {
+    GLenum internal_format, type;
+    uint32_t channels; /* of the uploaded texels */
+    bool decode;       /* sRGB to linear floats here */
+} storage;
+
+static storage choose_storage(const lsf_texture_image *image, bool srgb)
+{
+    uint32_t n = image->channels;
+    if (image->type == LSF_TEXEL_F32)
+        return (storage){GL_RGBA32F, GL_FLOAT, 4, false};
+    if (srgb)
+        return (storage){GL_RGBA16F, GL_FLOAT, 4, true};
+    bool wide = image->type == LSF_TEXEL_U16;
+    GLenum type = wide ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE;
+    if (n == 1)
+        return (storage){wide ? GL_R16 : GL_R8, type, 1, false};
+    if (n == 2)
+        return (storage){wide ? GL_RG16 : GL_RG8, type, 2, false};
+    return (storage){wide ? GL_RGBA16 : GL_RGBA8, type, 4, false};
+}
+
+static uint32_t level_count(uint32_t width, uint32_t height)
+{
+    uint32_t levels = 1;
+    for (uint32_t size = width > height ? width : height; size > 1; size >>= 1)
+        levels++;
+    return levels;
+}
+
+/* Numbers the distinct pairs of image and colour space that materials in use read, and counts them;
+ * false without memory. `of` (per scene texture, LSF_NONE when unused; NULL allowed) and
+ * `representative` (per pair, a scene texture) are filled in. */
+static bool number_textures(const lsf_scene *scene, const lsf_plan *plan, uint32_t *of,
+                            uint32_t *representative, uint32_t *count)
+{
+    *count = 0;
+    uint32_t *pair_of = lsf_alloc((uint64_t)scene->image_count * 2, sizeof *pair_of);
+    bool *used = lsf_alloc(scene->texture_count, sizeof *used);
+    bool good = pair_of && used;
+    if (!good)
+        goto done;
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const lsf_material *m =
+            &scene->materials[scene->primitives[scene->instances[i].primitive].material];
+        const lsf_texture_slot *slots[] = {
+            &m->base_color_texture,     &m->metallic_roughness_texture,
+            &m->normal_texture,         &m->emissive_texture,
+            &m->anisotropy_texture,     &m->specular_texture,
+            &m->specular_color_texture, &m->coat_texture,
+            &m->coat_roughness_texture, &m->coat_normal_texture,
+            &m->sheen_color_texture,    &m->sheen_roughness_texture,
+            &m->transmission_texture};
+        size_t count_read = LSF_COUNT(slots) - !plan->transmission;
+        for (size_t s = 0; s < count_read; s++)
+            if (slots[s]->texture != LSF_NONE)
+                used[slots[s]->texture] = true;
+    }
+    for (uint32_t t = 0; t < scene->texture_count; t++) {
+        if (of)
+            of[t] = LSF_NONE;
+        if (!used[t])
+            continue;
+        uint32_t *pair = &pair_of[2 * scene->textures[t].image + scene->textures[t].srgb];
+        if (*pair == 0) {
+            representative[*count] = t;
+            *pair = ++*count; /* one-based; 0 is "not numbered yet" */
+        }
+        if (of)
+            of[t] = *pair - 1;
+    }
+done:
+    free(pair_of);
+    free(used);
+    return good;
+}
+
+static void texture_name(char name[64], uint32_t index)
+{
+    snprintf(name, 64, "scene.texture.%u", index);
+}
+
+void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
+{
+    uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
+    uint32_t count = 0;
+    if (!representative || !number_textures(scene, plan, NULL, representative, &count))
+        plan->failed = true;
+    for (uint32_t i = 0; i < count; i++) {
+        const lsf_texture *texture = &scene->textures[representative[i]];
+        const lsf_texture_image *image = &scene->images[texture->image];
+        lsf_texture_desc desc = {NULL,
+                                 GL_TEXTURE_2D,
+                                 choose_storage(image, texture->srgb).internal_format,
+                                 image->width,
+                                 image->height,
+                                 1,
+                                 level_count(image->width, image->height)};
+        char name[64];
+        texture_name(name, i);
+        lsf_plan_texture_desc_add(plan, name, &desc, "%.100s%s", image->name,
+                                  texture->srgb ? ", sRGB" : "");
+    }
+    free(representative);
+    if (scene->environment.present && scene->environment.width)
+        lsf_plan_texture_add(plan, "scene.environment", GL_RGB32F, scene->environment.width,
+                             scene->environment.height, "the environment map, lat-long");
+}
+
+/* One channel of a texel, 0..1 for integers. */
+static float texel_value(const lsf_texture_image *image, uint64_t index)
+{
+    if (image->type == LSF_TEXEL_U8)
+        return (float)((const uint8_t *)image->texels)[index] / 255.0f;
+    if (image->type == LSF_TEXEL_U16)
+        return (float)((const uint16_t *)image->texels)[index] / 65535.0f;
+    return ((const float *)image->texels)[index];
+}
+
+/* Where channel `c` of R, G, B, A is in a texel of `channels`; -1: nowhere, opaque alpha. */
+static int source_channel(uint32_t channels, uint32_t c)
+{
+    if (c == 3)
+        return channels == 2 || channels == 4 ? (int)channels - 1 : -1;
+    return channels <= 2 ? 0 : (int)c;
+}
+
+/* RGBA floats, decoded from sRGB where `s.decode`. */
+static void convert_to_float(float *out, const lsf_texture_image *image, storage s)
+{
+    float table[256];
+    for (int i = 0; i < 256; i++)
+        table[i] = lsf_srgb_decode((float)i / 255.0f);
+    uint64_t count = (uint64_t)image->width * image->height;
+    for (uint64_t i = 0; i < count; i++)
+        for (uint32_t c = 0; c < 4; c++) {
+            int from = source_channel(image->channels, c);
+            uint64_t at = i * image->channels + (uint32_t)(from < 0 ? 0 : from);
+            float value = from < 0 ? 1.0f : texel_value(image, at);
+            if (s.decode && c < 3)
+                value = image->type == LSF_TEXEL_U8 ? table[((const uint8_t *)image->texels)[at]]
+                                                    : lsf_srgb_decode(value);
+            out[4 * i + c] = value;
+        }
+}
+
+/* RGB to RGBA, opaque, keeping the integers of `size` bytes. */
+static void convert_to_rgba(uint8_t *out, const lsf_texture_image *image, size_t size)
+{
+    uint64_t count = (uint64_t)image->width * image->height;
+    const uint8_t *in = image->texels;
+    for (uint64_t i = 0; i < count; i++) {
+        memcpy(out + 4 * size * i, in + 3 * size * i, 3 * size);
+        memset(out + 4 * size * i + 3 * size, 0xff, size);
+    }
+}
+
+/* Texels as GL takes them where the file's own layout does not fit; NULL without memory. */
+static void *convert_texels(const lsf_texture_image *image, storage s)
+{
+    size_t size = s.type == GL_FLOAT ? 4 : s.type == GL_UNSIGNED_SHORT ? 2 : 1;
+    void *out = lsf_alloc((uint64_t)image->width * image->height, s.channels * size);
+    if (out && s.type == GL_FLOAT)
+        convert_to_float(out, image, s);
+    else if (out)
+        convert_to_rgba(out, image, size);
+    return out;
+}
+
+static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index,
+                   const lsf_texture *texture, lsf_error *error)
+{
+    static const GLenum layouts[] = {0, GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    const lsf_texture_image *image = &gpu->scene->images[texture->image];
+    storage s = choose_storage(image, texture->srgb);
+    char name[64];
+    texture_name(name, index);
+    if (!lsf_plan_create_texture(plan, gpu->context, name, &gpu->textures[index], error))
+        return false;
+    bool direct = s.channels == image->channels && !s.decode;
+    void *converted = direct ? NULL : convert_texels(image, s);
+    if (!direct && !converted)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory for %ux%u texels",
+                             image->name, image->width, image->height);
+    glTextureSubImage2D(gpu->textures[index], 0, 0, 0, (GLsizei)image->width,
+                        (GLsizei)image->height, layouts[s.channels], s.type,
+                        direct ? image->texels : converted);
+    free(converted);
+    if (s.channels <= 2) {
+        GLint swizzle[] = {GL_RED, GL_RED, GL_RED, s.channels == 2 ? GL_GREEN : GL_ONE};
+        glTextureParameteriv(gpu->textures[index], GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+    }
+    glGenerateTextureMipmap(gpu->textures[index]);
+    return true;
+}
+
+static bool upload_environment(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+{
+    const lsf_environment *environment = &gpu->scene->environment;
+    if (!lsf_plan_create_texture_if_planned(plan, gpu->context, "scene.environment",
+                                            &gpu->environment, error))
+        return false;
+    if (!gpu->environment)
+        return true;
+    glTextureSubImage2D(gpu->environment, 0, 0, 0, (GLsizei)environment->width,
+                        (GLsizei)environment->height, GL_RGB, GL_FLOAT, environment->texels);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTextureParameteri(gpu->environment, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return true;
+}
+
+enum { LINEAR, NEAREST, POINT, FILTERS };
+
+static uint32_t sampler_index(const lsf_texture *texture, bool point)
+{
+    uint32_t wraps = (uint32_t)texture->wrap_s * 3 + (uint32_t)texture->wrap_t;
+    int filter = point ? POINT : texture->nearest ? NEAREST : LINEAR;
+    return wraps * FILTERS + (uint32_t)filter;
+}
+
+static void create_sampler(lsf_scene_gpu *gpu, const lsf_texture *texture, bool point)
+{
+    static const GLint wraps[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
+    bool nearest = point || texture->nearest;
+    GLuint *sampler = &gpu->samplers[sampler_index(texture, point)];
+    if (*sampler)
+        return;
+    glCreateSamplers(1, sampler);
+    glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_S, wraps[texture->wrap_s]);
+    glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_T, wraps[texture->wrap_t]);
+    glSamplerParameteri(*sampler, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    glSamplerParameteri(*sampler, GL_TEXTURE_MIN_FILTER,
+                        point     ? GL_NEAREST_MIPMAP_NEAREST
+                        : nearest ? GL_NEAREST_MIPMAP_LINEAR
+                                  : GL_LINEAR_MIPMAP_LINEAR);
+}
+
+bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+{
+    const lsf_scene *scene = gpu->scene;
+    uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
+    gpu->texture_of = lsf_alloc(scene->texture_count, sizeof *gpu->texture_of);
+    gpu->textures = lsf_alloc(scene->texture_count, sizeof *gpu->textures);
+    bool ok = representative && gpu->texture_of && gpu->textures &&
+              number_textures(scene, plan, gpu->texture_of, representative, &gpu->gl_texture_count);
+    if (!ok)
+        lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u textures",
+                      scene->texture_count);
+    for (uint32_t i = 0; ok && i < gpu->gl_texture_count; i++)
+        ok = upload(gpu, plan, i, &scene->textures[representative[i]], error);
+    for (uint32_t t = 0; ok && t < scene->texture_count; t++)
+        if (gpu->texture_of[t] != LSF_NONE) {
+            create_sampler(gpu, &scene->textures[t], false);
+            create_sampler(gpu, &scene->textures[t], true);
+        }
+    free(representative);
+    return ok && upload_environment(gpu, plan, error);
+}
+
+void lsf_texture_upload_destroy(lsf_scene_gpu *gpu)
+{
+    for (uint32_t i = 0; gpu->textures && i < gpu->gl_texture_count; i++)
+        lsf_texture_destroy(gpu->context, &gpu->textures[i]);
+    lsf_texture_destroy(gpu->context, &gpu->environment);
+    glDeleteSamplers(LSF_COUNT(gpu->samplers), gpu->samplers);
+    free(gpu->textures);
+    free(gpu->texture_of);
+}
+
+GLuint lsf_texture_upload_sampler(const lsf_scene_gpu *gpu, uint32_t texture, bool point)
+{
+    return gpu->samplers[sampler_index(&gpu->scene->textures[texture], point)];
+}
+
+void lsf_texture_upload_set_lod_bias(const lsf_scene_gpu *gpu, float bias)
+{
+    for (size_t i = 0; i < LSF_COUNT(gpu->samplers); i++)
+        if (gpu->samplers[i])
+            glSamplerParameterf(gpu->samplers[i], GL_TEXTURE_LOD_BIAS, bias);
+}

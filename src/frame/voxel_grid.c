@@ -1,0 +1,180 @@
+#include "frame/voxel_grid.h"
+#include "frame/purpose.h"
+
+#include <math.h>
+
+#include "math/sampling.h"
+#include "scene/sky.h"
+#include "shared/scene_data.h"
+
+/* Of a 3D texture, that every device has (GL 4.5, table 23.53). */
+#define MAX_TEXTURE_DEPTH 2048
+
+/* Whole blocks of occupancy: 4^2 voxels. */
+#define BLOCK 16
+
+const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT] = {
+    {"voxel.resolution", LSF_OPTION_INT, offsetof(lsf_voxel_grid_params, resolution), 1, 512, NULL,
+     "voxels", "along the scene's longest side"},
+    {"voxel.memory", LSF_OPTION_FLOAT, offsetof(lsf_voxel_grid_params, memory), 1.0, 1048576.0,
+     NULL, "MiB", "that the grid's textures may take; the resolution is halved until they do"},
+    {"voxel.jitter", LSF_OPTION_BOOL, offsetof(lsf_voxel_grid_params, jitter), 0, 0, NULL, "",
+     "shifts the grid within a voxel each iteration, so that the picture shows no voxels in the "
+     "mean"},
+};
+
+/* Two voxels more than the scene takes: half of one is room for the shift on each side, half of one
+ * keeps surfaces at the scene's bounds off the grid's. */
+static void fit(lsf_voxel_grid *grid, const lsf_state *state, uint32_t resolution)
+{
+    float longest = 0.0f;
+    for (int axis = 0; axis < 3; axis++)
+        longest = fmaxf(longest, state->reach_max[axis] - state->reach_min[axis]);
+    grid->resolution = resolution;
+    grid->side = longest > 0.0f ? longest / (float)(resolution > 3 ? resolution - 2 : 1) : 1.0f;
+    bool empty = state->reach_min[0] > state->reach_max[0];
+    for (int axis = 0; axis < 3; axis++) {
+        float low = empty ? 0.0f : state->reach_min[axis];
+        float high = empty ? 0.0f : state->reach_max[axis];
+        float extent = high - low;
+        uint32_t voxels = (uint32_t)ceilf(extent / grid->side - 1e-3f) + 2;
+        grid->size[axis] = (voxels + BLOCK - 1) / BLOCK * BLOCK;
+        grid->origin[axis] = 0.5f * (low + high) - 0.5f * (float)grid->size[axis] * grid->side;
+    }
+}
+
+static float largest(const float color[3])
+{
+    return fmaxf(color[0], fmaxf(color[1], color[2]));
+}
+
+/* A power of two of the order of what surfaces are lit with: radiance is stored as half floats,
+ * which then hold what is 2^14 times darker and brighter. Emission may be much brighter than what
+ * it lights, so that it is put far up in the range. */
+void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const lsf_state *state)
+{
+    float brightest = 0.0f;
+    for (uint32_t i = 0; i < state->light_count; i++)
+        brightest = fmaxf(brightest, largest(state->lights[i].intensity));
+    brightest = fmaxf(brightest, (float)lsf_sky_fluence(&scene->environment));
+    for (uint32_t i = 0; i < state->instance_count; i++) {
+        const lsf_material *material = &state->animated.materials[state->instances[i].material];
+        brightest = fmaxf(brightest, largest(material->emission) / 256.0f);
+        if (material->unlit)
+            brightest = fmaxf(brightest, largest(material->base_color) / 256.0f);
+    }
+    int exponent = 0;
+    if (brightest > 0.0f)
+        frexpf(brightest, &exponent);
+    grid->unit = ldexpf(1.0f, exponent);
+}
+
+static bool fits(const lsf_voxel_grid *grid, const lsf_voxel_grid_params *params,
+                 const lsf_voxel_grid_use *use)
+{
+    double voxels = (double)grid->size[0] * grid->size[1] * grid->size[2];
+    return voxels * use->bytes <= (double)params->memory * 1048576.0 &&
+           grid->size[2] * use->sides <= MAX_TEXTURE_DEPTH;
+}
+
+lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf_state *state,
+                                  const lsf_voxel_grid_use *use)
+{
+    lsf_voxel_grid grid = {.jitter = params->jitter, .unit = 1.0f};
+    fit(&grid, state, (uint32_t)params->resolution);
+    while (!fits(&grid, params, use) && grid.resolution > 1)
+        fit(&grid, state, grid.resolution / 2);
+    return grid;
+}
+
+void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
+                           const lsf_voxel_grid *grid)
+{
+    lsf_plan_remark(
+        plan,
+        "a voxel is %.3g wide, in scene units: a grid over all of the scene blurs bounced "
+        "light by as much, and sees no room that is smaller",
+        (double)grid->side / plan->requirements.scale);
+    if (grid->resolution != (uint32_t)params->resolution)
+        lsf_plan_remark(plan,
+                        "a grid of %u voxels instead of %d along the scene's longest side: a finer "
+                        "one takes more than voxel.memory=%g, or textures deeper than %d",
+                        grid->resolution, params->resolution, (double)params->memory,
+                        MAX_TEXTURE_DEPTH);
+}
+
+struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
+                                               const lsf_iteration *iteration)
+{
+    float shift[3] = {0.5f, 0.5f, 0.5f}, point[2];
+    if (grid->jitter) {
+        lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_SHIFT),
+                     shift);
+        lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_SHIFT + 1),
+                     point);
+        shift[2] = point[0];
+    }
+    for (int axis = 0; axis < 3; axis++)
+        shift[axis] = grid->origin[axis] + (shift[axis] - 0.5f) * grid->side;
+    return (struct lsf_voxel_grid_data){.origin = {shift[0], shift[1], shift[2], grid->side},
+                                        .size = {(float)grid->size[0], (float)grid->size[1],
+                                                 (float)grid->size[2], 1.0f / grid->side},
+                                        .unit = {grid->unit, 1.0f / grid->unit, 0.0f, 0.0f}};
+}
+
+void lsf_voxels_bind_grid(const lsf_voxels *voxels)
+{
+    glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, voxels->grid_buffer);
+}
+
+void lsf_voxels_bind(const lsf_voxels *voxels)
+{
+    lsf_voxels_bind_grid(voxels);
+    for (GLuint level = 0; level < LSF_VOXEL_OCCUPANCY_LEVELS; level++)
+        lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY + level, voxels->occupancy[level]);
+    lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, voxels->albedo);
+    lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, voxels->normal);
+    lsf_bind_texture(LSF_UNIT_VOXEL_POINT, voxels->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_SHADING, voxels->shading);
+    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, voxels->emission);
+    lsf_bind_texture(LSF_UNIT_VOXEL_SHINING, voxels->shining);
+    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, voxels->gloss);
+    lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, voxels->transmission);
+}
+
+void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const char *name,
+                            GLenum internal_format, uint32_t sides, uint32_t levels,
+                            const char *why)
+{
+    lsf_texture_desc desc = {.target = GL_TEXTURE_3D,
+                             .internal_format = internal_format,
+                             .width = grid->size[0],
+                             .height = grid->size[1],
+                             .depth = grid->size[2] * sides,
+                             .levels = levels};
+    lsf_plan_texture_desc_add(plan, name, &desc, "%s", why);
+}
+
+bool lsf_voxel_bends(const lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    return r->smooth || r->normal_mapped || r->anisotropic;
+}
+
+void lsf_voxel_bend_switch(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_VOXEL_BENT", lsf_voxel_bends(plan),
+                        "normals are smooth or mapped, or tangents count: voxels keep them, too");
+}
+
+bool lsf_voxel_gloss(const lsf_plan *plan)
+{
+    const lsf_requirements *r = &plan->requirements;
+    return r->glossy || (plan->transmission && r->variable_ior);
+}
+
+void lsf_voxel_gloss_switch(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_voxel_gloss(plan),
+                        "roughness or metallic vary between voxels");
+}
