@@ -1,5 +1,6 @@
-/* Marches a cone through the pyramid of radiance. Switches: LSF_VOXEL_SIDES as in voxel_mip; LSF_SEALED: cones
- * end where their axis meets a voxel, and look at nothing behind it; of diffuse ones nothing else counts. */
+/* What a cone sees of voxels. Switches LSF_SEALED: it is the ray along its axis, which ends at the surface that it
+ * meets; else it marches through the pyramid of radiance; LSF_VOXEL_SIDES, as in voxel_mip, or sealed
+ * LSF_VOXEL_SIDES_SURFACE. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
 
@@ -42,32 +43,35 @@ struct cone_light {
     float transmittance; /* how much of the environment is seen */
 };
 
+#if LSF_SEALED
+/* What one sees of a voxel. */
+vec3 cone_meet(ivec3 cell, vec3 direction)
+{
+    int slice = 0;
+#if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_SURFACE
+    vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
+    slice = dot(n, direction) <= 0.0 ? 0 : 1;
+#endif
+    return texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0).rgb;
+}
+
+/* From a point of a surface with the unit `normal` [voxels]. Of a set that gathers a hemisphere the rays lie as the
+ * cosine has them, over all turns and elevations, so that what they meet is right in the mean. What is beside a
+ * ray is met by others, and would be counted twice. `spread` is that of cones which march. */
+cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
+{
+    voxel_ray ray;
+    ivec3 met;
+    if (voxel_ray_begin(point + voxel_lift(normal), direction, ray) && voxel_leave_start(ray) &&
+        voxel_ray_meet(ray, cone_march.z, true, met))
+        return cone_light(cone_meet(met, direction), 0.0);
+    return cone_light(vec3(0.0), 1.0);
+}
+#else
 #if LSF_VOXEL_SIDES > 1
 vec4 cone_slice(vec2 place, float z, float slice, float level)
 {
     return textureLod(radiance_texture, vec3(place, (z + slice) * (1.0 / float(LSF_VOXEL_SIDES))), level);
-}
-#endif
-
-#if LSF_SEALED
-/* A sample, half a step on, and interpolation about it reach 1.5 texels beyond where the step begins. */
-#define CONE_REACH 1.5
-#define VOXEL_NOT_MET 1e9
-
-/* What one sees of a voxel. */
-vec3 cone_meet(ivec3 cell, vec3 direction)
-{
-#if LSF_VOXEL_SIDES == 1
-    vec4 seen = texelFetch(radiance_texture, cell, 0);
-#else
-    vec4 seen = vec4(0.0);
-    for (int axis = 0; axis < 3; axis++) {
-        int slice = 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
-        seen += abs(direction[axis]) *
-                texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0);
-    }
-#endif
-    return seen.rgb / max(seen.a, 1e-6);
 }
 #endif
 
@@ -89,13 +93,6 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 #if LSF_VOXEL_SIDES > 1
     vec3 slice = vec3(0.0, 2.0, 4.0) + mix(vec3(0.0), vec3(1.0), lessThan(direction, vec3(0.0)));
 #endif
-#if LSF_SEALED
-    float met = VOXEL_NOT_MET; /* where the axis enters an occupied voxel */
-    voxel_ray ray;
-    if (voxel_ray_begin(start, direction, ray) && voxel_ray_trace(ray))
-        met = ray.distance;
-    end = min(end, met - CONE_REACH);
-#endif
     cone_light light;
     light.radiance = vec3(0.0);
     light.transmittance = 1.0;
@@ -105,9 +102,6 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
             break;
         float width = spread * (offset + t);
         float texel = max(min(width, (offset + rise * t) * flatness), 0.125 * width);
-#if LSF_SEALED
-        texel = min(texel, max((met - t) / CONE_REACH, 1.0));
-#endif
         float level = floor(log2(clamp(texel, 1.0, float(1 << (LSF_VOXEL_LEVELS - 1)))));
         texel = exp2(level);
         float dt = cone_march.x * texel;
@@ -133,33 +127,10 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
         light.transmittance *= clear;
         t += dt;
     }
-#if LSF_SEALED
-    if (met < cone_march.z && light.transmittance >= CONE_OPAQUE) {
-        light.radiance += light.transmittance * cone_meet(ray.cell, direction);
-        light.transmittance = 0.0;
-    }
-#endif
     if (light.transmittance < CONE_OPAQUE)
         light.transmittance = 0.0;
     return light;
 }
-
-/* What one of a set of cones sees that gather a hemisphere. Sealed, it is its axis: over all turns and elevations
- * axes lie as the cosine has them, so that what they meet is right in the mean. What is beside the axis is
- * met by others, and would be counted twice. */
-cone_light cone_diffuse(vec3 point, vec3 normal, vec3 direction, float spread)
-{
-#if LSF_SEALED
-    cone_light light = cone_light(vec3(0.0), 1.0);
-    voxel_ray ray;
-    ivec3 met;
-    if (voxel_ray_begin(point + voxel_lift(normal), direction, ray) && voxel_leave_start(ray) &&
-        voxel_ray_meet(ray, cone_march.z, true, met))
-        light = cone_light(cone_meet(met, direction), 0.0);
-    return light;
-#else
-    return cone_trace(point, normal, direction, spread);
 #endif
-}
 
 #endif

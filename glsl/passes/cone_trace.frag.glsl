@@ -9,12 +9,7 @@
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility */
 #if LSF_SPECULAR
-layout(binding = 3) uniform sampler2D albedo_texture; /* of the specular lobe */
-layout(location = 0) uniform float lobe_spread; /* diameter by length of the specular cone, to alpha */
 layout(location = 1) out vec4 specular_out;
-
-/* A right angle: the lobes of rough surfaces are not round any more. */
-#define CONE_WIDEST 2.0
 #endif
 
 /* Of a diffuse cone; directions drawn by the environment's radiance have the rest of it. */
@@ -28,8 +23,8 @@ vec3 arriving(cone_light light, vec3 direction, float cosine)
     return radiance;
 }
 
-#if LSF_SPECULAR && LSF_ENVIRONMENT && LSF_SEALED
-/* The specular lobe's light by a ray drawn from it: of voxels, and of the environment as directions drawn by
+#if LSF_SPECULAR && LSF_SEALED
+/* The specular lobe's light by a ray drawn from it: of voxels, and of the environment as directions drawn by its
  * radiance leave it. */
 vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 {
@@ -41,10 +36,12 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
     float cosine = dot(s.normal, direction);
     if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0)
         return vec3(0.0);
-    cone_light light = cone_diffuse(point, s.geometric_normal, direction, 0.0);
+    cone_light light = cone_trace(point, s.geometric_normal, direction, 0.0);
     float pdf = brdf_pdf(p, direction);
-    vec3 radiance = light.radiance * grid.unit.x +
-                    light.transmittance * sky_left(environment_radiance(direction), pdf);
+    vec3 radiance = light.radiance * grid.unit.x;
+#if LSF_ENVIRONMENT
+    radiance += light.transmittance * sky_left(environment_radiance(direction), pdf);
+#endif
     float leaves = 1.0;
 #if LSF_SHEEN
     /* What a sheen reflects itself, diffuse cones find. */
@@ -54,6 +51,12 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
     return brdf_evaluate(s, to_viewer, direction, 0.0).specular * radiance * (leaves * cosine / pdf);
 }
 #elif LSF_SPECULAR
+layout(binding = 3) uniform sampler2D albedo_texture; /* of the specular lobe */
+layout(location = 0) uniform float lobe_spread; /* diameter by length of the specular cone, to alpha */
+
+/* A right angle: the lobes of rough surfaces are not round any more. */
+#define CONE_WIDEST 2.0
+
 /* ... by a cone along the mirror direction. */
 vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 {
@@ -114,7 +117,7 @@ void main()
         vec3 direction = local.x * tangent + local.y * bitangent + local.z * s.normal;
         if (dot(direction, s.geometric_normal) <= 0.0)
             continue;
-        cone_light light = cone_diffuse(point, s.geometric_normal, direction, cone_set[i].w);
+        cone_light light = cone_trace(point, s.geometric_normal, direction, cone_set[i].w);
         float reflected = 1.0;
 #if LSF_SPECULAR
         vec3 h = normalize(to_viewer + direction);

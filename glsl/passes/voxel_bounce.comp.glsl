@@ -35,7 +35,7 @@ vec3 gather(voxel_material material, vec3 place, vec3 n, vec3 shading, float tur
         vec3 direction = local.x * tangent + local.y * bitangent + local.z * shading;
         if (dot(direction, n) <= 0.0)
             continue;
-        cone_light light = cone_diffuse(place, n, direction, cone_set[i].w);
+        cone_light light = cone_trace(place, n, direction, cone_set[i].w);
         vec3 seen = light.radiance;
 #if LSF_ENVIRONMENT
         seen += light.transmittance * grid.unit.y *
@@ -76,8 +76,8 @@ void light_side(ivec3 cell, bool back)
             reflected = gather(material, vec3(cell) + voxel_point_unpack(point), n, shading,
                                cell_turn(cell));
     }
-#if LSF_VOXEL_SIDES == 1
-    write(cell, 0, 1.0, reflected);
+#if LSF_VOXEL_SIDES != LSF_VOXEL_SIDES_AXES
+    write(cell, back ? 1 : 0, 1.0, reflected);
 #else
     for (int axis = 0; axis < 3; axis++)
         write(cell, lobe_slice(axis, sign * n[axis], !back), n[axis] * n[axis], reflected);

@@ -26,25 +26,22 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
     {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
      "other elevations each iteration, so that no direction is left out in the mean"},
     {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
-     "cones end where their axis meets a voxel: no light comes through walls; off: smooth, and "
-     "leaking"},
+     "cones are rays that end at the surface they meet: no light comes through walls; off: smooth, "
+     "and leaking"},
     {"cone.turn", LSF_OPTION_BOOL, offsetof(lsf_cone_params, turn), 0, 0, NULL, "",
      "other directions for each pixel"},
 };
 
-bool lsf_cone_marches(const lsf_cone_params *params, const lsf_requirements *requirements)
+uint32_t lsf_cone_levels(const lsf_cone_params *params)
 {
-    return !params->sealed || (requirements->specular && !requirements->environment);
-}
-
-uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements)
-{
-    return lsf_cone_marches(params, requirements) ? LSF_VOXEL_LEVELS : 1;
+    return params->sealed ? 1 : LSF_VOXEL_LEVELS;
 }
 
 uint32_t lsf_cone_slices(const lsf_cone_params *params)
 {
-    return params->sides == LSF_CONE_ANISOTROPIC ? LSF_VOXEL_SIDES_AXES : 1;
+    if (params->sides == LSF_CONE_ISOTROPIC)
+        return 1;
+    return params->sealed ? LSF_VOXEL_SIDES_SURFACE : LSF_VOXEL_SIDES_AXES;
 }
 
 /* The projected disc is cut into rings of equal area, one a cone, and each is turned from the one

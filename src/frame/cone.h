@@ -21,7 +21,7 @@ typedef struct lsf_cone_params {
     float distance; /* that cones reach [half extents of the scene] */
     float scale;    /* of the grid that they are traced on to the picture, along each side */
     bool jitter;    /* of their elevation, each within its share, from iteration to iteration */
-    bool sealed;    /* cones end where their axis meets a voxel; diffuse ones are no more than it */
+    bool sealed;    /* cones are rays along their axis, which end where it meets a voxel */
     bool turn;      /* the set is turned from pixel to pixel */
 } lsf_cone_params;
 
@@ -32,14 +32,10 @@ typedef struct lsf_cone_params {
 #define LSF_CONE_OPTION_COUNT 10
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
 
-/* Whether cones march through the pyramid of radiance in a scene with those requirements. Sealed
- * diffuse ones are their axis, and so are specular ones under an environment, drawn from the lobe.
- */
-bool lsf_cone_marches(const lsf_cone_params *params, const lsf_requirements *requirements);
-/* Levels of radiance that they read. */
-uint32_t lsf_cone_levels(const lsf_cone_params *params, const lsf_requirements *requirements);
+/* Levels of radiance that they read: one where cones are sealed, as nothing marches then. */
+uint32_t lsf_cone_levels(const lsf_cone_params *params);
 
-/* Slices of radiance along z. */
+/* Slices of radiance along z. Sealed cones know the surface that they meet, and on which side. */
 uint32_t lsf_cone_slices(const lsf_cone_params *params);
 
 /* The set about z: in x y z unit directions, in w a cone's diameter by its length. Each of `count`

@@ -43,14 +43,13 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)lsf_cone_slices(params), "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY",
-                        gloss && r->anisotropic && params->sealed && r->environment,
-                        "the environment is found by rays of the lobe; cones are round");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic && params->sealed,
+                        "rays of the lobe are drawn; cones are round");
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, width, height);
-    if (!r->specular || !lsf_cone_marches(params, r))
+    if (!r->specular || params->sealed)
         return;
     lsf_plan_texture_add(plan, "cone_trace.lobe_albedo", GL_RG32F, ALBEDO_SIDE, ALBEDO_SIDE,
                          "what the specular lobe reflects, by view and roughness");

@@ -16,8 +16,7 @@ static const char *const radiance_names[2] = {"voxel_bounce.radiance",
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
                            const lsf_voxel_grid *grid, bool of_own)
 {
-    uint32_t slices = lsf_cone_slices(params),
-             levels = lsf_cone_levels(params, &plan->requirements);
+    uint32_t slices = lsf_cone_slices(params), levels = lsf_cone_levels(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
@@ -53,10 +52,8 @@ bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const
 {
     static const char *const files[5] = {"passes/voxel_bounce.comp.glsl"};
     static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
-    *pass = (lsf_voxel_bounce){.context = context,
-                               .params = *params,
-                               .grid = *grid,
-                               .levels = lsf_cone_levels(params, &plan->requirements)};
+    *pass = (lsf_voxel_bounce){
+        .context = context, .params = *params, .grid = *grid, .levels = lsf_cone_levels(params)};
     if (!create_radiance(pass, plan, error))
         return false;
     pass->program = lsf_plan_program(plan, context, "voxel_bounce", files, error);

@@ -27,7 +27,7 @@ typedef struct way {
 static way choose_way(const lsf_plan *plan, const lsf_pass_params *params)
 {
     const lsf_requirements *r = &plan->requirements;
-    way w = {.levels = lsf_cone_levels(&params->cone, r),
+    way w = {.levels = lsf_cone_levels(&params->cone),
              .shines = r->emissive || r->unlit || r->environment,
              .width = lsf_coarse_grid_length(plan->width, params->cone.scale),
              .height = lsf_coarse_grid_length(plan->height, params->cone.scale)};
@@ -67,7 +67,7 @@ static void remark(lsf_plan *plan, const way *w)
     if (w->shines)
         lsf_plan_remark(plan, "with cones, direct light of surfaces and environments is in the "
                               "indirect layers");
-    if (r->anisotropic)
+    if (r->anisotropic && w->levels > 1)
         lsf_plan_remark(plan, "cones of anisotropic surfaces are round");
 }
 
