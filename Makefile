@@ -3,7 +3,7 @@
 BUILD ?= build
 MESON_OPTIONS ?=
 PREFIX ?= /usr/local
-RENDER_OPTIONS ?= --resolution 1200,750 --samples 16 --exposure 0.5 --environment 0.9,1.1,1.4
+RENDER_OPTIONS ?= --resolution 1200,750 --samples 4 --exposure 0.5 --environment 0.9,1.1,1.4
 JOBS := $(shell nproc)
 
 .PHONY: all
@@ -24,7 +24,8 @@ packages:  ## install the Debian packages of packages.txt that are missing
 
 .PHONY: render
 render: packages  ## install what is missing, build, render the furnished interior to render.png
-	@$(MAKE) --no-print-directory all
+	@$(MAKE) --no-print-directory $(BUILD)/build.ninja
+	@ninja -C $(BUILD) command
 	$(BUILD)/lightsheaf render data/scenes/interior.gltf -o render.png $(RENDER_OPTIONS)
 	@echo "The picture is in $(CURDIR)/render.png"
 
