@@ -77,8 +77,8 @@ static const lsf_bench_row voxel_path_rows[] = {
  * move is voxelised once, and every frame stands alone. */
 #define VOXEL_PATH_FRAME                                                                           \
     .measurement = "voxel_path", .title = "A frame of voxel path tracing (2018)",                  \
-    .technique = "voxel_path", .supersampling = 1, .warm_up = 1, .software_frames = 3,             \
-    .rows = voxel_path_rows, .row_count = LSF_COUNT(voxel_path_rows)
+    .technique = "voxel_path", .supersampling = 1, .bounces = 1, .warm_up = 1,                     \
+    .software_frames = 3, .rows = voxel_path_rows, .row_count = LSF_COUNT(voxel_path_rows)
 
 static const bench_frame frames[] = {
     /* The pattern of interleaving is the largest whose tiles all get one of the 21. Light goes from
@@ -111,6 +111,7 @@ static const bench_frame frames[] = {
      .screen = {512, 512},
      .software_screen = {512, 512},
      .supersampling = 1,
+     .bounces = 1,
      .warm_up = 2, /* programs that clear settle in the second */
      .software_frames = 10,
      .rows = cone_rows,
