@@ -4,9 +4,10 @@
 
 #include "lib/light_guide.glsl"
 
-layout(binding = 2) uniform sampler2D light_texture; /* A: variance */
+layout(binding = 2) uniform sampler2D light_texture; /* A: variance, below 0 where it tells nothing */
 layout(location = 1) uniform int stride;
 layout(location = 2) uniform float tolerance; /* differences of luminance that count as noise [standard deviations] */
+layout(location = 4) uniform float correlation; /* of the noise of neighbours, for the steps before have mixed it */
 layout(location = 0) out vec4 light_out;
 
 void main()
@@ -15,25 +16,28 @@ void main()
     vec4 own = texelFetch(light_texture, pixel, 0);
     light_out = own;
     light_guide g = light_guide_at(pixel);
-    if (g.depth == 0.0)
+    if (g.depth == 0.0 || own.a < 0.0)
         return;
     float y = luminance(own.rgb);
     /* Differences to the pixel's own light are summed: a constant stays what it is to the bit. */
     vec3 difference = vec3(0.0);
-    float sum = 1.0, variance = own.a;
+    float sum = 1.0, squares = own.a, variances = own.a;
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++) {
             ivec2 at = pixel + stride * ivec2(i, j);
             if ((i == 0 && j == 0) || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
                 continue;
             vec4 light = texelFetch(light_texture, at, 0);
-            float noise = tolerance * sqrt(own.a + light.a);
-            float d = abs(luminance(light.rgb) - y);
+            if (light.a < 0.0)
+                continue;
+            float noise = tolerance * tolerance * (own.a + light.a);
+            float d = luminance(light.rgb) - y;
             float w = light_guide_weight(g, pixel, at) * (i == 0 ? 1.0 : 0.5) * (j == 0 ? 1.0 : 0.5);
-            w *= d > 0.0 ? exp(-d / max(noise, 1e-30)) : 1.0;
+            w *= d != 0.0 ? exp(-d * d / max(noise, 1e-37)) : 1.0;
             difference += w * (light.rgb - own.rgb);
-            variance += w * w * light.a;
+            squares += w * w * light.a;
+            variances += w * light.a;
             sum += w;
         }
-    light_out = vec4(own.rgb + difference / sum, variance / (sum * sum));
+    light_out = vec4(own.rgb + difference / sum, mix(squares / (sum * sum), variances / sum, correlation));
 }

@@ -36,7 +36,9 @@ layout(binding = 2, rgba32f) uniform image2D diffuse_factor_image;
 layout(binding = 3, rgba32f) uniform image2D specular_image;
 layout(binding = 4, rgba32f) uniform image2D specular_factor_image;
 #endif
+layout(binding = 5, rg32f) uniform image2D half_image;
 layout(location = 0) uniform float weight; /* 1 / n */
+layout(location = 1) uniform bool keep;    /* the luminance of the means before */
 
 float luminance(vec3 c)
 {
@@ -117,14 +119,18 @@ void main()
     float spread = first ? 0.0 : (guide.a - mean.a) * (guide.a - next.a);
     imageStore(guide_image, pixel, next);
     mean = first ? vec4(0.0) : imageLoad(diffuse_image, pixel);
+    vec2 before = vec2(luminance(mean.rgb), 0.0);
     imageStore(diffuse_image, pixel, with_light(mean, diffuse));
     mean = first ? vec4(0.0) : imageLoad(diffuse_factor_image, pixel);
     imageStore(diffuse_factor_image, pixel,
                vec4(mean.rgb + (diffuse_factor - mean.rgb) * weight, mean.a + spread));
 #if LSF_SPECULAR
     mean = first ? vec4(0.0) : imageLoad(specular_image, pixel);
+    before.y = luminance(mean.rgb);
     imageStore(specular_image, pixel, with_light(mean, specular));
     mean = first ? vec4(0.0) : imageLoad(specular_factor_image, pixel);
     imageStore(specular_factor_image, pixel, mean + (vec4(specular_factor, roughness) - mean) * weight);
 #endif
+    if (keep)
+        imageStore(half_image, pixel, vec4(before, 0.0, 0.0));
 }

@@ -119,9 +119,17 @@ static void set_guide(const lsf_light_filter *pass)
         glUniform1f(3, pass->kernel);
 }
 
+/* Relative variance of a variance that is known from so many iterations of heavy-tailed noise:
+ * (kurtosis - 1) / (n - 1), 5 for the kurtosis. One tells next to nothing. */
+static float uncertainty_of(float iterations)
+{
+    return iterations > 1.5f ? 4.0f / (iterations - 1.0f) : 400.0f;
+}
+
 /* Sets `light` to the part without tint, with its variance. */
 static void divide(lsf_light_filter *pass, const lsf_plan *plan, float iterations,
-                   const lsf_light_filter_part *part, const lsf_light_filter_programs *programs)
+                   const lsf_light_filter_inputs *inputs, const lsf_light_filter_part *part,
+                   const lsf_light_filter_programs *programs)
 {
     begin(plan, pass->turn_framebuffers[0], pass->divide_program);
     glUniform1f(1, iterations);
@@ -130,9 +138,28 @@ static void divide(lsf_light_filter *pass, const lsf_plan *plan, float iteration
     lsf_draw_fullscreen(pass->context);
     begin(plan, pass->light_framebuffer, programs->variance);
     set_guide(pass);
-    glUniform1f(1, iterations);
+    glUniform1f(1, iterations > 1.5f ? uncertainty_of(iterations) : -1.0f);
+    glUniform1f(2, (float)inputs->half_count / fmaxf(iterations - (float)inputs->half_count, 1.0f));
     lsf_bind_texture(2, pass->turns[0]);
+    lsf_bind_texture(4, part->light);
+    lsf_bind_texture(5, part->factor);
+    lsf_bind_texture(6, inputs->half);
     lsf_draw_fullscreen(pass->context);
+}
+
+/* Sum of squared weights of a tent of 2^step pixels to each side, along one axis. */
+static float tent_squares(int32_t step)
+{
+    float width = (float)(1 << step);
+    return (2.0f * width * width + 1.0f) / (3.0f * width * width * width);
+}
+
+/* Of the noise of neighbours before a step, such that over a plane the variance after it is the
+ * tent's: equal weights of 1 : 2 : 1 along both axes have a sum of squares of (3/8)^2. */
+static float correlation_before(int32_t step)
+{
+    float independent = 9.0f / 64.0f, along = tent_squares(step + 1) / tent_squares(step);
+    return (along * along - independent) / (1.0f - independent);
 }
 
 /* Returns the filtered light. */
@@ -144,7 +171,8 @@ static GLuint run_steps(lsf_light_filter *pass, const lsf_plan *plan,
         begin(plan, pass->turn_framebuffers[i % 2], programs->step);
         set_guide(pass);
         glUniform1i(1, 1 << i);
-        glUniform1f(2, i < 2 ? 1e9f : pass->params.tolerance);
+        glUniform1f(2, i < 2 ? fmaxf(pass->params.tolerance, 7.0f) : pass->params.tolerance);
+        glUniform1f(4, correlation_before(i));
         lsf_bind_texture(2, light);
         lsf_draw_fullscreen(pass->context);
         light = pass->turns[i % 2];
@@ -159,9 +187,7 @@ static void blend(lsf_light_filter *pass, const lsf_plan *plan, float iterations
     begin(plan, pass->picture_framebuffer, programs->blend);
     lsf_blend_add(1);
     set_guide(pass);
-    glUniform1f(1, pass->params.limit
-                       ? 1.0f + 4.0f / sqrtf(iterations > 1.5f ? iterations - 1.0f : 0.01f)
-                       : 1e30f);
+    glUniform1f(1, pass->params.limit ? uncertainty_of(iterations) : -1.0f);
     lsf_bind_texture(2, pass->light);
     lsf_bind_texture(4, filtered);
     lsf_draw_fullscreen(pass->context);
@@ -187,7 +213,7 @@ void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration
         const lsf_light_filter_programs *programs = &pass->programs[i];
         pass->lobe = i == 1;
         pass->kernel = inputs->kernel;
-        divide(pass, plan, (float)iterations, &inputs->parts[i], programs);
+        divide(pass, plan, (float)iterations, inputs, &inputs->parts[i], programs);
         blend(pass, plan, (float)iterations, run_steps(pass, plan, programs), programs);
     }
     lsf_timer_end(pass->timer);

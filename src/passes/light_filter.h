@@ -16,7 +16,7 @@ typedef struct lsf_light_filter_params {
 } lsf_light_filter_params;
 
 #define LSF_LIGHT_FILTER_PARAMS_DEFAULTS                                                           \
-    .steps = 5, .tolerance = 2.0f, .depth_weight = 0.5f, .normal_weight = 32.0f, .limit = 1
+    .steps = 5, .tolerance = 2.0f, .depth_weight = 0.1f, .normal_weight = 32.0f, .limit = 1
 
 #define LSF_LIGHT_FILTER_OPTION_COUNT 5
 extern const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT];
@@ -27,7 +27,9 @@ typedef struct lsf_light_filter_part {
 } lsf_light_filter_part;
 
 typedef struct lsf_light_filter_inputs {
-    GLuint guide;   /* as lsf_light_mean's */
+    GLuint guide; /* as lsf_light_mean's */
+    GLuint half;  /* as lsf_light_mean's, of the first `half_count` iterations */
+    uint32_t half_count;
     GLuint picture; /* RGBA32F mean of the whole picture */
     float kernel;   /* solid angle that glossy lobes were spread over, for want of samples [sr] */
     lsf_light_filter_part parts[2]; /* diffuse, specular */

@@ -14,6 +14,7 @@ static const lsf_texture_row textures[] = {
      "for light_filter"},
     {"light_mean.specular_factor", GL_RGBA32F, AT(specular.factor), LSF_TEXTURE_SPECULAR,
      "for light_filter"},
+    {"light_mean.half", GL_RG32F, AT(half), 0, "luminance of the first half of the iterations"},
 };
 
 void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
@@ -54,6 +55,14 @@ bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf
     return pass->timer != NULL;
 }
 
+uint32_t lsf_light_mean_half(uint32_t iterations)
+{
+    uint32_t half = 1;
+    while (half < iterations - half)
+        half *= 2;
+    return iterations > 1 ? half : 0;
+}
+
 void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
                         const lsf_light_parts *parts, GLuint gate)
 {
@@ -63,6 +72,8 @@ void lsf_light_mean_run(lsf_light_mean *pass, const lsf_iteration *iteration,
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
                          pass->program);
     glUniform1f(0, 1.0f / ((float)iteration->done + 1.0f));
+    glUniform1i(1, lsf_light_mean_half(iteration->done + 1) == iteration->done);
+    glBindImageTexture(5, pass->half, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RG32F);
     lsf_surface_maps_bind(&parts->gbuffer->seen);
     lsf_bind_texture(3, parts->indirect.irradiance);
     lsf_bind_texture(4, parts->indirect.specular);

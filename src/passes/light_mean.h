@@ -23,10 +23,15 @@ typedef struct lsf_light_mean {
     lsf_context *context;
     lsf_light_mean_part diffuse, specular; /* outputs; specular 0 where nothing is glossy */
     GLuint
-        guide; /* output: mean shading normal, 0 where nothing is seen; A: mean reverse-Z depth */
+        guide;   /* output: mean shading normal, 0 where nothing is seen; A: mean reverse-Z depth */
+    GLuint half; /* output: RG32F, luminance of the diffuse and the specular mean of the first
+                  * lsf_light_mean_half iterations */
     GLuint framebuffer, program;
     lsf_timer *timer;
 } lsf_light_mean;
+
+/* The largest power of two below `iterations`; 0 for one. */
+uint32_t lsf_light_mean_half(uint32_t iterations);
 
 void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use);
 bool lsf_light_mean_create(lsf_light_mean *pass, lsf_context *context, const lsf_plan *plan,

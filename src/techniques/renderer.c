@@ -255,6 +255,8 @@ GLuint lsf_renderer_picture(lsf_renderer *renderer)
     if (!renderer->filtered) {
         const lsf_light_filter_inputs inputs = {
             .guide = mean->guide,
+            .half = mean->half,
+            .half_count = lsf_light_mean_half(renderer->samples),
             .picture = renderer->accumulate.means[0],
             .kernel = renderer->outputs.kernel,
             .parts = {{mean->diffuse.light, mean->diffuse.factor},
