@@ -37,11 +37,13 @@ float emitter_density(float by_area, float distance2, float cosine)
     return by_area * distance2 * grid.origin.w * grid.origin.w / cosine;
 }
 
-/* As the voxel has it that the point is in, or if another surface has won that, as the point itself. */
+/* As the voxel has it that the point is in; if another surface has won that, or a mask leaves it empty, with
+ * what it held before, as the point itself. */
 float emitter_point_luminance(vec3 place, vec3 radiance)
 {
-    vec3 held = voxel_emission_unpack(texelFetch(voxel_emission, ivec3(floor(place)), 0).r);
-    float luminance = emitter_luminance(held) * grid.unit.x;
+    ivec3 cell = ivec3(floor(place));
+    vec3 held = voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r);
+    float luminance = voxel_occupied(cell) ? emitter_luminance(held) * grid.unit.x : 0.0;
     return luminance > 0.0 ? luminance : emitter_luminance(radiance);
 }
 

@@ -186,6 +186,36 @@ static void materials_and_lights(void **unused)
     lsf_scene_destroy(edited.scene);
 }
 
+/* A lamp of which a mask cuts out more and more: paths join points of it that lie in voxels which
+ * held it a frame before. */
+static void masks(void **unused)
+{
+    (void)unused;
+    world w = build_world();
+    lsf_scene *scene = w.scene;
+    scene->vertices.color = lsf_alloc(scene->vertices.count, 4 * sizeof(float));
+    assert_non_null(scene->vertices.color);
+    for (uint64_t i = 0; i < scene->vertices.count; i++) {
+        float *color = scene->vertices.color + 4 * i;
+        color[0] = color[1] = color[2] = 1.0f;
+        color[3] = scene->vertices.position[3 * i] < -0.5f ? 0.0f : 1.0f;
+    }
+    lsf_material *lamp = &scene->materials[w.lamp];
+    lamp->alpha_mode = LSF_ALPHA_MASK;
+    lamp->double_sided = true;
+    for (int c = 0; c < 3; c++)
+        lamp->emissive_factor[c] = 1.0f;
+    build_value(scene, LSF_KIND_MATERIAL, w.lamp, "alphaCutoff", (float[]){0.2f, 0.9f});
+    build_value(scene, LSF_KIND_MATERIAL, w.lamp, EMISSIVE_STRENGTH, (float[]){40, 4});
+    finish_gl_scene(scene);
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    const test_case paths = {"voxel_path", false};
+    lsf_image_destroy(run_frames(context, scene, &paths, true));
+    gl_test_check(context);
+    lsf_context_destroy(context);
+    lsf_scene_destroy(scene);
+}
+
 /* A box and a lamp that come, and a quad that goes at the last key. */
 static void visibility(void **unused)
 {
@@ -210,6 +240,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_and_lights),
+        cmocka_unit_test(masks),
         cmocka_unit_test(visibility),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
