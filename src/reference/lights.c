@@ -10,9 +10,9 @@
 #include "shared/brdf.h"
 
 /* Rays that find out how far off the surfaces are that a lamp lights. */
-#define PROBES 64u
+#define PROBES 16u
 
-/* A texel of a large environment in so many is enough for its irradiance. */
+/* Rows of an environment that are enough for its irradiance. */
 #define SKY_ROWS 64u
 
 static lsf_light_bounds point_bounds(const lsf_light_state *light)
@@ -48,19 +48,13 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Directional lights begin no paths: of the many that they would, hardly one meets what is seen. */
-static float bulb_power(const lsf_light_state *light)
-{
-    return light->type == LSF_LIGHT_DIRECTIONAL ? 0.0f : lsf_punctual_power(light);
-}
-
 /* As an emitter: the surfaces about it, half of which are no farther off than the box reaches. */
 static lsf_light_bounds lit_bounds(const lsf_reference_geometry *geometry,
                                    const lsf_light_state *light, uint32_t number)
 {
     lsf_light_bounds bounds = point_bounds(light);
     bounds.range = INFINITY;
-    bounds.intensity = bulb_power(light);
+    bounds.intensity = lsf_punctual_power(light);
     float distances[PROBES];
     uint32_t met = 0;
     for (uint32_t i = 0; bounds.intensity > 0.0f && i < PROBES; i++) {
@@ -91,7 +85,7 @@ static bool init_lit(lsf_reference_lights *lights, lsf_light_bounds *bounds)
     }
     float powers[LSF_LIGHTS_MOST];
     for (uint32_t i = 0; i < state->light_count; i++)
-        powers[i] = bulb_power(&state->lights[i]);
+        powers[i] = lsf_punctual_power(&state->lights[i]);
     return lsf_distribution_init(&lights->powers, powers, state->light_count);
 }
 

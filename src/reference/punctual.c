@@ -32,7 +32,7 @@ float lsf_punctual_power(const lsf_light_state *light)
 {
     float intensity = lsf_f3_luminance(lsf_f3_load(light->intensity));
     if (light->type == LSF_LIGHT_DIRECTIONAL)
-        return 3.0f * LSF_PI * intensity;
+        return 0.0f;
     if (light->type == LSF_LIGHT_POINT)
         return 4.0f * LSF_PI * intensity;
     float scale = lsf_spot_scale(light->cos_inner, light->cos_outer);

@@ -11,8 +11,8 @@
 
 #include "reference/walk.h"
 
-/* Luminance of a light's radiant power; a directional one's through the scene's bounding sphere, of
- * radius sqrt(3) in normalised space. */
+/* Luminance of the power with which a light begins paths. 0 of directional ones: of the many rays
+ * through the scene's whole bounding sphere, hardly one would meet what is seen. */
 float lsf_punctual_power(const lsf_light_state *light);
 
 /* Adds what a light sends straight to the vertex, where it is asked with this probability. Its

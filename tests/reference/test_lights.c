@@ -303,12 +303,40 @@ static void many_lamps_over_floor(void **unused)
     }
 }
 
+/* Twelve suns, some of them below the floor, and the sky: more than are each asked. */
+static void many_suns_and_sky(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    scene->diffuse_only = true;
+    build_material(scene, 1.0f, 1.0f, 1.0f);
+    build_floor(scene, 0.0f, 1.0f);
+    double expected = M_PI * 0.5; /* of the sky */
+    for (uint32_t i = 0; i < 12; i++) {
+        lsf_float3 way = lsf_sample_sphere(uniform(4, 3 * i, 0, 1), uniform(4, 3 * i + 1, 0, 1));
+        float intensity = uniform(4, 3 * i + 2, 0, 1);
+        build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), way, intensity);
+        expected += (double)intensity * fmax(0.0, (double)-way.y);
+    }
+    scene->environment = (lsf_environment){.present = true, .width = 16, .height = 8};
+    scene->environment.texels = calloc(3 * 16 * 8, sizeof(float));
+    for (uint32_t i = 0; i < 3 * 16 * 8; i++)
+        scene->environment.texels[i] = 0.5f;
+    finish_scene(scene);
+    float rgb[3];
+    render_point(scene, lsf_f3(0.1f, 0.5f, 0.3f), lsf_f3(0, 0, 0), 4096, 0, rgb);
+    double error = (double)rgb[0] * M_PI / expected - 1.0;
+    print_message("12 suns and a sky: off by %.1e\n", error);
+    assert_true(fabs(error) < 2e-3);
+    destroy_scene(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_close_to_walls),  cmocka_unit_test(draws_follow_probabilities),
         cmocka_unit_test(probabilities_sum_up),  cmocka_unit_test(extreme_lights),
-        cmocka_unit_test(many_lamps_over_floor),
+        cmocka_unit_test(many_lamps_over_floor), cmocka_unit_test(many_suns_and_sky),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
