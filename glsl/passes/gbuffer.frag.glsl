@@ -12,7 +12,12 @@ layout(location = LSF_EMISSION_TARGET) out vec4 emission_out;
 #endif
 #if LSF_MOTION
 in vec4 vertex_clip, vertex_previous_clip;
+#ifdef LSF_HISTORY
+flat in float vertex_instance;
+layout(location = LSF_MOTION_TARGET) out vec4 motion_out;
+#else
 layout(location = LSF_MOTION_TARGET) out vec2 motion_out;
+#endif
 #endif
 #if LSF_STRAIGHT
 layout(location = LSF_TINT_TARGET) out vec4 tint_out;
@@ -46,8 +51,12 @@ void main()
 #endif
 #if LSF_MOTION
     /* Without the jitter, which both have alike. In pixels, y up as on the image plane. */
-    motion_out = 0.5 * view.size.xy * (vertex_clip.xy / vertex_clip.w -
-                                       vertex_previous_clip.xy / vertex_previous_clip.w);
+    motion_out.xy = 0.5 * view.size.xy * (vertex_clip.xy / vertex_clip.w -
+                                          vertex_previous_clip.xy / vertex_previous_clip.w);
+#ifdef LSF_HISTORY
+    float seen_before = vertex_previous_clip.w > 0.0 ? vertex_previous_clip.z / vertex_previous_clip.w : 0.0;
+    motion_out.zw = vec2(seen_before, vertex_instance);
+#endif
 #endif
     surface_out = surface_pack(s);
 }

@@ -9,6 +9,9 @@ layout(location = LSF_ATTRIBUTE_PREVIOUS_POSITION) in vec3 previous_position;
 #define previous_position position
 #endif
 out vec4 vertex_clip, vertex_previous_clip;
+#ifdef LSF_HISTORY
+flat out float vertex_instance;
+#endif
 #endif
 
 /* Every pass that draws the scene must reach the same bits. */
@@ -25,5 +28,8 @@ void main()
                          dot(previous_rows[2], object));
     vertex_clip = gl_Position;
     vertex_previous_clip = view.previous_clip * vec4(previous - view.previous_start.xyz, 1.0);
+#ifdef LSF_HISTORY
+    vertex_instance = float(instance_number()) + 1.0;
+#endif
 #endif
 }

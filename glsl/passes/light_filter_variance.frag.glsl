@@ -9,7 +9,7 @@ layout(location = 1) uniform float uncertainty; /* relative variance of the pixe
 layout(binding = 4) uniform sampler2D mean_texture; /* of lsf_light_mean_part */
 layout(binding = 5) uniform sampler2D tint_texture; /* its factor */
 layout(binding = 6) uniform sampler2D half_texture; /* luminance of the mean of the first m */
-layout(location = 2) uniform float half_weight;     /* m / (n - m) */
+layout(location = 2) uniform float half_weight;     /* m / (n - m); below 0: there is no such mean */
 layout(location = 0) out vec4 light_out;
 
 #define REACH 3
@@ -54,7 +54,7 @@ void main()
         light_out.a = max(second / sum - first * first / (sum * sum), 0.0);
         return;
     }
-    float even = variance > 0.0 ? min(halves / variance, 1.0) : 1.0;
+    float even = half_weight >= 0.0 && variance > 0.0 ? min(halves / variance, 1.0) : 1.0;
     variance /= sum;
     /* Variances of light differ by factors: their logarithms are mixed. */
     float part = uncertainty / (1.0 + uncertainty);

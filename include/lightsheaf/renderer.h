@@ -85,12 +85,15 @@ typedef struct lsf_render_params {
     float fov_y;                  /* degrees, replaces the camera's; NAN: the camera's own */
     lsf_background background;
     float background_radiance[3];
-    double time;                /* seconds, where node animations are sampled */
-    uint32_t aovs;              /* lsf_aov bits */
-    bool raw;                   /* the mean of iterations alone: not filtered, and neighbouring
-                                 * pixels take the same samples unless options say otherwise */
-    bool rgb8;                  /* lsf_renderer_read_rgb8 will be called */
-    bool present;               /* lsf_renderer_present will be called */
+    double time;   /* seconds, where node animations are sampled */
+    uint32_t aovs; /* lsf_aov bits */
+    bool raw;      /* the mean of iterations alone: not filtered, and neighbouring
+                    * pixels take the same samples unless options say otherwise */
+    bool temporal; /* light of the frames before is kept: each frame depends on them, and
+                    * one in which nothing has changed goes on with the mean of the one
+                    * before. Not with `raw` */
+    bool rgb8;     /* lsf_renderer_read_rgb8 will be called */
+    bool present;  /* lsf_renderer_present will be called */
     const char *const *options; /* "pass.key=value", see lsf_option_list */
     uint32_t option_count;
     lsf_progress progress; /* NULL: none */
@@ -102,8 +105,8 @@ typedef struct lsf_render_params {
     .time_limit = 1.0 / 0.0, .bounces = LSF_BOUNCES_AUTO, .seed = 0, .camera = NULL,               \
     .camera_position = NULL, .camera_target = NULL, .fov_y = 0.0f / 0.0f,                          \
     .background = LSF_BACKGROUND_AUTO, .background_radiance = {0}, .time = 0.0, .aovs = 0,         \
-    .raw = false, .rgb8 = false, .present = false, .options = NULL, .option_count = 0,             \
-    .progress = NULL, .progress_user = NULL
+    .raw = false, .temporal = false, .rgb8 = false, .present = false, .options = NULL,             \
+    .option_count = 0, .progress = NULL, .progress_user = NULL
 
 /* The view of the camera that these parameters choose, at their time: where a program may go on
  * from. LSF_ERROR_USAGE where there is no such camera. */
@@ -154,8 +157,11 @@ typedef struct lsf_frame {
     const lsf_view *view;  /* NULL: the camera of lsf_render_params */
     uint32_t first_sample; /* its iterations take the random numbers of this one and those that
                             * follow. A frame depends on nothing else of the frames before it: it
-                            * has the bits of a new renderer's */
-    bool cut;              /* motion is measured as in a new renderer, not from the frame before */
+                            * has the bits of a new renderer's. With lsf_render_params.temporal it
+                            * counts for the first frame and for a cut alone: the others go on with
+                            * the numbers that follow */
+    bool cut; /* motion is measured as in a new renderer, not from the frame before, and
+               * no light is kept */
 } lsf_frame;
 
 #define LSF_FRAME_DEFAULTS .time = 0.0, .view = NULL, .first_sample = 0, .cut = false
@@ -210,7 +216,8 @@ typedef struct lsf_pass_stats {
 } lsf_pass_stats;
 
 typedef struct lsf_renderer_stats {
-    uint32_t samples; /* iterations done, of the frame in progress */
+    uint32_t samples; /* iterations done, of the frame in progress, and with
+                       * lsf_render_params.temporal of those before it whose mean it goes on with */
     double compile_seconds, upload_seconds, render_seconds;
     double lost_share;    /* of the picture's luminance: what an option such as
                            * bidirectional.bound took away, 0..1 */

@@ -141,6 +141,7 @@ void lsf_iteration_frame(lsf_iteration *iteration, const lsf_state *state,
     iteration->state = state;
     iteration->first_index = first_index;
     iteration->serial_before = iteration->serial;
+    iteration->kept = 0.0f;
     set_view(&iteration->view, iteration->plan, state);
     iteration->previous_camera = previous ? previous->camera : state->camera;
     if (state->light_count > 0)
@@ -159,7 +160,9 @@ void lsf_iteration_destroy(lsf_iteration *iteration)
 float lsf_iteration_expected(const lsf_iteration *iteration)
 {
     uint32_t samples = iteration->plan->samples;
-    return samples == UINT32_MAX ? (float)iteration->done + 1.0f : (float)samples;
+    uint32_t own =
+        samples == UINT32_MAX || iteration->done >= samples ? iteration->done + 1 : samples;
+    return (float)own + iteration->kept;
 }
 
 static void draw_sky_lights(lsf_iteration *iteration)

@@ -24,6 +24,7 @@ typedef struct lsf_iteration {
     GLuint view_buffer;     /* struct lsf_view_data */
     struct lsf_view_data view;
     lsf_camera_state previous_camera; /* for motion */
+    float kept;                       /* samples that light of the frames before stands for */
     uint32_t light_count; /* the state's lights, then those that stand for the environment */
     lsf_light_state *lights;
     lsf_sky_share *shares; /* one for each light; a technique that finds the environment in other
@@ -70,7 +71,8 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done);
  * after it. */
 void lsf_iteration_bind_view(const lsf_iteration *iteration);
 
-/* Iterations that the picture will have; those so far when that is open. */
+/* Iterations that the picture's light will have, with those of frames before that are kept; those
+ * so far when that is open. */
 float lsf_iteration_expected(const lsf_iteration *iteration);
 
 /* For lib/sky.glsl in the program in use. */

@@ -22,8 +22,9 @@ typedef struct lsf_split_light {
 /* What the G-buffer holds. */
 typedef struct lsf_gbuffer_maps {
     lsf_surface_maps seen;
-    GLuint emission;         /* RGBA32F, radiance; 0: nothing emits */
-    GLuint motion;           /* RG32F, pixels; 0 unless asked for */
+    GLuint emission; /* RGBA32F, radiance; 0: nothing emits */
+    GLuint motion;   /* RG32F, pixels; 0 unless asked for. Where light is kept, RGBA32F: B the
+                      * reverse-Z depth in the frame before, A the instance's number and 1 */
     GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye; 0: none is lost */
 } lsf_gbuffer_maps;
 

@@ -71,10 +71,10 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
             lsf_plan_buffer_add(plan, "scene.uv1", vertices * 8, "a texture reads TEXCOORD_1");
         if (r->vertex_colored)
             lsf_plan_buffer_add(plan, "scene.colors", vertices * 16, "vertex colours");
-        if (plan->aovs & LSF_AOV_MOTION)
+        if (lsf_plan_measures_motion(plan))
             lsf_plan_buffer_add(plan, "scene.previous_transforms",
                                 (uint64_t)scene->instance_count * 48, "motion is asked for");
-        if ((plan->aovs & LSF_AOV_MOTION) && (r->skinned || r->morphed))
+        if (lsf_plan_measures_motion(plan) && (r->skinned || r->morphed))
             lsf_plan_buffer_add(plan, "scene.previous_positions", vertices * 12,
                                 "motion is asked for, and vertices are deformed");
     }

@@ -24,6 +24,8 @@ static void plan_switches(lsf_plan *plan)
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_scene_gpu_material_switches(plan, gloss, emission);
     lsf_plan_switch_add(plan, "LSF_MOTION", motion, "motion is asked for");
+    if (plan->temporal)
+        lsf_plan_switch_add(plan, "LSF_HISTORY", true, "light is kept from frame to frame");
     if (lsf_plan_find(plan, "scene.previous_positions"))
         lsf_plan_switch_add(plan, "LSF_DEFORMED_MOTION", true, "vertices are deformed");
     /* Colour attachments are numbered without gaps. */
@@ -83,7 +85,10 @@ void lsf_gbuffer_plan(lsf_plan *plan)
                              r->emissive ? "some material emits" : "some material is unlit");
     else
         lsf_plan_omit(plan, "gbuffer.emission", "nothing emits");
-    if (plan->aovs & LSF_AOV_MOTION)
+    if (plan->temporal)
+        lsf_plan_texture_add(plan, "gbuffer.motion", GL_RGBA32F, w, h,
+                             "where light of the frame before is, how deep, of which instance");
+    else if (lsf_plan_measures_motion(plan))
         lsf_plan_texture_add(plan, "gbuffer.motion", GL_RG32F, w, h, "motion is asked for");
     else
         lsf_plan_omit(plan, "gbuffer.motion", "nothing reads it");

@@ -88,7 +88,7 @@ bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const
         {"light_filter.picture", &pass->picture, &pass->picture_framebuffer},
     };
     static const char *const slope_files[5] = {"lib/fullscreen.vert.glsl",
-                                               "passes/light_filter_slope.frag.glsl"};
+                                               "lib/light_guide_slope.frag.glsl"};
     static const char *const divide_files[5] = {"lib/fullscreen.vert.glsl",
                                                 "passes/light_filter_divide.frag.glsl"};
     for (size_t i = 0; i < LSF_COUNT(targets); i++)
@@ -139,7 +139,8 @@ static void divide(lsf_light_filter *pass, const lsf_plan *plan, float iteration
     begin(plan, pass->light_framebuffer, programs->variance);
     set_guide(pass);
     glUniform1f(1, iterations > 1.5f ? uncertainty_of(iterations) : -1.0f);
-    glUniform1f(2, (float)inputs->half_count / fmaxf(iterations - (float)inputs->half_count, 1.0f));
+    float rest = fmaxf(iterations - (float)inputs->half_count, 1.0f);
+    glUniform1f(2, inputs->half ? (float)inputs->half_count / rest : -1.0f);
     lsf_bind_texture(2, pass->turns[0]);
     lsf_bind_texture(4, part->light);
     lsf_bind_texture(5, part->factor);

@@ -28,7 +28,7 @@ typedef struct lsf_light_filter_part {
 
 typedef struct lsf_light_filter_inputs {
     GLuint guide; /* as lsf_light_mean's */
-    GLuint half;  /* as lsf_light_mean's, of the first `half_count` iterations */
+    GLuint half;  /* as lsf_light_mean's, of the first `half_count` iterations; 0: there is none */
     uint32_t half_count;
     GLuint picture; /* RGBA32F mean of the whole picture */
     float kernel;   /* solid angle that glossy lobes were spread over, for want of samples [sr] */

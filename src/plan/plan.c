@@ -19,6 +19,11 @@ bool lsf_plan_surfaces_shine(const lsf_plan *plan)
     return plan->requirements.emissive || plan->requirements.unlit;
 }
 
+bool lsf_plan_measures_motion(const lsf_plan *plan)
+{
+    return plan->temporal || (plan->aovs & LSF_AOV_MOTION);
+}
+
 bool lsf_plan_surfaces_differ(const lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;

@@ -64,6 +64,7 @@ struct lsf_plan {
     uint32_t sky_pattern; /* side of the pattern in which pixels take different ones of these; 0:
                            * their light is not filtered, all pixels take all */
     bool filtered;        /* light_filter takes the noise out of the mean */
+    bool temporal;        /* light is kept from frame to frame */
     bool failed;          /* memory ran out while it was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;
@@ -77,6 +78,8 @@ struct lsf_plan {
 
 /* Surfaces send out radiance of their own: some material emits or is unlit. */
 bool lsf_plan_surfaces_shine(const lsf_plan *plan);
+/* The G-buffer holds motion. */
+bool lsf_plan_measures_motion(const lsf_plan *plan);
 /* Surfaces that light falls on differ in roughness, metallic, f0 or what they transmit. */
 bool lsf_plan_surfaces_differ(const lsf_plan *plan);
 

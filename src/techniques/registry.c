@@ -30,6 +30,7 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(blur, LSF_BLUR_OPTION_COUNT),
     TABLE(upsample_search, LSF_UPSAMPLE_SEARCH_OPTION_COUNT),
     TABLE(light_filter, LSF_LIGHT_FILTER_OPTION_COUNT),
+    TABLE(temporal, LSF_TEMPORAL_OPTION_COUNT),
 };
 const uint32_t lsf_pass_option_table_count = LSF_COUNT(lsf_pass_option_tables);
 

@@ -23,13 +23,22 @@ lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error)
 
 /* --- making, and going over to another plan --- */
 
-static bool create_filter(lsf_renderer *renderer, lsf_error *error)
+/* What works on the mean of split light. */
+static bool create_filters(lsf_renderer *renderer, lsf_error *error)
 {
     const lsf_setup *setup = &renderer->setup;
-    return !lsf_plan_find_pass(setup->plan, "light_filter") ||
-           (lsf_light_mean_create(&renderer->light_mean, renderer->context, setup->plan, error) &&
-            lsf_light_filter_create(&renderer->light_filter, renderer->context, setup->plan,
-                                    &setup->pass_params.light_filter, error));
+    const lsf_plan *plan = setup->plan;
+    lsf_context *context = renderer->context;
+    const lsf_pass_params *params = &setup->pass_params;
+    uint32_t tiles = (uint32_t)(params->interleave.size * params->interleave.size);
+    return (!lsf_plan_find_pass(plan, "light_mean") ||
+            lsf_light_mean_create(&renderer->light_mean, context, plan, error)) &&
+           (!lsf_plan_find_pass(plan, "temporal") ||
+            lsf_temporal_create(&renderer->temporal, context, plan, &params->temporal,
+                                lsf_plan_find_pass(plan, "interleave") ? tiles : 0, error)) &&
+           (!lsf_plan_find_pass(plan, "light_filter") ||
+            lsf_light_filter_create(&renderer->light_filter, context, plan, &params->light_filter,
+                                    error));
 }
 
 /* What depends on the plan but for the scene on the GPU. */
@@ -45,7 +54,7 @@ static bool create_technique(lsf_renderer *renderer, lsf_error *error)
                                     &renderer->scene, &setup->state, error) &&
            lsf_accumulate_create(&renderer->accumulate, context, setup->plan, setup->layer_count,
                                  setup->layer_names, error) &&
-           create_filter(renderer, error) &&
+           create_filters(renderer, error) &&
            (!(setup->params.rgb8 || setup->params.present) ||
             lsf_tonemap_create(&renderer->tonemap, context, setup->plan, setup->params.rgb8,
                                error));
@@ -55,6 +64,7 @@ static void destroy_technique(lsf_renderer *renderer)
 {
     lsf_tonemap_destroy(&renderer->tonemap);
     lsf_light_filter_destroy(&renderer->light_filter);
+    lsf_temporal_destroy(&renderer->temporal);
     lsf_light_mean_destroy(&renderer->light_mean);
     lsf_accumulate_destroy(&renderer->accumulate);
     if (renderer->setup.technique)
@@ -147,10 +157,78 @@ static bool replan(lsf_renderer *renderer, lsf_error *error)
     return good;
 }
 
+/* --- what is made of the mean --- */
+
+static lsf_temporal_inputs temporal_inputs(const lsf_renderer *renderer)
+{
+    const lsf_light_mean *mean = &renderer->light_mean;
+    return (lsf_temporal_inputs){.guide = mean->guide,
+                                 .motion = renderer->outputs.parts.gbuffer->motion,
+                                 .picture = renderer->accumulate.means[0],
+                                 .kernel = renderer->outputs.kernel,
+                                 .parts = {{mean->diffuse.light, mean->diffuse.factor},
+                                           {mean->specular.light, mean->specular.factor}}};
+}
+
+static void filter(lsf_renderer *renderer, GLuint picture)
+{
+    const lsf_light_mean *mean = &renderer->light_mean;
+    const lsf_temporal_part *kept = renderer->temporal.parts;
+    bool temporal = renderer->temporal.timer;
+    const lsf_light_filter_inputs inputs = {
+        .guide = mean->guide,
+        .half = temporal ? 0 : mean->half, /* the mean is not of the frame's iterations alone */
+        .half_count = lsf_light_mean_half(renderer->samples),
+        .picture = picture,
+        .kernel = renderer->outputs.kernel,
+        .parts = {{temporal ? kept[0].light : mean->diffuse.light, mean->diffuse.factor},
+                  {temporal ? kept[1].light : mean->specular.light, mean->specular.factor}}};
+    /* One iteration has no variance of its own, but with light of the frames before. */
+    uint32_t iterations = temporal && renderer->samples == 1 ? 2 : renderer->samples;
+    lsf_light_filter_run(&renderer->light_filter, &renderer->iteration, iterations, &inputs);
+}
+
+GLuint lsf_renderer_picture(lsf_renderer *renderer)
+{
+    GLuint picture = renderer->accumulate.means[0];
+    bool finished = renderer->finished || renderer->samples == 0;
+    if (renderer->temporal.timer && renderer->samples > 0) {
+        const lsf_temporal_inputs inputs = temporal_inputs(renderer);
+        if (!finished)
+            lsf_temporal_blend(&renderer->temporal, &renderer->iteration, renderer->samples,
+                               &inputs);
+        picture = renderer->temporal.picture;
+    }
+    if (renderer->light_filter.timer && renderer->samples > 0) {
+        if (!finished)
+            filter(renderer, picture);
+        picture = renderer->light_filter.picture;
+    }
+    if (renderer->temporal.timer && renderer->samples > 0) {
+        if (!finished)
+            lsf_temporal_resolve(&renderer->temporal, renderer->setup.plan, renderer->samples,
+                                 picture);
+        picture = renderer->temporal.resolved;
+    }
+    renderer->finished = true;
+    return picture;
+}
+
+/* Of a frame whose picture nobody has asked for. */
+static bool keep_light(lsf_renderer *renderer, lsf_error *error)
+{
+    if (!renderer->temporal.timer || renderer->finished || renderer->samples == 0)
+        return true;
+    if (!lsf_renderer_catch_up(renderer, true, error))
+        return false;
+    lsf_renderer_picture(renderer);
+    return true;
+}
+
 /* --- frames --- */
 
 /* Brings what follows the state up to date; makes another plan where this one does not fit. */
-static bool follow_state(lsf_renderer *renderer, const lsf_frame *frame, lsf_error *error)
+static bool follow_state(lsf_renderer *renderer, uint32_t first_sample, lsf_error *error)
 {
     lsf_setup *setup = &renderer->setup;
     const lsf_technique *technique = setup->technique;
@@ -158,7 +236,7 @@ static bool follow_state(lsf_renderer *renderer, const lsf_frame *frame, lsf_err
     lsf_update update = LSF_UPDATE_REPLAN;
     if (renderer->technique && lsf_setup_fits(setup)) {
         lsf_scene_gpu_update(&renderer->scene, &setup->state, previous);
-        lsf_iteration_frame(&renderer->iteration, &setup->state, previous, frame->first_sample);
+        lsf_iteration_frame(&renderer->iteration, &setup->state, previous, first_sample);
         update = technique->update ? technique->update(renderer->technique, &setup->pass_params,
                                                        &renderer->iteration, &setup->changes)
                                    : LSF_UPDATE_DONE;
@@ -168,8 +246,39 @@ static bool follow_state(lsf_renderer *renderer, const lsf_frame *frame, lsf_err
     if (update == LSF_UPDATE_REPLAN && !replan(renderer, error))
         return false;
     if (update == LSF_UPDATE_REPLAN)
-        lsf_iteration_frame(&renderer->iteration, &setup->state, previous, frame->first_sample);
+        lsf_iteration_frame(&renderer->iteration, &setup->state, previous, first_sample);
     return lsf_context_check(renderer->context, error);
+}
+
+/* Whether the mean of the frame before is one of this frame as well. */
+static bool goes_on(lsf_renderer *renderer, const lsf_frame *frame)
+{
+    const lsf_setup *setup = &renderer->setup;
+    const lsf_changes *changes = &setup->changes;
+    bool before = renderer->unchanged;
+    renderer->unchanged =
+        !(changes->view || changes->moved || changes->shining || changes->materials);
+    return setup->params.temporal && !frame->cut && !renderer->broken && renderer->samples > 0 &&
+           renderer->unchanged && (before || !(setup->params.aovs & LSF_AOV_MOTION)) &&
+           lsf_setup_fits(setup);
+}
+
+static void go_on(lsf_renderer *renderer)
+{
+    lsf_setup *setup = &renderer->setup;
+    lsf_scene_gpu_update(&renderer->scene, &setup->state, lsf_setup_previous(setup));
+    renderer->iteration.previous_camera = setup->state.camera;
+    renderer->kept = renderer->samples;
+    if (renderer->temporal.timer)
+        lsf_temporal_go_on(&renderer->temporal);
+}
+
+/* Frames that keep light of those before need other random numbers than they had. */
+static uint32_t first_sample_of(const lsf_renderer *renderer, const lsf_frame *frame)
+{
+    if (!renderer->setup.params.temporal || frame->cut || !renderer->begun)
+        return frame->first_sample;
+    return renderer->iteration.first_index + renderer->samples;
 }
 
 bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, lsf_error *error)
@@ -179,8 +288,23 @@ bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, ls
     LSF_LEAVE lsf_context *entered = lsf_context_enter(renderer->context, error);
     if (!entered || !lsf_setup_frame(&renderer->setup, frame, error))
         return false;
-    renderer->samples = renderer->next = 0;
-    renderer->broken = !follow_state(renderer, frame, error);
+    if (goes_on(renderer, frame)) {
+        go_on(renderer);
+        return lsf_context_check(renderer->context, error);
+    }
+    const lsf_changes *changes = &renderer->setup.changes;
+    const lsf_temporal_change change = {.cut = frame->cut,
+                                        .moved = changes->moved,
+                                        .lights = changes->shining || changes->materials};
+    uint32_t first_sample = first_sample_of(renderer, frame);
+    bool good = frame->cut || renderer->broken || keep_light(renderer, error);
+    renderer->samples = renderer->next = renderer->kept = 0;
+    renderer->begun = renderer->begun && !frame->cut;
+    renderer->broken = !good || !follow_state(renderer, first_sample, error);
+    if (renderer->temporal.timer)
+        renderer->iteration.kept =
+            lsf_temporal_begin(&renderer->temporal, &change, renderer->setup.params.samples,
+                               &renderer->setup.state.camera);
     return !renderer->broken;
 }
 
@@ -247,27 +371,6 @@ GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov)
     }
 }
 
-GLuint lsf_renderer_picture(lsf_renderer *renderer)
-{
-    const lsf_light_mean *mean = &renderer->light_mean;
-    if (!renderer->light_filter.timer || renderer->samples == 0)
-        return renderer->accumulate.means[0];
-    if (!renderer->filtered) {
-        const lsf_light_filter_inputs inputs = {
-            .guide = mean->guide,
-            .half = mean->half,
-            .half_count = lsf_light_mean_half(renderer->samples),
-            .picture = renderer->accumulate.means[0],
-            .kernel = renderer->outputs.kernel,
-            .parts = {{mean->diffuse.light, mean->diffuse.factor},
-                      {mean->specular.light, mean->specular.factor}}};
-        lsf_light_filter_run(&renderer->light_filter, &renderer->iteration, renderer->samples,
-                             &inputs);
-    }
-    renderer->filtered = true;
-    return renderer->light_filter.picture;
-}
-
 static void run_iteration(lsf_renderer *renderer)
 {
     GLuint layers[LSF_LAYER_COUNT];
@@ -283,7 +386,12 @@ static void run_iteration(lsf_renderer *renderer)
     if (renderer->light_mean.timer)
         lsf_light_mean_run(&renderer->light_mean, &renderer->iteration, &renderer->outputs.parts,
                            renderer->outputs.gate);
-    renderer->filtered = false;
+    if (renderer->temporal.timer && renderer->next == 0) {
+        const lsf_temporal_inputs inputs = temporal_inputs(renderer);
+        lsf_temporal_carry(&renderer->temporal, &renderer->iteration, &inputs);
+    }
+    renderer->finished = false;
+    renderer->begun = true;
     renderer->next++;
 }
 
@@ -340,17 +448,18 @@ static void wait_for_gpu(lsf_renderer *renderer)
 static bool wants_more(const lsf_renderer *renderer, uint32_t done)
 {
     const lsf_render_params *params = &renderer->setup.params;
-    return !params->progress || params->progress(done, params->samples, params->progress_user);
+    return !params->progress ||
+           params->progress(done - renderer->kept, params->samples, params->progress_user);
 }
 
 /* Within an iteration. The limit leaves the first one whole: a late picture is better than none. */
-static bool goes_on(void *user)
+static bool goes_further(void *user)
 {
     lsf_renderer *renderer = user;
     if (renderer->stopped || lsf_now() < renderer->next_question)
         return !renderer->stopped;
     glFinish(); /* or the question would be about commands that are given, not about work */
-    renderer->stopped = (renderer->next > 0 && lsf_now() >= renderer->deadline) ||
+    renderer->stopped = (renderer->next > renderer->kept && lsf_now() >= renderer->deadline) ||
                         !wants_more(renderer, renderer->next);
     renderer->next_question = lsf_now() + QUESTION_EVERY;
     return !renderer->stopped;
@@ -360,7 +469,7 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
 {
     const lsf_render_params *params = &renderer->setup.params;
     bool limited = isfinite(params->time_limit);
-    while (renderer->samples < params->samples) {
+    while (renderer->samples - renderer->kept < params->samples) {
         renderer->next_question = lsf_now() + QUESTION_EVERY;
         if (!lsf_renderer_iterate(renderer, error))
             return false;
@@ -385,7 +494,7 @@ bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
     if (!entered)
         return false;
     renderer->deadline = lsf_now() + renderer->setup.params.time_limit;
-    renderer->iteration.question = goes_on;
+    renderer->iteration.question = goes_further;
     renderer->iteration.question_user = renderer;
     bool good = run_until_stopped(renderer, error);
     renderer->iteration.question = NULL;

@@ -6,7 +6,7 @@
 #include "passes/tonemap.h"
 #include "techniques/setup.h"
 
-#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 4)
+#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 5)
 
 struct lsf_renderer {
     lsf_context *context;
@@ -16,15 +16,19 @@ struct lsf_renderer {
     void *technique;
     lsf_technique_outputs outputs;
     lsf_accumulate accumulate;
-    lsf_light_mean light_mean;     /* empty unless the plan has a filter */
-    lsf_light_filter light_filter; /* likewise */
-    bool filtered;                 /* its picture is of the mean as it is */
+    lsf_light_mean light_mean; /* this and the next two are empty unless the plan has them */
+    lsf_temporal temporal;
+    lsf_light_filter light_filter;
+    bool finished; /* their picture is of the mean as it is */
     lsf_tonemap tonemap;
     bool broken; /* no frame is in progress: going over to another plan has failed */
     bool grain_checked;
-    uint32_t samples;    /* iterations of the frame that were asked for so far */
-    uint32_t next;       /* iteration of it to run next: fewer, where some have to be run again */
-    uint64_t iterations; /* asked for in all frames, since the passes were made */
+    uint32_t samples; /* iterations of the mean that were asked for so far */
+    uint32_t kept;    /* those of frames before, where it goes on */
+    bool begun;       /* random numbers were taken since the last cut */
+    bool unchanged;   /* the frame before had nothing otherwise than its own predecessor */
+    uint32_t next; /* iteration of the mean to run next: fewer, where some have to be run again */
+    uint64_t iterations;            /* asked for in all frames, since the passes were made */
     double deadline, next_question; /* in seconds as lsf_now counts them */
     bool stopped;                   /* the iteration in progress is to be dropped */
     double compile_seconds, upload_seconds, render_seconds;
@@ -36,8 +40,8 @@ struct lsf_renderer {
 lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error);
 /* Runs until what was asked for went into the means; without `wait`, as far as it is known. */
 bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error);
-/* The mean of the picture, filtered where the plan has a filter. Of a renderer that has caught up.
- */
+/* The mean of the picture, with light of the frames before and filtered where the plan says so. Of
+ * a renderer that has caught up. */
 GLuint lsf_renderer_picture(lsf_renderer *renderer);
 /* The texture of a layer; 0 when the technique has none, and the layer stays black. */
 GLuint lsf_renderer_layer(const lsf_technique_outputs *outputs, uint32_t aov);

@@ -241,10 +241,12 @@ static uint32_t list_passes(lsf_renderer *renderer,
 {
     uint32_t count = renderer->setup.technique->report(renderer->technique, reports);
     reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
-    if (renderer->light_filter.timer) {
+    if (renderer->light_mean.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->light_mean.timer};
+    if (renderer->temporal.timer)
+        reports[count++] = (lsf_pass_report){.timer = renderer->temporal.timer};
+    if (renderer->light_filter.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->light_filter.timer};
-    }
     if (renderer->tonemap.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->tonemap.timer};
     return count;

@@ -23,6 +23,10 @@ static bool check_params(const lsf_render_params *params, lsf_error *error)
     if (params->bounces > LSF_BOUNCES_MAX && params->bounces != LSF_BOUNCES_AUTO)
         return lsf_error_set(error, LSF_ERROR_USAGE, "bounces %u: at most %u", params->bounces,
                              LSF_BOUNCES_MAX);
+    if (params->raw && params->temporal)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "raw and temporal: the mean of a frame's iterations alone holds no "
+                             "light of frames before; leave one of them out");
     if (params->camera_position && params->camera_target &&
         memcmp(params->camera_position, params->camera_target, 3 * sizeof(float)) == 0)
         return lsf_error_set(error, LSF_ERROR_USAGE,
@@ -102,6 +106,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
         plan->sky_pattern = sky_pattern(plan->sky_lights, setup->pass_params.interleave.size);
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);
+    plan->temporal = params->temporal;
     plan->orthographic = setup->state.camera.orthographic;
     plan->background = lsf_background_resolve(setup->source, params);
     lsf_scene_gpu_plan(plan, setup->scene);
@@ -158,12 +163,17 @@ static lsf_view_params view_of(const lsf_setup *setup, double time, const lsf_vi
                              .aspect = (float)params->width / (float)params->height};
 }
 
+static bool measures_motion(const lsf_setup *setup)
+{
+    return setup->params.temporal || (setup->params.aovs & LSF_AOV_MOTION);
+}
+
 /* Where no frame went before, motion is that of the animation. */
 static bool update_previous(lsf_setup *setup, double time, const lsf_view *view, lsf_error *error)
 {
     lsf_view_params params =
         view_of(setup, time - (double)setup->pass_params.gbuffer.frame_time, view);
-    return !(setup->params.aovs & LSF_AOV_MOTION) ||
+    return !measures_motion(setup) ||
            lsf_state_update(&setup->previous, setup->scene, &params, error);
 }
 
@@ -206,10 +216,15 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         .indirect = lsf_plan_switch_value(plan, "compose", "LSF_INDIRECT"),
         .split_direct = lsf_plan_switch_value(plan, "compose", "LSF_SPLIT_DIRECT"),
         .sky = lsf_plan_switch_value(plan, "compose", "LSF_SKY_LIGHT")};
-    if (plan->filtered && (light.indirect || light.sky)) {
+    bool split = light.indirect || light.sky;
+    if (split && (plan->filtered || plan->temporal))
         lsf_light_mean_plan(plan, &light);
+    if (split && plan->temporal)
+        lsf_temporal_plan(plan);
+    else if (plan->temporal)
+        lsf_plan_omit(plan, "temporal", "no light is noisy but for edges and shadows");
+    if (split && plan->filtered)
         lsf_light_filter_plan(plan, &setup->pass_params.light_filter);
-    }
     if (params->rgb8 || params->present)
         lsf_tonemap_plan(plan, params->rgb8);
     else
@@ -249,6 +264,20 @@ static bool is_animated(const lsf_setup *setup, lsf_kind kind, const lsf_state *
     return !lsf_animated_has(setup->scene, kind, &setup->state.animated, before->animated.values);
 }
 
+static bool same_camera(const lsf_camera_state *a, const lsf_camera_state *b)
+{
+    const size_t first = offsetof(lsf_camera_state, start); /* floats from here on */
+    return a->orthographic == b->orthographic &&
+           memcmp((const char *)a + first, (const char *)b + first, sizeof *a - first) == 0;
+}
+
+static bool same_lights(const lsf_state *a, const lsf_state *b)
+{
+    return a->light_count == b->light_count &&
+           (a->light_count == 0 ||
+            memcmp(a->lights, b->lights, a->light_count * sizeof *a->lights) == 0);
+}
+
 bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error)
 {
     lsf_state *state = &setup->previous; /* the oldest */
@@ -260,11 +289,13 @@ bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error)
     setup->previous = before;
     const lsf_edits *now = &setup->scene->edits;
     bool animated = before.time != frame->time && setup->scene->channel_count > 0;
-    setup->changes = (lsf_changes){.moved = animated || before.edits.nodes != now->nodes ||
+    setup->changes = (lsf_changes){.view = !same_camera(&before.camera, &setup->state.camera),
+                                   .moved = animated || before.edits.nodes != now->nodes ||
                                             is_animated(setup, LSF_KIND_NODE, &before),
                                    .lights = before.edits.lights != now->lights ||
                                              is_animated(setup, LSF_KIND_LIGHT, &before) ||
                                              is_animated(setup, LSF_KIND_NODE, &before),
+                                   .shining = !same_lights(&before, &setup->state),
                                    .materials = before.edits.materials != now->materials ||
                                                 is_animated(setup, LSF_KIND_MATERIAL, &before)};
     if (setup->changes.moved && setup->plan && setup->plan->islands.count > 0)
@@ -288,7 +319,7 @@ bool lsf_setup_replan(lsf_setup *setup, lsf_plan **old, lsf_error *error)
 
 const lsf_state *lsf_setup_previous(const lsf_setup *setup)
 {
-    return setup->params.aovs & LSF_AOV_MOTION ? &setup->previous : NULL;
+    return measures_motion(setup) ? &setup->previous : NULL;
 }
 
 void lsf_setup_finish(lsf_setup *setup)

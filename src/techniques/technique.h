@@ -14,6 +14,7 @@
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
+#include "passes/temporal.h"
 #include "passes/upsample_search.h"
 #include "passes/voxel_path.h"
 #include "passes/voxel_view.h"
@@ -39,6 +40,7 @@ typedef struct lsf_pass_params {
     lsf_blur_params blur;
     lsf_upsample_search_params upsample_search;
     lsf_light_filter_params light_filter;
+    lsf_temporal_params temporal;
 } lsf_pass_params;
 
 #define LSF_PASS_PARAMS_DEFAULTS                                                                   \
@@ -52,7 +54,7 @@ typedef struct lsf_pass_params {
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
     .cone = {LSF_CONE_PARAMS_DEFAULTS}, .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
     .blur = {LSF_BLUR_PARAMS_DEFAULTS}, .upsample_search = {LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS},  \
-    .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}
+    .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}, .temporal = {LSF_TEMPORAL_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;
@@ -79,8 +81,10 @@ typedef struct lsf_pass_report {
 
 /* What is otherwise than in the frame before. */
 typedef struct lsf_changes {
+    bool view;
     bool moved;     /* instances or lights */
     bool lights;    /* were edited */
+    bool shining;   /* lights are otherwise or elsewhere, for whatever reason */
     bool materials; /* ... likewise */
 } lsf_changes;
 

@@ -161,6 +161,10 @@ static const lsf_command_option options[] = {
      "--frames, these"},
     {"resume", 0, NULL, LSF_COMMAND_RENDER, "Sequence", LSF_VALUE_FLAG, AT(resume), 0, 0, NULL,
      NULL, "leave out frames whose picture is there already"},
+    {"temporal", 0, NULL, LSF_COMMAND_RENDER | LSF_COMMAND_PLAN, "Sequence", LSF_VALUE_FLAG,
+     AT(temporal), 0, 0, NULL, NULL,
+     "keep light from frame to frame, so that few samples a frame look like many; each frame then "
+     "depends on those before it: one machine renders all, from the first to the last"},
 
     {"environment", 'e', "FILE|R,G,B", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_ENVIRONMENT,
      AT(environment), 0, 1e30, NULL, NULL,

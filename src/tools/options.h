@@ -131,6 +131,7 @@ typedef struct lsf_settings {
     double time_limit; /* seconds; infinity: none */
     uint32_t bounces;
     bool raw;
+    bool temporal;
     uint64_t seed;
     uint32_t aovs;
     lsf_list_setting defines;

@@ -263,6 +263,7 @@ lsf_render_params lsf_settings_render_params(const lsf_settings *settings)
         params.samples = UINT32_MAX;
     params.bounces = settings->bounces;
     params.raw = settings->raw;
+    params.temporal = settings->temporal;
     params.seed = settings->seed;
     params.camera = settings->camera;
     if (settings->camera_position.given)

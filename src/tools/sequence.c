@@ -18,7 +18,8 @@ lsf_sequence lsf_sequence_of(const lsf_settings *settings)
                              .start = settings->time,
                              .step = 1.0 / settings->fps,
                              .turntable = turn,
-                             .resume = settings->resume};
+                             .resume = settings->resume,
+                             .temporal = settings->temporal};
     if (!settings->frames.given)
         sequence.last = turn > 0 ? turn - 1 : 0;
     return sequence;
@@ -56,9 +57,14 @@ bool lsf_sequence_check_output(const lsf_sequence *sequence, const char *output,
                              "--output %s: holds the place of a frame's number, and there are no "
                              "frames; say which with --frames or --turntable",
                              output);
-    return sequence->wanted || !sequence->resume ||
+    if (sequence->temporal && sequence->resume)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--resume and --temporal: a frame needs those before it, whose light "
+                             "is in no picture; leave one of them out");
+    return sequence->wanted || (!sequence->resume && !sequence->temporal) ||
            lsf_error_set(error, LSF_ERROR_USAGE,
-                         "--resume: there are no frames; say which with --frames or --turntable");
+                         "--%s: there are no frames; say which with --frames or --turntable",
+                         sequence->resume ? "resume" : "temporal");
 }
 
 char *lsf_sequence_path(const char *output, uint32_t frame)

@@ -10,6 +10,7 @@ typedef struct lsf_sequence {
     double start, step; /* seconds: the time of frame 0, and from one to the next */
     uint32_t turntable; /* frames of a turn; 0: the camera is the scene's */
     bool resume;
+    bool temporal;
 } lsf_sequence;
 
 lsf_sequence lsf_sequence_of(const lsf_settings *settings);

@@ -44,6 +44,13 @@ class Sequence(CommandTest):
         self.assertEqual(self.read("f1.exr"), b"kept")
         self.assertIn("1 frame was there already", done.text)
 
+    def test_frames_keep_light(self):
+        self.scene(animated=True)
+        self.render("--frames", "0-2", "-o", "kept%d.exr", "--temporal")
+        self.render("--frames", "0-2", "-o", "own%d.exr")
+        for frame in (1, 2):
+            self.assertNotEqual(self.pixels(f"kept{frame}.exr"), self.pixels(f"own{frame}.exr"))
+
     def test_bad_asks(self):
         self.scene()
         for words, part in [
@@ -51,6 +58,9 @@ class Sequence(CommandTest):
                 (("--frames", "0-3", "-o", "%d_%d.png"), "once"),
                 (("-o", "f%d.png"), "--frames"),
                 (("-o", "f.png", "--resume"), "--turntable"),
+                (("-o", "f.png", "--temporal"), "--turntable"),
+                (("--frames", "0-3", "-o", "f%d.png", "--temporal", "--resume"), "--resume and"),
+                (("--frames", "0-3", "-o", "f%d.png", "--temporal", "--raw"), "raw and temporal"),
                 (("--frames", "3-1", "-o", "f%d.png"), "0-47"),
                 (("--frames", "3", "-o", "f%d.png"), "0-47"),
                 (("--turntable", "0", "-o", "f%d.png"), "--turntable 0")]:

@@ -1,0 +1,178 @@
+/* The history of the frame before, where its surfaces are now: of the four texels around a point's former place those
+ * that show the same instance, plane and side, by their bilinear weights. Switch LSF_LOBE: there is specular light. */
+#include "lib/octahedral.glsl"
+#include "lib/view.glsl"
+
+#include "lib/light_guide.glsl"
+
+layout(binding = 2) uniform sampler2D motion_texture; /* pixels, former depth, instance */
+layout(binding = 4) uniform usampler2D old_guide_texture;
+layout(binding = 5) uniform sampler2D old_diffuse_texture;
+layout(binding = 6) uniform sampler2D old_diffuse_count_texture;
+layout(location = 0) out vec4 diffuse_out;
+layout(location = 1) out vec4 reach_out; /* samples of diffuse and of specular light; lobes' drift */
+#if LSF_LOBE
+layout(binding = 7) uniform sampler2D old_specular_texture;
+layout(binding = 8) uniform sampler2D old_specular_count_texture;
+layout(location = 3) out vec4 specular_out;
+layout(location = 5) uniform vec4 former_eye; /* W 0: the direction that all rays ran along */
+#endif
+layout(binding = 9) uniform sampler2D old_picture_texture; /* A: its samples */
+layout(location = 2) out vec4 picture_out;                 /* A: less than 0 where it is to be held to what is seen */
+layout(location = 4) uniform bool kept;
+layout(location = 6) uniform bool changed; /* light may be otherwise */
+
+/* Pixels that a point may be off the plane of what it is taken for: each may lie anywhere in its pixel. */
+#define OFF_PLANE 2.0
+/* Of the angle between normals, 25 degrees: less than that of creases, more than what a turn takes in a frame. */
+#define SAME_SIDE 0.9
+/* Pixels that neighbours may move apart in a frame where the picture is as rigid. */
+#define PARALLAX 0.25
+
+bool finite(vec4 v)
+{
+    return !any(isnan(v)) && !any(isinf(v));
+}
+
+/* Whether the history saw the pixel's surface there, or beside it: pixels on edges show it now and then. */
+bool seen_before(light_guide g, vec4 motion, ivec2 corner)
+{
+    ivec2 size = textureSize(guide_texture, 0);
+    for (int j = -1; j <= 2; j++)
+        for (int i = -1; i <= 2; i++) {
+            ivec2 at = corner + ivec2(i, j);
+            if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
+                continue;
+            uvec4 old = texelFetch(old_guide_texture, at, 0);
+            float off = abs(uintBitsToFloat(old.y) - motion.z) * g.scale;
+            if (old.w == uint(motion.w) && off < 2.0 * OFF_PLANE * (1.0 + length(g.slope) * g.scale))
+                return true;
+        }
+    return false;
+}
+
+/* Weights of the four texels around a place, of which `f` is its fraction: those of Catmull and Rom 1974, which
+ * blur less than two do. */
+vec4 cubic_weights(float f)
+{
+    return vec4(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (-2.5 + 1.5 * f),
+                f * (0.5 + f * (2.0 - 1.5 * f)), f * f * (-0.5 + 0.5 * f));
+}
+
+/* Of one with samples behind all its texels; else that of the nearest one. */
+vec4 old_picture(vec2 from)
+{
+    ivec2 size = textureSize(guide_texture, 0), corner = ivec2(floor(from));
+    vec4 across = cubic_weights(from.x - float(corner.x)), up = cubic_weights(from.y - float(corner.y));
+    vec4 sum = vec4(0.0), low = vec4(1e30), high = vec4(0.0);
+    for (int j = 0; j < 4; j++)
+        for (int i = 0; i < 4; i++) {
+            vec4 texel = texelFetch(old_picture_texture, clamp(corner + ivec2(i, j) - 1, ivec2(0), size - 1), 0);
+            sum += across[i] * up[j] * texel;
+            if ((i == 1 || i == 2) && (j == 1 || j == 2)) {
+                low = min(low, texel);
+                high = max(high, texel);
+            }
+        }
+    return vec4(clamp(sum, low, high).rgb, low.a);
+}
+
+/* The picture of the frame before, moved as the nearest surface around the pixel, so that edges keep both sides. */
+vec4 carried_picture(ivec2 pixel, light_guide g)
+{
+    ivec2 size = textureSize(guide_texture, 0);
+    vec4 nearest = vec4(0.0);
+    vec2 low = vec2(1e9), high = vec2(-1e9);
+    float depth = 0.0;
+    bool all_surface = true;
+    for (int j = -1; j <= 1; j++)
+        for (int i = -1; i <= 1; i++) {
+            ivec2 at = clamp(pixel + ivec2(i, j), ivec2(0), size - 1);
+            vec4 motion = texelFetch(motion_texture, at, 0);
+            float d = texelFetch(guide_texture, at, 0).w;
+            low = min(low, motion.xy);
+            high = max(high, motion.xy);
+            all_surface = all_surface && d > 0.0;
+            if (d > depth) {
+                depth = d;
+                nearest = motion;
+            }
+        }
+    vec4 own = texelFetch(motion_texture, pixel, 0);
+    vec2 from = vec2(pixel) - nearest.xy;
+    if (depth == 0.0 || !finite(nearest) || any(lessThan(from, vec2(-0.5))) || any(greaterThan(from, vec2(size) - 0.5)))
+        return vec4(0.0);
+    if (g.depth > 0.0 && !(own.z > 0.0 && seen_before(g, own, ivec2(floor(vec2(pixel) - own.xy)))))
+        return vec4(0.0);
+    vec4 picture = old_picture(from);
+    if (!finite(picture))
+        return vec4(0.0);
+    bool rigid = all_surface && all(lessThan(high - low, vec2(PARALLAX)));
+    return rigid && !changed ? picture : vec4(picture.rgb, -picture.a);
+}
+
+#if LSF_LOBE
+/* How far the mirrored direction moves within the lobe from frame to frame, in widths of the lobe. */
+float lobe_drift(light_guide g)
+{
+    vec3 former = former_eye.w == 0.0 ? -former_eye.xyz : normalize(former_eye.xyz - g.position);
+    /* Along the normal of the facets that would mirror the former direction to the viewer. */
+    vec3 h = g.view + reflect(-former, g.normal);
+    float nh = dot(g.normal, h);
+    vec3 across = h - nh * g.normal;
+    return nh > 0.0 ? length(across) / max(g.alpha * nh, LSF_TINY) : 1e9;
+}
+#endif
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy), size = textureSize(guide_texture, 0);
+    diffuse_out = reach_out = picture_out = vec4(0.0);
+#if LSF_LOBE
+    specular_out = vec4(0.0);
+#endif
+    light_guide g = light_guide_at(pixel);
+    vec4 motion = texelFetch(motion_texture, pixel, 0);
+    if (kept)
+        picture_out = carried_picture(pixel, g);
+    if (!kept || g.depth == 0.0 || motion.z <= 0.0 || !finite(motion))
+        return;
+    vec2 from = clamp(vec2(pixel) - motion.xy, vec2(-2.0), vec2(size) + 2.0);
+    ivec2 corner = ivec2(floor(from));
+    vec2 sums = vec2(0.0), counts = vec2(0.0);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            ivec2 at = corner + ivec2(i, j);
+            if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
+                continue;
+            uvec4 old = texelFetch(old_guide_texture, at, 0);
+            vec2 apart = vec2(at) - from;
+            float off = abs(uintBitsToFloat(old.y) - motion.z - dot(g.slope, apart)) * g.scale;
+            if (old.z != uint(motion.w) || off > OFF_PLANE || dot(octahedral_decode(old.x), g.normal) < SAME_SIDE)
+                continue;
+            float w = (1.0 - abs(apart.x)) * (1.0 - abs(apart.y));
+            float count = texelFetch(old_diffuse_count_texture, at, 0).r;
+            if (count > 0.0) {
+                diffuse_out += w * texelFetch(old_diffuse_texture, at, 0);
+                counts.x += w * count;
+                sums.x += w;
+            }
+#if LSF_LOBE
+            count = texelFetch(old_specular_count_texture, at, 0).r;
+            if (count > 0.0) {
+                specular_out += w * texelFetch(old_specular_texture, at, 0);
+                counts.y += w * count;
+                sums.y += w;
+            }
+#endif
+        }
+    diffuse_out /= max(sums.x, 1e-6);
+    reach_out.xy = counts / max(sums, vec2(1e-6));
+#if LSF_LOBE
+    specular_out /= max(sums.y, 1e-6);
+    reach_out.z = lobe_drift(g);
+    /* Reflections move otherwise than what reflects them. */
+    if (reach_out.z > PARALLAX)
+        picture_out.a = -abs(picture_out.a);
+#endif
+}

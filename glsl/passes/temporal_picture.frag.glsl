@@ -1,0 +1,36 @@
+/* The picture with the light that the history changes, and what of the frame the next one's points are compared with.
+ * Switch LSF_LOBE: there is specular light. */
+#include "lib/octahedral.glsl"
+#include "lib/view.glsl"
+
+#include "lib/light_guide.glsl"
+
+layout(binding = 2) uniform sampler2D motion_texture;
+layout(binding = 4) uniform sampler2D picture_texture;
+layout(binding = 5) uniform sampler2D diffuse_texture;
+layout(binding = 6) uniform sampler2D blended_diffuse_texture;
+#if LSF_LOBE
+layout(binding = 7) uniform sampler2D specular_texture;
+layout(binding = 8) uniform sampler2D blended_specular_texture;
+#endif
+layout(location = 0) out vec4 picture_out;
+layout(location = 1) out uvec4 guide_out;
+
+/* Pixels that depths within a pixel may deviate by: more is an edge, whose light is no one surface's. */
+#define ONE_SURFACE 1.0
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    picture_out = texelFetch(picture_texture, pixel, 0);
+    picture_out.rgb += texelFetch(blended_diffuse_texture, pixel, 0).rgb - texelFetch(diffuse_texture, pixel, 0).rgb;
+#if LSF_LOBE
+    picture_out.rgb += texelFetch(blended_specular_texture, pixel, 0).rgb - texelFetch(specular_texture, pixel, 0).rgb;
+#endif
+    light_guide g = light_guide_at(pixel);
+    guide_out = uvec4(0u);
+    uint instance = uint(texelFetch(motion_texture, pixel, 0).w);
+    if (g.depth != 0.0 && g.spread * g.scale <= ONE_SURFACE)
+        guide_out.xyz = uvec3(octahedral_encode(g.normal), floatBitsToUint(g.depth), instance);
+    guide_out.yw = uvec2(floatBitsToUint(g.depth), instance);
+}

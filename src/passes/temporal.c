@@ -1,0 +1,305 @@
+#include "passes/temporal.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+
+const lsf_option_row lsf_temporal_options[LSF_TEMPORAL_OPTION_COUNT] = {
+    {"temporal.frames", LSF_OPTION_INT, offsetof(lsf_temporal_params, frames), 1, 65536, NULL,
+     "frames", "light of the frames before counts for no more than this"},
+    {"temporal.lag", LSF_OPTION_INT, offsetof(lsf_temporal_params, lag), 1, 65536, NULL, "frames",
+     "1 % is left by then of lights that were changed"},
+};
+
+#define AT(member) offsetof(lsf_temporal, member)
+
+static const lsf_texture_row textures[] = {
+    {"temporal.guide", GL_RGBA32UI, AT(guide), 0, "what the light of the frame before fell on"},
+    {"temporal.slope", GL_RGBA32F, AT(slope), 0, "of what is seen"},
+    {"temporal.reach", GL_RGBA32F, AT(reach), 0, "samples that are carried to a frame"},
+    {"temporal.diffuse_history", GL_RGBA32F, AT(parts[0].history), 0, "light of frames before"},
+    {"temporal.diffuse_count", GL_R32F, AT(parts[0].count), 0, "of its samples"},
+    {"temporal.diffuse_carried", GL_RGBA32F, AT(parts[0].carried), 0, "to where it is now"},
+    {"temporal.diffuse", GL_RGBA32F, AT(parts[0].light), 0, "for light_filter"},
+    {"temporal.specular_history", GL_RGBA32F, AT(parts[1].history), LSF_TEXTURE_SPECULAR,
+     "light of frames before"},
+    {"temporal.specular_count", GL_R32F, AT(parts[1].count), LSF_TEXTURE_SPECULAR,
+     "of its samples"},
+    {"temporal.specular_carried", GL_RGBA32F, AT(parts[1].carried), LSF_TEXTURE_SPECULAR,
+     "to where it is now"},
+    {"temporal.specular", GL_RGBA32F, AT(parts[1].light), LSF_TEXTURE_SPECULAR, "for light_filter"},
+    {"temporal.picture", GL_RGBA32F, AT(picture), 0, "with light of frames before"},
+    {"temporal.picture_carried", GL_RGBA32F, AT(carried_picture), 0, "that of the frame before"},
+    {"temporal.resolved", GL_RGBA32F, AT(resolved), 0, "the result"},
+};
+
+static void plan_part(lsf_plan *plan, const char *name, bool lobe, const char *why)
+{
+    lsf_plan_pass_add(plan, name, "%s", why);
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_LOBE", lobe, "light of a specular lobe");
+}
+
+void lsf_temporal_plan(lsf_plan *plan)
+{
+    bool specular = plan->requirements.specular;
+    plan_part(plan, "temporal", specular, "light of the frames before, once a frame");
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
+    plan_part(plan, "temporal_diffuse", false, "blended with the frame's own, once a picture");
+    if (specular)
+        plan_part(plan, "temporal_specular", true, "the same for specular light");
+}
+
+static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
+{
+    lsf_temporal_part *diffuse = &pass->parts[0], *specular = &pass->parts[1];
+    const struct {
+        const char *label;
+        GLuint *framebuffer, colors[4];
+    } rows[] = {
+        {"temporal.slope", &pass->slope_framebuffer, {pass->slope}},
+        {"temporal.carried",
+         &pass->carry_framebuffer,
+         {diffuse->carried, pass->reach, pass->carried_picture, specular->carried}},
+        {"temporal.diffuse",
+         &diffuse->framebuffer,
+         {diffuse->history, diffuse->count, diffuse->light}},
+        {"temporal.specular",
+         &specular->framebuffer,
+         {specular->history, specular->count, specular->light}},
+        {"temporal.picture", &pass->picture_framebuffer, {pass->picture, pass->guide}},
+        {"temporal.resolved", &pass->resolve_framebuffer, {pass->resolved}},
+    };
+    for (size_t i = 0; i < LSF_COUNT(rows); i++) {
+        lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 4, .layer = -1};
+        memcpy(desc.colors, rows[i].colors, sizeof rows[i].colors);
+        if (desc.colors[0] &&
+            !(*rows[i].framebuffer = lsf_framebuffer_create(pass->context, &desc, error)))
+            return false;
+    }
+    return true;
+}
+
+static bool create_programs(lsf_temporal *pass, const lsf_plan *plan, lsf_error *error)
+{
+    const struct {
+        const char *name, *file;
+        GLuint *program;
+    } rows[] = {
+        {"temporal", "lib/light_guide_slope.frag.glsl", &pass->slope_program},
+        {"temporal", "passes/temporal_carry.frag.glsl", &pass->carry_program},
+        {"temporal", "passes/temporal_picture.frag.glsl", &pass->picture_program},
+        {"temporal", "passes/temporal_resolve.frag.glsl", &pass->resolve_program},
+        {"temporal_diffuse", "passes/temporal_blend.frag.glsl", &pass->parts[0].program},
+        {"temporal_specular", "passes/temporal_blend.frag.glsl", &pass->parts[1].program},
+    };
+    for (size_t i = 0; i < LSF_COUNT(rows); i++) {
+        const char *const files[5] = {"lib/fullscreen.vert.glsl", rows[i].file};
+        if (lsf_plan_find_pass(plan, rows[i].name) &&
+            !(*rows[i].program = lsf_plan_program(plan, pass->context, rows[i].name, files, error)))
+            return false;
+    }
+    return true;
+}
+
+bool lsf_temporal_create(lsf_temporal *pass, lsf_context *context, const lsf_plan *plan,
+                         const lsf_temporal_params *params, uint32_t independent, lsf_error *error)
+{
+    *pass = (lsf_temporal){.context = context,
+                           .params = *params,
+                           .independent = independent ? (float)independent : 1e9f,
+                           .frames_since_lights = UINT32_MAX,
+                           .frames_since_change = UINT32_MAX,
+                           .still_frames = 1};
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
+        !create_framebuffers(pass, error) || !create_programs(pass, plan, error))
+        return false;
+    pass->timer = lsf_timer_create(context, "temporal", error);
+    return pass->timer != NULL;
+}
+
+/* --- frames --- */
+
+/* Frames since something happened, one more unless it happens now; UINT32_MAX: it never did. */
+static void count_frames(uint32_t *frames, bool now)
+{
+    if (now)
+        *frames = 0;
+    else if (*frames < UINT32_MAX)
+        ++*frames;
+}
+
+void lsf_temporal_go_on(lsf_temporal *pass)
+{
+    pass->still_frames++;
+}
+
+static bool lags(const lsf_temporal *pass, uint32_t frames)
+{
+    return frames < (uint32_t)pass->params.lag;
+}
+
+/* Left of changed lights after `lag` frames, by light and by the picture each. Each frame leaves w
+ * of both, w^lag = x, and the two in turn x (1 + lag (1 - w)) < x (1 - ln x): 1 %. */
+#define LEFT 0.0013f
+
+/* Samples that the history may stand for, for each of the frame's. */
+static float history_limit(const lsf_temporal *pass, uint32_t frames_since)
+{
+    float limit = (float)pass->params.frames;
+    if (!lags(pass, frames_since))
+        return limit;
+    float left = powf(LEFT, (float)pass->still_frames / (float)pass->params.lag);
+    return fminf(limit, left / (1.0f - left));
+}
+
+static float kept_samples(const lsf_temporal *pass, float iterations)
+{
+    return fminf(pass->carried, history_limit(pass, pass->frames_since_lights) * iterations);
+}
+
+float lsf_temporal_begin(lsf_temporal *pass, const lsf_temporal_change *change, uint32_t iterations,
+                         const lsf_camera_state *camera)
+{
+    pass->camera = pass->next_camera;
+    pass->next_camera = *camera;
+    pass->kept = pass->kept && !change->cut;
+    pass->carried = pass->kept ? pass->samples : 0.0f;
+    pass->still_frames = 1;
+    count_frames(&pass->frames_since_lights, change->lights);
+    count_frames(&pass->frames_since_change, change->lights || change->moved);
+    return kept_samples(pass, iterations == UINT32_MAX ? 1.0f : (float)iterations);
+}
+
+/* --- runs --- */
+
+/* What all programs read. */
+static void begin(const lsf_temporal *pass, const lsf_plan *plan, GLuint framebuffer,
+                  GLuint program, const lsf_temporal_inputs *inputs)
+{
+    lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
+    lsf_bind_texture(0, inputs->guide);
+    lsf_bind_texture(1, pass->slope);
+    lsf_bind_texture(2, inputs->motion);
+}
+
+/* For lib/light_guide.glsl: half a pixel off the plane for each that a neighbour is away, and half
+ * the weight at 12 degrees. */
+static void set_guide(const lsf_temporal_inputs *inputs, bool lobe)
+{
+    glUniform2f(0, 0.5f, 32.0f);
+    if (lobe)
+        glUniform1f(3, inputs->kernel);
+}
+
+static void find_slopes(const lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
+                        const lsf_temporal_inputs *inputs)
+{
+    lsf_begin_fullscreen(pass->slope_framebuffer, plan->width, plan->height, pass->slope_program);
+    lsf_bind_texture(0, inputs->guide);
+    lsf_bind_texture(3, inputs->parts[0].factor);
+    glUniform1f(1, (float)iterations);
+    lsf_draw_fullscreen(pass->context);
+}
+
+static void set_former_eye(const lsf_camera_state *c)
+{
+    if (c->orthographic)
+        glUniform4f(5, c->forward[0], c->forward[1], c->forward[2], 0.0f);
+    else
+        glUniform4f(5, c->start[0] - c->start_depth * c->forward[0],
+                    c->start[1] - c->start_depth * c->forward[1],
+                    c->start[2] - c->start_depth * c->forward[2], 1.0f);
+}
+
+void lsf_temporal_carry(lsf_temporal *pass, const lsf_iteration *iteration,
+                        const lsf_temporal_inputs *inputs)
+{
+    bool lobe = pass->parts[1].history != 0;
+    lsf_timer_begin(pass->timer);
+    find_slopes(pass, iteration->plan, 1, inputs);
+    begin(pass, iteration->plan, pass->carry_framebuffer, pass->carry_program, inputs);
+    if (lobe) {
+        glUniform1f(3, inputs->kernel);
+        set_former_eye(&pass->camera);
+    }
+    glUniform1i(4, pass->kept);
+    glUniform1i(6, lags(pass, pass->frames_since_change));
+    lsf_bind_texture(3, inputs->parts[1].factor);
+    lsf_bind_texture(4, pass->guide);
+    lsf_bind_texture(5, pass->parts[0].history);
+    lsf_bind_texture(6, pass->parts[0].count);
+    lsf_bind_texture(7, pass->parts[1].history);
+    lsf_bind_texture(8, pass->parts[1].count);
+    lsf_bind_texture(9, pass->resolved);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_temporal_blend(lsf_temporal *pass, const lsf_iteration *iteration, uint32_t iterations,
+                        const lsf_temporal_inputs *inputs)
+{
+    const lsf_plan *plan = iteration->plan;
+    lsf_timer_begin(pass->timer);
+    lsf_iteration_bind_view(iteration);
+    find_slopes(pass, plan, iterations, inputs);
+    for (size_t i = 0; i < LSF_COUNT(pass->parts); i++) {
+        const lsf_temporal_part *part = &pass->parts[i];
+        if (!part->history)
+            continue;
+        begin(pass, plan, part->framebuffer, part->program, inputs);
+        set_guide(inputs, i == 1);
+        glUniform1f(1, (float)iterations);
+        glUniform1f(2, history_limit(pass, pass->frames_since_lights));
+        glUniform1f(4, pass->independent);
+        glUniform1i(5, lags(pass, pass->frames_since_change));
+        lsf_bind_texture(2, inputs->parts[i].light);
+        lsf_bind_texture(3, inputs->parts[i].factor);
+        lsf_bind_texture(4, part->carried);
+        lsf_bind_texture(5, pass->reach);
+        lsf_draw_fullscreen(pass->context);
+    }
+    begin(pass, plan, pass->picture_framebuffer, pass->picture_program, inputs);
+    if (pass->parts[1].history)
+        lsf_bind_texture(3, inputs->parts[1].factor);
+    lsf_bind_texture(4, inputs->picture);
+    lsf_bind_texture(5, inputs->parts[0].light);
+    lsf_bind_texture(6, pass->parts[0].light);
+    lsf_bind_texture(7, inputs->parts[1].light);
+    lsf_bind_texture(8, pass->parts[1].light);
+    lsf_draw_fullscreen(pass->context);
+    pass->kept = true;
+    pass->samples = (float)iterations + kept_samples(pass, (float)iterations);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_temporal_resolve(lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
+                          GLuint picture)
+{
+    lsf_timer_begin(pass->timer);
+    lsf_begin_fullscreen(pass->resolve_framebuffer, plan->width, plan->height,
+                         pass->resolve_program);
+    glUniform1f(1, (float)iterations);
+    /* What surfaces cover of a pixel is told for the frame alone, and has to fit its picture. */
+    glUniform1f(2,
+                plan->background.coverage ? 0.0f : history_limit(pass, pass->frames_since_change));
+    lsf_bind_texture(0, picture);
+    lsf_bind_texture(1, pass->carried_picture);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_temporal_destroy(lsf_temporal *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
+    GLuint *framebuffers[] = {&pass->slope_framebuffer,    &pass->carry_framebuffer,
+                              &pass->picture_framebuffer,  &pass->resolve_framebuffer,
+                              &pass->parts[0].framebuffer, &pass->parts[1].framebuffer};
+    for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
+        lsf_framebuffer_destroy(pass->context, framebuffers[i]);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}
