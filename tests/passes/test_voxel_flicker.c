@@ -40,10 +40,11 @@ static lsf_image *render_frame(const drawn_by *by, moving_part part, int frame)
     static const float eye[3] = {0.6f, 0.3f, 0.95f}, target[3] = {-0.3f, -0.5f, -0.4f};
     lsf_scene *scene = frame_scene(part, frame);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
-    const char *const options[] = {"shadow.filter=pcf", by->option}; /* as frames are drawn */
+    /* As single frames are drawn. */
+    const char *const options[] = {"shadow.filter=pcf", "blur.phases=5", by->option};
     params.technique = by->technique;
     params.options = options;
-    params.option_count = !by->technique ? 0 : by->option ? 2 : 1;
+    params.option_count = !by->technique ? 0 : by->option ? 3 : 2;
     params.width = params.height = SIZE;
     /* Of the path tracer as many as it takes for its noise to change nothing. */
     params.samples = by->technique ? 1 : part == THE_LAMP ? 64 : 256;
