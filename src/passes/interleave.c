@@ -3,11 +3,12 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "math/sampling.h"
 
 const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT] = {
     {"interleave.size", LSF_OPTION_INT, offsetof(lsf_interleave_params, size), 0, 8, NULL, "pixels",
      "side of the pattern in which neighbouring pixels take different samples; 1: all the same; 0: "
-     "by the number of iterations"},
+     "4 up to 4 iterations, 2 up to 128 and with a time limit, else 1"},
     {"interleave.periods", LSF_OPTION_INT, offsetof(lsf_interleave_params, periods), 0, 8, NULL,
      "patterns", "width of the filter that removes the pattern; 0: no filter"},
     {"interleave.depth_weight", LSF_OPTION_FLOAT, offsetof(lsf_interleave_params, depth_weight),
@@ -44,7 +45,7 @@ uint32_t lsf_interleave_tile(uint32_t size, uint32_t slot, uint32_t iteration)
 {
     uint32_t tiles = size * size;
     uint32_t turned = iteration % size * size + iteration / size % size; /* radical inverse */
-    return (slot + turned) % tiles;
+    return (slot + turned + lsf_hash(iteration / tiles, 0) % tiles) % tiles;
 }
 
 /* Condition of textures, beside LSF_TEXTURE_SPECULAR. */
@@ -69,7 +70,10 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
 {
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     bool specular = plan->requirements.specular;
-    lsf_plan_pass_add(plan, "interleave_split", "pixels that take the same samples side by side");
+    lsf_plan_pass_add(plan, "interleave_split",
+                      "pixels that take the same samples side by side, %d x %d of them in %u "
+                      "iterations",
+                      params->size, params->size, plan->samples);
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_pass_add(plan, "interleave_gather", "light back into the picture's order");

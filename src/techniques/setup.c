@@ -73,6 +73,29 @@ static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
     basis->height = setup->params.height;
 }
 
+/* Iterations up to which a pattern of 4 and one of 2 pixels a side pay; beyond, the picture without
+ * converges faster. src/passes/light_filter.md has the measurements. */
+enum { PATTERN_4 = 4, PATTERN_2 = 128 };
+
+/* interleave.size, where nobody says it: the fewer iterations, the more samples in each. */
+static int32_t interleave_by_iterations(const lsf_render_params *params)
+{
+    if (params->raw)
+        return 1;
+    if (params->samples <= PATTERN_4)
+        return 4;
+    return params->samples <= PATTERN_2 || isfinite(params->time_limit) ? 2 : 1;
+}
+
+/* A filter needs noise that differs between neighbours: not so where all pixels take the same
+ * samples, unless they draw rays of their own. */
+static bool filters(const lsf_setup *setup, const lsf_technique *technique)
+{
+    const lsf_pass_params *params = &setup->pass_params;
+    return !setup->params.raw && params->light_filter.steps > 0 &&
+           (params->interleave.size > 1 || !technique || technique->draws_lobes);
+}
+
 /* The largest pattern, up to that of interleaving, of whose places each gets as many directions. */
 static uint32_t sky_pattern(uint32_t directions, int32_t interleave)
 {
@@ -95,7 +118,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->width = params->width;
     plan->height = params->height;
     plan->samples = params->samples;
-    plan->filtered = !params->raw && setup->pass_params.light_filter.steps > 0;
+    plan->filtered = filters(setup, technique);
     bool by_scene = params->bounces == LSF_BOUNCES_AUTO;
     if (technique && technique->bounces)
         plan->bounces = by_scene ? plan->requirements.bounces : params->bounces;
@@ -192,7 +215,7 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
                             &setup->pass_params, params->options[i], error))
             return false;
     if (setup->pass_params.interleave.size == 0)
-        setup->pass_params.interleave.size = params->raw ? 1 : 4;
+        setup->pass_params.interleave.size = interleave_by_iterations(params);
     if (!keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
     lsf_view_params view = view_of(setup, params->time, NULL);
