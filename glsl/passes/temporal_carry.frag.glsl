@@ -51,30 +51,37 @@ bool seen_before(light_guide g, vec4 motion, ivec2 corner)
     return false;
 }
 
-/* Weights of the four texels around a place, of which `f` is its fraction: those of Catmull and Rom 1974, which
- * blur less than two do. */
-vec4 cubic_weights(float f)
+/* Lanczos' window of three texels to each side, which blurs least of what rings little. */
+float lanczos(float x)
 {
-    return vec4(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (-2.5 + 1.5 * f),
-                f * (0.5 + f * (2.0 - 1.5 * f)), f * f * (-0.5 + 0.5 * f));
+    float a = LSF_PI * x;
+    return abs(x) < 1e-4 ? 1.0 : abs(x) < 3.0 ? 3.0 * sin(a) * sin(a / 3.0) / (a * a) : 0.0;
 }
 
-/* Of one with samples behind all its texels; else that of the nearest one. */
+/* Between texels; no brighter or darker than the four around. */
 vec4 old_picture(vec2 from)
 {
     ivec2 size = textureSize(guide_texture, 0), corner = ivec2(floor(from));
-    vec4 across = cubic_weights(from.x - float(corner.x)), up = cubic_weights(from.y - float(corner.y));
-    vec4 sum = vec4(0.0), low = vec4(1e30), high = vec4(0.0);
-    for (int j = 0; j < 4; j++)
-        for (int i = 0; i < 4; i++) {
-            vec4 texel = texelFetch(old_picture_texture, clamp(corner + ivec2(i, j) - 1, ivec2(0), size - 1), 0);
-            sum += across[i] * up[j] * texel;
-            if ((i == 1 || i == 2) && (j == 1 || j == 2)) {
-                low = min(low, texel);
-                high = max(high, texel);
+    vec3 sum = vec3(0.0), low = vec3(1e30), high = vec3(0.0);
+    float weight = 0.0, samples = 1e30, across[6], up[6];
+    for (int k = 0; k < 6; k++) {
+        across[k] = lanczos(float(corner.x + k - 2) - from.x);
+        up[k] = lanczos(float(corner.y + k - 2) - from.y);
+    }
+    for (int j = -2; j <= 3; j++)
+        for (int i = -2; i <= 3; i++) {
+            ivec2 at = corner + ivec2(i, j);
+            vec4 texel = texelFetch(old_picture_texture, clamp(at, ivec2(0), size - 1), 0);
+            float w = across[i + 2] * up[j + 2];
+            sum += w * texel.rgb;
+            weight += w;
+            if ((i == 0 || i == 1) && (j == 0 || j == 1)) {
+                low = min(low, texel.rgb);
+                high = max(high, texel.rgb);
+                samples = min(samples, texel.a);
             }
         }
-    return vec4(clamp(sum, low, high).rgb, low.a);
+    return vec4(clamp(sum / weight, low, high), samples);
 }
 
 /* The picture of the frame before, moved as the nearest surface around the pixel, so that edges keep both sides. */
