@@ -3,6 +3,7 @@
 #ifndef LSF_LIB_LIGHT_GUIDE
 #define LSF_LIB_LIGHT_GUIDE
 
+#include "lib/pooling.glsl"
 #include "shared/brdf.h"
 
 layout(binding = 0) uniform sampler2D guide_texture; /* mean normal, mean reverse-Z depth */
@@ -47,8 +48,12 @@ vec2 center_ndc(ivec2 pixel)
 float alpha_at(ivec2 pixel)
 {
     vec4 factor = texelFetch(factor_texture, pixel, 0);
-    float reflects = max(factor.r, max(factor.g, factor.b));
-    return max(factor.a * factor.a, min(sqrt(lobe_kernel * reflects / (4.0 * LSF_PI)), 1.0));
+    float reflects = max(factor.r, max(factor.g, factor.b)), kernel = lobe_kernel;
+#if LSF_PATTERN > 1
+    float turn = float(LSF_PATTERN) * texelFetch(slope_texture, pixel, 0).a;
+    kernel *= pooling_spread(kernel, reflects, pow(factor.a, 4.0), turn, float(LSF_PATTERN));
+#endif
+    return max(factor.a * factor.a, min(sqrt(kernel * reflects / (4.0 * LSF_PI)), 1.0));
 }
 
 /* The pixel's lobe where the neighbour's has its peak, as a part of its own peak, and how alike both are. */

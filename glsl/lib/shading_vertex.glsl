@@ -1,6 +1,6 @@
 /* The path vertex that a fragment shades, and what it reflects towards the eye. A vertex is what a
  * pixel sees (x3 in the paper), or with LSF_DEEP what a ray-bundle met on the way there. Switches
- * LSF_GLOSS, LSF_SPECULAR, LSF_INTERLEAVE and those of lib/brdf.glsl and lib/view.glsl.
+ * LSF_GLOSS, LSF_SPECULAR, LSF_INTERLEAVE, LSF_POOLED (a filter pools the pixels of the pattern) and those of lib/brdf.glsl and lib/view.glsl.
  *
  * Light is summed in two parts: irradiance, for which the visible point reflects k_d / pi, and the
  * radiance of its specular lobe. */
@@ -8,6 +8,9 @@
 #define LSF_LIB_SHADING_VERTEX
 
 #include "lib/brdf.glsl"
+#if LSF_POOLED
+#include "lib/pooling.glsl"
+#endif
 #include "lib/region.glsl"
 #include "lib/view.glsl"
 
@@ -27,6 +30,9 @@ struct shading_vertex {
     vec3 position, view; /* view: unit, towards the vertex before */
     surface s;
     vec3 diffuse, specular; /* what a unit of radiance towards that vertex adds to both parts */
+#if LSF_POOLED
+    float turn; /* of the normal over the pattern of pixels [radians] */
+#endif
 };
 
 struct light_parts {
@@ -41,6 +47,17 @@ uvec3 throughput_pack(light_parts t)
     return uvec3(packHalf2x16(t.irradiance.rg), packHalf2x16(vec2(t.irradiance.b, t.specular.r)),
                  packHalf2x16(t.specular.gb));
 }
+
+#if LSF_POOLED
+/* From a texel to the next, of both sides the smaller. */
+float normal_step(vec3 normal, ivec2 texel, ivec2 along)
+{
+    ivec2 last = textureSize(surface_texture, 0) - 1;
+    vec3 after = octahedral_decode(texelFetch(surface_texture, min(texel + along, last), 0).y);
+    vec3 before = octahedral_decode(texelFetch(surface_texture, max(texel - along, ivec2(0)), 0).y);
+    return min(length(after - normal), length(before - normal));
+}
+#endif
 
 /* False where there is nothing to shade. */
 bool vertex_load(out shading_vertex v)
@@ -73,6 +90,10 @@ bool vertex_load(out shading_vertex v)
     /* The normal looks back to where the ray came from. */
     v.view = dot(v.s.geometric_normal, arrival) > 0.0 ? arrival : -arrival;
 #endif
+#if LSF_POOLED
+    /* Neighbours in split order are a pattern apart. */
+    v.turn = 0.5 * (normal_step(v.s.normal, texel, ivec2(1, 0)) + normal_step(v.s.normal, texel, ivec2(0, 1)));
+#endif
     return !v.s.unlit;
 }
 
@@ -86,6 +107,10 @@ light_parts vertex_reflect(shading_vertex v, vec3 direction, float kernel)
         r.irradiance = r.specular = vec3(0.0);
         return r;
     }
+#if LSF_POOLED
+    vec3 f0 = mix(surface_f0(v.s), v.s.base_color, v.s.metallic);
+    kernel *= pooling_spread(kernel, largest(f0), pow(v.s.roughness, 4.0), v.turn, float(LSF_INTERLEAVE));
+#endif
     brdf_value f = brdf_evaluate(v.s, v.view, direction, kernel);
 #if LSF_DEEP
     vec3 sum = brdf_sum(v.s, f) * cosine;

@@ -1,7 +1,7 @@
 /* Light that one light sends to the eye by one reflection: f V E, added to the target. Switches LSF_SHADOW_SKY: not
  * one light's, but that of a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: what else
  * finds the environment, and leaves a share of it; LSF_SKY_PATTERN: light of these directions stays split, and pixels
- * take turns. */
+ * take turns at that for their diffuse lobes. */
 #include "lib/brdf.glsl"
 #if LSF_SKY_CHANCE
 #include "lib/brdf_sample.glsl"
@@ -123,15 +123,18 @@ void main()
     light_parts sum = light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_SKY
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
+        bool takes = true;
 #if LSF_SKY_PATTERN
-        if (!takes_direction(pixel, sky_turn.x + shadow_sky_map))
-            continue;
+        takes = takes_direction(pixel, sky_turn.x + shadow_sky_map);
 #endif
+        if (!takes && LSF_SPECULAR == 0)
+            continue;
         light_parts r = reflected(s, position, view_direction, sky_maps[shadow_sky_map].to_sky.xyz,
                                   sky_maps[shadow_sky_map].irradiance.rgb, sky_maps[shadow_sky_map].to_sky.w,
                                   sky_maps[shadow_sky_map].irradiance.w);
-        sum.irradiance += r.irradiance;
         sum.specular += r.specular;
+        if (takes)
+            sum.irradiance += r.irradiance;
     }
 #else
     vec3 irradiance;
@@ -143,7 +146,7 @@ void main()
     const float tiles = float(LSF_SKY_PATTERN * LSF_SKY_PATTERN); /* each takes one of as many directions */
     irradiance_out.rgb = tiles * sum.irradiance;
 #if LSF_SPECULAR
-    specular_out.rgb = tiles * sum.specular;
+    specular_out.rgb = sum.specular; /* of all: what a lobe shows is hardly ever a neighbour's to share */
 #endif
 #else
     radiance_out.rgb = surface_diffuse(s) / LSF_PI * sum.irradiance + sum.specular;

@@ -69,6 +69,9 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
                         "the size of the interleaving pattern, 1: none");
+    lsf_plan_switch_add(plan, "LSF_POOLED",
+                        !deep && plan->filtered && use->interleave > 1 && r->specular,
+                        "a filter pools the light of the pattern");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,

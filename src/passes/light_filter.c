@@ -41,6 +41,8 @@ void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params
     lsf_plan_pass_add(plan, "light_filter_specular", "the same for specular light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_LOBE", 1, "light of a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_PATTERN", (int)plan->pattern,
+                        "the side of the interleaving pattern whose light is pooled");
 }
 
 static GLuint create_target(lsf_light_filter *pass, const lsf_plan *plan, const char *name,

@@ -39,6 +39,8 @@ static void plan_part(lsf_plan *plan, const char *name, bool lobe, const char *w
     lsf_plan_pass_add(plan, name, "%s", why);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_LOBE", lobe, "light of a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_PATTERN", (int)plan->pattern,
+                        "the side of the interleaving pattern whose light is pooled");
 }
 
 void lsf_temporal_plan(lsf_plan *plan)

@@ -61,6 +61,8 @@ struct lsf_plan {
     bool transmission; /* there are materials that transmit light */
     bool straight;     /* ... and it goes straight through them, for the technique cannot refract */
     bool random_samples;  /* plain random numbers pick light samples, not low-discrepancy ones */
+    uint32_t pattern;     /* side of that in which pixels take different samples, and pool them by a
+                           * filter; 1: none */
     uint32_t sky_pattern; /* side of the pattern in which pixels take different ones of these; 0:
                            * their light is not filtered, all pixels take all */
     bool filtered;        /* light_filter takes the noise out of the mean */

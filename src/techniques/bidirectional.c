@@ -185,14 +185,19 @@ static float dealt(uint32_t count, uint32_t tiles, uint32_t tile)
     return (float)(count / tiles + (tile < count % tiles));
 }
 
+/* Tiles of whose samples a filter makes one pool. */
+static float tiles_pooled(const bidirectional *b, const lsf_iteration *iteration)
+{
+    return iteration->plan->filtered ? (float)b->sampling.tiles : 1.0f;
+}
+
 /* Iterations that suppression may count on; 0: there is none. A filter shares what the tiles of a
  * pattern find, as if each had as many more. */
 static float suppressed_iterations(const bidirectional *b, const lsf_iteration *iteration)
 {
     if (b->shade_params.suppression == LSF_GLOSSY_SUPPRESSION_NONE)
         return 0.0f;
-    float tiles = iteration->plan->filtered ? (float)b->sampling.tiles : 1.0f;
-    return tiles * lsf_iteration_expected(iteration);
+    return tiles_pooled(b, iteration) * lsf_iteration_expected(iteration);
 }
 
 /* Solid angle of as many samples as suppression spreads a lobe over, were they uniform over the
@@ -223,7 +228,7 @@ static float sky_bundles(const lsf_bidirectional_sampling *s, bool deep)
 static void share_sky(bidirectional *b, const lsf_iteration *iteration)
 {
     const lsf_bidirectional_sampling *s = &b->sampling;
-    float iterations = suppressed_iterations(b, iteration);
+    float iterations = suppressed_iterations(b, iteration) / tiles_pooled(b, iteration);
     for (uint32_t i = iteration->state->light_count; i < iteration->light_count; i++) {
         lsf_sky_share *share = &iteration->shares[i];
         lsf_float3 direction = lsf_f3_scale(lsf_f3_load(iteration->lights[i].direction), -1.0f);
