@@ -483,7 +483,11 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
             break;
     }
     wait_for_gpu(renderer);
-    return lsf_renderer_catch_up(renderer, true, error);
+    if (!lsf_renderer_catch_up(renderer, true, error))
+        return false;
+    lsf_renderer_picture(renderer);
+    wait_for_gpu(renderer);
+    return lsf_context_check(renderer->context, error);
 }
 
 bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
