@@ -28,8 +28,8 @@ layout(location = 0) uniform int sky_map_count;
 #if LSF_SKY_PATTERN
 layout(location = 2) uniform ivec2 sky_turn; /* first direction of the batch; iteration */
 
-/* The place of a direction in the pattern of pixels, from which it begins anew: as within a round of
- * lsf_interleave_tile. */
+/* The place of a direction in the pattern of pixels, from which it begins anew: over as many iterations
+ * each place takes every direction's. */
 bool takes_direction(ivec2 pixel, int direction)
 {
     const int tiles = LSF_SKY_PATTERN * LSF_SKY_PATTERN;

@@ -192,6 +192,31 @@ void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32
     bits[1] = lsf_hash(seed, 2 * (uint64_t)index + 1);
 }
 
+lsf_iteration_number lsf_iteration_deal(const lsf_iteration *iteration, uint32_t i, uint32_t count)
+{
+    const lsf_plan *plan = iteration->plan;
+    uint32_t tiles = plan->tiles > 0 && !plan->random_samples ? plan->tiles : 1;
+    uint32_t slot = i % tiles, each = (count + tiles - 1) / tiles;
+    lsf_iteration_number number = {.index = iteration->index * each + i / tiles};
+    if (slot == 0)
+        return number;
+    uint32_t turned = 0; /* the slot's binary digits in reverse */
+    for (uint32_t power = 1; power < tiles; power *= 2)
+        turned = 2 * turned + (slot / power & 1);
+    number.shift[0] = (uint32_t)((uint64_t)slot * UINT32_MAX / (tiles - 1));
+    number.shift[1] = (uint32_t)((uint64_t)turned * UINT32_MAX / (tiles - 1));
+    return number;
+}
+
+void lsf_iteration_sample_dealt(const lsf_iteration *iteration, uint32_t i, uint32_t count,
+                                uint32_t purpose, uint32_t bits[2])
+{
+    lsf_iteration_number number = lsf_iteration_deal(iteration, i, count);
+    lsf_iteration_sample(iteration, number.index, purpose, bits);
+    bits[0] ^= number.shift[0];
+    bits[1] ^= number.shift[1];
+}
+
 void lsf_iteration_set_chance(const lsf_iteration *iteration, uint32_t purpose, uint32_t map)
 {
     glUniform2ui(LSF_LOCATION_CHANCE, lsf_hash(lsf_iteration_seed(iteration, purpose), map),

@@ -85,6 +85,17 @@ void lsf_iteration_region(const lsf_iteration *iteration, lsf_draw_region *regio
  * Sobol sequence of `purpose`'s own, or plain random ones when the plan says so. */
 void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32_t purpose,
                           uint32_t bits[2]);
+/* Of sample i of `count` in an iteration: its number in a low-discrepancy sequence, and what its
+ * bits are then xored with. Of the plan's tiles, to which samples are dealt out in turn, each has a
+ * whole sequence, and what all take at once is spread over the range by a digital shift: its
+ * digits are the tile's, over and over. */
+typedef struct lsf_iteration_number {
+    uint32_t index, shift[2];
+} lsf_iteration_number;
+lsf_iteration_number lsf_iteration_deal(const lsf_iteration *iteration, uint32_t i, uint32_t count);
+/* lsf_iteration_sample of it. */
+void lsf_iteration_sample_dealt(const lsf_iteration *iteration, uint32_t i, uint32_t count,
+                                uint32_t purpose, uint32_t bits[2]);
 
 /* For lib/chance.glsl in the program in use: numbers of `purpose`'s own, which `map` tells apart
  * among those of one purpose. */

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "math/sampling.h"
 
 const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT] = {
     {"interleave.size", LSF_OPTION_INT, offsetof(lsf_interleave_params, size), 0, 8, NULL, "pixels",
@@ -39,13 +38,6 @@ lsf_region lsf_interleave_region(const lsf_plan *plan, uint32_t size, uint32_t i
                         .height = tile_length(plan->height, size, y),
                         .tile_x = (int32_t)x,
                         .tile_y = (int32_t)y};
-}
-
-uint32_t lsf_interleave_tile(uint32_t size, uint32_t slot, uint32_t iteration)
-{
-    uint32_t tiles = size * size;
-    uint32_t turned = iteration % size * size + iteration / size % size; /* radical inverse */
-    return (slot + turned + lsf_hash(iteration / tiles, 0) % tiles) % tiles;
 }
 
 /* Condition of textures, beside LSF_TEXTURE_SPECULAR. */

@@ -37,12 +37,6 @@ typedef struct lsf_interleave {
  * when the picture is smaller than the pattern. */
 lsf_region lsf_interleave_region(const lsf_plan *plan, uint32_t size, uint32_t index);
 
-/* The tile that takes the samples i with i % (size * size) == slot in an iteration. Over as many
- * iterations each tile takes those of every slot, in an order in which they are far apart: of a
- * low-discrepancy sequence, every size * size-th number keeps to a part of the range. Where the
- * order begins is random for each of these rounds, or slots and later numbers would go together. */
-uint32_t lsf_interleave_tile(uint32_t size, uint32_t slot, uint32_t iteration);
-
 /* Lists "interleave_split", "interleave_gather" and "interleave_filter", for a size above 1. */
 void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params);
 bool lsf_interleave_create(lsf_interleave *pass, lsf_context *context, const lsf_plan *plan,

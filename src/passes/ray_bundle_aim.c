@@ -63,15 +63,20 @@ static void turned_axes(lsf_float3 forward, float angle, lsf_float3 *right, lsf_
 static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,
                     const lsf_ray_bundle_direction *direction, struct lsf_bundle_data *data)
 {
-    float turn[2], shift[2], texels = (float)pass->side;
+    float texels = (float)pass->side;
     const lsf_islands *islands = &iteration->plan->islands;
     float whole = (float)pass->params.resolution;
-    uint32_t index = iteration->index * pass->use.count + bundle;
-    lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_TURN), turn);
-    lsf_sobol_2d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_SHIFT), shift);
+    lsf_iteration_number number = lsf_iteration_deal(iteration, bundle, pass->use.count);
+    uint32_t turned[2], shifted[2];
+    lsf_sobol_2d_bits(number.index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_TURN), turned);
+    lsf_sobol_2d_bits(number.index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_SHIFT),
+                      shifted);
+    float turn = lsf_unit_float(turned[0] ^ number.shift[0]), shift[2];
+    for (int axis = 0; axis < 2; axis++)
+        shift[axis] = lsf_unit_float(shifted[axis] ^ number.shift[axis]);
     lsf_float3 axes[3];
     axes[2] = lsf_f3_load(direction->direction);
-    turned_axes(axes[2], turn[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);
+    turned_axes(axes[2], turn * 2.0f * LSF_PI, &axes[0], &axes[1]);
     float low[3] = {0}, high[3] = {0};
     lsf_ray_bundle_gaps gaps = {0};
     if (islands->count > 1)

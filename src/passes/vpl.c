@@ -195,19 +195,22 @@ bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
            pass->map_timer && create_straight(pass, plan, error);
 }
 
-/* Of the map of VPL `index` of all iterations about its normal, 0..1. */
-static float turn_of(const lsf_iteration *iteration, uint32_t index)
+/* Of the map of a VPL about its normal, 0..1. */
+static float turn_of(const lsf_vpl *pass, const lsf_iteration *iteration, uint32_t vpl)
 {
-    return lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_TURN));
+    lsf_iteration_number number = lsf_iteration_deal(iteration, vpl, pass->count);
+    uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_TURN);
+    return lsf_unit_float(lsf_sobol_1d_bits(number.index, seed) ^ number.shift[0]);
 }
 
 /* The VPLs of all iterations are one low-discrepancy sequence. */
-static lsf_vec4 random_of(const lsf_iteration *iteration, uint32_t index, float light_probability)
+static lsf_vec4 random_of(const lsf_vpl *pass, const lsf_iteration *iteration, uint32_t vpl,
+                          float light_probability)
 {
     uint32_t point[2];
-    lsf_iteration_sample(iteration, index, LSF_PURPOSE_VPL_DIRECTION, point);
-    return (lsf_vec4){lsf_unit_float(point[0]), lsf_unit_float(point[1]), turn_of(iteration, index),
-                      light_probability};
+    lsf_iteration_sample_dealt(iteration, vpl, pass->count, LSF_PURPOSE_VPL_DIRECTION, point);
+    return (lsf_vec4){lsf_unit_float(point[0]), lsf_unit_float(point[1]),
+                      turn_of(pass, iteration, vpl), light_probability};
 }
 
 void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first, uint32_t count,
@@ -216,8 +219,7 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
     lsf_timer_begin(pass->draw_timer);
     lsf_vec4 random[GROUP_SIZE];
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t index = iteration->index * pass->count + first + i;
-        random[i % GROUP_SIZE] = random_of(iteration, index, light_probability);
+        random[i % GROUP_SIZE] = random_of(pass, iteration, first + i, light_probability);
         uint32_t filled = i % GROUP_SIZE + 1;
         if (filled == GROUP_SIZE || i + 1 == count)
             glNamedBufferSubData(pass->random,
@@ -250,8 +252,7 @@ void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
     glUseProgram(pass->emitter_program);
     glUniform1ui(0, index);
-    glUniform4f(1, p[0], p[1], p[2],
-                turn_of(iteration, iteration->index * pass->count + index - pass->first_emitter));
+    glUniform4f(1, p[0], p[1], p[2], turn_of(pass, iteration, index - pass->first_emitter));
     glUniform4f(2, n[0], n[1], n[2], sample->density);
     glUniform4f(3, l[0], l[1], l[2], sample->weight_density);
     glUniform2f(4, (float)pass->shadow_resolution, iteration->view.start.w);

@@ -65,6 +65,7 @@ struct lsf_plan {
                            * filter; 1: none */
     uint32_t sky_pattern; /* side of the pattern in which pixels take different ones of these; 0:
                            * their light is not filtered, all pixels take all */
+    uint32_t tiles;       /* of pixels, to which samples are dealt out in turn; 0 is 1 */
     bool filtered;        /* light_filter takes the noise out of the mean */
     bool temporal;        /* light is kept from frame to frame */
     bool failed;          /* memory ran out while it was filled */

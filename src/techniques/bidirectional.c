@@ -379,8 +379,8 @@ static void place_on_emitter(sample_turn *turn, uint32_t i)
 {
     bidirectional *b = turn->b;
     uint32_t bits[2];
-    lsf_iteration_sample(turn->iteration, turn->iteration->index * b->sampling.emitter_count + i,
-                         LSF_PURPOSE_VPL_EMITTER, bits);
+    lsf_iteration_sample_dealt(turn->iteration, i, b->sampling.emitter_count,
+                               LSF_PURPOSE_VPL_EMITTER, bits);
     const double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
     lsf_emitter_sample sample = lsf_emitters_sample(&b->emitters, u);
     turn->emitter = b->vpl.first_emitter + i;
@@ -392,8 +392,7 @@ static void run_sample(sample_turn *turn, uint32_t i, uint32_t light)
     bidirectional *b = turn->b;
     const lsf_bidirectional_sampling *s = &b->sampling;
     uint32_t slot = i % s->tiles;
-    uint32_t tile = lsf_interleave_tile(s->interleave, slot, turn->iteration->index);
-    turn->region = lsf_interleave_region(turn->iteration->plan, s->interleave, tile);
+    turn->region = lsf_interleave_region(turn->iteration->plan, s->interleave, slot);
     turn->tile_vpls = dealt(s->vpl_light ? s->vpl_count : s->emitter_count, s->tiles, slot);
     turn->tile_bundles = dealt(s->bundle_count, s->tiles, slot);
     if (i < s->vpl_count) {

@@ -137,6 +137,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_bidirectional_sampling s = lsf_bidirectional_sampling_choose(plan, params, state);
     lsf_vpl_params vpl = lsf_bidirectional_vpl_params(params, &s);
     plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
+    plan->tiles = s.tiles;
     lsf_direct_chain_plan(plan, params, state, NULL);
     if (s.interleave > 1)
         lsf_interleave_plan(plan, &params->interleave);

@@ -132,9 +132,11 @@ void lsf_bundle_directions_draw(const lsf_bundle_directions *directions,
 {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t bits[2];
-        uint32_t index = independent ? iteration->index : iteration->index * count + i;
-        uint32_t purpose = LSF_PURPOSE_BUNDLE_DIRECTION + (independent ? i : 0);
-        lsf_iteration_sample(iteration, index, purpose, bits);
+        if (independent)
+            lsf_iteration_sample(iteration, iteration->index, LSF_PURPOSE_BUNDLE_DIRECTION + i,
+                                 bits);
+        else
+            lsf_iteration_sample_dealt(iteration, i, count, LSF_PURPOSE_BUNDLE_DIRECTION, bits);
         lsf_float3 direction;
         drawn[i].pdf = 0.5f / LSF_PI;
         if (directions->pdf) {

@@ -31,29 +31,6 @@ static void regions_cover_the_picture(void **unused)
         }
 }
 
-/* In each round of iterations a tile takes every slot once; over many rounds, every slot in each
- * place of a round. */
-static void tiles_take_every_slot(void **unused)
-{
-    (void)unused;
-    for (uint32_t size = 2; size <= 4; size++) {
-        uint32_t tiles = size * size;
-        uint32_t seen[16][16] = {{0}}; /* rounds, by place in it and slot */
-        for (uint32_t round = 0; round < 64 * tiles; round++) {
-            uint32_t taken = 0;
-            for (uint32_t place = 0; place < tiles; place++)
-                for (uint32_t slot = 0; slot < tiles; slot++)
-                    if (lsf_interleave_tile(size, slot, round * tiles + place) == 0) {
-                        taken |= 1u << slot;
-                        seen[place][slot]++;
-                    }
-            assert_int_equal(taken, (1u << tiles) - 1);
-        }
-        for (uint32_t i = 0; i < tiles * tiles; i++) /* 64 expected, standard deviation at most 8 */
-            assert_in_range(seen[i / tiles][i % tiles], 24, 104);
-    }
-}
-
 /* In the shader, place and pixel are inverse to each other and agree with the regions. */
 static void shader_agrees(void **unused)
 {
@@ -174,7 +151,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(regions_cover_the_picture),
-        cmocka_unit_test(tiles_take_every_slot),
         cmocka_unit_test(shader_agrees),
         cmocka_unit_test(filter_removes_the_pattern),
     };
