@@ -122,10 +122,11 @@ static void set_guide(const lsf_light_filter *pass)
 }
 
 /* Relative variance of a variance that is known from so many iterations of heavy-tailed noise:
- * (kurtosis - 1) / (n - 1), 5 for the kurtosis. One tells next to nothing. */
+ * (kurtosis - 1) / (n - 1), 9 for the kurtosis, as of an exponential distribution. One tells next
+ * to nothing. */
 static float uncertainty_of(float iterations)
 {
-    return iterations > 1.5f ? 4.0f / (iterations - 1.0f) : 400.0f;
+    return iterations > 1.5f ? 8.0f / (iterations - 1.0f) : 800.0f;
 }
 
 /* Sets `light` to the part without tint, with its variance. */
