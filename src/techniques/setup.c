@@ -249,6 +249,10 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         lsf_plan_omit(plan, "temporal", "no light is noisy but for edges and shadows");
     if (split && plan->filtered)
         lsf_light_filter_plan(plan, &setup->pass_params.light_filter);
+    else if (!plan->filtered)
+        lsf_plan_omit(plan, "light_filter", "%s",
+                      params->raw ? "the raw picture is asked for"
+                                  : "light_filter.steps is 0, or all pixels take the same samples");
     if (params->rgb8 || params->present)
         lsf_tonemap_plan(plan, params->rgb8);
     else
