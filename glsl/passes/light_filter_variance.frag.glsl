@@ -58,5 +58,5 @@ void main()
     variance /= sum;
     /* Variances of light differ by factors: their logarithms are mixed. */
     float part = uncertainty / (1.0 + uncertainty);
-    light_out.a = even * variance * pow(max(own.a / max(variance, 1e-37), 1e-3), 1.0 - part);
+    light_out.a = pow(even, 1.0 - part) * variance * pow(max(own.a / max(variance, 1e-37), 1e-3), 1.0 - part);
 }

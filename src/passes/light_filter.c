@@ -122,11 +122,13 @@ static void set_guide(const lsf_light_filter *pass)
 }
 
 /* Relative variance of a variance that is known from so many iterations of heavy-tailed noise:
- * (kurtosis - 1) / (n - 1), 9 for the kurtosis, as of an exponential distribution. One tells next
- * to nothing. */
-static float uncertainty_of(float iterations)
+ * (kurtosis - 1) / (n - 1). Where pixels of a pattern share samples few tell it: the kurtosis is
+ * that of light which one sample in 64 finds. Else it is 9, that of an exponential distribution.
+ * One iteration tells next to nothing. */
+static float uncertainty_of(const lsf_light_filter *pass, float iterations)
 {
-    return iterations > 1.5f ? 8.0f / (iterations - 1.0f) : 800.0f;
+    float kurtosis = pass->shared ? 64.0f : 9.0f;
+    return (kurtosis - 1.0f) / (iterations > 1.5f ? iterations - 1.0f : 0.01f);
 }
 
 /* Sets `light` to the part without tint, with its variance. */
@@ -141,7 +143,7 @@ static void divide(lsf_light_filter *pass, const lsf_plan *plan, float iteration
     lsf_draw_fullscreen(pass->context);
     begin(plan, pass->light_framebuffer, programs->variance);
     set_guide(pass);
-    glUniform1f(1, iterations > 1.5f ? uncertainty_of(iterations) : -1.0f);
+    glUniform1f(1, iterations > 1.5f ? uncertainty_of(pass, iterations) : -1.0f);
     float rest = fmaxf(iterations - (float)inputs->half_count, 1.0f);
     glUniform1f(2, inputs->half ? (float)inputs->half_count / rest : -1.0f);
     lsf_bind_texture(2, pass->turns[0]);
@@ -167,15 +169,16 @@ static float correlation_before(int32_t step)
 }
 
 /* Returns the filtered light. */
-static GLuint run_steps(lsf_light_filter *pass, const lsf_plan *plan,
+static GLuint run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterations,
                         const lsf_light_filter_programs *programs)
 {
     GLuint light = pass->light;
+    float first = 7.0f * (pass->shared ? 1.0f + sqrtf(uncertainty_of(pass, iterations)) : 1.0f);
     for (int32_t i = 0; i < pass->params.steps; i++) {
         begin(plan, pass->turn_framebuffers[i % 2], programs->step);
         set_guide(pass);
         glUniform1i(1, 1 << i);
-        glUniform1f(2, i < 2 ? fmaxf(pass->params.tolerance, 7.0f) : pass->params.tolerance);
+        glUniform1f(2, i < 2 ? fmaxf(pass->params.tolerance, first) : pass->params.tolerance);
         glUniform1f(4, correlation_before(i));
         lsf_bind_texture(2, light);
         lsf_draw_fullscreen(pass->context);
@@ -191,7 +194,7 @@ static void blend(lsf_light_filter *pass, const lsf_plan *plan, float iterations
     begin(plan, pass->picture_framebuffer, programs->blend);
     lsf_blend_add(1);
     set_guide(pass);
-    glUniform1f(1, pass->params.limit ? uncertainty_of(iterations) : -1.0f);
+    glUniform1f(1, pass->params.limit ? uncertainty_of(pass, iterations) : -1.0f);
     lsf_bind_texture(2, pass->light);
     lsf_bind_texture(4, filtered);
     lsf_draw_fullscreen(pass->context);
@@ -216,9 +219,11 @@ void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration
             continue;
         const lsf_light_filter_programs *programs = &pass->programs[i];
         pass->lobe = i == 1;
+        pass->shared = plan->pattern > 1;
         pass->kernel = inputs->kernel;
         divide(pass, plan, (float)iterations, inputs, &inputs->parts[i], programs);
-        blend(pass, plan, (float)iterations, run_steps(pass, plan, programs), programs);
+        blend(pass, plan, (float)iterations, run_steps(pass, plan, (float)iterations, programs),
+              programs);
     }
     lsf_timer_end(pass->timer);
 }

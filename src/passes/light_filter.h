@@ -48,6 +48,7 @@ typedef struct lsf_light_filter {
     GLuint slope_program, divide_program;
     lsf_light_filter_programs programs[2]; /* of each part */
     float kernel; /* of the run in progress, and whether it is in the specular part */
+    bool shared;  /* pixels of a pattern take the same samples */
     bool lobe;
     lsf_timer *timer;
 } lsf_light_filter;

@@ -125,7 +125,8 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->aovs = params->aovs;
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
-    plan->pattern = plan->filtered ? (uint32_t)setup->pass_params.interleave.size : 1;
+    bool shared = !technique || !technique->draws_lobes;
+    plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.interleave.size : 1;
     if (plan->filtered && plan->sky_lights > 0)
         plan->sky_pattern = sky_pattern(plan->sky_lights, setup->pass_params.interleave.size);
     if (!technique || technique->maps_scene)

@@ -31,6 +31,7 @@ static void rig_begin(rig *r, uint32_t width, uint32_t height, bool orthographic
     memset(r, 0, sizeof *r);
     assert_true(width * height <= MAX_PIXELS);
     surface_rig_begin(&r->s, width, height, orthographic);
+    r->s.setup.plan->pattern = 1; /* pixels have noise of their own */
     lsf_light_mean_plan(r->s.setup.plan, &(lsf_light_mean_use){.indirect = true});
     lsf_light_filter_plan(r->s.setup.plan, params);
     surface_rig_start(&r->s);
@@ -330,12 +331,13 @@ static double error_of(const rig *r, const float (*light)[4], const float *truth
 }
 
 /* Noise with a heavy tail about the truth `light`. The filtered error is at most `allowed` times
- * the raw one at any number of iterations, over the picture and beside its middle, and from 4 to
- * 1024 falls at least as that of independent samples does, by 16, to a tenth. */
+ * the raw one at any number of iterations, over the picture and beside its middle, and from 16 to
+ * 1024 falls at least as that of independent samples does, by 8, to a tenth. (Of fewer iterations
+ * it is smaller than that: as little as they tell of the noise, the filter takes more for it.) */
 static void check_convergence(const char *name, rig *r, const float *light, const double allowed[2])
 {
     static const uint32_t within[2] = {32, 4};
-    double at_4 = INFINITY;
+    double at_16 = INFINITY;
     for (uint32_t n = 1; n <= 1024; n++) {
         for (uint32_t i = 0; i < pixels_of(r); i++)
             noisy_light(r, i, light[i]);
@@ -349,9 +351,9 @@ static void check_convergence(const char *name, rig *r, const float *light, cons
             print_message("%s within %2u, %4u iterations: %.4f of %.4f, %.2f\n", name, within[k], n,
                           error, raw, error / raw);
             assert_true(error <= allowed[k] * raw);
-            if (n == 4 && k == 0)
-                at_4 = error;
-            assert_true(n < 1024 || k > 0 || error <= at_4 / 16.0 * 1.1);
+            if (n == 16 && k == 0)
+                at_16 = error;
+            assert_true(n < 1024 || k > 0 || error <= at_16 / 8.0 * 1.1);
         }
     }
 }
