@@ -64,8 +64,8 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
     bool specular = plan->requirements.specular;
     lsf_plan_pass_add(plan, "interleave_split",
                       "pixels that take the same samples side by side, %d x %d of them in %u "
-                      "iterations",
-                      params->size, params->size, plan->samples);
+                      "iteration%s",
+                      params->size, params->size, plan->samples, lsf_plural(plan->samples));
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_pass_add(plan, "interleave_gather", "light back into the picture's order");
