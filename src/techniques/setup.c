@@ -73,18 +73,19 @@ static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
     basis->height = setup->params.height;
 }
 
-/* Iterations up to which a pattern of 4 and one of 2 pixels a side pay; beyond, the picture without
- * converges faster. src/passes/light_filter.md has the measurements. */
-enum { PATTERN_4 = 4, PATTERN_2 = 128 };
+/* Iterations up to which a pattern of 4 pixels a side pays in any picture, and one of any size;
+ * beyond, the picture without converges faster. In pictures of so many pixels the maps of 16
+ * samples take less than the pixels do. src/passes/light_filter.md has the measurements. */
+enum { PATTERN_4 = 4, PATTERN_ANY = 128, PATTERN_4_PIXELS = 1 << 17 };
 
 /* interleave.size, where nobody says it: the fewer iterations, the more samples in each. */
-static int32_t interleave_by_iterations(const lsf_render_params *params)
+static int32_t choose_interleave(const lsf_render_params *params)
 {
-    if (params->raw)
+    bool limited = isfinite(params->time_limit);
+    if (params->raw || (params->samples > PATTERN_ANY && !limited))
         return 1;
-    if (params->samples <= PATTERN_4)
-        return 4;
-    return params->samples <= PATTERN_2 || isfinite(params->time_limit) ? 2 : 1;
+    bool large = (uint64_t)params->width * params->height >= PATTERN_4_PIXELS && !limited;
+    return params->samples <= PATTERN_4 || large ? 4 : 2;
 }
 
 /* A filter needs noise that differs between neighbours: not so where all pixels take the same
@@ -217,7 +218,7 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
                             &setup->pass_params, params->options[i], error))
             return false;
     if (setup->pass_params.interleave.size == 0)
-        setup->pass_params.interleave.size = interleave_by_iterations(params);
+        setup->pass_params.interleave.size = choose_interleave(params);
     if (!keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
     lsf_view_params view = view_of(setup, params->time, NULL);
