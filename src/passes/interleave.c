@@ -7,7 +7,8 @@
 const lsf_option_row lsf_interleave_options[LSF_INTERLEAVE_OPTION_COUNT] = {
     {"interleave.size", LSF_OPTION_INT, offsetof(lsf_interleave_params, size), 0, 8, NULL, "pixels",
      "side of the pattern in which neighbouring pixels take different samples; 1: all the same; 0: "
-     "4 up to 4 iterations, 2 up to 128 and with a time limit, else 1"},
+     "4 up to 4 iterations, and up to 128 in pictures of 131072 pixels and more; 2 up to 128 and "
+     "with a time limit; else 1"},
     {"interleave.periods", LSF_OPTION_INT, offsetof(lsf_interleave_params, periods), 0, 8, NULL,
      "patterns", "width of the filter that removes the pattern; 0: no filter"},
     {"interleave.depth_weight", LSF_OPTION_FLOAT, offsetof(lsf_interleave_params, depth_weight),
