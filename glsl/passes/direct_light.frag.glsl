@@ -26,15 +26,13 @@ layout(location = 0) out vec4 radiance_out;
 layout(location = 0) uniform int sky_map_count;
 #endif
 #if LSF_SKY_PATTERN
-layout(location = 2) uniform ivec2 sky_turn; /* first direction of the batch; iteration */
+layout(location = 2) uniform ivec2 sky_turn; /* first direction of the batch; turn of the pattern */
 
-/* The place of a direction in the pattern of pixels, from which it begins anew: over as many iterations
- * each place takes every direction's. */
+/* Whether a direction falls to the pixel's place in the pattern. */
 bool takes_direction(ivec2 pixel, int direction)
 {
     const int tiles = LSF_SKY_PATTERN * LSF_SKY_PATTERN;
-    int turned = sky_turn.y % LSF_SKY_PATTERN * LSF_SKY_PATTERN + sky_turn.y / LSF_SKY_PATTERN % LSF_SKY_PATTERN;
-    int tile = (direction + turned) % tiles;
+    int tile = (direction + sky_turn.y) % tiles;
     return tile == pixel.x % LSF_SKY_PATTERN + pixel.y % LSF_SKY_PATTERN * LSF_SKY_PATTERN;
 }
 #endif

@@ -25,6 +25,7 @@ typedef enum lsf_purpose {
     /* Whether surfaces that transmit, and blended ones, are there; see lib/straight.glsl and
      * lib/alpha.glsl. */
     LSF_PURPOSE_STRAIGHT_PIXEL,
+    LSF_PURPOSE_SKY_PATTERN, /* which pixels take which directions of the environment */
     LSF_PURPOSE_STRAIGHT_SHADOW_MAP = 0x80000,            /* one for each light */
     LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP = 0xa0000, /* the same */
     LSF_PURPOSE_STRAIGHT_VPL = 0xc0000,                   /* one for each VPL of an iteration */

@@ -3,8 +3,9 @@
 #include <string.h>
 
 #include "base/base.h"
-
 #include "frame/light_walls.h"
+#include "frame/purpose.h"
+#include "math/sampling.h"
 #include "shared/scene_data.h"
 
 static void plan_switches(lsf_plan *plan, const lsf_direct_light_use *use)
@@ -107,6 +108,15 @@ void lsf_direct_light_clear(lsf_direct_light *pass)
             glClearTexImage(textures[i], 0, GL_RGBA, GL_FLOAT, NULL);
 }
 
+/* By how much the pattern of pixels is turned, drawn anew for each iteration: by any rule of its
+ * number a pixel would keep to a part of the sequence of directions. */
+static GLint pattern_turn(const lsf_iteration *iteration)
+{
+    uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_SKY_PATTERN);
+    uint32_t side = iteration->plan->sky_pattern;
+    return (GLint)(lsf_hash(seed, iteration->index) % (side * side));
+}
+
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
                           const lsf_direct_light_inputs *inputs)
 {
@@ -122,7 +132,7 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     if (sky)
         glUniform1i(0, (GLint)inputs->directions);
     if (split)
-        glUniform2i(2, (GLint)inputs->first, (GLint)iteration->index);
+        glUniform2i(2, (GLint)inputs->first, pattern_turn(iteration));
     if (sky && pass->use.chance != LSF_SKY_CHANCE_NONE)
         glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.paths);
     lsf_draw_fullscreen(pass->context);
