@@ -3,6 +3,7 @@
 #ifndef LSF_LIB_LIGHT_GUIDE
 #define LSF_LIB_LIGHT_GUIDE
 
+#include "lib/luminance.glsl"
 #include "lib/pooling.glsl"
 #include "shared/brdf.h"
 
@@ -118,11 +119,6 @@ float light_guide_weight(light_guide g, ivec2 pixel, ivec2 neighbour)
     weight *= lobe_weight(g, neighbour, texel);
 #endif
     return weight;
-}
-
-float luminance(vec3 c)
-{
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
 }
 
 #endif

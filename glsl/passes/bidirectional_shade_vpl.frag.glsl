@@ -2,6 +2,7 @@
  * x1 emits itself. Both parts of the light are added to the targets; alpha holds the luminance that a
  * bound took away. Switches LSF_PUNCTUAL and LSF_EMITTERS: there are VPLs of that kind. */
 #include "lib/bundle_pdf.glsl"
+#include "lib/luminance.glsl"
 #include "lib/mis.glsl"
 #include "lib/shading_vertex.glsl"
 #include "lib/shadow.glsl"
@@ -89,11 +90,6 @@ vpl_light emitted_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float 
     return l;
 }
 #endif
-
-float luminance(vec3 c)
-{
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
-}
 
 void main()
 {

@@ -2,6 +2,7 @@
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/view.glsl"
+#include "lib/way_to_eye.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
 #if LSF_EMISSION
@@ -34,12 +35,6 @@ layout(binding = 7) uniform sampler2D direct_irradiance_texture;
 layout(binding = 8) uniform sampler2D direct_specular_texture;
 #endif
 #endif
-#if LSF_STRAIGHT
-layout(binding = 10) uniform sampler2D tint_texture;
-#if LSF_ABSORPTION
-layout(binding = 11) uniform sampler2D absorption_texture;
-#endif
-#endif
 layout(location = 0) uniform vec3 background; /* radiance */
 layout(location = 0) out vec4 radiance_out;
 #if LSF_SEEN
@@ -58,19 +53,6 @@ layout(location = LSF_INDIRECT_SPECULAR) out vec4 indirect_specular_out;
 #if LSF_COVERAGE
 layout(location = LSF_COVERAGE) out vec4 coverage_out;
 #endif
-
-/* What is left of light on its way from the surface in the pixel. */
-vec3 left_on_the_way(ivec2 pixel)
-{
-    vec3 tint = vec3(1.0);
-#if LSF_STRAIGHT
-    tint = texelFetch(tint_texture, pixel, 0).rgb;
-#if LSF_ABSORPTION
-    tint *= exp(-max(texelFetch(absorption_texture, pixel, 0).rgb, 0.0));
-#endif
-#endif
-    return tint;
-}
 
 /* By a surface, or by one that light came through: what is behind that is no background. */
 bool covered(ivec2 pixel, float depth)

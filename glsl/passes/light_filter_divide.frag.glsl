@@ -1,16 +1,13 @@
 /* Light without the tint of what reflected it, and in alpha the variance of its mean's luminance: below 0 where
  * nothing is reflected, or what is not a number whose square is one, so that there is no telling. */
+#include "lib/luminance.glsl"
+
 layout(binding = 2) uniform sampler2D light_texture; /* of lsf_light_mean_part */
 layout(binding = 3) uniform sampler2D factor_texture;
 layout(location = 1) uniform float iterations;
 layout(location = 0) out vec4 light_out;
 
 #define LARGEST 1e18
-
-float luminance(vec3 c)
-{
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
-}
 
 void main()
 {

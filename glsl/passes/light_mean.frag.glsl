@@ -3,7 +3,9 @@
  * is light of that kind. */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
+#include "lib/luminance.glsl"
 #include "lib/view.glsl"
+#include "lib/way_to_eye.glsl"
 
 #if LSF_INDIRECT
 layout(binding = 3) uniform sampler2D irradiance_texture;
@@ -23,12 +25,6 @@ layout(binding = 7) uniform sampler2D direct_irradiance_texture;
 layout(binding = 8) uniform sampler2D direct_specular_texture;
 #endif
 #endif
-#if LSF_STRAIGHT
-layout(binding = 10) uniform sampler2D tint_texture;
-#if LSF_ABSORPTION
-layout(binding = 11) uniform sampler2D absorption_texture;
-#endif
-#endif
 layout(binding = 0, rgba32f) uniform image2D guide_image;
 layout(binding = 1, rgba32f) uniform image2D diffuse_image;
 layout(binding = 2, rgba32f) uniform image2D diffuse_factor_image;
@@ -40,30 +36,12 @@ layout(binding = 5, rg32f) uniform image2D half_image;
 layout(location = 0) uniform float weight; /* 1 / n */
 layout(location = 1) uniform bool keep;    /* the luminance of the means before */
 
-float luminance(vec3 c)
-{
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
-}
-
 /* The mean with one more value, by Welford 1962; in alpha the sum of squared deviations of the
  * luminance. */
 vec4 with_light(vec4 mean, vec3 x)
 {
     vec3 next = mean.rgb + (x - mean.rgb) * weight;
     return vec4(next, mean.a + (luminance(x) - luminance(mean.rgb)) * (luminance(x) - luminance(next)));
-}
-
-/* What is left of light on its way from the surface in the pixel. */
-vec3 left_on_the_way(ivec2 pixel)
-{
-    vec3 tint = vec3(1.0);
-#if LSF_STRAIGHT
-    tint = texelFetch(tint_texture, pixel, 0).rgb;
-#if LSF_ABSORPTION
-    tint *= exp(-max(texelFetch(absorption_texture, pixel, 0).rgb, 0.0));
-#endif
-#endif
-    return tint;
 }
 
 void main()

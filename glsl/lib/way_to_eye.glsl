@@ -1,0 +1,25 @@
+/* What is left of light on its way from the surface in a pixel to the eye. Switches LSF_STRAIGHT, LSF_ABSORPTION:
+ * surfaces before it transmit light, and some of them bound media. */
+#ifndef LSF_LIB_WAY_TO_EYE
+#define LSF_LIB_WAY_TO_EYE
+
+#if LSF_STRAIGHT
+layout(binding = 10) uniform sampler2D tint_texture;
+#if LSF_ABSORPTION
+layout(binding = 11) uniform sampler2D absorption_texture;
+#endif
+#endif
+
+vec3 left_on_the_way(ivec2 pixel)
+{
+    vec3 tint = vec3(1.0);
+#if LSF_STRAIGHT
+    tint = texelFetch(tint_texture, pixel, 0).rgb;
+#if LSF_ABSORPTION
+    tint *= exp(-max(texelFetch(absorption_texture, pixel, 0).rgb, 0.0));
+#endif
+#endif
+    return tint;
+}
+
+#endif
