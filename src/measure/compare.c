@@ -1,6 +1,7 @@
 #include <lightsheaf/compare.h>
 
 #include "base/base.h"
+#include "measure/flip.h"
 #include "measure/ssim.h"
 #include "shared/tonemap.h"
 
@@ -142,15 +143,13 @@ static void measure_squares(const comparison *c, lsf_compare_result *result)
 }
 
 /* Display code values in 0..1. */
-static void display(const double rgb[3], float scale, float shown[3])
+static void display(const double rgb[3], const lsf_compare_params *params, float shown[3])
 {
     float exposed[3];
     for (int k = 0; k < 3; k++)
-        exposed[k] = lsf_tonemap_expose((float)rgb[k], scale);
-    float smallest = fminf(exposed[0], fminf(exposed[1], exposed[2]));
-    float largest = fmaxf(exposed[0], fmaxf(exposed[1], exposed[2]));
+        exposed[k] = lsf_tonemap_expose((float)rgb[k], exp2f(params->exposure));
     for (int k = 0; k < 3; k++)
-        shown[k] = lsf_tonemap_display(exposed[k], smallest, largest);
+        shown[k] = lsf_tonemap_code((int)params->curve, k, exposed[0], exposed[1], exposed[2]);
 }
 
 static float luminance(const float rgb[3])
@@ -158,11 +157,11 @@ static float luminance(const float rgb[3])
     return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }
 
-static bool measure_display(const comparison *c, float exposure, lsf_compare_result *result)
+static bool measure_display(const comparison *c, const lsf_compare_params *params,
+                            lsf_compare_result *result)
 {
     uint64_t count = c->width * c->height;
     float *x = lsf_alloc(count, sizeof *x), *y = lsf_alloc(count, sizeof *y);
-    float scale = exp2f(exposure);
     double squares = 0.0;
     for (uint64_t i = 0; x && y && i < count; i++) {
         double test[3], reference[3];
@@ -171,8 +170,8 @@ static bool measure_display(const comparison *c, float exposure, lsf_compare_res
             continue;
         fetch(&c->test, i, test);
         fetch_reference(c, i, reference);
-        display(test, scale, shown_test);
-        display(reference, scale, shown_reference);
+        display(test, params, shown_test);
+        display(reference, params, shown_reference);
         for (int k = 0; k < 3; k++) {
             double difference = (double)shown_test[k] - shown_reference[k];
             squares += difference * difference;
@@ -187,6 +186,75 @@ static bool measure_display(const comparison *c, float exposure, lsf_compare_res
     }
     free(x);
     free(y);
+    return done;
+}
+
+/* Both pictures, three values a pixel; what is not compared looks alike in them. */
+static void fetch_pair(const comparison *c, float *test, float *reference)
+{
+    for (uint64_t i = 0; i < c->width * c->height; i++) {
+        double x[3] = {0}, r[3] = {0};
+        if (c->compared[i]) {
+            fetch(&c->test, i, x);
+            fetch_reference(c, i, r);
+        }
+        for (int k = 0; k < 3; k++) {
+            test[3 * i + (uint64_t)k] = (float)x[k];
+            reference[3 * i + (uint64_t)k] = (float)r[k];
+        }
+    }
+}
+
+/* Radiance to what a display emits, 0..1. */
+static void show(const lsf_compare_params *params, float *values, uint64_t pixels)
+{
+    for (uint64_t i = 0; i < pixels; i++) {
+        float *pixel = values + 3 * i, code[3];
+        display((double[]){(double)pixel[0], (double)pixel[1], (double)pixel[2]}, params, code);
+        for (int k = 0; k < 3; k++)
+            pixel[k] = lsf_srgb_decode(code[k]);
+    }
+}
+
+static double mean_compared(const comparison *c, const float *map)
+{
+    double sum = 0.0, count = 0.0;
+    for (uint64_t y = 0; y < c->height; y++) {
+        double row = 0.0;
+        for (uint64_t i = y * c->width; i < (y + 1) * c->width; i++) {
+            row += c->compared[i] ? (double)map[i] : 0.0;
+            count += c->compared[i];
+        }
+        sum += row;
+    }
+    return sum / count;
+}
+
+static bool measure_flip(const comparison *c, const lsf_compare_params *params,
+                         lsf_compare_result *result)
+{
+    const uint64_t pixels = c->width * c->height;
+    float *test = lsf_alloc(pixels * 7, sizeof *test);
+    if (!test)
+        return false;
+    float *reference = test + 3 * pixels, *map = reference + 3 * pixels;
+    lsf_flip_pair pair = {test, reference, (uint32_t)c->width, (uint32_t)c->height};
+    lsf_flip_exposures exposures;
+    fetch_pair(c, test, reference);
+    bool done = lsf_flip_choose_exposures(&pair, c->compared, &exposures) &&
+                lsf_flip_hdr(&pair, &exposures, map);
+    if (done) {
+        result->flip_hdr = exposures.count ? mean_compared(c, map) : (double)NAN;
+        result->flip_start = exposures.start;
+        result->flip_stop = exposures.stop;
+        result->flip_exposures = exposures.count;
+        show(params, test, pixels);
+        show(params, reference, pixels);
+        done = lsf_flip(&pair, map);
+    }
+    if (done)
+        result->flip = mean_compared(c, map);
+    free(test);
     return done;
 }
 
@@ -224,7 +292,8 @@ static bool measure(const comparison *c, const lsf_compare_params *params,
         isnan(params->relmse_epsilon) ? 0.01 * mean * mean : (double)params->relmse_epsilon;
     measure_squares(c, result);
     result->rmse_relative = relative(result->rmse, mean);
-    return measure_display(c, params->exposure, result) ||
+    return (measure_display(c, params, result) &&
+            (!params->flip || measure_flip(c, params, result))) ||
            lsf_error_set(error, LSF_ERROR_RENDER, "not enough memory to compare images");
 }
 
@@ -241,7 +310,8 @@ bool lsf_compare(const lsf_image *test, const lsf_image *reference,
     if (!open_comparison(&c, test, reference, params, error))
         return false;
 
-    *result = (lsf_compare_result){.noise_corrected = params->reference_b != NULL};
+    *result = (lsf_compare_result){
+        .noise_corrected = params->reference_b != NULL, .flip = NAN, .flip_hdr = NAN};
     select_pixels(&c, result);
     bool done = true;
     if (result->pixels > 0)

@@ -14,8 +14,8 @@
 static const struct metric {
     const char *name;
     bool higher_is_better;
-} metrics[] = {{"rmse", false}, {"rmse_relative", false}, {"relmse", false},
-               {"bias", false}, {"ssim", true},           {"psnr", true}};
+} metrics[] = {{"rmse", false}, {"rmse_relative", false}, {"relmse", false}, {"bias", false},
+               {"ssim", true},  {"psnr", true},           {"flip", false},   {"flip_hdr", false}};
 
 typedef struct threshold {
     const struct metric *metric;
@@ -42,6 +42,10 @@ static double metric_value(const struct metric *metric, const lsf_compare_result
         return result->ssim;
     if (strcmp(metric->name, "psnr") == 0)
         return result->psnr;
+    if (strcmp(metric->name, "flip") == 0)
+        return result->flip;
+    if (strcmp(metric->name, "flip_hdr") == 0)
+        return result->flip_hdr;
     return fmax(fabs(result->bias[0]), fmax(fabs(result->bias[1]), fabs(result->bias[2])));
 }
 
@@ -61,7 +65,8 @@ static bool parse_thresholds(session *s, const lsf_settings *settings, lsf_error
         if (!t->metric || !lsf_parse_number(text + length + 1, -1e30, 1e30, &t->limit))
             return lsf_error_set(error, LSF_ERROR_USAGE,
                                  "--threshold %s: give METRIC=X, where METRIC is rmse, "
-                                 "rmse_relative, relmse, bias, ssim or psnr",
+                                 "rmse_relative, relmse, bias, ssim, psnr, flip or "
+                                 "flip_hdr",
                                  text);
     }
     return true;
@@ -84,7 +89,11 @@ static bool measure(session *s, const lsf_settings *settings, lsf_error *error)
     lsf_compare_params params = {.reference_b = s->reference_b,
                                  .mask = s->mask,
                                  .relmse_epsilon = (float)settings->epsilon,
-                                 .exposure = settings->exposure.ev};
+                                 .exposure = settings->exposure.ev,
+                                 .curve = (lsf_tone_curve)settings->tonemap,
+                                 .flip = settings->flip};
+    for (uint32_t i = 0; i < s->threshold_count; i++)
+        params.flip |= strncmp(s->thresholds[i].metric->name, "flip", 4) == 0;
     lsf_error cause;
     if (!lsf_compare(s->test, s->reference, &params, &s->result, &cause))
         return lsf_error_set(error, cause.code, "%s against %s: %s", settings->operands.items[0],
@@ -106,6 +115,7 @@ static bool write_difference(const session *s, const lsf_settings *settings, lsf
         lsf_compare_difference(s->test, s->reference, settings->difference_gain, error);
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     params.exposure = settings->exposure.ev;
+    params.curve = (lsf_tone_curve)settings->tonemap;
     bool good = difference && lsf_image_save(difference, settings->difference, &params, error);
     lsf_image_destroy(difference);
     if (good)
@@ -139,6 +149,11 @@ static void add_text(lsf_string *text, const session *s, const lsf_settings *set
     lsf_string_add(text, "%-16s %.6f (tone-mapped luminance, exposure %+g EV)\n", "SSIM", r->ssim,
                    (double)settings->exposure.ev);
     lsf_string_add(text, "%-16s %.2f dB (tone-mapped R, G, B)\n", "PSNR", r->psnr);
+    if (!isnan(r->flip))
+        lsf_string_add(text, "%-16s %.6f (tone-mapped R, G, B)\n", "FLIP", r->flip);
+    if (!isnan(r->flip_hdr))
+        lsf_string_add(text, "%-16s %.6f (%u exposures, %+.4f to %+.4f EV)\n", "HDR-FLIP",
+                       r->flip_hdr, r->flip_exposures, (double)r->flip_start, (double)r->flip_stop);
     for (uint32_t i = 0; i < s->threshold_count; i++) {
         const threshold *t = &s->thresholds[i];
         lsf_string_add(text, "%-16s %s %.6g: %s (%.6g)\n", "threshold", t->metric->name, t->limit,
@@ -177,6 +192,8 @@ static void add_json(lsf_json *json, const session *s, const lsf_settings *setti
     lsf_json_number(json, "relmse_epsilon", r->relmse_epsilon);
     lsf_json_number(json, "ssim", r->ssim);
     lsf_json_number(json, "psnr", r->psnr);
+    lsf_json_number(json, "flip", r->flip);
+    lsf_json_number(json, "flip_hdr", r->flip_hdr);
     lsf_json_number(json, "exposure", (double)settings->exposure.ev);
     lsf_json_bool(json, "noise_corrected", r->noise_corrected);
     lsf_json_begin(json, "thresholds", '[');

@@ -83,6 +83,10 @@ static const lsf_command_option options[] = {
      LSF_TONE_CURVE_NEUTRAL, 0, "neutral|none|aces|agx", "neutral",
      "from radiance to .png: neutral is Khronos PBR Neutral, which keeps base colours; none is "
      "sRGB, cut off at 1; aces and agx are like film"},
+    {"tonemap", 0, "CURVE", LSF_COMMAND_COMPARE, "Output", LSF_VALUE_CHOICE, AT(tonemap),
+     LSF_TONE_CURVE_NEUTRAL, 0, "neutral|none|aces|agx", "neutral",
+     "from radiance to what SSIM, PSNR, FLIP and the difference show; none is right for .png, "
+     "which is made for display already"},
     {"aov", 0, "LIST", PLANNING, "Output", LSF_VALUE_AOVS, AT(aovs), 0, 0,
      "albedo|normal|depth|emission|direct|indirect_diffuse|indirect_specular|motion|voxel_albedo|"
      "voxel_normal|voxel_radiance|all",
@@ -208,8 +212,10 @@ static const lsf_command_option options[] = {
     {"mask", 0, "FILE", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(mask), 0, 0, NULL,
      NULL, "leave out the pixels whose first channel is above 0.5"},
     {"threshold", 0, "METRIC=X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_THRESHOLD,
-     AT(thresholds), 0, 0, "rmse|rmse_relative|relmse|bias|ssim|psnr", NULL,
+     AT(thresholds), 0, 0, "rmse|rmse_relative|relmse|bias|ssim|psnr|flip|flip_hdr", NULL,
      "end with status 5 when METRIC is worse than X; repeatable"},
+    {"flip", 0, NULL, LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_FLAG, AT(flip), 0, 0, NULL, NULL,
+     "measure FLIP and HDR-FLIP, too, which takes longer than all the rest"},
     {"difference", 0, "OUT", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(difference), 0,
      0, NULL, NULL, "write the absolute difference as a picture"},
     {"difference-gain", 0, "X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_FLOAT,

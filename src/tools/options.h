@@ -162,6 +162,7 @@ typedef struct lsf_settings {
     const char *mask, *difference;
     float difference_gain;
     double epsilon; /* NAN: relative to the reference's mean */
+    bool flip;
     lsf_list_setting thresholds;
 
     lsf_string typed;  /* the options that shape a picture, as one would type them */
