@@ -1,13 +1,24 @@
 /* Light without the tint of what reflected it, and in alpha the variance of its mean's luminance: below 0 where
- * nothing is reflected, or what is not a number whose square is one, so that there is no telling. */
+ * nothing is reflected, or what is not a number whose square is one, so that there is no telling. Beside it what tells
+ * the variance among neighbours (lib/light_window.glsl). */
 #include "lib/luminance.glsl"
 
 layout(binding = 2) uniform sampler2D light_texture; /* of lsf_light_mean_part */
 layout(binding = 3) uniform sampler2D factor_texture;
+layout(binding = 4) uniform sampler2D half_texture; /* luminance of the mean of the first m */
 layout(location = 1) uniform float iterations;
+layout(location = 2) uniform float half_weight; /* m / (n - m); below 0: there is no such mean */
 layout(location = 0) out vec4 light_out;
+layout(location = 1) out vec4 window_out; /* the variance, that by the first m; after one iteration the luminance, 0 */
 
 #define LARGEST 1e18
+
+/* The variance by how far the first m iterations are from all of them. */
+float halves_of(ivec2 pixel, vec3 light, float tint)
+{
+    float d = (texelFetch(half_texture, pixel, 0)[LSF_LOBE] - luminance(light)) / max(tint, 1e-20);
+    return half_weight >= 0.0 ? d * d * half_weight : 0.0;
+}
 
 void main()
 {
@@ -16,6 +27,7 @@ void main()
     vec3 factor = texelFetch(factor_texture, pixel, 0).rgb;
     float tint = luminance(factor);
     light_out = vec4(vec3(0.0), -1.0);
+    window_out = vec4(0.0);
     if (!(tint > 0.0))
         return;
     /* A colour that is not reflected is as bright as the others. */
@@ -24,6 +36,9 @@ void main()
                       factor.b > 0.0 ? light.b / factor.b : grey);
     float variance = iterations > 1.0 ? light.a / (iterations * (iterations - 1.0) * tint * tint) : 0.0;
     /* No comparison holds for what is not a number. */
-    if (all(lessThan(abs(clear), vec3(LARGEST))) && variance < LARGEST * LARGEST)
-        light_out = vec4(clear, variance);
+    if (!(all(lessThan(abs(clear), vec3(LARGEST))) && variance < LARGEST * LARGEST))
+        return;
+    light_out = vec4(clear, variance);
+    vec2 told = iterations > 1.0 ? vec2(variance, halves_of(pixel, light.rgb, tint)) : vec2(luminance(clear), 0.0);
+    window_out = vec4(told, 0.0, 1.0);
 }

@@ -25,15 +25,15 @@ void main()
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++) {
             ivec2 at = pixel + stride * ivec2(i, j);
-            if ((i == 0 && j == 0) || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
+            if (i == 0 && j == 0)
                 continue;
+            bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size));
             vec4 light = texelFetch(light_texture, at, 0);
-            if (light.a < 0.0)
-                continue;
             float noise = tolerance * tolerance * (own.a + light.a);
             float d = luminance(light.rgb) - y;
             float w = light_guide_weight(g, pixel, at) * (i == 0 ? 1.0 : 0.5) * (j == 0 ? 1.0 : 0.5);
             w *= d != 0.0 ? exp(-d * d / max(noise, 1e-37)) : 1.0;
+            w = inside && light.a >= 0.0 ? w : 0.0;
             difference += w * (light.rgb - own.rgb);
             squares += w * w * light.a;
             variances += w * light.a;

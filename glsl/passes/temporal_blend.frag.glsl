@@ -5,9 +5,7 @@
 #include "lib/light_guide.glsl"
 
 layout(binding = 2) uniform sampler2D light_texture; /* of lsf_light_mean_part */
-#if !LSF_LOBE
 layout(binding = 3) uniform sampler2D factor_texture;
-#endif
 layout(binding = 4) uniform sampler2D carried_texture; /* light without tint; A: sum of squared deviations */
 layout(binding = 5) uniform sampler2D reach_texture;
 layout(location = 1) uniform float iterations;

@@ -1,7 +1,7 @@
 /* The history of the frame before, where its surfaces are now: of the four texels around a point's former place those
  * that show the same instance, plane and side, by their bilinear weights. Switch LSF_LOBE: there is specular light. */
-#include "lib/octahedral.glsl"
 #include "lib/view.glsl"
+#include "shared/brdf.h"
 
 #include "lib/light_guide.glsl"
 
@@ -96,7 +96,7 @@ vec4 carried_picture(ivec2 pixel, light_guide g)
         for (int i = -1; i <= 1; i++) {
             ivec2 at = clamp(pixel + ivec2(i, j), ivec2(0), size - 1);
             vec4 motion = texelFetch(motion_texture, at, 0);
-            float d = texelFetch(guide_texture, at, 0).w;
+            float d = texelFetch(guide_texture, at, 0).z;
             low = min(low, motion.xy);
             high = max(high, motion.xy);
             all_surface = all_surface && d > 0.0;

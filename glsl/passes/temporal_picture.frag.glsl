@@ -1,6 +1,5 @@
 /* The picture with the light that the history changes, and what of the frame the next one's points are compared with.
  * Switch LSF_LOBE: there is specular light. */
-#include "lib/octahedral.glsl"
 #include "lib/view.glsl"
 
 #include "lib/light_guide.glsl"

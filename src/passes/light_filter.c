@@ -20,39 +20,56 @@ const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
      "", "changes light by no more than its noise explains"},
 };
 
+#define AT(member) offsetof(lsf_light_filter, member)
+
+static const lsf_texture_row textures[] = {
+    {"light_filter.light", GL_RGBA32F, AT(light), 0, "without tint, and its variance"},
+    {"light_filter.turn_0", GL_RGBA32F, AT(turns[0]), 0, "after a step"},
+    {"light_filter.turn_1", GL_RGBA32F, AT(turns[1]), 0, "after the next one"},
+    {"light_filter.window_0", GL_RGBA32F, AT(windows[0]), 0, "what neighbours are asked for"},
+    {"light_filter.window_1", GL_RGBA32F, AT(windows[1]), 0, "means of it over a few"},
+    {"light_filter.picture", GL_RGBA32F, AT(picture), 0, "the result"},
+};
+
+static void add_switches(lsf_plan *plan, bool lobe)
+{
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_LOBE", lobe, "light of a specular lobe");
+}
+
 void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params)
 {
     lsf_plan_pass_add(plan, "light_filter", "%d steps over the mean of light, once a picture",
                       params->steps);
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_LOBE", 0, "light of a specular lobe");
-    lsf_plan_texture_add(plan, "light_filter.slope", GL_RGBA32F, plan->width, plan->height,
-                         "of what is seen");
-    lsf_plan_texture_add(plan, "light_filter.light", GL_RGBA32F, plan->width, plan->height,
-                         "without tint, and its variance");
-    lsf_plan_texture_add(plan, "light_filter.turn_0", GL_RGBA32F, plan->width, plan->height,
-                         "after a step");
-    lsf_plan_texture_add(plan, "light_filter.turn_1", GL_RGBA32F, plan->width, plan->height,
-                         "after the next one");
-    lsf_plan_texture_add(plan, "light_filter.picture", GL_RGBA32F, plan->width, plan->height,
-                         "the result");
+    add_switches(plan, false);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
     if (!plan->requirements.specular)
         return;
     lsf_plan_pass_add(plan, "light_filter_specular", "the same for specular light");
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_LOBE", 1, "light of a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_PATTERN", (int)plan->pattern,
-                        "the side of the interleaving pattern whose light is pooled");
+    add_switches(plan, true);
 }
 
-static GLuint create_target(lsf_light_filter *pass, const lsf_plan *plan, const char *name,
-                            GLuint *texture, lsf_error *error)
+static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
 {
-    if (!lsf_plan_create_texture(plan, pass->context, name, texture, error))
-        return 0;
-    const lsf_framebuffer_desc desc = {
-        .label = name, .color_count = 1, .colors = {*texture}, .layer = -1};
-    return lsf_framebuffer_create(pass->context, &desc, error);
+    const struct {
+        const char *label;
+        GLuint *framebuffer, colors[2];
+    } rows[] = {
+        {"light_filter.divided", &pass->divided_framebuffer, {pass->turns[0], pass->windows[0]}},
+        {"light_filter.light", &pass->light_framebuffer, {pass->light}},
+        {"light_filter.turn_0", &pass->turn_framebuffers[0], {pass->turns[0]}},
+        {"light_filter.turn_1", &pass->turn_framebuffers[1], {pass->turns[1]}},
+        {"light_filter.window_0", &pass->window_framebuffers[0], {pass->windows[0]}},
+        {"light_filter.window_1", &pass->window_framebuffers[1], {pass->windows[1]}},
+        {"light_filter.picture", &pass->picture_framebuffer, {pass->picture}},
+    };
+    for (size_t i = 0; i < LSF_COUNT(rows); i++) {
+        lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 2, .layer = -1};
+        memcpy(desc.colors, rows[i].colors, sizeof rows[i].colors);
+        if (!(*rows[i].framebuffer = lsf_framebuffer_create(pass->context, &desc, error)))
+            return false;
+    }
+    return true;
 }
 
 /* A part's programs. */
@@ -63,8 +80,11 @@ static bool create_programs(lsf_light_filter *pass, const lsf_plan *plan, const 
         const char *file;
         GLuint *program;
     } rows[] = {
+        {"passes/light_filter_divide.frag.glsl", &programs->divide},
+        {"passes/light_filter_window.frag.glsl", &programs->window},
         {"passes/light_filter_variance.frag.glsl", &programs->variance},
         {"passes/light_filter_step.frag.glsl", &programs->step},
+        {"passes/light_filter_change.frag.glsl", &programs->change},
         {"passes/light_filter_blend.frag.glsl", &programs->blend},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
@@ -79,27 +99,8 @@ bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const
                              const lsf_light_filter_params *params, lsf_error *error)
 {
     *pass = (lsf_light_filter){.context = context, .params = *params};
-    const struct {
-        const char *name;
-        GLuint *texture, *framebuffer;
-    } targets[] = {
-        {"light_filter.slope", &pass->slope, &pass->slope_framebuffer},
-        {"light_filter.light", &pass->light, &pass->light_framebuffer},
-        {"light_filter.turn_0", &pass->turns[0], &pass->turn_framebuffers[0]},
-        {"light_filter.turn_1", &pass->turns[1], &pass->turn_framebuffers[1]},
-        {"light_filter.picture", &pass->picture, &pass->picture_framebuffer},
-    };
-    static const char *const slope_files[5] = {"lib/fullscreen.vert.glsl",
-                                               "lib/light_guide_slope.frag.glsl"};
-    static const char *const divide_files[5] = {"lib/fullscreen.vert.glsl",
-                                                "passes/light_filter_divide.frag.glsl"};
-    for (size_t i = 0; i < LSF_COUNT(targets); i++)
-        if (!(*targets[i].framebuffer =
-                  create_target(pass, plan, targets[i].name, targets[i].texture, error)))
-            return false;
-    pass->slope_program = lsf_plan_program(plan, context, "light_filter", slope_files, error);
-    pass->divide_program = lsf_plan_program(plan, context, "light_filter", divide_files, error);
-    if (!pass->slope_program || !pass->divide_program ||
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
+        !create_framebuffers(pass, error) ||
         !create_programs(pass, plan, "light_filter", &pass->programs[0], error) ||
         (lsf_plan_find_pass(plan, "light_filter_specular") &&
          !create_programs(pass, plan, "light_filter_specular", &pass->programs[1], error)))
@@ -113,12 +114,10 @@ static void begin(const lsf_plan *plan, GLuint framebuffer, GLuint program)
     lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
 }
 
-/* What the programs of a part have in common. */
+/* What programs with a guide have in common. */
 static void set_guide(const lsf_light_filter *pass)
 {
     glUniform2f(0, pass->params.depth_weight, pass->params.normal_weight);
-    if (pass->lobe)
-        glUniform1f(3, pass->kernel);
 }
 
 /* Relative variance of a variance that is known from so many iterations of heavy-tailed noise:
@@ -131,25 +130,39 @@ static float uncertainty_of(const lsf_light_filter *pass, float iterations)
     return (kurtosis - 1.0f) / (iterations > 1.5f ? iterations - 1.0f : 0.01f);
 }
 
+/* Means of `windows[0]` over the 3 x 3 neighbours, the first of two steps: sets `windows[1]`. */
+static void gather_window(const lsf_light_filter *pass, const lsf_plan *plan, bool moments,
+                          const lsf_light_filter_programs *programs)
+{
+    begin(plan, pass->window_framebuffers[1], programs->window);
+    set_guide(pass);
+    glUniform1i(1, moments);
+    lsf_bind_texture(2, pass->windows[0]);
+    lsf_draw_fullscreen(pass->context);
+}
+
 /* Sets `light` to the part without tint, with its variance. */
 static void divide(lsf_light_filter *pass, const lsf_plan *plan, float iterations,
                    const lsf_light_filter_inputs *inputs, const lsf_light_filter_part *part,
                    const lsf_light_filter_programs *programs)
 {
-    begin(plan, pass->turn_framebuffers[0], pass->divide_program);
+    bool alone = iterations < 1.5f;
+    float rest = fmaxf(iterations - (float)inputs->half_count, 1.0f);
+    begin(plan, pass->divided_framebuffer, programs->divide);
     glUniform1f(1, iterations);
+    glUniform1f(2, inputs->half ? (float)inputs->half_count / rest : -1.0f);
     lsf_bind_texture(2, part->light);
     lsf_bind_texture(3, part->factor);
+    lsf_bind_texture(4, inputs->half);
     lsf_draw_fullscreen(pass->context);
+    gather_window(pass, plan, alone, programs);
     begin(plan, pass->light_framebuffer, programs->variance);
     set_guide(pass);
-    glUniform1f(1, iterations > 1.5f ? uncertainty_of(pass, iterations) : -1.0f);
-    float rest = fmaxf(iterations - (float)inputs->half_count, 1.0f);
-    glUniform1f(2, inputs->half ? (float)inputs->half_count / rest : -1.0f);
-    lsf_bind_texture(2, pass->turns[0]);
-    lsf_bind_texture(4, part->light);
-    lsf_bind_texture(5, part->factor);
-    lsf_bind_texture(6, inputs->half);
+    glUniform1i(1, alone);
+    glUniform1f(2, uncertainty_of(pass, iterations));
+    glUniform1i(3, inputs->half != 0);
+    lsf_bind_texture(2, pass->windows[1]);
+    lsf_bind_texture(3, pass->turns[0]);
     lsf_draw_fullscreen(pass->context);
 }
 
@@ -189,14 +202,24 @@ static GLuint run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iter
 
 /* Adds to the picture what the filter changes of the part. */
 static void blend(lsf_light_filter *pass, const lsf_plan *plan, float iterations, GLuint filtered,
-                  const lsf_light_filter_programs *programs)
+                  GLuint factor, const lsf_light_filter_programs *programs)
 {
+    if (pass->params.limit) {
+        begin(plan, pass->window_framebuffers[0], programs->change);
+        lsf_bind_texture(2, pass->light);
+        lsf_bind_texture(3, filtered);
+        lsf_draw_fullscreen(pass->context);
+        gather_window(pass, plan, false, programs);
+    }
     begin(plan, pass->picture_framebuffer, programs->blend);
     lsf_blend_add(1);
     set_guide(pass);
-    glUniform1f(1, pass->params.limit ? uncertainty_of(pass, iterations) : -1.0f);
-    lsf_bind_texture(2, pass->light);
+    glUniform1i(1, false);
+    glUniform1f(2, pass->params.limit ? uncertainty_of(pass, iterations) : -1.0f);
+    lsf_bind_texture(2, pass->windows[1]);
+    lsf_bind_texture(3, pass->light);
     lsf_bind_texture(4, filtered);
+    lsf_bind_texture(5, factor);
     lsf_draw_fullscreen(pass->context);
 }
 
@@ -204,26 +227,21 @@ void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration
                           uint32_t iterations, const lsf_light_filter_inputs *inputs)
 {
     const lsf_plan *plan = iteration->plan;
+    float n = (float)iterations;
     lsf_timer_begin(pass->timer);
     lsf_iteration_bind_view(iteration);
     glCopyImageSubData(inputs->picture, GL_TEXTURE_2D, 0, 0, 0, 0, pass->picture, GL_TEXTURE_2D, 0,
                        0, 0, 0, (GLsizei)plan->width, (GLsizei)plan->height, 1);
     lsf_bind_texture(0, inputs->guide);
-    begin(plan, pass->slope_framebuffer, pass->slope_program);
-    glUniform1f(1, (float)iterations);
-    lsf_bind_texture(3, inputs->parts[0].factor);
-    lsf_draw_fullscreen(pass->context);
-    lsf_bind_texture(1, pass->slope);
+    lsf_bind_texture(1, inputs->slope);
     for (size_t i = 0; i < LSF_COUNT(inputs->parts); i++) {
-        if (!inputs->parts[i].light)
-            continue;
+        const lsf_light_filter_part *part = &inputs->parts[i];
         const lsf_light_filter_programs *programs = &pass->programs[i];
-        pass->lobe = i == 1;
+        if (!part->light)
+            continue;
         pass->shared = plan->pattern > 1;
-        pass->kernel = inputs->kernel;
-        divide(pass, plan, (float)iterations, inputs, &inputs->parts[i], programs);
-        blend(pass, plan, (float)iterations, run_steps(pass, plan, (float)iterations, programs),
-              programs);
+        divide(pass, plan, n, inputs, part, programs);
+        blend(pass, plan, n, run_steps(pass, plan, n, programs), part->factor, programs);
     }
     lsf_timer_end(pass->timer);
 }
@@ -232,15 +250,13 @@ void lsf_light_filter_destroy(lsf_light_filter *pass)
 {
     if (!pass->context)
         return;
-    GLuint *textures[] = {&pass->slope, &pass->light, &pass->turns[0], &pass->turns[1],
-                          &pass->picture};
-    GLuint *framebuffers[] = {&pass->slope_framebuffer, &pass->light_framebuffer,
-                              &pass->turn_framebuffers[0], &pass->turn_framebuffers[1],
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
+    GLuint *framebuffers[] = {&pass->divided_framebuffer,    &pass->light_framebuffer,
+                              &pass->turn_framebuffers[0],   &pass->turn_framebuffers[1],
+                              &pass->window_framebuffers[0], &pass->window_framebuffers[1],
                               &pass->picture_framebuffer};
-    for (size_t i = 0; i < LSF_COUNT(textures); i++) {
-        lsf_texture_destroy(pass->context, textures[i]);
+    for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
         lsf_framebuffer_destroy(pass->context, framebuffers[i]);
-    }
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

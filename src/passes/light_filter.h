@@ -27,29 +27,26 @@ typedef struct lsf_light_filter_part {
 } lsf_light_filter_part;
 
 typedef struct lsf_light_filter_inputs {
-    GLuint guide; /* as lsf_light_mean's */
-    GLuint half;  /* as lsf_light_mean's, of the first `half_count` iterations; 0: there is none */
+    GLuint guide, slope; /* as lsf_light_guide's */
+    GLuint half; /* as lsf_light_mean's, of the first `half_count` iterations; 0: there is none */
     uint32_t half_count;
-    GLuint picture; /* RGBA32F mean of the whole picture */
-    float kernel;   /* solid angle that glossy lobes were spread over, for want of samples [sr] */
+    GLuint picture;                 /* RGBA32F mean of the whole picture */
     lsf_light_filter_part parts[2]; /* diffuse, specular */
 } lsf_light_filter_inputs;
 
 typedef struct lsf_light_filter_programs {
-    GLuint variance, step, blend;
+    GLuint divide, window, variance, step, change, blend;
 } lsf_light_filter_programs;
 
 typedef struct lsf_light_filter {
     lsf_context *context;
     lsf_light_filter_params params;
     GLuint picture; /* output: RGBA32F */
-    GLuint slope, light, turns[2];
-    GLuint slope_framebuffer, light_framebuffer, turn_framebuffers[2], picture_framebuffer;
-    GLuint slope_program, divide_program;
+    GLuint light, turns[2], windows[2];
+    GLuint divided_framebuffer, light_framebuffer, turn_framebuffers[2], window_framebuffers[2],
+        picture_framebuffer;
     lsf_light_filter_programs programs[2]; /* of each part */
-    float kernel; /* of the run in progress, and whether it is in the specular part */
-    bool shared;  /* pixels of a pattern take the same samples */
-    bool lobe;
+    bool shared; /* of the run in progress: pixels of a pattern take the same samples */
     lsf_timer *timer;
 } lsf_light_filter;
 

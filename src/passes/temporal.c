@@ -16,7 +16,6 @@ const lsf_option_row lsf_temporal_options[LSF_TEMPORAL_OPTION_COUNT] = {
 
 static const lsf_texture_row textures[] = {
     {"temporal.guide", GL_RGBA32UI, AT(guide), 0, "what the light of the frame before fell on"},
-    {"temporal.slope", GL_RGBA32F, AT(slope), 0, "of what is seen"},
     {"temporal.reach", GL_RGBA32F, AT(reach), 0, "samples that are carried to a frame"},
     {"temporal.diffuse_history", GL_RGBA32F, AT(parts[0].history), 0, "light of frames before"},
     {"temporal.diffuse_count", GL_R32F, AT(parts[0].count), 0, "of its samples"},
@@ -39,8 +38,6 @@ static void plan_part(lsf_plan *plan, const char *name, bool lobe, const char *w
     lsf_plan_pass_add(plan, name, "%s", why);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_LOBE", lobe, "light of a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_PATTERN", (int)plan->pattern,
-                        "the side of the interleaving pattern whose light is pooled");
 }
 
 void lsf_temporal_plan(lsf_plan *plan)
@@ -60,7 +57,6 @@ static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
         const char *label;
         GLuint *framebuffer, colors[4];
     } rows[] = {
-        {"temporal.slope", &pass->slope_framebuffer, {pass->slope}},
         {"temporal.carried",
          &pass->carry_framebuffer,
          {diffuse->carried, pass->reach, pass->carried_picture, specular->carried}},
@@ -89,7 +85,6 @@ static bool create_programs(lsf_temporal *pass, const lsf_plan *plan, lsf_error 
         const char *name, *file;
         GLuint *program;
     } rows[] = {
-        {"temporal", "lib/light_guide_slope.frag.glsl", &pass->slope_program},
         {"temporal", "passes/temporal_carry.frag.glsl", &pass->carry_program},
         {"temporal", "passes/temporal_picture.frag.glsl", &pass->picture_program},
         {"temporal", "passes/temporal_resolve.frag.glsl", &pass->resolve_program},
@@ -177,32 +172,20 @@ float lsf_temporal_begin(lsf_temporal *pass, const lsf_temporal_change *change, 
 /* --- runs --- */
 
 /* What all programs read. */
-static void begin(const lsf_temporal *pass, const lsf_plan *plan, GLuint framebuffer,
-                  GLuint program, const lsf_temporal_inputs *inputs)
+static void begin(const lsf_plan *plan, GLuint framebuffer, GLuint program,
+                  const lsf_temporal_inputs *inputs)
 {
     lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
     lsf_bind_texture(0, inputs->guide);
-    lsf_bind_texture(1, pass->slope);
+    lsf_bind_texture(1, inputs->slope);
     lsf_bind_texture(2, inputs->motion);
 }
 
 /* For lib/light_guide.glsl: half a pixel off the plane for each that a neighbour is away, and half
  * the weight at 12 degrees. */
-static void set_guide(const lsf_temporal_inputs *inputs, bool lobe)
+static void set_guide(void)
 {
     glUniform2f(0, 0.5f, 32.0f);
-    if (lobe)
-        glUniform1f(3, inputs->kernel);
-}
-
-static void find_slopes(const lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
-                        const lsf_temporal_inputs *inputs)
-{
-    lsf_begin_fullscreen(pass->slope_framebuffer, plan->width, plan->height, pass->slope_program);
-    lsf_bind_texture(0, inputs->guide);
-    lsf_bind_texture(3, inputs->parts[0].factor);
-    glUniform1f(1, (float)iterations);
-    lsf_draw_fullscreen(pass->context);
 }
 
 static void set_former_eye(const lsf_camera_state *c)
@@ -220,15 +203,11 @@ void lsf_temporal_carry(lsf_temporal *pass, const lsf_iteration *iteration,
 {
     bool lobe = pass->parts[1].history != 0;
     lsf_timer_begin(pass->timer);
-    find_slopes(pass, iteration->plan, 1, inputs);
-    begin(pass, iteration->plan, pass->carry_framebuffer, pass->carry_program, inputs);
-    if (lobe) {
-        glUniform1f(3, inputs->kernel);
+    begin(iteration->plan, pass->carry_framebuffer, pass->carry_program, inputs);
+    if (lobe)
         set_former_eye(&pass->camera);
-    }
     glUniform1i(4, pass->kept);
     glUniform1i(6, lags(pass, pass->frames_since_change));
-    lsf_bind_texture(3, inputs->parts[1].factor);
     lsf_bind_texture(4, pass->guide);
     lsf_bind_texture(5, pass->parts[0].history);
     lsf_bind_texture(6, pass->parts[0].count);
@@ -245,13 +224,12 @@ void lsf_temporal_blend(lsf_temporal *pass, const lsf_iteration *iteration, uint
     const lsf_plan *plan = iteration->plan;
     lsf_timer_begin(pass->timer);
     lsf_iteration_bind_view(iteration);
-    find_slopes(pass, plan, iterations, inputs);
     for (size_t i = 0; i < LSF_COUNT(pass->parts); i++) {
         const lsf_temporal_part *part = &pass->parts[i];
         if (!part->history)
             continue;
-        begin(pass, plan, part->framebuffer, part->program, inputs);
-        set_guide(inputs, i == 1);
+        begin(plan, part->framebuffer, part->program, inputs);
+        set_guide();
         glUniform1f(1, (float)iterations);
         glUniform1f(2, history_limit(pass, pass->frames_since_lights));
         glUniform1f(4, pass->independent);
@@ -262,9 +240,7 @@ void lsf_temporal_blend(lsf_temporal *pass, const lsf_iteration *iteration, uint
         lsf_bind_texture(5, pass->reach);
         lsf_draw_fullscreen(pass->context);
     }
-    begin(pass, plan, pass->picture_framebuffer, pass->picture_program, inputs);
-    if (pass->parts[1].history)
-        lsf_bind_texture(3, inputs->parts[1].factor);
+    begin(plan, pass->picture_framebuffer, pass->picture_program, inputs);
     lsf_bind_texture(4, inputs->picture);
     lsf_bind_texture(5, inputs->parts[0].light);
     lsf_bind_texture(6, pass->parts[0].light);
@@ -297,9 +273,9 @@ void lsf_temporal_destroy(lsf_temporal *pass)
     if (!pass->context)
         return;
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
-    GLuint *framebuffers[] = {&pass->slope_framebuffer,    &pass->carry_framebuffer,
-                              &pass->picture_framebuffer,  &pass->resolve_framebuffer,
-                              &pass->parts[0].framebuffer, &pass->parts[1].framebuffer};
+    GLuint *framebuffers[] = {&pass->carry_framebuffer, &pass->picture_framebuffer,
+                              &pass->resolve_framebuffer, &pass->parts[0].framebuffer,
+                              &pass->parts[1].framebuffer};
     for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
         lsf_framebuffer_destroy(pass->context, framebuffers[i]);
     lsf_timer_destroy(pass->timer);

@@ -22,10 +22,9 @@ typedef struct lsf_temporal_light {
 } lsf_temporal_light;
 
 typedef struct lsf_temporal_inputs {
-    GLuint guide;                /* as lsf_light_mean's */
+    GLuint guide, slope;         /* as lsf_light_guide's */
     GLuint motion;               /* of lsf_gbuffer_maps, with depth and instance */
     GLuint picture;              /* RGBA32F mean of the whole picture */
-    float kernel;                /* solid angle that glossy lobes were spread over [sr] */
     lsf_temporal_light parts[2]; /* diffuse, specular */
 } lsf_temporal_inputs;
 
@@ -47,13 +46,13 @@ typedef struct lsf_temporal_part {
 typedef struct lsf_temporal {
     lsf_context *context;
     lsf_temporal_params params;
-    lsf_temporal_part parts[2]; /* diffuse, specular; specular 0 where nothing is glossy */
-    GLuint guide;               /* RGBA32UI: normal, depth and instance of the history */
-    GLuint slope, reach; /* RGBA32F: of depth; samples that are carried, and drift of lobes */
-    GLuint picture;      /* RGBA32F, output: with light of the frames before */
+    lsf_temporal_part parts[2];       /* diffuse, specular; specular 0 where nothing is glossy */
+    GLuint guide;                     /* RGBA32UI: normal, depth and instance of the history */
+    GLuint reach;                     /* RGBA32F: samples that are carried, and drift of lobes */
+    GLuint picture;                   /* RGBA32F, output: with light of the frames before */
     GLuint carried_picture, resolved; /* RGBA32F: that of the frame before; output of resolve */
-    GLuint slope_framebuffer, carry_framebuffer, picture_framebuffer, resolve_framebuffer;
-    GLuint slope_program, carry_program, picture_program, resolve_program;
+    GLuint carry_framebuffer, picture_framebuffer, resolve_framebuffer;
+    GLuint carry_program, picture_program, resolve_program;
     float independent;       /* neighbours whose noise differs, at most */
     lsf_camera_state camera; /* of the history, and of the frame in progress */
     lsf_camera_state next_camera;

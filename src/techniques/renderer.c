@@ -33,6 +33,8 @@ static bool create_filters(lsf_renderer *renderer, lsf_error *error)
     uint32_t tiles = (uint32_t)(params->interleave.size * params->interleave.size);
     return (!lsf_plan_find_pass(plan, "light_mean") ||
             lsf_light_mean_create(&renderer->light_mean, context, plan, error)) &&
+           (!lsf_plan_find_pass(plan, "light_guide") ||
+            lsf_light_guide_create(&renderer->light_guide, context, plan, error)) &&
            (!lsf_plan_find_pass(plan, "temporal") ||
             lsf_temporal_create(&renderer->temporal, context, plan, &params->temporal,
                                 lsf_plan_find_pass(plan, "interleave") ? tiles : 0, error)) &&
@@ -65,6 +67,7 @@ static void destroy_technique(lsf_renderer *renderer)
     lsf_tonemap_destroy(&renderer->tonemap);
     lsf_light_filter_destroy(&renderer->light_filter);
     lsf_temporal_destroy(&renderer->temporal);
+    lsf_light_guide_destroy(&renderer->light_guide);
     lsf_light_mean_destroy(&renderer->light_mean);
     lsf_accumulate_destroy(&renderer->accumulate);
     if (renderer->setup.technique)
@@ -159,13 +162,24 @@ static bool replan(lsf_renderer *renderer, lsf_error *error)
 
 /* --- what is made of the mean --- */
 
+/* What temporal and light_filter go by, of the mean of so many iterations. */
+static void guide(lsf_renderer *renderer, uint32_t iterations)
+{
+    const lsf_light_mean *mean = &renderer->light_mean;
+    const lsf_light_guide_inputs inputs = {.mean = mean->guide,
+                                           .diffuse_factor = mean->diffuse.factor,
+                                           .specular_factor = mean->specular.factor,
+                                           .kernel = renderer->outputs.kernel};
+    lsf_light_guide_run(&renderer->light_guide, renderer->setup.plan, iterations, &inputs);
+}
+
 static lsf_temporal_inputs temporal_inputs(const lsf_renderer *renderer)
 {
     const lsf_light_mean *mean = &renderer->light_mean;
-    return (lsf_temporal_inputs){.guide = mean->guide,
+    return (lsf_temporal_inputs){.guide = renderer->light_guide.guide,
+                                 .slope = renderer->light_guide.slope,
                                  .motion = renderer->outputs.parts.gbuffer->motion,
                                  .picture = renderer->accumulate.means[0],
-                                 .kernel = renderer->outputs.kernel,
                                  .parts = {{mean->diffuse.light, mean->diffuse.factor},
                                            {mean->specular.light, mean->specular.factor}}};
 }
@@ -176,11 +190,11 @@ static void filter(lsf_renderer *renderer, GLuint picture)
     const lsf_temporal_part *kept = renderer->temporal.parts;
     bool temporal = renderer->temporal.timer;
     const lsf_light_filter_inputs inputs = {
-        .guide = mean->guide,
+        .guide = renderer->light_guide.guide,
+        .slope = renderer->light_guide.slope,
         .half = temporal ? 0 : mean->half, /* the mean is not of the frame's iterations alone */
         .half_count = lsf_light_mean_half(renderer->samples),
         .picture = picture,
-        .kernel = renderer->outputs.kernel,
         .parts = {{temporal ? kept[0].light : mean->diffuse.light, mean->diffuse.factor},
                   {temporal ? kept[1].light : mean->specular.light, mean->specular.factor}}};
     /* One iteration has no variance of its own, but with light of the frames before. */
@@ -192,6 +206,8 @@ GLuint lsf_renderer_picture(lsf_renderer *renderer)
 {
     GLuint picture = renderer->accumulate.means[0];
     bool finished = renderer->finished || renderer->samples == 0;
+    if (renderer->light_guide.timer && !finished)
+        guide(renderer, renderer->samples);
     if (renderer->temporal.timer && renderer->samples > 0) {
         const lsf_temporal_inputs inputs = temporal_inputs(renderer);
         if (!finished)
@@ -388,6 +404,7 @@ static void run_iteration(lsf_renderer *renderer)
                            renderer->outputs.gate);
     if (renderer->temporal.timer && renderer->next == 0) {
         const lsf_temporal_inputs inputs = temporal_inputs(renderer);
+        guide(renderer, 1);
         lsf_temporal_carry(&renderer->temporal, &renderer->iteration, &inputs);
     }
     renderer->finished = false;

@@ -6,7 +6,7 @@
 #include "passes/tonemap.h"
 #include "techniques/setup.h"
 
-#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 5)
+#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 6)
 
 struct lsf_renderer {
     lsf_context *context;
@@ -16,7 +16,8 @@ struct lsf_renderer {
     void *technique;
     lsf_technique_outputs outputs;
     lsf_accumulate accumulate;
-    lsf_light_mean light_mean; /* this and the next two are empty unless the plan has them */
+    lsf_light_mean light_mean; /* this and the next three are empty unless the plan has them */
+    lsf_light_guide light_guide;
     lsf_temporal temporal;
     lsf_light_filter light_filter;
     bool finished; /* their picture is of the mean as it is */

@@ -243,6 +243,8 @@ static uint32_t list_passes(lsf_renderer *renderer,
     reports[count++] = (lsf_pass_report){.timer = renderer->accumulate.timer};
     if (renderer->light_mean.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->light_mean.timer};
+    if (renderer->light_guide.timer)
+        reports[count++] = (lsf_pass_report){.timer = renderer->light_guide.timer};
     if (renderer->temporal.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->temporal.timer};
     if (renderer->light_filter.timer)

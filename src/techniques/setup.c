@@ -243,8 +243,10 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         .split_direct = lsf_plan_switch_value(plan, "compose", "LSF_SPLIT_DIRECT"),
         .sky = lsf_plan_switch_value(plan, "compose", "LSF_SKY_LIGHT")};
     bool split = light.indirect || light.sky;
-    if (split && (plan->filtered || plan->temporal))
+    if (split && (plan->filtered || plan->temporal)) {
         lsf_light_mean_plan(plan, &light);
+        lsf_light_guide_plan(plan);
+    }
     if (split && plan->temporal)
         lsf_temporal_plan(plan);
     else if (plan->temporal)

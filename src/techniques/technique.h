@@ -10,6 +10,7 @@
 #include "passes/gbuffer.h"
 #include "passes/interleave.h"
 #include "passes/light_filter.h"
+#include "passes/light_guide.h"
 #include "passes/light_mean.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "passes/light_filter.h"
+#include "passes/light_guide.h"
 #include "passes/light_mean.h"
 #include "surface_rig.h"
 
@@ -16,6 +17,7 @@ typedef float texels[MAX_PIXELS][4];
 typedef struct rig {
     surface_rig s;
     lsf_light_mean mean;
+    lsf_light_guide guide;
     lsf_light_filter filter;
     lsf_gbuffer_maps gbuffer;
     GLuint irradiance, specular, picture;
@@ -33,9 +35,11 @@ static void rig_begin(rig *r, uint32_t width, uint32_t height, bool orthographic
     surface_rig_begin(&r->s, width, height, orthographic);
     r->s.setup.plan->pattern = 1; /* pixels have noise of their own */
     lsf_light_mean_plan(r->s.setup.plan, &(lsf_light_mean_use){.indirect = true});
+    lsf_light_guide_plan(r->s.setup.plan);
     lsf_light_filter_plan(r->s.setup.plan, params);
     surface_rig_start(&r->s);
     if (!lsf_light_mean_create(&r->mean, r->s.context, r->s.setup.plan, &error) ||
+        !lsf_light_guide_create(&r->guide, r->s.context, r->s.setup.plan, &error) ||
         !lsf_light_filter_create(&r->filter, r->s.context, r->s.setup.plan, params, &error))
         fail_msg("%s", error.message);
     r->gbuffer.seen = r->s.maps;
@@ -50,6 +54,7 @@ static void rig_end(rig *r)
     lsf_texture_destroy(r->s.context, &r->specular);
     lsf_texture_destroy(r->s.context, &r->picture);
     lsf_light_filter_destroy(&r->filter);
+    lsf_light_guide_destroy(&r->guide);
     lsf_light_mean_destroy(&r->mean);
     surface_rig_end(&r->s);
 }
@@ -104,8 +109,13 @@ static void filter(rig *r)
         for (int c = 0; c < 4; c++)
             r->raw[i][c] = c < 3 ? r->raw[i][c] + specular[i][c] : 1.0f;
     surface_rig_write(r->picture, r->s.width, r->s.height, r->raw[0]);
+    const lsf_light_guide_inputs means = {.mean = r->mean.guide,
+                                          .diffuse_factor = r->mean.diffuse.factor,
+                                          .specular_factor = r->mean.specular.factor};
+    lsf_light_guide_run(&r->guide, r->s.setup.plan, r->iterations, &means);
     const lsf_light_filter_inputs inputs = {
-        .guide = r->mean.guide,
+        .guide = r->guide.guide,
+        .slope = r->guide.slope,
         .half = r->mean.half,
         .half_count = lsf_light_mean_half(r->iterations),
         .picture = r->picture,
