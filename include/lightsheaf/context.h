@@ -64,10 +64,11 @@ typedef struct lsf_context_wrap_params {
     bool (*make_current)(void *user); /* called at the start of each call; NULL: the application
                                        * keeps its context current */
     void *user;
+    const char *shader_dir; /* as lsf_context_params has it */
 } lsf_context_wrap_params;
 
 #define LSF_CONTEXT_WRAP_PARAMS_DEFAULTS                                                           \
-    .get_proc_address = NULL, .make_current = NULL, .user = NULL
+    .get_proc_address = NULL, .make_current = NULL, .user = NULL, .shader_dir = NULL
 
 /* Renders in a context that the application made: OpenGL 4.5 or later, core profile. The library's
  * objects live beside the application's until lsf_context_destroy, which leaves the context itself

@@ -226,7 +226,7 @@ static bool check_wrapped(lsf_error *error)
 
 lsf_context *lsf_context_wrap(const lsf_context_wrap_params *params, lsf_error *error)
 {
-    static const lsf_context_params none = {LSF_CONTEXT_PARAMS_DEFAULTS};
+    lsf_context_params own = {LSF_CONTEXT_PARAMS_DEFAULTS};
     if (!params || !params->get_proc_address) {
         lsf_error_set(error, LSF_ERROR_USAGE,
                       "lsf_context_wrap_params.get_proc_address is missing: it finds the functions "
@@ -242,12 +242,13 @@ lsf_context *lsf_context_wrap(const lsf_context_wrap_params *params, lsf_error *
         return NULL;
     }
     *platform = *params;
+    own.shader_dir = params->shader_dir;
     *context = (lsf_context){.ops = &lsf_backend_wrap, .platform = platform, .wrapped = true};
     release_current();
     bool good = context->ops->make_current(platform, error) && load_functions(context, error);
     if (good)
         set_current(context);
-    if (!good || !check_wrapped(error) || !initialise(context, &none, error)) {
+    if (!good || !check_wrapped(error) || !initialise(context, &own, error)) {
         lsf_context_destroy(context);
         return NULL;
     }

@@ -510,6 +510,27 @@ static void refused(void **user)
     lsf_scene_destroy(scene);
 }
 
+/* Shaders are read where the application says. */
+static void shader_folder(void **user)
+{
+    (void)user;
+    lsf_error error = {0};
+    lsf_scene *scene = rig_scene(5.0f);
+    application app = open_application(ops_of(LSF_BACKEND_OSMESA));
+    const lsf_context_wrap_params params = {.get_proc_address = get_proc_address,
+                                            .make_current = make_current,
+                                            .user = &app,
+                                            .shader_dir = "no-such-folder"};
+    lsf_context *context = lsf_context_wrap(&params, &error);
+    const lsf_render_params direct = rig_params("direct");
+    assert_null(lsf_renderer_create(context, scene, &direct, &error));
+    assert_non_null(strstr(error.message, "no-such-folder/"));
+    lsf_context_destroy(context);
+    glad_current = &app.gl.functions;
+    close_application(&app);
+    lsf_scene_destroy(scene);
+}
+
 int main(void)
 {
     static lsf_backend backends[] = {LSF_BACKEND_EGL, LSF_BACKEND_OSMESA};
@@ -517,6 +538,7 @@ int main(void)
         {"hostile application, egl", hostile_application, NULL, NULL, &backends[0]},
         {"hostile application, osmesa", hostile_application, NULL, NULL, &backends[1]},
         cmocka_unit_test(refused),
+        cmocka_unit_test(shader_folder),
     };
     return cmocka_run_group_tests_name("wrapped", tests, NULL, NULL);
 }

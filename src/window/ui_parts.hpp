@@ -1,0 +1,24 @@
+/* What ui.cpp and widgets.cpp share. */
+#ifndef LSF_WINDOW_UI_PARTS_HPP
+#define LSF_WINDOW_UI_PARTS_HPP
+
+#include <imgui.h>
+
+#include "window/ui.h"
+
+namespace ui
+{
+extern ImFont *plain, *mono;
+
+/* Tells a replay where the item that was just drawn is; of one that it looks for and that is
+ * scrolled out of sight, scrolls there. */
+void note(const char *label);
+
+/* The value that a replay sets of this label, taken by the call; nullptr: none. */
+const char *assigned(const char *label);
+
+ImU32 packed(uint32_t rgba);
+ImVec4 color(lsf_ui_color color);
+} // namespace ui
+
+#endif

@@ -1,0 +1,103 @@
+"""What the tests of windows share: a display without a screen, and pictures of it."""
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+SKIPPED = 77
+
+
+class Display:
+    """An X server of one's own, which ends with the tests."""
+
+    def __init__(self, size="640x480"):
+        read_end, write_end = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", size + "x24", "-nolisten", "tcp"],
+            pass_fds=[write_end], stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as file:
+            self.name = ":" + file.readline().strip()
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+class WindowTest(unittest.TestCase):
+    """Each test has an empty folder of its own; all share a display."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.display = Display()
+        cls.addClassCleanup(cls.display.close)
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="lightsheaf-window-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def environment(self):
+        kept = {key: value for key, value in os.environ.items() if key != "WAYLAND_DISPLAY"}
+        return {**kept, "DISPLAY": self.display.name, "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+    def run_program(self, *words, status=0, environment=None, timeout=100):
+        done = subprocess.run(words, cwd=self.folder, env=environment or self.environment(), text=True,
+                              capture_output=True, stdin=subprocess.DEVNULL, timeout=timeout)
+        self.assertEqual(done.returncode, status, f"{' '.join(words)}\n{done.stdout}\n{done.stderr}")
+        return done
+
+
+def read_png(path):
+    """Width, height and rows of (r, g, b) of an 8-bit PNG without interlacing."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack_from(">IIBB", data, at + 8)
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + size]
+        at += size + 12
+    assert depth == 8 and color in (2, 6), (depth, color)
+    step = 3 if color == 2 else 4
+    raw, before, rows = zlib.decompress(packed), bytes(width * step), []
+    for y in range(height):
+        kind = raw[y * (width * step + 1)]
+        row = bytearray(raw[y * (width * step + 1) + 1:(y + 1) * (width * step + 1)])
+        for i in range(len(row)):
+            a = row[i - step] if i >= step else 0
+            b = before[i]
+            c = before[i - step] if i >= step else 0
+            if kind == 1:
+                row[i] = row[i] + a & 255
+            elif kind == 2:
+                row[i] = row[i] + b & 255
+            elif kind == 3:
+                row[i] = row[i] + (a + b) // 2 & 255
+            elif kind == 4:
+                p = a + b - c
+                nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+                row[i] = row[i] + nearest & 255
+        rows.append([tuple(row[x * step:x * step + 3]) for x in range(width)])
+        before = row
+    return width, height, rows
+
+
+def main():
+    if not shutil.which("Xvfb"):
+        print("skipped: Xvfb is not installed")
+        sys.exit(SKIPPED)
+    unittest.main(verbosity=2)
