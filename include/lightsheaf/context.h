@@ -116,6 +116,8 @@ typedef struct lsf_context_info {
 
 /* The strings live as long as the context. */
 lsf_context_info lsf_context_get_info(const lsf_context *context);
+/* From here on gl_bytes_peak is the most since this call. */
+void lsf_context_restart_peak(lsf_context *context);
 
 #if defined(__GNUC__)
 #pragma GCC visibility pop

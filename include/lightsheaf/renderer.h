@@ -129,6 +129,8 @@ typedef struct lsf_option {
 
 /* All options of all passes; false past the end. */
 bool lsf_option_list(uint32_t index, lsf_option *option);
+/* Whether an option of that key may change what the technique does. */
+bool lsf_technique_takes(const char *technique, const char *key);
 
 /* The frame plan: which passes run in which order, each resource with its bytes, each shader's
  * switches, and why each is there or was left out. Needs no GL. */

@@ -399,3 +399,9 @@ lsf_context_info lsf_context_get_info(const lsf_context *context)
         .gl_bytes_peak = context->gl_bytes_peak,
     };
 }
+
+void lsf_context_restart_peak(lsf_context *context)
+{
+    if (context)
+        context->gl_bytes_peak = context->gl_bytes;
+}

@@ -563,9 +563,12 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
     return count;
 }
 
+static const char *const groups[] = {"rsm", "vpl", "bundle", "bidirectional", "mis", NULL};
+
 const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",
     .help = "global illumination by ray-bundles and virtual point lights, combined by MIS",
+    .groups = groups,
     .bounces = true,
     .maps_scene = true,
     .plan = lsf_bidirectional_plan,

@@ -258,9 +258,12 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
     return count;
 }
 
+static const char *const groups[] = {"voxel", "cone", "blur", "upsample_search", NULL};
+
 const lsf_technique lsf_technique_cone = {
     .name = "cone",
     .help = "global illumination by cones through voxels",
+    .groups = groups,
     .bounces = true,
     .draws_lobes = true,
     .plan = plan_cone,

@@ -52,6 +52,25 @@ const char *lsf_technique_help(uint32_t index)
     return index < LSF_COUNT(techniques) ? techniques[index]->help : NULL;
 }
 
+/* Of options that every technique takes. */
+static const char *const common_groups[] = {"tessellation", "environment",  "gbuffer",  "shadow",
+                                            "interleave",   "light_filter", "temporal", NULL};
+
+static bool has_group(const char *const *groups, const char *key)
+{
+    size_t length = strcspn(key, ".");
+    for (; groups && *groups; groups++)
+        if (strlen(*groups) == length && strncmp(*groups, key, length) == 0)
+            return true;
+    return false;
+}
+
+bool lsf_technique_takes(const char *technique, const char *key)
+{
+    const lsf_technique *found = technique && key ? lsf_technique_find(technique) : NULL;
+    return found && (has_group(common_groups, key) || has_group(found->groups, key));
+}
+
 bool lsf_option_list(uint32_t index, lsf_option *option)
 {
     if (!option)

@@ -98,6 +98,8 @@ typedef enum lsf_update {
 
 typedef struct lsf_technique {
     const char *name, *help;
+    const char *const *groups; /* of options that it takes beside those that all do: what stands
+                                * before the point; NULL ends them. NULL: none */
     bool bounces;  /* follows light from surface to surface, as often as the plan's bounces say */
     bool refracts; /* scatters and refracts light that surfaces transmit; else that goes straight */
     bool draws_lobes; /* finds the environment by rays drawn from the BRDF, which suit a uniform one

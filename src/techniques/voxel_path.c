@@ -185,9 +185,12 @@ static uint32_t report_voxel_path(void *self, lsf_pass_report reports[LSF_TECHNI
     return count;
 }
 
+static const char *const groups[] = {"voxel", "voxel_path", "blur", "upsample_search", NULL};
+
 const lsf_technique lsf_technique_voxel_path = {
     .name = "voxel_path",
     .help = "global illumination by paths through the scene's voxels, blurred and upsampled",
+    .groups = groups,
     .bounces = true,
     .refracts = true,
     .draws_lobes = true,

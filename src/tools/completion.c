@@ -62,8 +62,19 @@ static bool takes_file(const lsf_command_option *option)
 
 static bool is_repeatable(const lsf_command_option *option)
 {
-    return option->type == LSF_VALUE_DEFINE || option->type == LSF_VALUE_TEXTS ||
+    return option->type == LSF_VALUE_DEFINE || option->type == LSF_VALUE_SWEEP ||
+           option->type == LSF_VALUE_TEXTS || option->type == LSF_VALUE_TECHNIQUES ||
            option->type == LSF_VALUE_THRESHOLD || option->type == LSF_VALUE_AOVS;
+}
+
+static bool is_technique(const lsf_command_option *option)
+{
+    return option->type == LSF_VALUE_TECHNIQUE || option->type == LSF_VALUE_TECHNIQUES;
+}
+
+static bool is_define(const lsf_command_option *option)
+{
+    return option->type == LSF_VALUE_DEFINE || option->type == LSF_VALUE_SWEEP;
 }
 
 /* --- bash --- */
@@ -92,16 +103,16 @@ static void add_bash_values(lsf_string *page)
         lsf_string_add(page, "    ");
         add_bash_pattern(page, option);
         lsf_string_add(page, ")\n        ");
-        if (option->type == LSF_VALUE_TECHNIQUE) {
+        if (is_technique(option)) {
             lsf_string_add(page, "list=$(\"$1\"" LIST_TECHNIQUES ")");
-        } else if (option->type == LSF_VALUE_DEFINE) {
+        } else if (is_define(option)) {
             lsf_string_add(page, "list=$(\"$1\"" LIST_DEFINES ")");
         } else {
             lsf_string_add(page, "list='");
             add_words(page, option);
             lsf_string_add(page, "'");
         }
-        if (option->type == LSF_VALUE_AOVS)
+        if (option->type == LSF_VALUE_AOVS || option->type == LSF_VALUE_TECHNIQUES)
             lsf_string_add(page, " separator=,");
         if (option->type == LSF_VALUE_THRESHOLD)
             lsf_string_add(page, " suffix==");
@@ -198,11 +209,11 @@ static void add_fish_option(lsf_string *page, const lsf_command *command,
         lsf_string_add(page, " -s %c", option->letter);
     if (option->argument)
         lsf_string_add(page, takes_file(option) ? " -r" : " -x");
-    if (option->type == LSF_VALUE_TECHNIQUE) {
+    if (is_technique(option)) {
         lsf_string_add(page, " -a '(lightsheaf");
         add_quoted(page, LIST_TECHNIQUES);
         lsf_string_add(page, ")'");
-    } else if (option->type == LSF_VALUE_DEFINE) {
+    } else if (is_define(option)) {
         lsf_string_add(page, " -a '(lightsheaf");
         add_quoted(page, LIST_DEFINES);
         lsf_string_add(page, ")'");
@@ -253,9 +264,9 @@ static void add_zsh_text(lsf_string *page, const char *text)
 static void add_zsh_value(lsf_string *page, const lsf_command_option *option)
 {
     lsf_string_add(page, ":%s:", takes_file(option) ? "file" : "value");
-    if (option->type == LSF_VALUE_TECHNIQUE) {
+    if (is_technique(option)) {
         lsf_string_add(page, "_lightsheaf_techniques");
-    } else if (option->type == LSF_VALUE_DEFINE) {
+    } else if (is_define(option)) {
         lsf_string_add(page, "_lightsheaf_defines");
     } else if (option->type == LSF_VALUE_AOVS) {
         lsf_string_add(page, "_values -s , layer ");

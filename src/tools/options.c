@@ -8,9 +8,10 @@
 #define RENDERING (LSF_COMMAND_RENDER | LSF_COMMAND_REFERENCE)
 #define PLANNING (RENDERING | LSF_COMMAND_PLAN)
 #define LOADING (PLANNING | LSF_COMMAND_INFO)
-#define STAGING (PLANNING | LSF_COMMAND_BENCH)
-#define DRAWING (RENDERING | LSF_COMMAND_BENCH)
-#define ANY (LOADING | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH | LSF_COMMAND_HELP)
+#define MEASURING (LSF_COMMAND_BENCH | LSF_COMMAND_MEASURE)
+#define STAGING (PLANNING | MEASURING)
+#define DRAWING (RENDERING | MEASURING)
+#define ANY (LOADING | LSF_COMMAND_COMPARE | MEASURING | LSF_COMMAND_HELP)
 
 static const lsf_command commands[] = {
     {LSF_COMMAND_RENDER, "render", "[SCENE]... -o OUT", 0, UINT32_MAX,
@@ -45,6 +46,11 @@ static const lsf_command commands[] = {
      "as many triangles as theirs. `cone` prints what a frame of cone tracing takes whose voxels "
      "are made anew. `voxel_path` prints what the procedures of voxel path tracing "
      "take in the two frames that its talk of 2018 reports."},
+    {LSF_COMMAND_MEASURE, "measure", "[SCENE]", 0, 1, "measure what a millisecond buys on a scene",
+     "Renders SCENE by each technique, option and number of samples that is asked for, from "
+     "several "
+     "seeds, and prints what a frame takes and how far it is from the path-traced reference: time, "
+     "memory, RMSE, relMSE, bias and SSIM, what of the error is noise and what stays."},
     {LSF_COMMAND_HELP, "help", "[COMMAND]", 0, 1, "explain a command and its options",
      "Prints the options of COMMAND, or the list of commands."},
 };
@@ -77,8 +83,8 @@ static const lsf_command_option options[] = {
      NULL, "0",
      "radiance is multiplied by 2^EV before tone mapping; auto brings the picture's log-average "
      "luminance to middle grey, 0.18; float formats hold radiance as it is"},
-    {"exposure", 0, "EV", LSF_COMMAND_COMPARE, "Output", LSF_VALUE_FLOAT, AT(exposure.ev), -100,
-     100, NULL, "0", "radiance is multiplied by 2^EV before tone mapping"},
+    {"exposure", 0, "EV", LSF_COMMAND_COMPARE | LSF_COMMAND_MEASURE, "Output", LSF_VALUE_FLOAT,
+     AT(exposure.ev), -100, 100, NULL, "0", "radiance is multiplied by 2^EV before tone mapping"},
     {"tonemap", 0, "CURVE", RENDERING, "Output", LSF_VALUE_CHOICE, AT(tonemap),
      LSF_TONE_CURVE_NEUTRAL, 0, "neutral|none|aces|agx", "neutral",
      "from radiance to .png: neutral is Khronos PBR Neutral, which keeps base colours; none is "
@@ -93,7 +99,7 @@ static const lsf_command_option options[] = {
      NULL,
      "layers beside the picture in .exr, separated by commas; all is every one but those of "
      "voxels"},
-    {"json", 0, "FILE", LOADING | LSF_COMMAND_COMPARE | LSF_COMMAND_BENCH, "Output", LSF_VALUE_JSON,
+    {"json", 0, "FILE", LOADING | LSF_COMMAND_COMPARE | MEASURING, "Output", LSF_VALUE_JSON,
      AT(json_path), 0, 0, NULL, NULL,
      "write as JSON what is found, decided and measured; - is standard output, where it takes the "
      "place of text"},
@@ -101,6 +107,31 @@ static const lsf_command_option options[] = {
      NULL,
      "take --samples twice, independently: out_a.exr and out_b.exr beside out.exr, which holds "
      "their mean"},
+    {"csv", 0, "FILE", LSF_COMMAND_MEASURE, "Output", LSF_VALUE_JSON, AT(csv_path), 0, 0, NULL,
+     NULL, "write the table as CSV, a line for each point; - is standard output"},
+    {"pictures", 0, "DIR", LSF_COMMAND_MEASURE, "Output", LSF_VALUE_TEXT, AT(picture_folder), 0, 0,
+     NULL, NULL, "keep a picture of each point and of the reference in that folder, .exr and .png"},
+
+    {"technique", 't', "LIST", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_TECHNIQUES,
+     AT(techniques), 0, 0, NULL, NULL,
+     "techniques, separated by commas; without it, all; see --list-techniques"},
+    {"sweep", 0, "pass.key=A,B,...", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_SWEEP,
+     AT(sweeps), 0, 0, NULL, NULL,
+     "measure each value of an option of a pass, with each of the other options that are swept; "
+     "repeatable; see --list-options"},
+    {"resolution", 'r', "W,H", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_RESOLUTION,
+     AT(resolution), 1, 16384, NULL, NULL,
+     "width and height in pixels; without it, 1024x768 on a GPU and 256x192 in software"},
+    {"samples", 's', "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT, AT(samples), 1,
+     65536, NULL, NULL,
+     "the most iterations of a frame; fewer are measured as well, by powers of 2; without it, 16"},
+    {"seeds", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT, AT(seeds), 2, 32, NULL,
+     NULL,
+     "frames of each point, from different random numbers: they tell noise from bias; without it, "
+     "4"},
+    {"reference-samples", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT,
+     AT(reference_samples), 1, 1000000, NULL, NULL,
+     "samples a pixel of each half of the reference; without it, 256"},
 
     {"technique", 't', "NAME", PLANNING, "Picture", LSF_VALUE_TECHNIQUE, AT(technique), 0, 0, NULL,
      "bidirectional", "how light is found; see --list-techniques"},
@@ -122,11 +153,12 @@ static const lsf_command_option options[] = {
      NULL,
      "seconds after which rendering ends; an iteration that is not done is dropped, but for the "
      "first"},
-    {"bounces", 'b', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(bounces), 0, LSF_BOUNCES_MAX,
-     NULL, NULL,
+    {"bounces", 'b', "N", PLANNING | LSF_COMMAND_MEASURE, "Picture", LSF_VALUE_COUNT, AT(bounces),
+     0, LSF_BOUNCES_MAX, NULL, NULL,
      "indirect bounces of light; 0 is direct light only; without it 3, and 7 where materials "
      "transmit light, for each side of a wall of glass takes one"},
-    {"raw", 0, NULL, PLANNING, "Picture", LSF_VALUE_FLAG, AT(raw), 0, 0, NULL, NULL,
+    {"raw", 0, NULL, PLANNING | LSF_COMMAND_MEASURE, "Picture", LSF_VALUE_FLAG, AT(raw), 0, 0, NULL,
+     NULL,
      "the mean of the iterations alone: no filter, and all pixels take the same samples unless "
      "interleave.size says otherwise"},
     {"seed", 0, "N", STAGING, "Picture", LSF_VALUE_SEED, AT(seed), 0, 0, NULL, "0",
@@ -170,42 +202,41 @@ static const lsf_command_option options[] = {
      "keep light from frame to frame, so that few samples a frame look like many; each frame then "
      "depends on those before it: one machine renders all, from the first to the last"},
 
-    {"environment", 'e', "FILE|R,G,B", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_ENVIRONMENT,
+    {"environment", 'e', "FILE|R,G,B", LOADING | MEASURING, "Scene", LSF_VALUE_ENVIRONMENT,
      AT(environment), 0, 1e30, NULL, NULL,
      "light from outside: a latitude-longitude .hdr or .exr, or a uniform radiance in W/(m^2 sr)"},
-    {"environment-rotation", 0, "DEG", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLOAT,
+    {"environment-rotation", 0, "DEG", LOADING | MEASURING, "Scene", LSF_VALUE_FLOAT,
      AT(environment_rotation), -36000, 36000, NULL, "0",
      "turn the environment about the vertical axis, in degrees, anticlockwise seen from above"},
-    {"environment-strength", 0, "X", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLOAT,
+    {"environment-strength", 0, "X", LOADING | MEASURING, "Scene", LSF_VALUE_FLOAT,
      AT(environment_strength), 0, 1e20, NULL, "1", "multiply the environment's radiance by X"},
-    {"default-light", 0, "WHEN", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_CHOICE,
-     AT(default_light), LSF_DEFAULT_LIGHT_AUTO, 0, "auto|always|never", "auto",
+    {"default-light", 0, "WHEN", LOADING | MEASURING, "Scene", LSF_VALUE_CHOICE, AT(default_light),
+     LSF_DEFAULT_LIGHT_AUTO, 0, "auto|always|never", "auto",
      "when a soft sky and a key light are added: auto is where the file has no light, its emissive "
      "materials do not light it, and there is no --environment"},
-    {"diffuse-only", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG,
-     AT(diffuse_only), 0, 0, NULL, NULL,
-     "read every material as a diffuse one of its base colour, without normal maps"},
-    {"show-back-faces", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG,
-     AT(show_back_faces), 0, 0, NULL, NULL,
+    {"diffuse-only", 0, NULL, LOADING | MEASURING, "Scene", LSF_VALUE_FLAG, AT(diffuse_only), 0, 0,
+     NULL, NULL, "read every material as a diffuse one of its base colour, without normal maps"},
+    {"show-back-faces", 0, NULL, LOADING | MEASURING, "Scene", LSF_VALUE_FLAG, AT(show_back_faces),
+     0, 0, NULL, NULL,
      "let the camera see the backs of single-sided materials, which glTF hides; light meets both "
      "sides in any case"},
-    {"lenient", 0, NULL, LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_FLAG, AT(lenient), 0, 0,
-     NULL, NULL,
+    {"lenient", 0, NULL, LOADING | MEASURING, "Scene", LSF_VALUE_FLAG, AT(lenient), 0, 0, NULL,
+     NULL,
      "ignore, with a warning each, extensions that the file requires and that change the look "
      "alone"},
-    {"memory-limit", 0, "GIB", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_DOUBLE,
-     AT(memory_limit), 0.001, 1e6, NULL, "8",
+    {"memory-limit", 0, "GIB", LOADING | MEASURING, "Scene", LSF_VALUE_DOUBLE, AT(memory_limit),
+     0.001, 1e6, NULL, "8",
      "refuse a scene whose loading takes more memory than this at any moment, in GiB"},
-    {"scene", 0, "NAME|INDEX", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXT, AT(scene), 0,
-     0, NULL, NULL,
+    {"scene", 0, "NAME|INDEX", LOADING | MEASURING, "Scene", LSF_VALUE_TEXT, AT(scene), 0, 0, NULL,
+     NULL,
      "which of the file's scenes, by name or by index from 0; without it, the one that the file "
      "names, else the first"},
-    {"animation", 0, "NAME|INDEX|none", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXTS,
+    {"animation", 0, "NAME|INDEX|none", LOADING | MEASURING, "Scene", LSF_VALUE_TEXTS,
      AT(animations), 0, 0, NULL, NULL,
      "play this animation of the file alone, or none; repeatable; without it all play, and of "
      "those that move the same node the first"},
-    {"variant", 0, "NAME|INDEX", LOADING | LSF_COMMAND_BENCH, "Scene", LSF_VALUE_TEXT, AT(variant),
-     0, 0, NULL, NULL,
+    {"variant", 0, "NAME|INDEX", LOADING | MEASURING, "Scene", LSF_VALUE_TEXT, AT(variant), 0, 0,
+     NULL, NULL,
      "dress the scene in one of the file's variants of materials (KHR_materials_variants); "
      "without it, in the file's own materials"},
 
@@ -231,8 +262,8 @@ static const lsf_command_option options[] = {
     {"gl-debug", 0, NULL, DRAWING, "Device", LSF_VALUE_FLAG, AT(gl_debug), 0, 0, NULL, NULL,
      "make a debug context, log its messages, and stop at the first OpenGL error"},
 
-    {"list-techniques", 0, NULL, PLANNING, "General", LSF_VALUE_FLAG, AT(list_techniques), 0, 0,
-     NULL, NULL, "print the techniques"},
+    {"list-techniques", 0, NULL, PLANNING | LSF_COMMAND_MEASURE, "General", LSF_VALUE_FLAG,
+     AT(list_techniques), 0, 0, NULL, NULL, "print the techniques"},
     {"list-options", 0, NULL, STAGING, "General", LSF_VALUE_FLAG, AT(list_options), 0, 0, NULL,
      NULL, "print the options of all passes, for -D"},
     {"quiet", 'q', NULL, ANY, "General", LSF_VALUE_FLAG, AT(quiet), 0, 0, NULL, NULL,
@@ -290,10 +321,14 @@ char *lsf_command_option_range(const lsf_command_option *option)
         return lsf_format("one of %s", option->choices);
     case LSF_VALUE_TECHNIQUE:
         return lsf_format("one of the names that --list-techniques prints");
+    case LSF_VALUE_TECHNIQUES:
+        return lsf_format("names that --list-techniques prints, separated by commas");
     case LSF_VALUE_AOVS:
         return lsf_format("one or more of %s, separated by commas", option->choices);
     case LSF_VALUE_DEFINE:
         return lsf_format("pass.key=value with a key that --list-options prints");
+    case LSF_VALUE_SWEEP:
+        return lsf_format("pass.key=value,value,... with a key that --list-options prints");
     case LSF_VALUE_ENVIRONMENT:
         return lsf_format("a file, or three numbers from 0 separated by commas, such as "
                           "1,1,1");

@@ -17,6 +17,7 @@ typedef enum lsf_command_bit {
     LSF_COMMAND_PLAN = 1 << 4,
     LSF_COMMAND_HELP = 1 << 5,
     LSF_COMMAND_BENCH = 1 << 6,
+    LSF_COMMAND_MEASURE = 1 << 7,
 } lsf_command_bit;
 
 typedef struct lsf_command {
@@ -47,8 +48,10 @@ typedef enum lsf_value_type {
     LSF_VALUE_JSON,        /* const char *, a path that is not a picture's or a scene's */
     LSF_VALUE_CHOICE,      /* int: minimum + index in `choices` */
     LSF_VALUE_TECHNIQUE,   /* const char *, registered */
+    LSF_VALUE_TECHNIQUES,  /* lsf_list_setting of registered names */
     LSF_VALUE_AOVS,        /* uint32_t, lsf_aov bits */
     LSF_VALUE_DEFINE,      /* lsf_list_setting of "pass.key=value", the key known */
+    LSF_VALUE_SWEEP,       /* the same of "pass.key=value,value" */
     LSF_VALUE_ENVIRONMENT, /* lsf_environment_setting */
     LSF_VALUE_EXPOSURE,    /* lsf_exposure_setting */
     LSF_VALUE_BACKGROUND,  /* lsf_background_setting */
@@ -164,6 +167,11 @@ typedef struct lsf_settings {
     double epsilon; /* NAN: relative to the reference's mean */
     bool flip;
     lsf_list_setting thresholds;
+
+    lsf_list_setting techniques, sweeps;
+    uint32_t seeds;                        /* 0: not given */
+    uint32_t reference_samples;            /* of each half; 0: not given */
+    const char *csv_path, *picture_folder; /* NULL: not given */
 
     lsf_string typed;  /* the options that shape a picture, as one would type them */
     uint64_t given[2]; /* bit i of word i / 64: row i of the table was on the command line */

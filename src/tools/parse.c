@@ -230,6 +230,8 @@ void lsf_settings_finish(lsf_settings *settings)
     free((void *)settings->animations.items);
     free((void *)settings->defines.items);
     free((void *)settings->thresholds.items);
+    free((void *)settings->techniques.items);
+    free((void *)settings->sweeps.items);
     free(settings->typed.text);
     *settings = (lsf_settings){0};
 }

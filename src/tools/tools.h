@@ -8,6 +8,7 @@ int lsf_tool_compare(int argc, char **argv);
 int lsf_tool_info(int argc, char **argv);
 int lsf_tool_plan(int argc, char **argv);
 int lsf_tool_bench(int argc, char **argv);
+int lsf_tool_measure(int argc, char **argv);
 int lsf_tool_help(int argc, char **argv);
 
 #endif

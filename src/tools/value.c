@@ -221,6 +221,26 @@ static bool bad_technique(const lsf_command_option *option, const char *text, ls
     return false;
 }
 
+static bool set_techniques(lsf_list_setting *place, const lsf_command_option *option,
+                           const char *text, lsf_error *error)
+{
+    for (const char *part = text;; part++) {
+        size_t length = strcspn(part, ",");
+        const char *found = NULL;
+        for (uint32_t i = 0; !found && lsf_technique_name(i); i++)
+            if (strlen(lsf_technique_name(i)) == length &&
+                strncmp(lsf_technique_name(i), part, length) == 0)
+                found = lsf_technique_name(i);
+        if (!found)
+            return bad_technique(option, text, error);
+        if (!append_value(place, option, found, error))
+            return false;
+        part += length;
+        if (*part == '\0')
+            return true;
+    }
+}
+
 bool lsf_settings_set(lsf_settings *settings, const lsf_command_option *option, const char *text,
                       lsf_error *error)
 {
@@ -287,9 +307,12 @@ bool lsf_settings_set(lsf_settings *settings, const lsf_command_option *option, 
             return bad_technique(option, text, error);
         *(const char **)place = text;
         break;
+    case LSF_VALUE_TECHNIQUES:
+        return set_techniques(place, option, text, error);
     case LSF_VALUE_AOVS:
         return set_aovs(place, option, text, error);
     case LSF_VALUE_DEFINE:
+    case LSF_VALUE_SWEEP:
         return set_define(place, option, text, error);
     case LSF_VALUE_ENVIRONMENT:
         return *text ? set_environment(place, option, text, error)

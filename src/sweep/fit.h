@@ -1,0 +1,19 @@
+/* Noise and floor of an error, told apart. */
+#ifndef LSF_SWEEP_FIT_H
+#define LSF_SWEEP_FIT_H
+
+#include "sweep/measurement.h"
+
+/* Fills in error, squared bias and variance from the products of `seeds` seeds. */
+void lsf_squared_error_derive(lsf_squared_error *error, uint32_t seeds);
+
+/* Fits error(N) = floor + noise N^-p to points of one configuration, of as many seeds each. The
+ * exponent is that by which the variance over seeds falls (least squares of logarithms); floor and
+ * noise follow by least squares of relative errors. Intervals are by the jackknife over seeds. */
+lsf_error_fit lsf_error_fit_make(const lsf_squared_error *const *errors, const uint32_t *samples,
+                                 uint32_t points, uint32_t seeds);
+
+/* What the fit says of a number of samples. */
+double lsf_error_fit_at(const lsf_error_fit *fit, double samples);
+
+#endif

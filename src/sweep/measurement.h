@@ -1,0 +1,139 @@
+/* What `lightsheaf measure` finds out: pictures of several configurations, sample counts and seeds,
+ * each with its time, memory and error, and what follows from them. */
+#ifndef LSF_SWEEP_MEASUREMENT_H
+#define LSF_SWEEP_MEASUREMENT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { LSF_SWEEP_MAX_SEEDS = 32, LSF_SWEEP_MAX_OPTIONS = 16 };
+
+/* With its 95 % confidence interval. NAN: not known. */
+typedef struct lsf_estimate {
+    double value, low, high;
+} lsf_estimate;
+
+typedef struct lsf_quartiles {
+    double lower, median, upper;
+} lsf_quartiles;
+
+/* Squared errors of a picture x against two independent halves a and b of a reference, as means
+ * over pixels and channels with a weight each: 1 for MSE, 1 / (r^2 + epsilon) for relMSE. Seeds s
+ * and t of a point give products[s][t] = mean(w (x_s - a)(x_t - b)), made symmetric: the squared
+ * error of a seed on the diagonal, the squared bias off it, for there both noises cancel. */
+typedef struct lsf_squared_error {
+    double products[LSF_SWEEP_MAX_SEEDS][LSF_SWEEP_MAX_SEEDS];
+    double reference_deviation; /* standard deviation that the reference's noise gives them all */
+    /* What follows. */
+    lsf_estimate error; /* over seeds */
+    lsf_estimate squared_bias;
+    double variance; /* of the pixels, over seeds: error less squared bias */
+} lsf_squared_error;
+
+/* One picture of a point. */
+typedef struct lsf_measured_seed {
+    uint64_t seed;
+    double milliseconds; /* a frame's, from its beginning to its finished picture */
+    double bias[3];      /* mean(x - r) / mean(r), R, G, B */
+    double ssim, psnr;
+    uint64_t non_finite; /* pixels, left out of all figures */
+} lsf_measured_seed;
+
+/* A configuration at one number of samples. */
+typedef struct lsf_measured_point {
+    uint32_t configuration;
+    uint32_t samples; /* iterations of a frame */
+    uint32_t seed_count;
+    lsf_measured_seed seeds[LSF_SWEEP_MAX_SEEDS];
+    uint64_t gl_bytes, gl_bytes_peak; /* while its frames were made */
+    lsf_squared_error mse, relmse;
+    char *picture, *preview; /* files of the first seed: linear radiance, and tone-mapped; NULL */
+    /* What follows. */
+    lsf_quartiles milliseconds;
+    lsf_estimate rmse, bias[3], ssim, psnr;
+    bool front;       /* no other point has less relMSE in as little time */
+    double ssim_gain; /* in per cent a millisecond more than the point of the lowest SSIM;
+                       * NAN where it takes no more */
+} lsf_measured_point;
+
+/* error(N) = floor + noise N^-exponent, N samples. */
+typedef struct lsf_error_fit {
+    uint32_t points; /* that it rests on; below 3 there is no fit, and all is NAN */
+    lsf_estimate floor, noise, exponent;
+} lsf_error_fit;
+
+/* A technique with options, at any number of samples. */
+typedef struct lsf_configuration {
+    char *technique;
+    uint32_t option_count;
+    char *options[LSF_SWEEP_MAX_OPTIONS]; /* "vpl.count=4" */
+    lsf_error_fit mse, relmse;
+} lsf_configuration;
+
+/* When a configuration gets to a relMSE. */
+typedef struct lsf_time_to_error {
+    uint32_t configuration;
+    double relmse;
+    double samples, milliseconds; /* NAN: never, for its floor lies above */
+    bool extrapolated;            /* beyond what was measured, by the fit */
+} lsf_time_to_error;
+
+typedef struct lsf_measured_reference {
+    uint64_t samples[2];                 /* a pixel, of each half */
+    double seconds;                      /* that tracing them took, at any time */
+    bool cached;                         /* nothing of it was traced now */
+    char key[33];                        /* of scene and options, in hexadecimal */
+    double mean[3];                      /* R, G, B */
+    double rmse;                         /* standard deviation of the halves' mean */
+    char *picture, *preview, *halves[2]; /* files, or NULL */
+} lsf_measured_reference;
+
+/* What was asked for, and the settings that meet it best. */
+typedef struct lsf_answer {
+    bool given;
+    double budget_ms; /* NAN: not asked for */
+    double relmse;    /* the same */
+    bool met;         /* something that was measured does */
+    uint32_t configuration, samples;
+    lsf_estimate error; /* relMSE */
+    double milliseconds;
+    double confidence; /* probability that no other candidate is better by 10 % */
+    uint32_t candidates, finalists;
+    char *command; /* that renders it */
+} lsf_answer;
+
+typedef struct lsf_measurement {
+    char *scene, *command;
+    char scene_hash[33]; /* of the files' content */
+    uint32_t width, height, bounces;
+    bool raw, interrupted, gpu_clock;
+    double relmse_epsilon;
+    float exposure;      /* EV, of SSIM and previews */
+    uint32_t seed_count; /* wanted of each point */
+    double seconds;      /* that all of it took */
+    lsf_measured_reference reference;
+    uint32_t configuration_count, point_count;
+    uint64_t configuration_capacity, point_capacity;
+    lsf_configuration *configurations;
+    lsf_measured_point *points;
+    uint32_t time_count;
+    lsf_time_to_error *times;
+    lsf_answer answer;
+} lsf_measurement;
+
+void lsf_measurement_finish(lsf_measurement *measurement);
+
+/* The point of a configuration at a number of samples; NULL: none. */
+lsf_measured_point *lsf_measurement_find(const lsf_measurement *measurement, uint32_t configuration,
+                                         uint32_t samples);
+/* A zeroed one at the end; NULL without memory. */
+lsf_measured_point *lsf_measurement_add_point(lsf_measurement *measurement);
+/* A copy of technique and options, or the one that is there already; -1 without memory. */
+int64_t lsf_measurement_add_configuration(lsf_measurement *measurement, const char *technique,
+                                          const char *const *options, uint32_t option_count);
+
+/* Works out all that follows from what was measured. False without memory. */
+bool lsf_measurement_derive(lsf_measurement *measurement);
+
+#endif

@@ -1,0 +1,24 @@
+/* Medians, means and their confidence intervals. */
+#ifndef LSF_SWEEP_STATISTICS_H
+#define LSF_SWEEP_STATISTICS_H
+
+#include "sweep/measurement.h"
+
+/* Quartiles as medians of the halves would have them, interpolated (Hyndman and Fan 1996, type 7).
+ * NAN of none. Sorts `values`. */
+lsf_quartiles lsf_quartiles_of(double *values, size_t count);
+
+/* The quantile 0.975 of Student's distribution. */
+double lsf_student_quantile(uint32_t degrees);
+/* P(T <= t). */
+double lsf_student_probability(double t, uint32_t degrees);
+
+/* Mean of independent values, with an interval by Student's distribution; `shared` is the standard
+ * deviation of an error that all have in common. The interval of one value is not known. */
+lsf_estimate lsf_mean_of(const double *values, uint32_t count, double shared);
+
+/* `value` with an interval by the jackknife (Tukey 1958): `left_out[s]` is what the same function
+ * of the data makes of all but s. */
+lsf_estimate lsf_jackknife(double value, const double *left_out, uint32_t count, double shared);
+
+#endif
