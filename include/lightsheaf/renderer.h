@@ -179,6 +179,13 @@ bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, ls
 bool lsf_renderer_resize(lsf_renderer *renderer, uint32_t width, uint32_t height,
                          const lsf_frame *frame, lsf_error *error);
 
+/* Goes over to other parameters: another technique, options, layers, size or camera, whose pictures
+ * have the bits of a new renderer's; it is in their frame, at first_sample 0. Vertices and textures
+ * stay on the GPU, unless tessellation.factor is otherwise; where camera, time, limit and progress
+ * alone are otherwise, everything does. After LSF_ERROR_USAGE the parameters before are still in
+ * use; after LSF_ERROR_RENDER there is no frame. */
+bool lsf_renderer_change(lsf_renderer *renderer, const lsf_render_params *params, lsf_error *error);
+
 /* Runs one iteration and adds it to the running mean. Allocates and synchronises nothing. */
 bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error);
 /* Runs params->samples iterations, within the time limit, calling params->progress. */

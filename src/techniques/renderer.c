@@ -43,8 +43,7 @@ static bool create_filters(lsf_renderer *renderer, lsf_error *error)
                                     error));
 }
 
-/* What depends on the plan but for the scene on the GPU. */
-static bool create_technique(lsf_renderer *renderer, lsf_error *error)
+bool lsf_renderer_create_technique(lsf_renderer *renderer, lsf_error *error)
 {
     lsf_setup *setup = &renderer->setup;
     lsf_context *context = renderer->context;
@@ -62,7 +61,7 @@ static bool create_technique(lsf_renderer *renderer, lsf_error *error)
                                error));
 }
 
-static void destroy_technique(lsf_renderer *renderer)
+void lsf_renderer_destroy_technique(lsf_renderer *renderer)
 {
     lsf_tonemap_destroy(&renderer->tonemap);
     lsf_light_filter_destroy(&renderer->light_filter);
@@ -77,7 +76,7 @@ static void destroy_technique(lsf_renderer *renderer)
     lsf_iteration_destroy(&renderer->iteration);
 }
 
-static void log_remarks(const lsf_plan *plan)
+void lsf_renderer_log_remarks(const lsf_plan *plan)
 {
     for (uint64_t i = 0; i < plan->remark_count; i++)
         lsf_log(LSF_LOG_INFO, "%s", plan->remarks[i]);
@@ -92,7 +91,7 @@ static bool create_resources(lsf_renderer *renderer, lsf_error *error)
                               &setup->state, lsf_setup_previous(setup), error))
         return false;
     double uploaded = lsf_now();
-    if (!create_technique(renderer, error))
+    if (!lsf_renderer_create_technique(renderer, error))
         return false;
     renderer->upload_seconds = uploaded - start;
     renderer->compile_seconds = lsf_now() - uploaded;
@@ -116,7 +115,7 @@ lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
         lsf_renderer_destroy(renderer);
         return NULL;
     }
-    log_remarks(renderer->setup.plan);
+    lsf_renderer_log_remarks(renderer->setup.plan);
     return renderer;
 }
 
@@ -127,7 +126,7 @@ void lsf_renderer_destroy(lsf_renderer *renderer)
     /* Without its context nothing of GL can be given back. */
     LSF_LEAVE lsf_context *entered = lsf_context_enter(renderer->context, NULL);
     if (entered) {
-        destroy_technique(renderer);
+        lsf_renderer_destroy_technique(renderer);
         lsf_scene_gpu_destroy(&renderer->scene);
     }
     lsf_setup_finish(&renderer->setup);
@@ -140,7 +139,7 @@ static bool replan(lsf_renderer *renderer, lsf_error *error)
     lsf_setup *setup = &renderer->setup;
     lsf_plan *old = NULL;
     double start = lsf_now();
-    destroy_technique(renderer);
+    lsf_renderer_destroy_technique(renderer);
     bool planned = lsf_setup_replan(setup, &old, error) &&
                    lsf_plan_check(setup->plan, renderer->context, error);
     const lsf_state *previous = lsf_setup_previous(setup);
@@ -150,13 +149,13 @@ static bool replan(lsf_renderer *renderer, lsf_error *error)
                                             previous, error)
                      : lsf_scene_gpu_create(&renderer->scene, renderer->context, setup->plan,
                                             setup->scene, &setup->state, previous, error)) &&
-                create_technique(renderer, error);
+                lsf_renderer_create_technique(renderer, error);
     lsf_plan_destroy(old);
     if (!good) /* it may be of neither plan */
         lsf_scene_gpu_destroy(&renderer->scene);
     renderer->compile_seconds += lsf_now() - start;
     if (good)
-        log_remarks(setup->plan);
+        lsf_renderer_log_remarks(setup->plan);
     return good;
 }
 

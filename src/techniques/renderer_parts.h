@@ -37,6 +37,11 @@ struct lsf_renderer {
     lsf_pass_time pass_times[LSF_RENDERER_MAX_PASSES];
 };
 
+/* Makes what depends on the plan but for the scene on the GPU; and ends it, also after a failure,
+ * or where there is none. */
+bool lsf_renderer_create_technique(lsf_renderer *renderer, lsf_error *error);
+void lsf_renderer_destroy_technique(lsf_renderer *renderer);
+void lsf_renderer_log_remarks(const lsf_plan *plan);
 /* lsf_context_enter for a function that needs a frame. */
 lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error);
 /* Runs until what was asked for went into the means; without `wait`, as far as it is known. */

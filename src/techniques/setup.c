@@ -203,23 +203,28 @@ static bool update_previous(lsf_setup *setup, double time, const lsf_view *view,
            lsf_state_update(&setup->previous, setup->scene, &params, error);
 }
 
+static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *params,
+                         lsf_error *error)
+{
+    for (uint32_t i = 0; i < params->option_count; i++)
+        if (!lsf_given(params->options, "lsf_render_params.options", error) ||
+            !lsf_given(params->options[i], "one of lsf_render_params.options", error) ||
+            !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count, pass_params,
+                            params->options[i], error))
+            return false;
+    if (pass_params->interleave.size == 0)
+        pass_params->interleave.size = choose_interleave(params);
+    return true;
+}
+
 bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
                      lsf_error *error)
 {
     *setup = (lsf_setup){.pass_params = {LSF_PASS_PARAMS_DEFAULTS}, .source = scene};
     if (!lsf_scene_given(scene, error) || !lsf_given(params, "params", error) ||
         !lsf_given(params->technique, "lsf_render_params.technique", error) ||
-        !check_params(params, error))
-        return false;
-    for (uint32_t i = 0; i < params->option_count; i++)
-        if (!lsf_given(params->options, "lsf_render_params.options", error) ||
-            !lsf_given(params->options[i], "one of lsf_render_params.options", error) ||
-            !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count,
-                            &setup->pass_params, params->options[i], error))
-            return false;
-    if (setup->pass_params.interleave.size == 0)
-        setup->pass_params.interleave.size = choose_interleave(params);
-    if (!keep_params(setup, params, error) || !tessellate(setup, scene, error))
+        !check_params(params, error) || !read_options(&setup->pass_params, params, error) ||
+        !keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
     lsf_view_params view = view_of(setup, params->time, NULL);
     return lsf_state_update(&setup->state, setup->scene, &view, error) &&
@@ -277,6 +282,42 @@ bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_p
                              params->technique);
     setup->params.technique = setup->technique->name;
     return plan_technique(setup, error);
+}
+
+bool lsf_setup_plans_alike(const lsf_setup *setup, const lsf_render_params *params, bool *alike,
+                           lsf_error *error)
+{
+    lsf_setup other = {.pass_params = {LSF_PASS_PARAMS_DEFAULTS}};
+    const lsf_render_params *own = &setup->params;
+    if (!lsf_given(params->technique, "lsf_render_params.technique", error) ||
+        !check_params(params, error) || !read_options(&other.pass_params, params, error))
+        return false;
+    *alike = strcmp(own->technique, params->technique) == 0 && own->width == params->width &&
+             own->height == params->height && own->samples == params->samples &&
+             own->bounces == params->bounces && own->seed == params->seed &&
+             own->raw == params->raw && own->temporal == params->temporal &&
+             own->rgb8 == params->rgb8 && own->present == params->present &&
+             own->aovs == params->aovs && own->background == params->background &&
+             memcmp(own->background_radiance, params->background_radiance,
+                    sizeof own->background_radiance) == 0 &&
+             memcmp(&setup->pass_params, &other.pass_params, sizeof other.pass_params) == 0;
+    return true;
+}
+
+bool lsf_setup_take(lsf_setup *setup, const lsf_render_params *params, lsf_error *error)
+{
+    lsf_setup taken = {0};
+    if (!keep_params(&taken, params, error))
+        return false;
+    free((char *)setup->params.camera);
+    const char *technique = setup->params.technique;
+    keep_point(setup->camera_position, params->camera_position);
+    keep_point(setup->camera_target, params->camera_target);
+    setup->params = taken.params;
+    setup->params.technique = technique;
+    setup->params.camera_position = params->camera_position ? setup->camera_position : NULL;
+    setup->params.camera_target = params->camera_target ? setup->camera_target : NULL;
+    return true;
 }
 
 /* A tessellated copy borrows what edits change, but for what follows from it. */

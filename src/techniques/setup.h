@@ -43,6 +43,11 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
 /* The same with the technique's whole plan. */
 bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
                     lsf_error *error);
+/* Whether the plan would be the same with `params`. */
+bool lsf_setup_plans_alike(const lsf_setup *setup, const lsf_render_params *params, bool *alike,
+                           lsf_error *error);
+/* Takes over parameters of which the plan is the same. */
+bool lsf_setup_take(lsf_setup *setup, const lsf_render_params *params, lsf_error *error);
 /* Goes over to the state of another frame, and sets what has changed. The plan stays: whether it
  * still fits is what lsf_setup_fits says. On failure the state is that of the frame before. */
 bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error);
