@@ -75,7 +75,7 @@ typedef struct lsf_render_params {
     uint32_t width, height; /* pixels */
     uint32_t samples;       /* iterations; UINT32_MAX: as many as the time limit allows */
     double time_limit;      /* seconds of rendering, after which all but a first iteration is
-                             * dropped; infinity: none */
+                             * dropped, or not begun where it would be; infinity: none */
     uint32_t bounces;       /* indirect bounces; 0: direct light only; at most LSF_BOUNCES_MAX,
                              * or LSF_BOUNCES_AUTO */
     uint64_t seed;

@@ -481,12 +481,22 @@ static bool goes_further(void *user)
     return !renderer->stopped;
 }
 
+/* Whether another iteration is likely to end in time: one that does not is dropped, and would only
+ * make the user wait. Half of the last one's time is asked for, which may hold the driver's
+ * compilation. */
+static bool leaves_time(const lsf_renderer *renderer, double last_start)
+{
+    double now = lsf_now();
+    return now + 0.5 * (now - last_start) < renderer->deadline;
+}
+
 static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
 {
     const lsf_render_params *params = &renderer->setup.params;
     bool limited = isfinite(params->time_limit);
     while (renderer->samples - renderer->kept < params->samples) {
-        renderer->next_question = lsf_now() + QUESTION_EVERY;
+        double start = lsf_now();
+        renderer->next_question = start + QUESTION_EVERY;
         if (!lsf_renderer_iterate(renderer, error))
             return false;
         if (renderer->stopped || !wants_more(renderer, renderer->samples))
@@ -495,7 +505,7 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
          * commands given. */
         if (limited)
             wait_for_gpu(renderer);
-        if (lsf_now() >= renderer->deadline)
+        if (!leaves_time(renderer, start))
             break;
     }
     wait_for_gpu(renderer);
