@@ -68,6 +68,12 @@ lsf_scene *lsf_scene_load_memory(const void *data, size_t size, const char *fold
                                  const lsf_scene_params *params, lsf_error *error);
 void lsf_scene_destroy(lsf_scene *scene); /* NULL allowed */
 
+/* 32 hexadecimal digits and a NUL, by all bytes that the scene was loaded from: its file, the
+ * buffers and images that this names, the environment. Equal files give the same wherever they lie;
+ * lsf_scene_params (but for the environment's map) and edits count for nothing. False of a scene
+ * that was built. */
+bool lsf_scene_content_hash(const lsf_scene *scene, char hash[33]);
+
 /* What the scene asks of a renderer; computed once, at load. */
 typedef struct lsf_requirements {
     uint32_t point_lights, spot_lights, directional_lights;

@@ -71,6 +71,7 @@ read_buffer_file(gltf_import &import, const gltf_buffer_source &source, const st
     if (!file.bytes)
         throw failure(error.message);
     check_length(file.length, source.byte_length, location);
+    lsf_scene_add_content(import.scene, file.bytes.get(), file.length);
     return {file.bytes.get(), file.bytes.get() + file.length};
 }
 
@@ -124,6 +125,7 @@ void gltf_document_read(gltf_import &import)
         file = file_read(import.path, import.budget);
         bytes = {file.bytes.get(), file.length};
     }
+    lsf_scene_add_content(import.scene, bytes.data(), bytes.size());
     memory_loan content_loan(import.budget, "/");
     content_loan.take(bytes.size(), 1);
     refuse_other_formats(import.path, bytes);

@@ -151,6 +151,7 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
         bytes = file.bytes.get();
         length = file.length;
         loan.take(length, 1);
+        lsf_scene_add_content(import_.scene, bytes, length);
     }
 
     bool has_file = !source.uri.empty() && !uri_is_data(source.uri);

@@ -61,6 +61,10 @@ static bool load_environment(lsf_scene *scene, const lsf_scene_params *params, u
                               error))
         return false;
     scene->environment.present = true;
+    const uint32_t size[] = {scene->environment.width, scene->environment.height};
+    lsf_scene_add_content(scene, size, sizeof size);
+    lsf_scene_add_content(scene, scene->environment.texels,
+                          sizeof(float) * 3 * size[0] * (size_t)size[1]);
     if (repaired > 0)
         lsf_scene_add_note(scene, "%s: %llu negative or non-finite values were set to 0",
                            params->environment_path, (unsigned long long)repaired);
@@ -125,5 +129,6 @@ lsf_scene *lsf_scene_create(const lsf_scene_params *params, lsf_error *error)
         lsf_scene_destroy(scene);
         return NULL;
     }
+    scene->content[0] = scene->content[1] = 0; /* the map is not all that it will be made of */
     return scene;
 }

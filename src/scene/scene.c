@@ -8,7 +8,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- notes */
+#include <xxhash.h>
+
+/* --- content --- */
+
+/* Parts are hashed apart, so that bytes that move from one to the next make a difference. */
+void lsf_scene_add_content(lsf_scene *scene, const void *bytes, size_t length)
+{
+    XXH128_hash_t part = XXH3_128bits(bytes, length);
+    const uint64_t chain[] = {scene->content[0], scene->content[1], part.low64, part.high64};
+    XXH128_hash_t all = XXH3_128bits(chain, sizeof chain);
+    scene->content[0] = all.low64;
+    scene->content[1] = all.high64;
+}
+
+bool lsf_scene_content_hash(const lsf_scene *scene, char hash[33])
+{
+    if (!scene || !hash || !(scene->content[0] | scene->content[1]))
+        return false;
+    snprintf(hash, 33, "%016llx%016llx", (unsigned long long)scene->content[1],
+             (unsigned long long)scene->content[0]);
+    return true;
+}
+
+/* --- notes --- */
 
 /* A file may give cause for any number; who has read so many knows. */
 enum { NOTES_MAX = 256 };

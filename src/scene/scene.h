@@ -288,10 +288,14 @@ struct lsf_scene {
     char **notes;
     bool note_lost; /* for want of memory: loading fails */
     bool diffuse_only, show_back_faces;
+    uint64_t content[2]; /* hash of all bytes that it was loaded from; 0: none were */
     lsf_requirements requirements;
     lsf_edits edits;         /* made since it was loaded */
     struct lsf_draft *draft; /* of a scene that is being built (draft.h); NULL: it is whole */
 };
+
+/* Takes more of the bytes that the scene is loaded from into its hash, in a fixed order. */
+void lsf_scene_add_content(lsf_scene *scene, const void *bytes, size_t length);
 
 /* Logs a warning and keeps it as a note. The same text is kept once, and a few hundred texts in
  * all. */

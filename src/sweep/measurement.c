@@ -124,6 +124,8 @@ static void derive_point(lsf_measured_point *point)
             mean_over_seeds(point, offsetof(lsf_measured_seed, bias) + c * sizeof(double));
     point->ssim = mean_over_seeds(point, offsetof(lsf_measured_seed, ssim));
     point->psnr = mean_over_seeds(point, offsetof(lsf_measured_seed, psnr));
+    point->flip = mean_over_seeds(point, offsetof(lsf_measured_seed, flip));
+    point->flip_hdr = mean_over_seeds(point, offsetof(lsf_measured_seed, flip_hdr));
 }
 
 /* Points of one configuration that have as many seeds as the first of them. */

@@ -36,7 +36,7 @@ typedef struct lsf_measured_seed {
     uint64_t seed;
     double milliseconds; /* a frame's, from its beginning to its finished picture */
     double bias[3];      /* mean(x - r) / mean(r), R, G, B */
-    double ssim, psnr;
+    double ssim, psnr, flip, flip_hdr;
     uint64_t non_finite; /* pixels, left out of all figures */
 } lsf_measured_seed;
 
@@ -51,7 +51,7 @@ typedef struct lsf_measured_point {
     char *picture, *preview; /* files of the first seed: linear radiance, and tone-mapped; NULL */
     /* What follows. */
     lsf_quartiles milliseconds;
-    lsf_estimate rmse, bias[3], ssim, psnr;
+    lsf_estimate rmse, bias[3], ssim, psnr, flip, flip_hdr;
     bool front;       /* no other point has less relMSE in as little time */
     double ssim_gain; /* in per cent a millisecond more than the point of the lowest SSIM;
                        * NAN where it takes no more */

@@ -108,11 +108,14 @@ static bool compare(point_run *run, uint32_t seed, lsf_error *error)
     lsf_compare_result result;
     params.reference_b = stage->halves[1];
     params.exposure = stage->exposure;
+    params.flip = true;
     if (!lsf_compare(run->pictures[seed], stage->halves[0], &params, &result, error))
         return false;
     memcpy(measured->bias, result.bias, sizeof measured->bias);
     measured->ssim = result.ssim;
     measured->psnr = result.psnr;
+    measured->flip = result.flip;
+    measured->flip_hdr = result.flip_hdr;
     measured->non_finite = result.non_finite_test;
     return true;
 }

@@ -1,23 +1,21 @@
 #include "base/base.h"
-#include "sweep/errors.h"
 #include "sweep/grid.h"
 #include "sweep/run.h"
 #include "tools/begin.h"
 #include "tools/imprint.h"
 #include "tools/interrupt.h"
 #include "tools/measure_json.h"
+#include "tools/measure_reference.h"
 #include "tools/measure_table.h"
 #include "tools/report.h"
 #include "tools/scenes.h"
 #include "tools/summary.h"
 #include "tools/tools.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-enum { SAMPLES = 16, SEEDS = 4, REFERENCE_SAMPLES = 256 };
+enum { SAMPLES = 16, SEEDS = 4 };
 
 typedef struct measure_job {
     lsf_settings settings;
@@ -25,7 +23,7 @@ typedef struct measure_job {
     lsf_scene *scene;
     lsf_context *context;
     lsf_context_info device;
-    lsf_image *halves[2];
+    lsf_kept_reference reference;
     lsf_measurement measurement;
     lsf_progress_bar bar;
     uint32_t done, total; /* iterations */
@@ -54,85 +52,6 @@ static bool open_scene(measure_job *job, lsf_error *error)
         settings->resolution[0] = job->device.software ? 256 : 1024;
         settings->resolution[1] = job->device.software ? 192 : 768;
     }
-    return true;
-}
-
-/* --- reference --- */
-
-static bool trace_reference(measure_job *job, lsf_error *error)
-{
-    lsf_measured_reference *reference = &job->measurement.reference;
-    lsf_render_params params = lsf_settings_render_params(&job->settings);
-    params.samples = or_else(job->settings.reference_samples, REFERENCE_SAMPLES);
-    params.progress = lsf_interrupt_progress;
-    params.progress_user = &job->bar;
-    for (uint32_t half = 0; half < 2; half++) {
-        lsf_reference_result result;
-        lsf_progress_bar_start(&job->bar, half ? "reference, half b" : "reference, half a",
-                               params.samples, params.time_limit);
-        job->halves[half] = lsf_reference_render(job->scene, &params, half, &result, error);
-        lsf_progress_bar_clear();
-        if (!job->halves[half])
-            return false;
-        if (lsf_interrupted())
-            return lsf_error_set(error, LSF_ERROR_RENDER,
-                                 "interrupted before the reference was done; nothing was measured");
-        reference->samples[half] = result.samples;
-        reference->seconds += result.build_seconds + result.render_seconds;
-    }
-    return true;
-}
-
-static bool save_picture(const lsf_image *image, const char *folder, const char *name,
-                         float exposure, char **path, lsf_error *error)
-{
-    lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
-    params.exposure = exposure;
-    *path = lsf_format("%s/%s", folder, name);
-    return *path ? lsf_image_save(image, *path, &params, error)
-                 : lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
-}
-
-/* The halves, and their mean. */
-static bool save_reference(measure_job *job, lsf_error *error)
-{
-    static const char *const names[] = {"R", "G", "B"};
-    const char *folder = job->settings.picture_folder;
-    lsf_measured_reference *reference = &job->measurement.reference;
-    const lsf_image *a = job->halves[0], *b = job->halves[1];
-    float exposure = job->settings.exposure.ev;
-    if (!folder)
-        return true;
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return lsf_error_set(error, LSF_ERROR_FILE, "--pictures %s: cannot make the folder: %s",
-                             folder, strerror(errno));
-    lsf_image *mean = lsf_image_create(a->width, a->height, 3, names, error);
-    if (!mean)
-        return false;
-    for (size_t i = 0; i < (size_t)a->width * a->height; i++)
-        for (size_t c = 0; c < 3; c++)
-            mean->pixels[3 * i + c] =
-                0.5f * (a->pixels[a->channel_count * i + c] + b->pixels[b->channel_count * i + c]);
-    bool good =
-        save_picture(mean, folder, "reference.exr", exposure, &reference->picture, error) &&
-        save_picture(mean, folder, "reference.png", exposure, &reference->preview, error) &&
-        save_picture(a, folder, "reference_a.exr", exposure, &reference->halves[0], error) &&
-        save_picture(b, folder, "reference_b.exr", exposure, &reference->halves[1], error);
-    lsf_image_destroy(mean);
-    return good;
-}
-
-static bool prepare_reference(measure_job *job, lsf_error *error)
-{
-    if (!trace_reference(job, error) || !save_reference(job, error))
-        return false;
-    const lsf_image *a = job->halves[0], *b = job->halves[1];
-    lsf_reference_halves halves = {a->width, a->height, {a->pixels, b->pixels}, 0, {0}, 0};
-    lsf_measured_reference *reference = &job->measurement.reference;
-    lsf_reference_halves_derive(&halves);
-    memcpy(reference->mean, halves.mean, sizeof reference->mean);
-    reference->rmse = halves.rmse;
-    job->measurement.relmse_epsilon = halves.epsilon;
     return true;
 }
 
@@ -182,7 +101,7 @@ static bool measure_points(measure_job *job, lsf_error *error)
     lsf_sweep_stage stage = {.context = job->context,
                              .scene = job->scene,
                              .params = lsf_settings_render_params(settings),
-                             .halves = {job->halves[0], job->halves[1]},
+                             .halves = {job->reference.halves[0], job->reference.halves[1]},
                              .exposure = settings->exposure.ev,
                              .gpu_clock = m->gpu_clock,
                              .folder = settings->picture_folder,
@@ -210,6 +129,7 @@ static bool describe_run(measure_job *job, lsf_error *error)
     m->scene = good ? strdup(job->scene_path) : NULL;
     m->command = good ? strdup(imprint.command) : NULL;
     lsf_imprint_finish(&imprint);
+    lsf_scene_content_hash(job->scene, m->scene_hash);
     m->width = settings->resolution[0];
     m->height = settings->resolution[1];
     m->bounces = lsf_summary_bounces(settings, job->scene);
@@ -256,7 +176,9 @@ static bool run(measure_job *job, lsf_error *error)
     if (!open_scene(job, error) || !describe_run(job, error) || !list_configurations(job, error))
         return false;
     lsf_interrupt_begin_iterations();
-    bool good = prepare_reference(job, error) && measure_points(job, error);
+    bool good = lsf_measure_reference(&job->settings, job->scene, &job->measurement,
+                                      &job->reference, error) &&
+                measure_points(job, error);
     lsf_interrupt_end_iterations();
     return good && write_results(job, error);
 }
@@ -268,8 +190,7 @@ int lsf_tool_measure(int argc, char **argv)
     int status = lsf_tool_begin(&job.settings, LSF_COMMAND_MEASURE, argc, argv);
     if (status == LSF_GO_ON) {
         status = run(&job, &error) ? 0 : lsf_report_error(&error);
-        lsf_image_destroy(job.halves[0]);
-        lsf_image_destroy(job.halves[1]);
+        lsf_kept_reference_finish(&job.reference);
         lsf_context_destroy(job.context);
         lsf_scene_destroy(job.scene);
         free(job.scene_path);

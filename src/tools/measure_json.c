@@ -142,6 +142,8 @@ static void add_seed(lsf_json *json, const lsf_measured_seed *seed)
     add_vector(json, "bias", seed->bias);
     lsf_json_number(json, "ssim", seed->ssim);
     lsf_json_number(json, "psnr", seed->psnr);
+    lsf_json_number(json, "flip", seed->flip);
+    lsf_json_number(json, "flip_hdr", seed->flip_hdr);
     lsf_json_integer(json, "non_finite", seed->non_finite);
     lsf_json_end(json, '}');
 }
@@ -172,6 +174,8 @@ static void add_point(lsf_json *json, const lsf_measurement *m, const lsf_measur
     lsf_json_end(json, ']');
     add_estimate(json, "ssim", point->ssim);
     add_estimate(json, "psnr", point->psnr);
+    add_estimate(json, "flip", point->flip);
+    add_estimate(json, "flip_hdr", point->flip_hdr);
     lsf_json_bool(json, "front", point->front);
     lsf_json_number(json, "ssim_gain", point->ssim_gain);
     lsf_json_string(json, "picture", point->picture);
@@ -257,7 +261,7 @@ void lsf_measure_add_csv(lsf_string *text, const lsf_measurement *m)
     lsf_string_add(text, "technique,options,samples,milliseconds,milliseconds_lower_quartile,"
                          "milliseconds_upper_quartile,gl_bytes_peak,rmse,rmse_low,rmse_high,relmse,"
                          "relmse_low,relmse_high,relmse_variance,relmse_squared_bias,bias_r,bias_g,"
-                         "bias_b,ssim,ssim_low,ssim_high,front,ssim_gain\r\n");
+                         "bias_b,ssim,ssim_low,ssim_high,flip,flip_hdr,front,ssim_gain\r\n");
     for (uint32_t i = 0; i < m->point_count; i++) {
         const lsf_measured_point *point = &m->points[i];
         const lsf_configuration *configuration = &m->configurations[point->configuration];
@@ -276,6 +280,8 @@ void lsf_measure_add_csv(lsf_string *text, const lsf_measurement *m)
         for (int c = 0; c < 3; c++)
             add_csv_number(text, point->bias[c].value);
         add_csv_estimate(text, point->ssim);
+        add_csv_number(text, point->flip.value);
+        add_csv_number(text, point->flip_hdr.value);
         lsf_string_add(text, ",%s", point->front ? "true" : "false");
         add_csv_number(text, point->ssim_gain);
         lsf_string_add(text, "\r\n");

@@ -54,8 +54,8 @@ static void add_point(lsf_string *text, const lsf_measurement *m, const lsf_meas
     lsf_string_add(text, " %7.1f %9.3g", (double)point->gl_bytes_peak / 0x1p20, point->rmse.value);
     add_error(text, point->relmse.error);
     double noise = 100.0 * point->relmse.variance / point->relmse.error.value;
-    lsf_string_add(text, " %5.0f%% %+7.2f%% %7.4f", fmin(fmax(noise, 0.0), 100.0),
-                   100.0 * largest_bias(point), point->ssim.value);
+    lsf_string_add(text, " %5.0f%% %+7.2f%% %7.4f %7.4f", fmin(fmax(noise, 0.0), 100.0),
+                   100.0 * largest_bias(point), point->ssim.value, point->flip.value);
     if (isfinite(point->ssim_gain))
         lsf_string_add(text, " %7.2g", point->ssim_gain);
     lsf_string_add(text, "\n");
@@ -64,9 +64,9 @@ static void add_point(lsf_string *text, const lsf_measurement *m, const lsf_meas
 void lsf_measure_add_table(lsf_string *text, const lsf_measurement *m)
 {
     size_t width = widest_name(m);
-    lsf_string_add(text, "  %-*s %7s %9s %7s %9s %9s %-8s %6s %8s %7s %7s\n", (int)width,
+    lsf_string_add(text, "  %-*s %7s %9s %7s %9s %9s %-8s %6s %8s %7s %7s %7s\n", (int)width,
                    "technique", "samples", "ms", "MiB", "RMSE", "relMSE", "95 %", "noise", "bias",
-                   "SSIM", "gain/ms");
+                   "SSIM", "FLIP", "gain/ms");
     for (uint32_t c = 0; c < m->configuration_count; c++)
         for (uint32_t i = 0; i < m->point_count; i++)
             if (m->points[i].configuration == c)

@@ -131,7 +131,12 @@ static const lsf_command_option options[] = {
      "4"},
     {"reference-samples", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT,
      AT(reference_samples), 1, 1000000, NULL, NULL,
-     "samples a pixel of each half of the reference; without it, 256"},
+     "samples a pixel of each half of the reference; more than there are in the cache are added to "
+     "them; without it, 256"},
+    {"cache", 0, "DIR|none", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_TEXT, AT(cache), 0, 0,
+     NULL, NULL,
+     "where references are kept, by what the scene's files hold and how it is seen; without it, "
+     "lightsheaf in XDG_CACHE_HOME or in ~/.cache"},
 
     {"technique", 't', "NAME", PLANNING, "Picture", LSF_VALUE_TECHNIQUE, AT(technique), 0, 0, NULL,
      "bidirectional", "how light is found; see --list-techniques"},
