@@ -201,7 +201,7 @@ class Progress(CommandTest):
 
     def test_bar_is_drawn_and_removed(self):
         seen = self.run_at_terminal("render", self.scene(), "-o", "a.exr", "-r", "64,48",
-                                    "--time-limit", "0.5")
+                                    "--time-limit", "1")
         self.assertRegex(seen, r"\rrender \[[#.]{30}\] +\d+%  \d+ samples")
         self.assertIn("left", seen)
         bar_end = seen.rindex("samples\x1b[K") if "samples\x1b[K" in seen else seen.rindex("left\x1b[K")
