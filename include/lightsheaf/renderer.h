@@ -142,6 +142,9 @@ void lsf_plan_destroy(lsf_plan *plan);           /* NULL allowed */
 uint64_t lsf_plan_bytes(const lsf_plan *plan);   /* GL bytes of all resources */
 uint32_t lsf_plan_bounces(const lsf_plan *plan); /* indirect ones; 0: the technique has none */
 char *lsf_plan_describe(const lsf_plan *plan, bool json); /* malloc'ed; NULL without memory */
+/* Passes in order, the resources that they fill and read, bytes and switches that are on, as a
+ * graph for Graphviz. malloc'ed; NULL without memory. */
+char *lsf_plan_dot(const lsf_plan *plan);
 
 /* A renderer owns every GL object that the plan lists and nothing else. The scene and the
  * context are borrowed and must outlive it. */

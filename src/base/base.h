@@ -53,6 +53,8 @@ typedef struct lsf_string {
 void lsf_string_add(lsf_string *string, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void lsf_string_add_bytes(lsf_string *string, const char *bytes, size_t length);
+/* Adds a number of bytes for people, "1.50 MiB". */
+void lsf_string_add_size(lsf_string *string, double bytes);
 /* Adds `text` as a JSON string with quotes; control characters and invalid UTF-8 are escaped. */
 void lsf_string_add_json(lsf_string *string, const char *text);
 /* Adds a JSON number; null when it is not finite. */

@@ -109,6 +109,15 @@ static size_t utf8_length(const unsigned char *s)
     return length;
 }
 
+void lsf_string_add_size(lsf_string *string, double bytes)
+{
+    const char *units[] = {"B", "KiB", "MiB", "GiB"};
+    int unit = 0;
+    for (; bytes >= 1024.0 && unit < 3; unit++)
+        bytes /= 1024.0;
+    lsf_string_add(string, unit ? "%.2f %s" : "%.0f %s", bytes, units[unit]);
+}
+
 void lsf_string_add_json(lsf_string *string, const char *text)
 {
     lsf_string_add_bytes(string, "\"", 1);

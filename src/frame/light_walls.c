@@ -31,6 +31,7 @@ void lsf_light_walls_plan(lsf_plan *plan, const char *name, bool gradient)
         return;
     }
     lsf_plan_pass_add(plan, name, "thin walls let light of lamps through, tinted");
+    lsf_plan_reads(plan, "scene");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", gradient, "planes are compared");
     lsf_scene_gpu_material_switches(plan, true, false);
 }

@@ -6,6 +6,9 @@
 void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const *layer_names)
 {
     lsf_plan_pass_add(plan, "accumulate", "the mean over iterations");
+    lsf_plan_reads(plan, "view compose voxel_view");
+    if (plan->aovs & (LSF_AOV_ALBEDO | LSF_AOV_NORMAL | LSF_AOV_DEPTH | LSF_AOV_MOTION))
+        lsf_plan_reads(plan, "gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     for (uint32_t i = 0; i < layer_count; i++) {
         char name[64];

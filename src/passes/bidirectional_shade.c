@@ -99,6 +99,7 @@ static void plan_vpl(lsf_plan *plan, const lsf_bidirectional_shade_params *param
 {
     lsf_plan_pass_add(plan, vpl_names[deep], "%s",
                       deep ? "VPLs light what bundles met" : "VPLs light visible points");
+    lsf_plan_reads(plan, deep ? "view vpl" : "view interleave|gbuffer vpl");
     plan_switches(plan, params, use, true, deep);
     lsf_plan_switch_add(plan, "LSF_PUNCTUAL", use->vpl_light, "VPLs reflect punctual lights");
 }
@@ -108,6 +109,9 @@ static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *param
 {
     lsf_plan_pass_add(plan, hit_names[deep], "%s",
                       deep ? "what later segments of a path bring" : "what bundles bring");
+    lsf_plan_reads(plan, deep ? "view ray_bundle" : "view interleave|gbuffer ray_bundle");
+    if (use->hit_light)
+        lsf_plan_reads(plan, "reflective_shadow_map");
     plan_switches(plan, params, use, false, deep);
     for (size_t i = 0; i < sizeof bundle_switches / sizeof bundle_switches[0]; i++)
         lsf_plan_switch_add(plan, bundle_switches[i],

@@ -57,12 +57,14 @@ void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width
     }
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "blur_guide", "what the blur compares, once for all phases");
+    lsf_plan_reads(plan, "view upsample_search|gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
     lsf_plan_pass_add(plan, "blur", "removes the noise of few samples, the rougher the wider");
+    lsf_plan_reads(plan, "view cone_trace|voxel_path");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, width, height);

@@ -34,6 +34,8 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
     lsf_plan_pass_add(plan, "compose", "adds up what is seen itself and what is reflected");
+    lsf_plan_reads(plan, "view gbuffer direct_light scene.environment");
+    lsf_plan_reads(plan, LSF_PLAN_INDIRECT);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");

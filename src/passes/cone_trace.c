@@ -38,6 +38,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "cone_trace", "%d diffuse cones of each visible point%s", params->count,
                       r->specular ? ", and a specular one" : "");
+    lsf_plan_reads(plan, "view upsample_search|gbuffer voxelize voxel_bounce|voxel_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)lsf_cone_slices(params), "cone.sides");

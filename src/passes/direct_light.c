@@ -28,6 +28,7 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
 {
     if (lights > 0) {
         lsf_plan_pass_add(plan, "direct_light", "one reflection of each light");
+        lsf_plan_reads(plan, "view gbuffer shadow_map");
         plan_switches(plan, use);
         lsf_light_switches(plan);
         lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
@@ -37,6 +38,8 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
     }
     if (plan->sky_lights > 0) {
         lsf_plan_pass_add(plan, "sky_light", "one reflection of the environment");
+        lsf_plan_reads(plan, "view gbuffer sky_map");
+        lsf_plan_fills(plan, "direct_light");
         plan_switches(plan, use);
         lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_plan_find(plan, "sky_map.tint") != NULL,
                             "light passes materials that transmit");

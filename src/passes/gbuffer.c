@@ -64,6 +64,7 @@ void lsf_gbuffer_plan(lsf_plan *plan)
     const lsf_requirements *r = &plan->requirements;
     uint32_t w = plan->width, h = plan->height;
     lsf_plan_pass_add(plan, "gbuffer", "what each pixel sees");
+    lsf_plan_reads(plan, "view scene");
     lsf_plan_texture_add(plan, "gbuffer.depth", GL_DEPTH_COMPONENT32F, w, h,
                          "reverse-Z; positions are made from it");
     lsf_plan_texture_add(plan, "gbuffer.surface", GL_RGBA32UI, w, h,

@@ -67,9 +67,11 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
                       "pixels that take the same samples side by side, %d x %d of them in %u "
                       "iteration%s",
                       params->size, params->size, plan->samples, lsf_plural(plan->samples));
+    lsf_plan_reads(plan, "gbuffer");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_pass_add(plan, "interleave_gather", "light back into the picture's order");
+    lsf_plan_reads(plan, "bidirectional_shade");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", specular, "materials have a specular lobe");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), params->periods > 0 ? FILTERED : 0,
@@ -79,6 +81,7 @@ void lsf_interleave_plan(lsf_plan *plan, const lsf_interleave_params *params)
         return;
     }
     lsf_plan_pass_add(plan, "interleave_filter", "removes the pattern, and noise with it");
+    lsf_plan_reads(plan, "view gbuffer");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", params->size, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");

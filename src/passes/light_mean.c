@@ -22,6 +22,11 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "light_mean", "means of the parts of light, for its filter");
+    lsf_plan_reads(plan, "view gbuffer");
+    if (use->indirect)
+        lsf_plan_reads(plan, LSF_PLAN_INDIRECT);
+    if (use->sky)
+        lsf_plan_reads(plan, "direct_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: lobes were evaluated before");

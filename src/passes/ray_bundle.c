@@ -72,6 +72,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
         lsf_plan_omit(plan, "ray_bundle_bounds", "bundles hold the whole scene");
     lsf_plan_pass_add(plan, "ray_bundle_build", "every fragment of the scene along %u direction%s",
                       use->count, lsf_plural(use->count));
+    lsf_plan_reads(plan, "scene");
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
     lsf_scene_gpu_material_switches(plan, lsf_plan_surfaces_differ(plan) && !use->distances_only,
@@ -81,6 +82,9 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_ray_bundle_nodes_plan(plan, params, use);
     lsf_ray_bundle_tally_plan(plan);
     lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
+    lsf_plan_reads(plan, "view interleave|gbuffer");
+    if (use->deep_vertices)
+        lsf_plan_reads(plan, "bidirectional_shade");
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,

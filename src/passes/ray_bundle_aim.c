@@ -14,6 +14,7 @@
 void lsf_ray_bundle_aim_plan(lsf_plan *plan)
 {
     lsf_plan_pass_add(plan, "ray_bundle_bounds", "windows fitted to the visible points");
+    lsf_plan_reads(plan, "view gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_ray_bundle_gap_switch(plan);
     lsf_plan_texture_add(

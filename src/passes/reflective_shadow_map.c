@@ -111,6 +111,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
         plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
         state->light_count, lsf_plural(state->light_count),
         plan->sky_lights > 0 && r->environment_map ? " and directions of the environment" : "");
+    lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_material_switches(plan, gloss, false);
     lsf_scene_gpu_fold_lobes(plan);
     lsf_plan_switch_add(plan, "LSF_THIN_WALLS", lsf_light_walls_needed(plan),

@@ -76,6 +76,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s%s see", state->light_count,
                       lsf_plural(state->light_count),
                       plan->sky_lights > 0 ? " and directions of the environment" : "");
+    lsf_plan_reads(plan, "scene");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", params->filter == LSF_SHADOW_FILTER_NONE,
                         "shadow.filter is none: planes are compared");
     lsf_scene_gpu_mask_switches(plan);

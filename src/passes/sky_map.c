@@ -40,6 +40,7 @@ void lsf_sky_map_plan(lsf_plan *plan, uint32_t side)
     lsf_plan_pass_add(plan, "sky_map", "what %u direction%s of the environment see%s",
                       plan->sky_lights, lsf_plural(plan->sky_lights),
                       plan->sky_lights == 1 ? "s" : "");
+    lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_mask_switches(plan);
     lsf_plan_texture_desc_add(plan, "sky_map.map", &desc, "%u direction%s at a time", batch,
                               lsf_plural(batch));
@@ -54,6 +55,7 @@ void lsf_sky_map_plan(lsf_plan *plan, uint32_t side)
     if (!plan->straight || !lsf_light_walls_needed(plan))
         return;
     lsf_plan_pass_add(plan, "sky_map_straight", "light passes materials that transmit");
+    lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_material_switches(plan, true, false);
     desc.internal_format = LSF_LIGHT_TINT_FORMAT;
     desc.depth = batch;

@@ -8,6 +8,7 @@ void lsf_tonemap_plan(lsf_plan *plan, bool rgb8)
     lsf_plan_pass_add(plan, "tonemap",
                       rgb8 ? "8-bit output is asked for; runs once, on the mean"
                            : "presenting is asked for; runs once, on the mean");
+    lsf_plan_reads(plan, "accumulate");
     if (rgb8)
         lsf_plan_texture_add(plan, "tonemap.display", GL_RGBA8, plan->width, plan->height,
                              "8-bit sRGB");

@@ -33,6 +33,7 @@ static void plan_split(lsf_plan *plan, uint32_t width, uint32_t height)
 {
     lsf_plan_pass_add(plan, "upsample_search_split", "what %u x %u places of the picture see",
                       width, height);
+    lsf_plan_reads(plan, "view gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
     lsf_plan_switch_add(plan, "LSF_GLOSS", lsf_gbuffer_gloss(plan) != GL_NONE,
@@ -50,6 +51,7 @@ void lsf_upsample_search_plan(lsf_plan *plan, const lsf_upsample_search_params *
     }
     plan_split(plan, width, height);
     lsf_plan_pass_add(plan, "upsample_search", "light of the grid for every pixel");
+    lsf_plan_reads(plan, "view gbuffer blur|cone_trace|voxel_path");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, width, height);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,

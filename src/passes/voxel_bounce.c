@@ -18,6 +18,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
 {
     uint32_t slices = lsf_cone_slices(params), levels = lsf_cone_levels(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
+    lsf_plan_reads(plan, "voxelize voxel_light");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_voxel_bend_switch(plan);

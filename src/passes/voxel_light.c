@@ -31,9 +31,11 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
 {
     const lsf_requirements *r = &plan->requirements;
     lsf_plan_pass_add(plan, "voxel_light_clear", "the light of voxels that were");
+    lsf_plan_reads(plan, "voxelize");
     plan_sides(plan, use);
     for (size_t i = 0; i < LSF_COUNT(variants); i++) {
         lsf_plan_pass_add(plan, variants[i].name, "%s", variants[i].what);
+        lsf_plan_reads(plan, variants[i].reflect ? "voxelize shadow_map" : "voxelize");
         plan_sides(plan, use);
         lsf_plan_switch_add(plan, "LSF_EMIT", variants[i].emit, "part of the program's purpose");
         lsf_plan_switch_add(plan, "LSF_REFLECT", variants[i].reflect, "the same");

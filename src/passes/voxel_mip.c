@@ -20,6 +20,7 @@
 void lsf_voxel_mip_plan(lsf_plan *plan, uint32_t sides)
 {
     lsf_plan_pass_add(plan, "voxel_mip", "what voxels look like from afar");
+    lsf_plan_reads(plan, "voxelize voxel_light voxel_bounce");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)sides,
                         "directions that radiance is kept for");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");

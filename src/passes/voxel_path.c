@@ -57,6 +57,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     bool texture = params->sequence == LSF_VOXEL_PATH_TEXTURE;
     lsf_plan_pass_add(plan, "voxel_path", "paths of %u segment%s through the voxels", use->segments,
                       lsf_plural(use->segments));
+    lsf_plan_reads(plan, "view upsample_search|gbuffer voxelize voxel_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_coarse_grid_switch(plan, use->width, use->height);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");

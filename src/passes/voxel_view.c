@@ -23,6 +23,7 @@ bool lsf_voxel_view_needed(const lsf_plan *plan)
 void lsf_voxel_view_plan(lsf_plan *plan, uint32_t sides)
 {
     lsf_plan_pass_add(plan, "voxel_view", "voxels as the camera sees them");
+    lsf_plan_reads(plan, "view voxelize voxel_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)sides, "sides that radiance is kept for");
     lsf_plan_textures_add(plan, layers, LSF_COUNT(layers), plan->aovs, plan->width, plan->height);

@@ -91,6 +91,7 @@ static void plan_programs(lsf_plan *plan)
     lsf_plan_pass_add(plan, "voxelize_clear", "what the grid held in the iteration before");
     beside_switches(plan);
     lsf_plan_pass_add(plan, "voxelize_mark", "triangles bid for the voxels that they touch");
+    lsf_plan_reads(plan, "scene");
     plan_switches(plan);
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_SMALL", SMALL_COLUMNS, "columns of an invocation");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILE", TILE, "columns of a tile's side");
@@ -102,6 +103,7 @@ static void plan_programs(lsf_plan *plan)
     lsf_plan_pass_add(plan, "voxelize_list", "the voxels that each instance has won");
     plan_switches(plan);
     lsf_plan_pass_add(plan, "voxelize_write", "the surfaces of those that won");
+    lsf_plan_reads(plan, "scene");
     plan_switches(plan);
     lsf_voxel_bend_switch(plan);
     lsf_scene_gpu_material_switches(plan, lsf_voxel_gloss(plan), lsf_plan_surfaces_shine(plan));

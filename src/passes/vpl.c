@@ -41,6 +41,7 @@ static void plan_draw(lsf_plan *plan, uint64_t count)
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_plan_surfaces_differ(plan);
     lsf_plan_pass_add(plan, "vpl_draw", "what punctual lights fall on");
+    lsf_plan_reads(plan, "reflective_shadow_map");
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE", lsf_light_emission_is_adaptive(plan),
                         "rsm.pdf is adaptive");
@@ -61,6 +62,7 @@ static void plan_straight(lsf_plan *plan, const lsf_vpl_use *use, uint32_t side)
     if (!plan->straight)
         return;
     lsf_plan_pass_add(plan, "vpl_straight", "light passes materials that transmit");
+    lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_material_switches(plan, true, false);
     if (use->lights)
         lsf_plan_texture_add(plan, "vpl.shadow_tint", LSF_LIGHT_TINT_FORMAT, side, side,
@@ -87,6 +89,7 @@ void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params, const lsf_vpl_us
                         (unsigned)count);
     lsf_plan_buffer_add(plan, "vpl.maps", total * MAP_STRIDE, "the projection of each one's map");
     lsf_plan_pass_add(plan, "vpl_shadow_map", "what each virtual point light sees");
+    lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_mask_switches(plan);
     if (use->lights)
         lsf_plan_texture_add(plan, "vpl.shadow_map", GL_R32UI, side, side,

@@ -3,16 +3,7 @@
 #include <stdlib.h>
 
 #include "base/base.h"
-#include "plan/plan.h"
-
-static void add_size(lsf_string *out, double bytes)
-{
-    const char *units[] = {"B", "KiB", "MiB", "GiB"};
-    int unit = 0;
-    for (; bytes >= 1024.0 && unit < 3; unit++)
-        bytes /= 1024.0;
-    lsf_string_add(out, unit ? "%.2f %s" : "%.0f %s", bytes, units[unit]);
-}
+#include "plan/flow.h"
 
 static void describe_text(const lsf_plan *plan, lsf_string *out)
 {
@@ -48,14 +39,14 @@ static void describe_text(const lsf_plan *plan, lsf_string *out)
         if (texture->levels > 1)
             lsf_string_add(&shape, " mips");
         lsf_string size = {0};
-        add_size(&size, (double)resource->bytes);
+        lsf_string_add_size(&size, (double)resource->bytes);
         lsf_string_add(out, "  %-26s %-34s %12s  %s\n", resource->name,
                        shape.text ? shape.text : "", size.text ? size.text : "", resource->why);
         free(shape.text);
         free(size.text);
     }
     lsf_string_add(out, "  total ");
-    add_size(out, (double)lsf_plan_bytes(plan));
+    lsf_string_add_size(out, (double)lsf_plan_bytes(plan));
     lsf_string_add(out, "\n\nleft out\n");
     for (uint64_t i = 0; i < plan->omission_count; i++)
         lsf_string_add(out, "  %-26s %s\n", plan->omissions[i].name, plan->omissions[i].why);
@@ -67,6 +58,21 @@ static void add_text_field(lsf_string *out, const char *key, const char *value)
 {
     lsf_string_add(out, "\"%s\": ", key);
     lsf_string_add_json(out, value);
+}
+
+/* Stems of resources that a pass reads or fills. */
+static void add_stems(const lsf_plan *plan, const lsf_plan_pass *pass, lsf_plan_flow flow,
+                      lsf_string *out)
+{
+    const char *separator = "[";
+    for (uint64_t i = 0; i < plan->resource_count; i++) {
+        const char *name = plan->resources[i].name;
+        if (!lsf_plan_starts_stem(plan, i) || lsf_plan_flow_of(plan, pass, i) != flow)
+            continue;
+        lsf_string_add(out, "%s\"%.*s\"", separator, (int)lsf_plan_stem_length(name), name);
+        separator = ", ";
+    }
+    lsf_string_add(out, "%s]", *separator == '[' ? "[" : "");
 }
 
 static void describe_json(const lsf_plan *plan, lsf_string *out)
@@ -92,7 +98,11 @@ static void describe_json(const lsf_plan *plan, lsf_string *out)
             add_text_field(out, "when", pass->switches[k].when);
             lsf_string_add(out, "}");
         }
-        lsf_string_add(out, "]}");
+        lsf_string_add(out, "], \"reads\": ");
+        add_stems(plan, pass, LSF_PLAN_READS, out);
+        lsf_string_add(out, ", \"fills\": ");
+        add_stems(plan, pass, LSF_PLAN_FILLS, out);
+        lsf_string_add(out, "}");
     }
     lsf_string_add(out, "],\n  \"resources\": [");
     for (uint64_t i = 0; i < plan->resource_count; i++) {

@@ -56,6 +56,25 @@ void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
     FORMAT_INTO(pass->why, why);
 }
 
+void lsf_plan_reads(lsf_plan *plan, const char *names)
+{
+    if (plan->failed)
+        return;
+    const char **reads = plan->passes[plan->pass_count - 1].reads;
+    for (int i = 0; i < LSF_PLAN_MAX_READS - 1; i++)
+        if (!reads[i]) {
+            reads[i] = names;
+            return;
+        }
+    plan->failed = true;
+}
+
+void lsf_plan_fills(lsf_plan *plan, const char *stem)
+{
+    if (!plan->failed)
+        plan->passes[plan->pass_count - 1].fills = stem;
+}
+
 void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *when, ...)
 {
     if (plan->failed)

@@ -28,9 +28,12 @@ typedef struct lsf_plan_grain {
 } lsf_plan_grain;
 
 #define LSF_PLAN_MAX_SWITCHES 48
+#define LSF_PLAN_MAX_READS 4
 
 typedef struct lsf_plan_pass {
     const char *name;
+    const char *reads[LSF_PLAN_MAX_READS]; /* as lsf_plan_reads was told, then NULL */
+    const char *fills;                     /* as lsf_plan_fills was told, or NULL */
     char why[LSF_PLAN_TEXT_SIZE];
     lsf_plan_switch switches[LSF_PLAN_MAX_SWITCHES];
     uint32_t switch_count;
@@ -89,6 +92,15 @@ bool lsf_plan_surfaces_differ(const lsf_plan *plan);
 /* Appends a pass in the order of execution; later lsf_plan_switch_add calls belong to it. */
 void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
     __attribute__((format(printf, 3, 4)));
+/* What the last pass reads, beside what it fills itself: names of resources, or their stems
+ * ("gbuffer" for all of the G-buffer's), with blanks between them; further calls add more. Of "a|b"
+ * the first that the plan lists is read. Names that the plan does not list count for nothing. */
+void lsf_plan_reads(lsf_plan *plan, const char *names);
+/* Light that bounced, in the picture's order: what the last pass of those that make it has left. */
+#define LSF_PLAN_INDIRECT                                                                          \
+    "upsample_search|blur|cone_trace|voxel_path|interleave|bidirectional_shade"
+/* The stem of what the last pass fills, where it is not the beginning of the pass's own name. */
+void lsf_plan_fills(lsf_plan *plan, const char *stem);
 /* `when` says what puts it on, whether or not it is. */
 void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *when, ...)
     __attribute__((format(printf, 4, 5)));

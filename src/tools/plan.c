@@ -11,7 +11,10 @@ static bool print_plan(void *user, uint32_t index, const char *path, lsf_json *j
     double seconds;
     lsf_scene *scene = lsf_tool_load_scene(settings, path, &seconds, error);
     lsf_plan *plan = scene ? lsf_plan_create(scene, &params, error) : NULL;
-    bool good = plan && lsf_tool_print(settings, index, lsf_plan_describe(plan, false), error);
+    bool good =
+        plan &&
+        lsf_tool_print(settings, index,
+                       settings->dot ? lsf_plan_dot(plan) : lsf_plan_describe(plan, false), error);
     if (good)
         lsf_json_text(json, NULL, lsf_plan_describe(plan, true));
     lsf_plan_destroy(plan);
