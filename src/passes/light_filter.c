@@ -41,13 +41,13 @@ void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params
 {
     lsf_plan_pass_add(plan, "light_filter", "%d steps over the mean of light, once a picture",
                       params->steps);
-    lsf_plan_reads(plan, "view light_mean temporal");
+    lsf_plan_reads(plan, "view light_mean light_guide temporal");
     add_switches(plan, false);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
     if (!plan->requirements.specular)
         return;
     lsf_plan_pass_add(plan, "light_filter_specular", "the same for specular light");
-    lsf_plan_reads(plan, "view light_mean temporal");
+    lsf_plan_reads(plan, "view light_mean light_guide temporal");
     add_switches(plan, true);
 }
 

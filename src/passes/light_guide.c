@@ -14,6 +14,7 @@ static const lsf_texture_row textures[] = {
 void lsf_light_guide_plan(lsf_plan *plan)
 {
     lsf_plan_pass_add(plan, "light_guide", "tells filters of light which pixels see one surface");
+    lsf_plan_reads(plan, "light_mean");
     lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
                         "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_PATTERN", (int)plan->pattern,

@@ -44,13 +44,13 @@ void lsf_temporal_plan(lsf_plan *plan)
 {
     bool specular = plan->requirements.specular;
     plan_part(plan, "temporal", specular, "light of the frames before, once a frame");
-    lsf_plan_reads(plan, "view gbuffer light_mean accumulate light_filter");
+    lsf_plan_reads(plan, "view gbuffer light_mean light_guide accumulate light_filter");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
     plan_part(plan, "temporal_diffuse", false, "blended with the frame's own, once a picture");
-    lsf_plan_reads(plan, "view light_mean");
+    lsf_plan_reads(plan, "view light_mean light_guide");
     if (specular) {
         plan_part(plan, "temporal_specular", true, "the same for specular light");
-        lsf_plan_reads(plan, "view light_mean");
+        lsf_plan_reads(plan, "view light_mean light_guide");
     }
 }
 
