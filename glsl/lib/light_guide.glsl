@@ -1,5 +1,5 @@
 /* How far two pixels see one surface, by means of normal and depth; src/passes/light_filter.md has the weights.
- * Needs lib/view.glsl. Switch LSF_LOBE: the light is that of a specular lobe. */
+ * Needs lib/view.glsl. Switch LSF_LOBE: there is light of a specular lobe. */
 #ifndef LSF_LIB_LIGHT_GUIDE
 #define LSF_LIB_LIGHT_GUIDE
 
@@ -77,20 +77,28 @@ light_guide light_guide_at(ivec2 pixel)
     return g;
 }
 
-/* 1 where the neighbour lies on the pixel's plane and looks the same way. */
-float light_guide_weight(light_guide g, ivec2 pixel, ivec2 neighbour)
+/* 1 where the neighbour, of which the guide is given, lies on the pixel's plane and looks the same way. */
+float plane_weight(light_guide g, ivec2 pixel, ivec2 neighbour, vec4 texel, vec3 normal)
 {
-    vec4 texel = texelFetch(guide_texture, neighbour, 0);
-    vec3 normal = octahedral_normal(texel.xy);
     float cosine = dot(g.normal, normal);
     vec2 apart = vec2(neighbour - pixel);
     float off = max(abs(texel.z - g.depth - dot(g.slope, apart)) - 2.0 * g.spread, 0.0) * g.scale /
                 (guide_weights.x * length(apart));
     float weight = exp2(guide_weights.y * g.alike * log2(cosine) - off * off);
-#if LSF_LOBE
-    weight *= lobe_weight(g, neighbour, normal, texel.z, texel.w);
-#endif
     return texel.z == 0.0 || cosine <= 0.0 ? 0.0 : weight;
+}
+
+/* For irradiance, and for light of the lobe. */
+vec2 light_guide_weights(light_guide g, ivec2 pixel, ivec2 neighbour)
+{
+    vec4 texel = texelFetch(guide_texture, neighbour, 0);
+    vec3 normal = octahedral_normal(texel.xy);
+    float weight = plane_weight(g, pixel, neighbour, texel, normal);
+#if LSF_LOBE
+    return weight * vec2(1.0, lobe_weight(g, neighbour, normal, texel.z, texel.w));
+#else
+    return vec2(weight, 0.0);
+#endif
 }
 
 #endif

@@ -1,36 +1,57 @@
 /* Weighted means of two quantities over a window of 9 x 9 pixels that see one surface, gathered in two steps of 3 x 3
- * neighbours, 1 and 3 pixels apart: all pixels of the window once. */
+ * neighbours, 1 and 3 pixels apart: all pixels of the window once. Both for diffuse light and, with switch LSF_LOBE,
+ * for specular light.
+ *
+ * Whoever includes it defines vec4 window_value(ivec2 at, int part): X, Y the quantities of the pixel or their means
+ * after the first step, A the weight, 0: there are none. Part 1 is specular. */
 #ifndef LSF_LIB_LIGHT_WINDOW
 #define LSF_LIB_LIGHT_WINDOW
 
 #include "lib/light_guide.glsl"
 
-layout(binding = 2) uniform sampler2D window_texture; /* X, Y: quantities; A: weight, 0: there are none */
-layout(location = 1) uniform bool window_moments;     /* X is a mean and Y a variance: both are of the whole, then */
+layout(location = 1) uniform bool window_moments; /* X is a mean and Y a variance: both are of the whole, then */
 
-/* As window_texture, over the 3 x 3 neighbours `stride` pixels apart. */
-vec4 window_gather(light_guide g, ivec2 pixel, int stride)
+/* Adds to weight and weighted sums. */
+void window_add(inout vec3 sums, vec4 own, vec4 value, float w)
 {
-    ivec2 size = textureSize(guide_texture, 0);
-    vec4 own = texelFetch(window_texture, pixel, 0);
-    vec3 sums = vec3(0.0);
-    for (int j = -1; j <= 1; j++)
-        for (int i = -1; i <= 1; i++) {
-            ivec2 at = pixel + stride * ivec2(i, j);
-            bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size));
-            vec4 texel = texelFetch(window_texture, at, 0);
-            float w = texel.a * (i == 0 && j == 0 ? 1.0 : light_guide_weight(g, pixel, at));
-            w = inside ? w : 0.0;
-            /* Squares of differences, for squares of what is large lose all digits. */
-            float x = window_moments ? texel.x - own.x : texel.x;
-            sums += w * vec3(1.0, x, window_moments ? texel.y + x * x : texel.y);
-        }
+    /* Squares of differences, for squares of what is large lose all digits. */
+    float x = window_moments ? value.x - own.x : value.x;
+    sums += w * value.a * vec3(1.0, x, window_moments ? value.y + x * x : value.y);
+}
+
+vec4 window_mean(vec3 sums, vec4 own)
+{
     if (sums.x == 0.0)
         return vec4(0.0);
     vec2 mean = sums.yz / sums.x;
     if (window_moments)
         mean = vec2(own.x + mean.x, max(mean.y - mean.x * mean.x, 0.0));
     return vec4(mean, 0.0, sums.x);
+}
+
+/* As window_value, over the 3 x 3 neighbours `stride` pixels apart. */
+void window_gather(light_guide g, ivec2 pixel, int stride, out vec4 means[1 + LSF_LOBE])
+{
+    ivec2 size = textureSize(guide_texture, 0);
+    vec4 own[1 + LSF_LOBE];
+    vec3 sums[1 + LSF_LOBE];
+    for (int part = 0; part <= LSF_LOBE; part++) {
+        own[part] = window_value(pixel, part);
+        sums[part] = vec3(0.0);
+        window_add(sums[part], own[part], own[part], 1.0);
+    }
+    for (int j = -1; j <= 1; j++)
+        for (int i = -1; i <= 1; i++) {
+            if (i == 0 && j == 0)
+                continue;
+            ivec2 at = pixel + stride * ivec2(i, j);
+            bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size));
+            vec2 w = inside ? light_guide_weights(g, pixel, at) : vec2(0.0);
+            for (int part = 0; part <= LSF_LOBE; part++)
+                window_add(sums[part], own[part], window_value(at, part), w[part]);
+        }
+    for (int part = 0; part <= LSF_LOBE; part++)
+        means[part] = window_mean(sums[part], own[part]);
 }
 
 #endif

@@ -1,15 +1,28 @@
-/* The variance that the filter took out of a pixel's light, and the square of what it changed it by; for
- * lib/light_window.glsl. */
+/* The first of two steps of lib/light_window.glsl, over the variance that the filter took out of a pixel's light, and
+ * the square of what it changed it by. */
+#include "lib/view.glsl"
+
 #include "lib/luminance.glsl"
 
-layout(binding = 2) uniform sampler2D light_texture; /* A: variance, below 0 where it tells nothing */
-layout(binding = 3) uniform sampler2D filtered_texture;
-layout(location = 0) out vec4 window_out;
+layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: it tells nothing */
+layout(binding = 4) uniform sampler2D filtered_textures[1 + LSF_LOBE];
+layout(location = 0) out vec4 window_out[1 + LSF_LOBE];
+
+vec4 window_value(ivec2 at, int part)
+{
+    vec4 light = texelFetch(light_textures[part], at, 0), filtered = texelFetch(filtered_textures[part], at, 0);
+    float change = luminance(filtered.rgb - light.rgb);
+    return vec4(max(light.a - filtered.a, 0.0), change * change, 0.0, light.a < 0.0 ? 0.0 : 1.0);
+}
+
+#include "lib/light_window.glsl"
 
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 light = texelFetch(light_texture, pixel, 0), filtered = texelFetch(filtered_texture, pixel, 0);
-    float change = luminance(filtered.rgb - light.rgb);
-    window_out = light.a < 0.0 ? vec4(0.0) : vec4(max(light.a - filtered.a, 0.0), change * change, 0.0, 1.0);
+    light_guide g = light_guide_at(pixel);
+    for (int part = 0; part <= LSF_LOBE; part++)
+        window_out[part] = vec4(0.0);
+    if (g.depth != 0.0)
+        window_gather(g, pixel, 1, window_out);
 }

@@ -3,31 +3,24 @@
  * the variance among neighbours (lib/light_window.glsl). */
 #include "lib/luminance.glsl"
 
-layout(binding = 2) uniform sampler2D light_texture; /* of lsf_light_mean_part */
-layout(binding = 3) uniform sampler2D factor_texture;
-layout(binding = 4) uniform sampler2D half_texture; /* luminance of the mean of the first m */
+layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* of lsf_light_mean_part */
+layout(binding = 4) uniform sampler2D factor_textures[1 + LSF_LOBE];
+layout(binding = 6) uniform sampler2D half_texture; /* luminances of the means of the first m */
 layout(location = 1) uniform float iterations;
 layout(location = 2) uniform float half_weight; /* m / (n - m); below 0: there is no such mean */
-layout(location = 0) out vec4 light_out;
-layout(location = 1) out vec4 window_out; /* the variance, that by the first m; after one iteration the luminance, 0 */
+layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
+layout(location = 1 + LSF_LOBE) out vec4 window_out[1 + LSF_LOBE]; /* the variance, that by the first m; after one
+                                                                    * iteration the luminance, 0 */
 
 #define LARGEST 1e18
 
-/* The variance by how far the first m iterations are from all of them. */
-float halves_of(ivec2 pixel, vec3 light, float tint)
+void divide(ivec2 pixel, int part)
 {
-    float d = (texelFetch(half_texture, pixel, 0)[LSF_LOBE] - luminance(light)) / max(tint, 1e-20);
-    return half_weight >= 0.0 ? d * d * half_weight : 0.0;
-}
-
-void main()
-{
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 light = texelFetch(light_texture, pixel, 0);
-    vec3 factor = texelFetch(factor_texture, pixel, 0).rgb;
+    vec4 light = texelFetch(light_textures[part], pixel, 0);
+    vec3 factor = texelFetch(factor_textures[part], pixel, 0).rgb;
     float tint = luminance(factor);
-    light_out = vec4(vec3(0.0), -1.0);
-    window_out = vec4(0.0);
+    light_out[part] = vec4(vec3(0.0), -1.0);
+    window_out[part] = vec4(0.0);
     if (!(tint > 0.0))
         return;
     /* A colour that is not reflected is as bright as the others. */
@@ -38,7 +31,15 @@ void main()
     /* No comparison holds for what is not a number. */
     if (!(all(lessThan(abs(clear), vec3(LARGEST))) && variance < LARGEST * LARGEST))
         return;
-    light_out = vec4(clear, variance);
-    vec2 told = iterations > 1.0 ? vec2(variance, halves_of(pixel, light.rgb, tint)) : vec2(luminance(clear), 0.0);
-    window_out = vec4(told, 0.0, 1.0);
+    light_out[part] = vec4(clear, variance);
+    /* The variance by how far the first m iterations are from all of them. */
+    float apart = (texelFetch(half_texture, pixel, 0)[part] - luminance(light.rgb)) / max(tint, 1e-20);
+    float halves = half_weight >= 0.0 ? apart * apart * half_weight : 0.0;
+    window_out[part] = vec4(iterations > 1.0 ? vec2(variance, halves) : vec2(luminance(clear), 0.0), 0.0, 1.0);
+}
+
+void main()
+{
+    for (int part = 0; part <= LSF_LOBE; part++)
+        divide(ivec2(gl_FragCoord.xy), part);
 }

@@ -1,13 +1,22 @@
-/* The first of two steps of lib/light_window.glsl. */
+/* The first of two steps of lib/light_window.glsl, over what divide gives. */
 #include "lib/view.glsl"
 
-#include "lib/light_window.glsl"
+layout(binding = 2) uniform sampler2D window_textures[1 + LSF_LOBE];
+layout(location = 0) out vec4 window_out[1 + LSF_LOBE];
 
-layout(location = 0) out vec4 window_out;
+vec4 window_value(ivec2 at, int part)
+{
+    return texelFetch(window_textures[part], at, 0);
+}
+
+#include "lib/light_window.glsl"
 
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     light_guide g = light_guide_at(pixel);
-    window_out = g.depth == 0.0 ? vec4(0.0) : window_gather(g, pixel, 1);
+    for (int part = 0; part <= LSF_LOBE; part++)
+        window_out[part] = vec4(0.0);
+    if (g.depth != 0.0)
+        window_gather(g, pixel, 1, window_out);
 }

@@ -77,7 +77,7 @@ window look_around(light_guide g, ivec2 pixel, float y)
             vec4 light;
             if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)) || !clear_light(at, light))
                 continue;
-            float w = at == pixel ? 1.0 : light_guide_weight(g, pixel, at);
+            float w = at == pixel ? 1.0 : light_guide_weights(g, pixel, at)[LSF_LOBE];
             float d = luminance(light.rgb) - y;
             first += w * d;
             second += w * d * d;

@@ -23,50 +23,45 @@ const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
 #define AT(member) offsetof(lsf_light_filter, member)
 
 static const lsf_texture_row textures[] = {
-    {"light_filter.light", GL_RGBA32F, AT(light), 0, "without tint, and its variance"},
-    {"light_filter.turn_0", GL_RGBA32F, AT(turns[0]), 0, "after a step"},
-    {"light_filter.turn_1", GL_RGBA32F, AT(turns[1]), 0, "after the next one"},
-    {"light_filter.window_0", GL_RGBA32F, AT(windows[0]), 0, "what neighbours are asked for"},
-    {"light_filter.window_1", GL_RGBA32F, AT(windows[1]), 0, "means of it over a few"},
+    {"light_filter.diffuse", GL_RGBA32F, AT(light[0]), 0, "without tint, and its variance"},
+    {"light_filter.diffuse_0", GL_RGBA32F, AT(turns[0][0]), 0, "after a step"},
+    {"light_filter.diffuse_1", GL_RGBA32F, AT(turns[1][0]), 0, "after the next one"},
+    {"light_filter.specular", GL_RGBA32F, AT(light[1]), LSF_TEXTURE_SPECULAR,
+     "without tint, and its variance"},
+    {"light_filter.specular_0", GL_RGBA32F, AT(turns[0][1]), LSF_TEXTURE_SPECULAR, "after a step"},
+    {"light_filter.specular_1", GL_RGBA32F, AT(turns[1][1]), LSF_TEXTURE_SPECULAR,
+     "after the next one"},
     {"light_filter.picture", GL_RGBA32F, AT(picture), 0, "the result"},
 };
-
-static void add_switches(lsf_plan *plan, bool lobe)
-{
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_LOBE", lobe, "light of a specular lobe");
-}
 
 void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params)
 {
     lsf_plan_pass_add(plan, "light_filter", "%d steps over the mean of light, once a picture",
                       params->steps);
     lsf_plan_reads(plan, "view light_mean light_guide temporal");
-    add_switches(plan, false);
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
+                        "materials have a specular lobe");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
-    if (!plan->requirements.specular)
-        return;
-    lsf_plan_pass_add(plan, "light_filter_specular", "the same for specular light");
-    lsf_plan_reads(plan, "view light_mean light_guide temporal");
-    add_switches(plan, true);
 }
 
 static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
 {
+    const GLuint *light = pass->light, *before = pass->turns[0], *after = pass->turns[1];
     const struct {
         const char *label;
-        GLuint *framebuffer, colors[2];
+        GLuint *framebuffer, colors[4];
     } rows[] = {
-        {"light_filter.divided", &pass->divided_framebuffer, {pass->turns[0], pass->windows[0]}},
-        {"light_filter.light", &pass->light_framebuffer, {pass->light}},
-        {"light_filter.turn_0", &pass->turn_framebuffers[0], {pass->turns[0]}},
-        {"light_filter.turn_1", &pass->turn_framebuffers[1], {pass->turns[1]}},
-        {"light_filter.window_0", &pass->window_framebuffers[0], {pass->windows[0]}},
-        {"light_filter.window_1", &pass->window_framebuffers[1], {pass->windows[1]}},
+        {"light_filter.light", &pass->light_framebuffer, {light[0], light[1]}},
+        {"light_filter.turn_0", &pass->turn_framebuffers[0], {before[0], before[1]}},
+        {"light_filter.turn_1", &pass->turn_framebuffers[1], {after[0], after[1]}},
+        {"light_filter.divided",
+         &pass->divided_framebuffer,
+         {before[0], light[1] ? before[1] : light[0], light[1] ? light[0] : 0, light[1]}},
         {"light_filter.picture", &pass->picture_framebuffer, {pass->picture}},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
-        lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 2, .layer = -1};
+        lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 4, .layer = -1};
         memcpy(desc.colors, rows[i].colors, sizeof rows[i].colors);
         if (!(*rows[i].framebuffer = lsf_framebuffer_create(pass->context, &desc, error)))
             return false;
@@ -74,24 +69,23 @@ static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
     return true;
 }
 
-/* A part's programs. */
-static bool create_programs(lsf_light_filter *pass, const lsf_plan *plan, const char *name,
-                            lsf_light_filter_programs *programs, lsf_error *error)
+static bool create_programs(lsf_light_filter *pass, const lsf_plan *plan, lsf_error *error)
 {
     const struct {
         const char *file;
         GLuint *program;
     } rows[] = {
-        {"passes/light_filter_divide.frag.glsl", &programs->divide},
-        {"passes/light_filter_window.frag.glsl", &programs->window},
-        {"passes/light_filter_variance.frag.glsl", &programs->variance},
-        {"passes/light_filter_step.frag.glsl", &programs->step},
-        {"passes/light_filter_change.frag.glsl", &programs->change},
-        {"passes/light_filter_blend.frag.glsl", &programs->blend},
+        {"passes/light_filter_divide.frag.glsl", &pass->divide},
+        {"passes/light_filter_window.frag.glsl", &pass->window},
+        {"passes/light_filter_variance.frag.glsl", &pass->variance},
+        {"passes/light_filter_step.frag.glsl", &pass->step},
+        {"passes/light_filter_change.frag.glsl", &pass->change},
+        {"passes/light_filter_blend.frag.glsl", &pass->blend},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
         const char *const files[5] = {"lib/fullscreen.vert.glsl", rows[i].file};
-        if (!(*rows[i].program = lsf_plan_program(plan, pass->context, name, files, error)))
+        if (!(*rows[i].program =
+                  lsf_plan_program(plan, pass->context, "light_filter", files, error)))
             return false;
     }
     return true;
@@ -102,10 +96,7 @@ bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const
 {
     *pass = (lsf_light_filter){.context = context, .params = *params};
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
-        !create_framebuffers(pass, error) ||
-        !create_programs(pass, plan, "light_filter", &pass->programs[0], error) ||
-        (lsf_plan_find_pass(plan, "light_filter_specular") &&
-         !create_programs(pass, plan, "light_filter_specular", &pass->programs[1], error)))
+        !create_framebuffers(pass, error) || !create_programs(pass, plan, error))
         return false;
     pass->timer = lsf_timer_create(context, "light_filter", error);
     return pass->timer != NULL;
@@ -114,6 +105,12 @@ bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const
 static void begin(const lsf_plan *plan, GLuint framebuffer, GLuint program)
 {
     lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
+}
+
+static void bind_parts(GLuint binding, const GLuint parts[2])
+{
+    lsf_bind_texture(binding, parts[0]);
+    lsf_bind_texture(binding + 1, parts[1]);
 }
 
 /* What programs with a guide have in common. */
@@ -126,45 +123,40 @@ static void set_guide(const lsf_light_filter *pass)
  * (kurtosis - 1) / (n - 1). Where pixels of a pattern share samples few tell it: the kurtosis is
  * that of light which one sample in 64 finds. Else it is 9, that of an exponential distribution.
  * One iteration tells next to nothing. */
-static float uncertainty_of(const lsf_light_filter *pass, float iterations)
+static float uncertainty_of(const lsf_plan *plan, float iterations)
 {
-    float kurtosis = pass->shared ? 64.0f : 9.0f;
+    float kurtosis = plan->pattern > 1 ? 64.0f : 9.0f;
     return (kurtosis - 1.0f) / (iterations > 1.5f ? iterations - 1.0f : 0.01f);
 }
 
-/* Means of `windows[0]` over the 3 x 3 neighbours, the first of two steps: sets `windows[1]`. */
-static void gather_window(const lsf_light_filter *pass, const lsf_plan *plan, bool moments,
-                          const lsf_light_filter_programs *programs)
+/* Sets `light` to the parts without tint, with their variances. */
+static void divide(const lsf_light_filter *pass, const lsf_plan *plan, float iterations,
+                   const lsf_light_filter_inputs *inputs)
 {
-    begin(plan, pass->window_framebuffers[1], programs->window);
-    set_guide(pass);
-    glUniform1i(1, moments);
-    lsf_bind_texture(2, pass->windows[0]);
-    lsf_draw_fullscreen(pass->context);
-}
-
-/* Sets `light` to the part without tint, with its variance. */
-static void divide(lsf_light_filter *pass, const lsf_plan *plan, float iterations,
-                   const lsf_light_filter_inputs *inputs, const lsf_light_filter_part *part,
-                   const lsf_light_filter_programs *programs)
-{
+    const lsf_light_filter_part *parts = inputs->parts;
     bool alone = iterations < 1.5f;
     float rest = fmaxf(iterations - (float)inputs->half_count, 1.0f);
-    begin(plan, pass->divided_framebuffer, programs->divide);
+    begin(plan, pass->divided_framebuffer, pass->divide);
     glUniform1f(1, iterations);
     glUniform1f(2, inputs->half ? (float)inputs->half_count / rest : -1.0f);
-    lsf_bind_texture(2, part->light);
-    lsf_bind_texture(3, part->factor);
-    lsf_bind_texture(4, inputs->half);
+    bind_parts(2, (GLuint[]){parts[0].light, parts[1].light});
+    bind_parts(4, (GLuint[]){parts[0].factor, parts[1].factor});
+    lsf_bind_texture(6, inputs->half);
     lsf_draw_fullscreen(pass->context);
-    gather_window(pass, plan, alone, programs);
-    begin(plan, pass->light_framebuffer, programs->variance);
+
+    begin(plan, pass->turn_framebuffers[1], pass->window);
     set_guide(pass);
     glUniform1i(1, alone);
-    glUniform1f(2, uncertainty_of(pass, iterations));
+    bind_parts(2, pass->light);
+    lsf_draw_fullscreen(pass->context);
+
+    begin(plan, pass->light_framebuffer, pass->variance);
+    set_guide(pass);
+    glUniform1i(1, alone);
+    glUniform1f(2, uncertainty_of(plan, iterations));
     glUniform1i(3, inputs->half != 0);
-    lsf_bind_texture(2, pass->windows[1]);
-    lsf_bind_texture(3, pass->turns[0]);
+    bind_parts(2, pass->turns[1]);
+    bind_parts(4, pass->turns[0]);
     lsf_draw_fullscreen(pass->context);
 }
 
@@ -183,45 +175,47 @@ static float correlation_before(int32_t step)
     return (along * along - independent) / (1.0f - independent);
 }
 
-/* Returns the filtered light. */
-static GLuint run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterations,
-                        const lsf_light_filter_programs *programs)
+/* Returns which of the turns holds the filtered light. */
+static int32_t run_steps(const lsf_light_filter *pass, const lsf_plan *plan, float iterations)
 {
-    GLuint light = pass->light;
-    float first = 7.0f * (pass->shared ? 1.0f + sqrtf(uncertainty_of(pass, iterations)) : 1.0f);
+    const GLuint *light = pass->light;
+    float first =
+        7.0f * (plan->pattern > 1 ? 1.0f + sqrtf(uncertainty_of(plan, iterations)) : 1.0f);
     for (int32_t i = 0; i < pass->params.steps; i++) {
-        begin(plan, pass->turn_framebuffers[i % 2], programs->step);
+        begin(plan, pass->turn_framebuffers[i % 2], pass->step);
         set_guide(pass);
         glUniform1i(1, 1 << i);
         glUniform1f(2, i < 2 ? fmaxf(pass->params.tolerance, first) : pass->params.tolerance);
         glUniform1f(4, correlation_before(i));
-        lsf_bind_texture(2, light);
+        bind_parts(2, light);
         lsf_draw_fullscreen(pass->context);
         light = pass->turns[i % 2];
     }
-    return light;
+    return (pass->params.steps - 1) % 2;
 }
 
-/* Adds to the picture what the filter changes of the part. */
-static void blend(lsf_light_filter *pass, const lsf_plan *plan, float iterations, GLuint filtered,
-                  GLuint factor, const lsf_light_filter_programs *programs)
+/* Adds to the picture what the filter changes. */
+static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iterations,
+                  int32_t turn, const lsf_light_filter_inputs *inputs)
 {
+    const lsf_light_filter_part *parts = inputs->parts;
     if (pass->params.limit) {
-        begin(plan, pass->window_framebuffers[0], programs->change);
-        lsf_bind_texture(2, pass->light);
-        lsf_bind_texture(3, filtered);
+        begin(plan, pass->turn_framebuffers[1 - turn], pass->change);
+        set_guide(pass);
+        glUniform1i(1, false);
+        bind_parts(2, pass->light);
+        bind_parts(4, pass->turns[turn]);
         lsf_draw_fullscreen(pass->context);
-        gather_window(pass, plan, false, programs);
     }
-    begin(plan, pass->picture_framebuffer, programs->blend);
+    begin(plan, pass->picture_framebuffer, pass->blend);
     lsf_blend_add(1);
     set_guide(pass);
     glUniform1i(1, false);
-    glUniform1f(2, pass->params.limit ? uncertainty_of(pass, iterations) : -1.0f);
-    lsf_bind_texture(2, pass->windows[1]);
-    lsf_bind_texture(3, pass->light);
-    lsf_bind_texture(4, filtered);
-    lsf_bind_texture(5, factor);
+    glUniform1f(2, pass->params.limit ? uncertainty_of(plan, iterations) : -1.0f);
+    bind_parts(2, pass->turns[1 - turn]);
+    bind_parts(4, pass->light);
+    bind_parts(6, pass->turns[turn]);
+    bind_parts(8, (GLuint[]){parts[0].factor, parts[1].factor});
     lsf_draw_fullscreen(pass->context);
 }
 
@@ -236,15 +230,8 @@ void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration
                        0, 0, 0, (GLsizei)plan->width, (GLsizei)plan->height, 1);
     lsf_bind_texture(0, inputs->guide);
     lsf_bind_texture(1, inputs->slope);
-    for (size_t i = 0; i < LSF_COUNT(inputs->parts); i++) {
-        const lsf_light_filter_part *part = &inputs->parts[i];
-        const lsf_light_filter_programs *programs = &pass->programs[i];
-        if (!part->light)
-            continue;
-        pass->shared = plan->pattern > 1;
-        divide(pass, plan, n, inputs, part, programs);
-        blend(pass, plan, n, run_steps(pass, plan, n, programs), part->factor, programs);
-    }
+    divide(pass, plan, n, inputs);
+    blend(pass, plan, n, run_steps(pass, plan, n), inputs);
     lsf_timer_end(pass->timer);
 }
 
@@ -253,9 +240,8 @@ void lsf_light_filter_destroy(lsf_light_filter *pass)
     if (!pass->context)
         return;
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
-    GLuint *framebuffers[] = {&pass->divided_framebuffer,    &pass->light_framebuffer,
-                              &pass->turn_framebuffers[0],   &pass->turn_framebuffers[1],
-                              &pass->window_framebuffers[0], &pass->window_framebuffers[1],
+    GLuint *framebuffers[] = {&pass->light_framebuffer, &pass->turn_framebuffers[0],
+                              &pass->turn_framebuffers[1], &pass->divided_framebuffer,
                               &pass->picture_framebuffer};
     for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
         lsf_framebuffer_destroy(pass->context, framebuffers[i]);

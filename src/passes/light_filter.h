@@ -23,7 +23,7 @@ extern const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COU
 
 /* Mean light and what it is multiplied by, as lsf_light_mean_part. */
 typedef struct lsf_light_filter_part {
-    GLuint light, factor; /* 0: there is no such part */
+    GLuint light, factor;
 } lsf_light_filter_part;
 
 typedef struct lsf_light_filter_inputs {
@@ -31,22 +31,17 @@ typedef struct lsf_light_filter_inputs {
     GLuint half; /* as lsf_light_mean's, of the first `half_count` iterations; 0: there is none */
     uint32_t half_count;
     GLuint picture;                 /* RGBA32F mean of the whole picture */
-    lsf_light_filter_part parts[2]; /* diffuse, specular */
+    lsf_light_filter_part parts[2]; /* diffuse, specular where materials have lobes */
 } lsf_light_filter_inputs;
-
-typedef struct lsf_light_filter_programs {
-    GLuint divide, window, variance, step, change, blend;
-} lsf_light_filter_programs;
 
 typedef struct lsf_light_filter {
     lsf_context *context;
     lsf_light_filter_params params;
-    GLuint picture; /* output: RGBA32F */
-    GLuint light, turns[2], windows[2];
-    GLuint divided_framebuffer, light_framebuffer, turn_framebuffers[2], window_framebuffers[2],
-        picture_framebuffer;
-    lsf_light_filter_programs programs[2]; /* of each part */
-    bool shared; /* of the run in progress: pixels of a pattern take the same samples */
+    GLuint picture;  /* output: RGBA32F */
+    GLuint light[2]; /* of the diffuse part and, where materials have lobes, of the specular one */
+    GLuint turns[2][2]; /* what the last step but one, and the last, made of both parts */
+    GLuint light_framebuffer, turn_framebuffers[2], divided_framebuffer, picture_framebuffer;
+    GLuint divide, window, variance, step, change, blend; /* programs */
     lsf_timer *timer;
 } lsf_light_filter;
 
