@@ -1,7 +1,7 @@
 /* Light without the tint of what reflected it, and in alpha the variance of its mean's luminance: below 0 where
  * nothing is reflected, or what is not a number whose square is one, so that there is no telling. Beside it what tells
  * the variance among neighbours (lib/light_window.glsl). */
-#include "lib/luminance.glsl"
+#include "lib/light_clear.glsl"
 
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* of lsf_light_mean_part */
 layout(binding = 4) uniform sampler2D factor_textures[1 + LSF_LOBE];
@@ -12,30 +12,20 @@ layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
 layout(location = 1 + LSF_LOBE) out vec4 window_out[1 + LSF_LOBE]; /* the variance, that by the first m; after one
                                                                     * iteration the luminance, 0 */
 
-#define LARGEST 1e18
-
 void divide(ivec2 pixel, int part)
 {
-    vec4 light = texelFetch(light_textures[part], pixel, 0);
+    vec4 light = texelFetch(light_textures[part], pixel, 0), clear;
     vec3 factor = texelFetch(factor_textures[part], pixel, 0).rgb;
-    float tint = luminance(factor);
     light_out[part] = vec4(vec3(0.0), -1.0);
     window_out[part] = vec4(0.0);
-    if (!(tint > 0.0))
+    if (!light_clear(light, factor, clear))
         return;
-    /* A colour that is not reflected is as bright as the others. */
-    float grey = luminance(light.rgb) / tint;
-    vec3 clear = vec3(factor.r > 0.0 ? light.r / factor.r : grey, factor.g > 0.0 ? light.g / factor.g : grey,
-                      factor.b > 0.0 ? light.b / factor.b : grey);
-    float variance = iterations > 1.0 ? light.a / (iterations * (iterations - 1.0) * tint * tint) : 0.0;
-    /* No comparison holds for what is not a number. */
-    if (!(all(lessThan(abs(clear), vec3(LARGEST))) && variance < LARGEST * LARGEST))
-        return;
-    light_out[part] = vec4(clear, variance);
+    float variance = iterations > 1.0 ? clear.a / (iterations * (iterations - 1.0)) : 0.0;
+    light_out[part] = vec4(clear.rgb, variance);
     /* The variance by how far the first m iterations are from all of them. */
-    float apart = (texelFetch(half_texture, pixel, 0)[part] - luminance(light.rgb)) / max(tint, 1e-20);
+    float apart = (texelFetch(half_texture, pixel, 0)[part] - luminance(light.rgb)) / max(luminance(factor), 1e-20);
     float halves = half_weight >= 0.0 ? apart * apart * half_weight : 0.0;
-    window_out[part] = vec4(iterations > 1.0 ? vec2(variance, halves) : vec2(luminance(clear), 0.0), 0.0, 1.0);
+    window_out[part] = vec4(iterations > 1.0 ? vec2(variance, halves) : vec2(luminance(clear.rgb), 0.0), 0.0, 1.0);
 }
 
 void main()

@@ -57,7 +57,7 @@ static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
         {"light_filter.turn_1", &pass->turn_framebuffers[1], {after[0], after[1]}},
         {"light_filter.divided",
          &pass->divided_framebuffer,
-         {before[0], light[1] ? before[1] : light[0], light[1] ? light[0] : 0, light[1]}},
+         {before[0], before[1], light[0], light[1]}},
         {"light_filter.picture", &pass->picture_framebuffer, {pass->picture}},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {

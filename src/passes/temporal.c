@@ -16,10 +16,13 @@ const lsf_option_row lsf_temporal_options[LSF_TEMPORAL_OPTION_COUNT] = {
 
 static const lsf_texture_row textures[] = {
     {"temporal.guide", GL_RGBA32UI, AT(guide), 0, "what the light of the frame before fell on"},
+    {"temporal.compared", GL_RGBA32F, AT(compared), 0,
+     "light of the frame with that of those before"},
     {"temporal.reach", GL_RGBA32F, AT(reach), 0, "samples that are carried to a frame"},
     {"temporal.diffuse_history", GL_RGBA32F, AT(parts[0].history), 0, "light of frames before"},
     {"temporal.diffuse_count", GL_R32F, AT(parts[0].count), 0, "of its samples"},
     {"temporal.diffuse_carried", GL_RGBA32F, AT(parts[0].carried), 0, "to where it is now"},
+    {"temporal.diffuse_window", GL_RGBA32F, AT(parts[0].window), 0, "the same of neighbours"},
     {"temporal.diffuse", GL_RGBA32F, AT(parts[0].light), 0, "for light_filter"},
     {"temporal.specular_history", GL_RGBA32F, AT(parts[1].history), LSF_TEXTURE_SPECULAR,
      "light of frames before"},
@@ -27,31 +30,22 @@ static const lsf_texture_row textures[] = {
      "of its samples"},
     {"temporal.specular_carried", GL_RGBA32F, AT(parts[1].carried), LSF_TEXTURE_SPECULAR,
      "to where it is now"},
+    {"temporal.specular_window", GL_RGBA32F, AT(parts[1].window), LSF_TEXTURE_SPECULAR,
+     "the same of neighbours"},
     {"temporal.specular", GL_RGBA32F, AT(parts[1].light), LSF_TEXTURE_SPECULAR, "for light_filter"},
     {"temporal.picture", GL_RGBA32F, AT(picture), 0, "with light of frames before"},
     {"temporal.picture_carried", GL_RGBA32F, AT(carried_picture), 0, "that of the frame before"},
     {"temporal.resolved", GL_RGBA32F, AT(resolved), 0, "the result"},
 };
 
-static void plan_part(lsf_plan *plan, const char *name, bool lobe, const char *why)
-{
-    lsf_plan_pass_add(plan, name, "%s", why);
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_LOBE", lobe, "light of a specular lobe");
-}
-
 void lsf_temporal_plan(lsf_plan *plan)
 {
-    bool specular = plan->requirements.specular;
-    plan_part(plan, "temporal", specular, "light of the frames before, once a frame");
+    lsf_plan_pass_add(plan, "temporal", "blends light with that of the frames before");
     lsf_plan_reads(plan, "view gbuffer light_mean light_guide accumulate light_filter");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
+                        "materials have a specular lobe");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
-    plan_part(plan, "temporal_diffuse", false, "blended with the frame's own, once a picture");
-    lsf_plan_reads(plan, "view light_mean light_guide");
-    if (specular) {
-        plan_part(plan, "temporal_specular", true, "the same for specular light");
-        lsf_plan_reads(plan, "view light_mean light_guide");
-    }
 }
 
 static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
@@ -59,25 +53,24 @@ static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
     lsf_temporal_part *diffuse = &pass->parts[0], *specular = &pass->parts[1];
     const struct {
         const char *label;
-        GLuint *framebuffer, colors[4];
+        GLuint *framebuffer, colors[6];
     } rows[] = {
         {"temporal.carried",
          &pass->carry_framebuffer,
          {diffuse->carried, pass->reach, pass->carried_picture, specular->carried}},
-        {"temporal.diffuse",
-         &diffuse->framebuffer,
-         {diffuse->history, diffuse->count, diffuse->light}},
-        {"temporal.specular",
-         &specular->framebuffer,
-         {specular->history, specular->count, specular->light}},
+        {"temporal.compared", &pass->compare_framebuffer, {pass->compared}},
+        {"temporal.window", &pass->window_framebuffer, {diffuse->window, specular->window}},
+        {"temporal.blended",
+         &pass->blend_framebuffer,
+         {diffuse->history, specular->history, diffuse->light, specular->light, diffuse->count,
+          specular->count}},
         {"temporal.picture", &pass->picture_framebuffer, {pass->picture, pass->guide}},
         {"temporal.resolved", &pass->resolve_framebuffer, {pass->resolved}},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
-        lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 4, .layer = -1};
+        lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 6, .layer = -1};
         memcpy(desc.colors, rows[i].colors, sizeof rows[i].colors);
-        if (desc.colors[0] &&
-            !(*rows[i].framebuffer = lsf_framebuffer_create(pass->context, &desc, error)))
+        if (!(*rows[i].framebuffer = lsf_framebuffer_create(pass->context, &desc, error)))
             return false;
     }
     return true;
@@ -92,8 +85,9 @@ static bool create_programs(lsf_temporal *pass, const lsf_plan *plan, lsf_error 
         {"temporal", "passes/temporal_carry.frag.glsl", &pass->carry_program},
         {"temporal", "passes/temporal_picture.frag.glsl", &pass->picture_program},
         {"temporal", "passes/temporal_resolve.frag.glsl", &pass->resolve_program},
-        {"temporal_diffuse", "passes/temporal_blend.frag.glsl", &pass->parts[0].program},
-        {"temporal_specular", "passes/temporal_blend.frag.glsl", &pass->parts[1].program},
+        {"temporal", "passes/temporal_compare.frag.glsl", &pass->compare_program},
+        {"temporal", "passes/temporal_window.frag.glsl", &pass->window_program},
+        {"temporal", "passes/temporal_blend.frag.glsl", &pass->blend_program},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
         const char *const files[5] = {"lib/fullscreen.vert.glsl", rows[i].file};
@@ -222,28 +216,54 @@ void lsf_temporal_carry(lsf_temporal *pass, const lsf_iteration *iteration,
     lsf_timer_end(pass->timer);
 }
 
+/* Binds a texture of either part. */
+static void bind_parts(GLuint binding, GLuint diffuse, GLuint specular)
+{
+    lsf_bind_texture(binding, diffuse);
+    lsf_bind_texture(binding + 1, specular);
+}
+
+/* What compare and blend read. */
+static void bind_light(const lsf_temporal *pass, const lsf_temporal_inputs *inputs)
+{
+    const lsf_temporal_light *now = inputs->parts;
+    bind_parts(2, now[0].light, now[1].light);
+    bind_parts(4, now[0].factor, now[1].factor);
+    bind_parts(6, pass->parts[0].carried, pass->parts[1].carried);
+    lsf_bind_texture(8, pass->reach);
+}
+
+/* Sets the histories, and the parts' light. */
+static void blend_light(const lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
+                        const lsf_temporal_inputs *inputs)
+{
+    begin(plan, pass->compare_framebuffer, pass->compare_program, inputs);
+    bind_light(pass, inputs);
+    lsf_draw_fullscreen(pass->context);
+
+    begin(plan, pass->window_framebuffer, pass->window_program, inputs);
+    set_guide();
+    lsf_bind_texture(2, pass->compared);
+    lsf_draw_fullscreen(pass->context);
+
+    begin(plan, pass->blend_framebuffer, pass->blend_program, inputs);
+    set_guide();
+    glUniform1f(1, (float)iterations);
+    glUniform1f(2, history_limit(pass, pass->frames_since_lights));
+    glUniform1f(4, pass->independent);
+    glUniform1i(5, lags(pass, pass->frames_since_change));
+    bind_light(pass, inputs);
+    bind_parts(9, pass->parts[0].window, pass->parts[1].window);
+    lsf_draw_fullscreen(pass->context);
+}
+
 void lsf_temporal_blend(lsf_temporal *pass, const lsf_iteration *iteration, uint32_t iterations,
                         const lsf_temporal_inputs *inputs)
 {
     const lsf_plan *plan = iteration->plan;
     lsf_timer_begin(pass->timer);
     lsf_iteration_bind_view(iteration);
-    for (size_t i = 0; i < LSF_COUNT(pass->parts); i++) {
-        const lsf_temporal_part *part = &pass->parts[i];
-        if (!part->history)
-            continue;
-        begin(plan, part->framebuffer, part->program, inputs);
-        set_guide();
-        glUniform1f(1, (float)iterations);
-        glUniform1f(2, history_limit(pass, pass->frames_since_lights));
-        glUniform1f(4, pass->independent);
-        glUniform1i(5, lags(pass, pass->frames_since_change));
-        lsf_bind_texture(2, inputs->parts[i].light);
-        lsf_bind_texture(3, inputs->parts[i].factor);
-        lsf_bind_texture(4, part->carried);
-        lsf_bind_texture(5, pass->reach);
-        lsf_draw_fullscreen(pass->context);
-    }
+    blend_light(pass, plan, iterations, inputs);
     begin(plan, pass->picture_framebuffer, pass->picture_program, inputs);
     lsf_bind_texture(4, inputs->picture);
     lsf_bind_texture(5, inputs->parts[0].light);
@@ -277,9 +297,9 @@ void lsf_temporal_destroy(lsf_temporal *pass)
     if (!pass->context)
         return;
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
-    GLuint *framebuffers[] = {&pass->carry_framebuffer, &pass->picture_framebuffer,
-                              &pass->resolve_framebuffer, &pass->parts[0].framebuffer,
-                              &pass->parts[1].framebuffer};
+    GLuint *framebuffers[] = {&pass->carry_framebuffer,   &pass->compare_framebuffer,
+                              &pass->window_framebuffer,  &pass->blend_framebuffer,
+                              &pass->picture_framebuffer, &pass->resolve_framebuffer};
     for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
         lsf_framebuffer_destroy(pass->context, framebuffers[i]);
     lsf_timer_destroy(pass->timer);

@@ -40,7 +40,7 @@ typedef struct lsf_temporal_part {
     GLuint count;   /* R32F: samples that it stands for */
     GLuint carried; /* RGBA32F: the history of the frame before, where it is now */
     GLuint light;   /* RGBA32F, output: with it, as lsf_light_mean_part of `iterations` */
-    GLuint framebuffer, program;
+    GLuint window;  /* RGBA32F: how far neighbours are from it */
 } lsf_temporal_part;
 
 typedef struct lsf_temporal {
@@ -48,11 +48,14 @@ typedef struct lsf_temporal {
     lsf_temporal_params params;
     lsf_temporal_part parts[2];       /* diffuse, specular; specular 0 where nothing is glossy */
     GLuint guide;                     /* RGBA32UI: normal, depth and instance of the history */
+    GLuint compared;                  /* RGBA32F: the frame's light with its history */
     GLuint reach;                     /* RGBA32F: samples that are carried, and drift of lobes */
     GLuint picture;                   /* RGBA32F, output: with light of the frames before */
     GLuint carried_picture, resolved; /* RGBA32F: that of the frame before; output of resolve */
-    GLuint carry_framebuffer, picture_framebuffer, resolve_framebuffer;
-    GLuint carry_program, picture_program, resolve_program;
+    GLuint carry_framebuffer, compare_framebuffer, window_framebuffer, blend_framebuffer,
+        picture_framebuffer, resolve_framebuffer;
+    GLuint carry_program, compare_program, window_program, blend_program, picture_program,
+        resolve_program;
     float independent;       /* neighbours whose noise differs, at most */
     lsf_camera_state camera; /* of the history, and of the frame in progress */
     lsf_camera_state next_camera;
