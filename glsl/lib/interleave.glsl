@@ -1,4 +1,4 @@
-/* Where pixels lie in split order; see src/passes/interleave.md. Switch LSF_INTERLEAVE, the size of the
+/* Where pixels lie in split order; see src/passes/sparse.md. Switch LSF_INTERLEAVE, the size of the
  * pattern. Along an axis of `length` pixels, tile t holds the pixels t + i size: one more in the
  * first length % size tiles than in the others. */
 #ifndef LSF_LIB_INTERLEAVE

@@ -1,6 +1,6 @@
 /* The path vertex that a fragment shades, and what it reflects towards the eye. A vertex is what a
  * pixel sees (x3 in the paper), or with LSF_DEEP what a ray-bundle met on the way there. Switches
- * LSF_GLOSS, LSF_SPECULAR, LSF_INTERLEAVE, LSF_POOLED (a filter pools the pixels of the pattern) and those of lib/brdf.glsl and lib/view.glsl.
+ * LSF_GLOSS, LSF_SPECULAR, LSF_SPARSE, LSF_INTERLEAVE, LSF_POOLED (a filter pools the pixels of the pattern) and those of lib/brdf.glsl and lib/view.glsl.
  *
  * Light is summed in two parts: irradiance, for which the visible point reflects k_d / pi, and the
  * radiance of its specular lobe. */
@@ -12,7 +12,7 @@
 #include "lib/pooling.glsl"
 #endif
 #include "lib/region.glsl"
-#include "lib/view.glsl"
+#include "lib/sparse.glsl"
 
 #if LSF_DEEP
 layout(binding = 0) uniform sampler2D position_texture;
@@ -76,7 +76,11 @@ bool vertex_load(out shading_vertex v)
     float depth = texelFetch(depth_texture, texel, 0).r;
     if (depth == 0.0)
         return false;
+#if LSF_SPARSE
+    vec2 ndc = place_ndc(texel);
+#else
     vec2 ndc = sample_ndc(region_fragment());
+#endif
     v.position = position_from_depth(ndc, depth);
     v.view = -normalize(view_ray_direction(ndc));
     v.diffuse = vec3(1.0);

@@ -1,5 +1,6 @@
 /* One phase of the blur along one axis: the texel and a neighbour at either side, weighed 1 : 2 : 1.
  * The weights are derived in src/passes/blur.md. */
+#include "lib/sparse_grid.glsl"
 #include "lib/view.glsl"
 #include "passes/blur_texel.glsl"
 
@@ -58,7 +59,12 @@ void take(inout exchange e, ivec2 place, ivec2 last)
 
 void main()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy), last = textureSize(guide_texture, 0) - 1;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+#if LSF_SPARSE
+    ivec2 last = sparse_grid.xy - 1;
+#else
+    ivec2 last = textureSize(guide_texture, 0) - 1;
+#endif
     uvec4 guide = texelFetch(guide_texture, texel, 0);
     exchange e;
     e.position = guide_position(guide);

@@ -1,8 +1,9 @@
 /* What the blur compares of each texel, made once for all phases: 2 fetches of it instead of 4, and
  * no view rays. See src/passes/blur.md. */
-#include "lib/coarse.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/gbuffer_textures.glsl"
+#include "lib/sparse_grid.glsl"
+#include "lib/view.glsl"
 #include "passes/blur_texel.glsl"
 
 layout(location = 0) out uvec4 guide_out;
@@ -10,11 +11,11 @@ layout(location = 0) out uvec4 guide_out;
 layout(location = 0) uniform vec2 brackets; /* min_roughness, phases */
 
 /* Phases that blur the specular part: brackets of equal width from min_roughness to 1. */
-uint phases_of(ivec2 texel)
+uint phases_of(ivec2 pixel)
 {
     float roughness = 1.0;
 #if LSF_GLOSS
-    uvec2 gloss = texelFetch(gloss_texture, texel, 0).xy;
+    uvec2 gloss = texelFetch(gloss_texture, pixel, 0).xy;
     roughness = unpackUnorm2x16(gloss.x).x;
 #if LSF_ANISOTROPY
     /* Along the tangent it is the rougher. */
@@ -30,11 +31,13 @@ uint phases_of(ivec2 texel)
 
 void main()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
-    float depth = texelFetch(depth_texture, texel, 0).r;
-    uvec4 surface = texelFetch(surface_texture, texel, 0);
+    ivec2 pixel = sparse_pixel(ivec2(gl_FragCoord.xy));
     guide_out = uvec4(0u);
+    if (any(greaterThanEqual(pixel, ivec2(view.size.xy))))
+        return;
+    float depth = texelFetch(depth_texture, pixel, 0).r;
+    uvec4 surface = texelFetch(surface_texture, pixel, 0);
     if (depth != 0.0 && !surface_texel_unlit(surface))
-        guide_out = guide_pack(position_from_depth(coarse_ndc(texel), depth), surface.x, surface.y,
-                               phases_of(texel));
+        guide_out = guide_pack(position_from_depth(sample_ndc(vec2(pixel) + 0.5), depth), surface.x, surface.y,
+                               phases_of(pixel));
 }

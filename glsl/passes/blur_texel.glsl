@@ -2,7 +2,7 @@
  *   x, y, z  position, float bits [normalised space]
  *   w        geometric normal, octahedral 2 x 7 bits; shading normal << 14, the same;
  *            phases that blur the specular part, plus 1, << 28
- * Seven bits hold a normal to 1 degree, which its cosine and `blur.slope` do not notice. */
+ * Seven bits hold a normal to 1 degree, which its cosine and the slope do not notice. */
 #ifndef LSF_PASSES_BLUR_TEXEL
 #define LSF_PASSES_BLUR_TEXEL
 

@@ -1,10 +1,10 @@
 /* Light that arrives at visible points from voxels and from beyond them, by cones. */
 #include "lib/brdf_sample.glsl"
-#include "lib/coarse.glsl"
 #include "lib/environment.glsl"
 #include "lib/hash.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/sky.glsl"
+#include "lib/sparse.glsl"
 #include "lib/voxel_cone.glsl"
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility */
@@ -104,7 +104,7 @@ void main()
 #if LSF_GLOSS
     gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
 #endif
-    vec2 ndc = coarse_ndc(pixel);
+    vec2 ndc = place_ndc(pixel);
     vec3 point = voxel_from_position(position_from_depth(ndc, depth));
     vec3 to_viewer = -normalize(view_ray_direction(ndc));
     vec3 tangent, bitangent;

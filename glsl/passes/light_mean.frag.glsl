@@ -4,6 +4,9 @@
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/luminance.glsl"
+#if LSF_SPECULAR
+#include "lib/specular_albedo.glsl"
+#endif
 #include "lib/view.glsl"
 #include "lib/way_to_eye.glsl"
 
@@ -85,9 +88,7 @@ void main()
         roughness = s.roughness;
         if (!s.unlit) {
             vec3 view = -normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy)));
-            vec3 f0 = mix(surface_f0(s), s.base_color, s.metallic);
-            float f90 = mix(surface_f90(s), 1.0, s.metallic);
-            specular_factor = left * lobe_albedo(f0, f90, dot(s.normal, view), pow(s.roughness, 4.0));
+            specular_factor = left * specular_albedo(s, view);
         }
 #endif
     }

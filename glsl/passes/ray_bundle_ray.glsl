@@ -1,4 +1,4 @@
-/* Rays in a bundle's coordinates, and what they meet. Switches LSF_ORTHOGRAPHIC, LSF_INTERLEAVE,
+/* Rays in a bundle's coordinates, and what they meet. Switches LSF_ORTHOGRAPHIC, LSF_SPARSE, LSF_INTERLEAVE,
  * LSF_DEEP, LSF_BUNDLE_SURFACES (nodes hold surfaces, which tell them apart) and those of
  * lib/ray_bundle.glsl.
  *
@@ -8,6 +8,7 @@
 #define LSF_PASSES_RAY_BUNDLE_RAY
 
 #include "lib/ray_bundle.glsl"
+#include "lib/sparse.glsl"
 #include "passes/ray_bundle_frame.glsl"
 
 layout(binding = 0) uniform sampler2D origin_depth;
@@ -45,6 +46,11 @@ bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
     }
 #endif
     float depth = texelFetch(origin_depth, pixel, 0).r;
+#if LSF_SPARSE
+    vec3 q = bundle_coordinates(position_from_depth(place_ndc(pixel), depth));
+    place = vec3(bundle_place(q), (q.z - bundle.range.x) * frame.scale.z);
+    return depth != 0.0;
+#endif
     place = frame.start + view_depth_from_start(depth) * frame.along;
 #if LSF_BUNDLE_GAPS
     place = map_place(place, frame.scale.z);

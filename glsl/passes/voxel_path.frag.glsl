@@ -3,11 +3,11 @@
  * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS, LSF_VOXEL_BENT, LSF_TRANSMISSION, LSF_ABSORPTION (there
  * are media) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
-#include "lib/coarse.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/path_random.glsl"
 #include "lib/sky.glsl"
+#include "lib/sparse.glsl"
 #include "lib/voxel_shading.glsl"
 #include "lib/voxel_sight.glsl"
 #if LSF_ABSORPTION
@@ -316,7 +316,7 @@ void main()
     indirect = direct = light_parts(vec3(0.0), vec3(0.0));
     float share = 0.0;
     if (depth != 0.0 && !surface_texel_unlit(surface_texel)) {
-        vec2 ndc = coarse_ndc(texel);
+        vec2 ndc = place_ndc(texel);
         vec3 position = position_from_depth(ndc, depth);
         path_vertex v;
         v.position = voxel_from_position(position);

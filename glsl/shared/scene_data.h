@@ -98,8 +98,8 @@ struct lsf_lobe_data {
 #define LSF_LOCATION_ARRIVAL 14
 #define LSF_LOCATION_VPL 15
 #define LSF_LOCATION_ADDED 16
-/* Location of the grid on which light is traced; see lib/coarse.glsl. */
-#define LSF_LOCATION_COARSE 17
+/* Texture unit of the pixels at which light is gathered; see lib/sparse.glsl. */
+#define LSF_UNIT_PLACES 17
 /* Locations of lib/voxel_cone.glsl. */
 #define LSF_LOCATION_CONE 18
 #define LSF_LOCATION_CONE_STEPS 19
@@ -108,6 +108,9 @@ struct lsf_lobe_data {
 #define LSF_CONE_MAX 32
 /* Location of what decides by chance; see lib/chance.glsl. */
 #define LSF_LOCATION_CHANCE 60
+/* Locations of the grid of points at which light is gathered; see lib/sparse_grid.glsl. */
+#define LSF_LOCATION_SPARSE_GRID 61
+#define LSF_LOCATION_SPARSE_SHAPE 62
 /* Location of the density of directions drawn by the environment's radiance; see lib/sky.glsl. */
 #define LSF_LOCATION_SKY (LSF_LOCATION_CONE_SET + LSF_CONE_MAX)
 /* Location of what finds the environment by chance, in passes/direct_light.frag.glsl and
@@ -122,8 +125,9 @@ struct lsf_lobe_data {
 #define LSF_BINDING_VOXEL 3
 
 /* Storage buffers. */
-#define LSF_BINDING_VPL 1          /* the VPLs of an iteration */
-#define LSF_BINDING_BUNDLE_NODES 2 /* 2 to 7: the nodes of the bundle in turn */
+#define LSF_BINDING_VPL 1           /* the VPLs of an iteration */
+#define LSF_BINDING_SPARSE_COUNTS 7 /* pixels that no point of the grid fits */
+#define LSF_BINDING_BUNDLE_NODES 2  /* 2 to 7: the nodes of the bundle in turn */
 
 /* A ray-bundle search that met nothing. */
 #define LSF_NO_NODE 0xffffffffu

@@ -21,8 +21,6 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
      "factor of the voxels' opacity; above 1 thin walls leak less"},
     {"cone.distance", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, distance), 0.0, 4.0, NULL,
      "half extents of the scene", "that cones reach at most"},
-    {"cone.scale", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, scale), 0.01, 1.0, NULL, "",
-     "width and height of the grid that cones are traced on, to the picture's"},
     {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
      "other elevations each iteration, so that no direction is left out in the mean"},
     {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",

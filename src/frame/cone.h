@@ -19,7 +19,6 @@ typedef struct lsf_cone_params {
     float step;     /* texels of the level in turn */
     float opacity;  /* that of texels counts times this, at most 1 */
     float distance; /* that cones reach [half extents of the scene] */
-    float scale;    /* of the grid that they are traced on to the picture, along each side */
     bool jitter;    /* of their elevation, each within its share, from iteration to iteration */
     bool sealed;    /* cones are rays along their axis, which end where it meets a voxel */
     bool turn;      /* the set is turned from pixel to pixel */
@@ -27,9 +26,9 @@ typedef struct lsf_cone_params {
 
 #define LSF_CONE_PARAMS_DEFAULTS                                                                   \
     .count = 6, .sides = LSF_CONE_ANISOTROPIC, .offset = 1.5f, .step = 1.0f, .opacity = 1.0f,      \
-    .distance = 4.0f, .scale = 1.0f, .jitter = true, .sealed = true, .turn = true
+    .distance = 4.0f, .jitter = true, .sealed = true, .turn = true
 
-#define LSF_CONE_OPTION_COUNT 10
+#define LSF_CONE_OPTION_COUNT 9
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
 
 /* Levels of radiance that they read: one where cones are sealed, as nothing marches then. */

@@ -3,6 +3,7 @@
 #define LSF_FRAME_ITERATION_H
 
 #include "frame/scene_gpu.h"
+#include "frame/sparse_grid.h"
 #include "plan/sky_light.h"
 #include "shared/view.h"
 
@@ -21,6 +22,7 @@ typedef struct lsf_iteration {
                            * its number */
     uint32_t first_index; /* of the frame's first iteration */
     uint32_t serial_before; /* of the iteration before that */
+    lsf_sparse_grid grid;   /* of the points at which it gathers indirect light */
     GLuint view_buffer;     /* struct lsf_view_data */
     struct lsf_view_data view;
     lsf_camera_state previous_camera; /* for motion */

@@ -1,5 +1,7 @@
 #include "frame/maps.h"
 
+#include "shared/scene_data.h"
+
 GLenum lsf_gbuffer_gloss(const lsf_plan *plan)
 {
     const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
@@ -11,4 +13,5 @@ void lsf_surface_maps_bind(const lsf_surface_maps *maps)
     lsf_bind_texture(0, maps->depth);
     lsf_bind_texture(1, maps->surface);
     lsf_bind_texture(2, maps->gloss);
+    lsf_bind_texture(LSF_UNIT_PLACES, maps->pixels);
 }

@@ -11,6 +11,7 @@ typedef struct lsf_surface_maps {
     GLuint depth;   /* reverse-Z, 0 where nothing is seen: DEPTH_COMPONENT32F, or a copy in R32F */
     GLuint surface; /* RGBA32UI */
     GLuint gloss;   /* R32UI or RG32UI; 0: roughness and metallic are the same everywhere */
+    GLuint pixels;  /* R32UI, x | y << 16: which pixel sees each; 0: it follows from the place */
 } lsf_surface_maps;
 
 /* Light at such points, RGBA32F; both 0: there is none. */
@@ -40,7 +41,7 @@ typedef struct lsf_light_parts {
 /* The format of the G-buffer's gloss, once that is planned; GL_NONE: it has none. */
 GLenum lsf_gbuffer_gloss(const lsf_plan *plan);
 
-/* For lib/gbuffer_textures.glsl, to units 0 to 2. */
+/* For lib/gbuffer_textures.glsl, to units 0 to 2, and lib/sparse.glsl. */
 void lsf_surface_maps_bind(const lsf_surface_maps *maps);
 
 #endif

@@ -67,6 +67,7 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_switch_add(plan, "LSF_DEEP", deep, "vertices are hits of bundles");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
                         "the size of the interleaving pattern, 1: none");
     lsf_plan_switch_add(plan, "LSF_POOLED",
@@ -99,7 +100,7 @@ static void plan_vpl(lsf_plan *plan, const lsf_bidirectional_shade_params *param
 {
     lsf_plan_pass_add(plan, vpl_names[deep], "%s",
                       deep ? "VPLs light what bundles met" : "VPLs light visible points");
-    lsf_plan_reads(plan, deep ? "view vpl" : "view interleave|gbuffer vpl");
+    lsf_plan_reads(plan, deep ? "view vpl" : "view points|gbuffer vpl");
     plan_switches(plan, params, use, true, deep);
     lsf_plan_switch_add(plan, "LSF_PUNCTUAL", use->vpl_light, "VPLs reflect punctual lights");
 }
@@ -109,7 +110,7 @@ static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *param
 {
     lsf_plan_pass_add(plan, hit_names[deep], "%s",
                       deep ? "what later segments of a path bring" : "what bundles bring");
-    lsf_plan_reads(plan, deep ? "view ray_bundle" : "view interleave|gbuffer ray_bundle");
+    lsf_plan_reads(plan, deep ? "view ray_bundle" : "view points|gbuffer ray_bundle");
     if (use->hit_light)
         lsf_plan_reads(plan, "reflective_shadow_map");
     plan_switches(plan, params, use, false, deep);
@@ -139,8 +140,9 @@ void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_
         plan_hit(plan, params, use, false);
     if (use->segments > 1)
         plan_hit(plan, params, use, true);
-    uint32_t given = (use->split_direct ? DIRECT : 0) | (use->vertices > 0 ? DEEP : 0);
-    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), given, plan->width, plan->height);
+    uint32_t given = (use->split_direct ? DIRECT : 0) | (use->vertices > 0 ? DEEP : 0), places[2];
+    lsf_sparse_grid_places(plan, places);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), given, places[0], places[1]);
 }
 
 static bool create_hit(lsf_bidirectional_shade *pass, const lsf_plan *plan, bool deep,
@@ -223,6 +225,7 @@ static void bind_vertices(const lsf_bidirectional_shade *pass,
     lsf_bind_texture(0, deep ? pass->outputs.position : inputs->seen->depth);
     lsf_bind_texture(1, deep ? pass->outputs.surface : inputs->seen->surface);
     lsf_bind_texture(2, deep ? pass->outputs.gloss : inputs->seen->gloss);
+    lsf_bind_texture(LSF_UNIT_PLACES, inputs->seen->pixels);
     if (deep) {
         lsf_bind_texture(3, pass->throughput);
         glUniform3fv(LSF_LOCATION_ARRIVAL, 1, sample->arrival);
@@ -265,8 +268,8 @@ void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iterat
 {
     bool direct = sample->emitter && !deep && pass->outputs.direct.irradiance;
     lsf_timer_begin(pass->vpl_timer);
-    lsf_begin_fullscreen(pass->vpl_framebuffers[direct], iteration->plan->width,
-                         iteration->plan->height, pass->vpl_programs[deep]);
+    lsf_begin_fullscreen(pass->vpl_framebuffers[direct], iteration->grid.width,
+                         iteration->grid.height, pass->vpl_programs[deep]);
     lsf_blend_add(pass->outputs.light.specular ? 2 : 1);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
@@ -286,8 +289,8 @@ void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iterat
     /* Each fragment reads a vertex and then replaces it: its own texel alone, so that a barrier
      * between draws is all it takes (OpenGL 4.5, section 9.3.1). */
     glTextureBarrier();
-    lsf_begin_fullscreen(pass->hit_framebuffers[deep], iteration->plan->width,
-                         iteration->plan->height, pass->hit_programs[deep]);
+    lsf_begin_fullscreen(pass->hit_framebuffers[deep], iteration->grid.width,
+                         iteration->grid.height, pass->hit_programs[deep]);
     lsf_blend_add(pass->hit_floats[deep]);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);

@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_BLUR_H
 #define LSF_PASSES_BLUR_H
 
-#include "frame/coarse_grid.h"
+#include "frame/iteration.h"
 #include "frame/maps.h"
 #include "plan/option.h"
 
@@ -21,18 +21,16 @@ typedef struct lsf_blur_params {
     .phases = 0, .step = 1.0f, .ratio = 1.5f, .growth = 0.25f, .min_roughness = 0.1f,              \
     .cutoff = 6.0f, .slope = 0.25f, .normal_weight = 4.0f
 
-#define LSF_BLUR_OPTION_COUNT 8
+#define LSF_BLUR_OPTION_COUNT 1
 extern const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT];
 
 /* Whether light is to be blurred; says so where it is a bias. */
 bool lsf_blur_wanted(const lsf_blur_params *params);
 void lsf_blur_remark(lsf_plan *plan, const lsf_blur_params *params);
 
-/* All of the grid's size. */
 typedef struct lsf_blur_inputs {
-    const lsf_coarse_grid *grid;
-    const lsf_surface_maps *seen; /* by the grid */
-    const lsf_split_light *light;
+    const lsf_surface_maps *seen; /* by the picture's pixels */
+    const lsf_split_light *light; /* of the iteration's points */
 } lsf_blur_inputs;
 
 typedef struct lsf_blur {
@@ -46,9 +44,9 @@ typedef struct lsf_blur {
     lsf_timer *timer;
 } lsf_blur;
 
-/* Lists "blur_guide" and "blur" for light on a grid of width by height texels; leaves them out
- * where it is not wanted. Needs the G-buffer's plan. */
-void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params, uint32_t width, uint32_t height);
+/* Lists "blur_guide" and "blur" for light of the plan's points; leaves them out where it is not
+ * wanted. Needs the G-buffer's plan. */
+void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params);
 bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
                      const lsf_blur_params *params, lsf_error *error);
 void lsf_blur_run(lsf_blur *pass, const lsf_iteration *iteration, const lsf_blur_inputs *inputs);

@@ -31,16 +31,16 @@ static const lsf_texture_row textures[] = {
      "light of the specular lobe"},
 };
 
-void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t width,
-                         uint32_t height)
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params)
 {
+    uint32_t places[2];
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "cone_trace", "%d diffuse cones of each visible point%s", params->count,
                       r->specular ? ", and a specular one" : "");
-    lsf_plan_reads(plan, "view upsample_search|gbuffer voxelize voxel_bounce|voxel_light");
+    lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_bounce|voxel_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_coarse_grid_switch(plan, width, height);
+    lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)lsf_cone_slices(params), "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
@@ -49,7 +49,8 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
-    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, width, height);
+    lsf_sparse_grid_places(plan, places);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, places[0], places[1]);
     if (!r->specular || params->sealed)
         return;
     lsf_plan_texture_add(plan, "cone_trace.lobe_albedo", GL_RG32F, ALBEDO_SIDE, ALBEDO_SIDE,
@@ -120,10 +121,10 @@ bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf
 void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
                         const lsf_cone_trace_inputs *inputs)
 {
+    const lsf_sparse_grid *grid = &iteration->grid;
     lsf_timer_begin(pass->timer);
-    lsf_begin_fullscreen(pass->framebuffer, inputs->grid->width, inputs->grid->height,
+    lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
                          pass->program);
-    lsf_coarse_grid_set(inputs->grid);
     lsf_surface_maps_bind(inputs->seen);
     lsf_bind_texture(3, pass->lobe_albedo);
     lsf_voxels_bind(inputs->voxels);

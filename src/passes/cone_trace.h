@@ -2,13 +2,12 @@
 #ifndef LSF_PASSES_CONE_TRACE_H
 #define LSF_PASSES_CONE_TRACE_H
 
-#include "frame/coarse_grid.h"
 #include "frame/cone.h"
+#include "frame/iteration.h"
 #include "frame/maps.h"
 
 typedef struct lsf_cone_trace_inputs {
-    const lsf_coarse_grid *grid;
-    const lsf_surface_maps *seen; /* by the grid */
+    const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
     GLuint radiance; /* the pyramid over them; voxel_light.h, voxel_mip.h */
 } lsf_cone_trace_inputs;
@@ -17,7 +16,7 @@ typedef struct lsf_cone_trace {
     lsf_context *context;
     lsf_cone_params params;
     lsf_voxel_grid grid;
-    /* Output, of the grid's size. Alpha of irradiance: ambient visibility, the share of the
+    /* Output, at the points' places. Alpha of irradiance: ambient visibility, the share of the
      * hemisphere, weighted by its cosine, in which no voxel is met. */
     lsf_split_light light;
     GLuint lobe_albedo; /* RG32F by cosine of the view and roughness */
@@ -25,9 +24,7 @@ typedef struct lsf_cone_trace {
     lsf_timer *timer;
 } lsf_cone_trace;
 
-/* For a grid of width by height texels. */
-void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, uint32_t width,
-                         uint32_t height);
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params);
 bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_cone_params *params, const lsf_voxel_grid *grid,
                            lsf_error *error);

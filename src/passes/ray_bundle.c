@@ -63,6 +63,7 @@ void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params 
 void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                          const lsf_ray_bundle_use *use)
 {
+    uint32_t places[2];
     lsf_plan_buffer_add(plan, "ray_bundle.projections",
                         use->count * sizeof(struct lsf_bundle_slot_data),
                         "projections of %u bundle%s", use->count, lsf_plural(use->count));
@@ -82,11 +83,12 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_ray_bundle_nodes_plan(plan, params, use);
     lsf_ray_bundle_tally_plan(plan);
     lsf_plan_pass_add(plan, "ray_bundle_search", "what rays from the visible points meet");
-    lsf_plan_reads(plan, "view interleave|gbuffer");
+    lsf_plan_reads(plan, "view points|gbuffer");
     if (use->deep_vertices)
         lsf_plan_reads(plan, "bidirectional_shade");
     lsf_ray_bundle_reader_switches(plan, params);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
                         "size of the interleaving pattern");
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
@@ -95,9 +97,10 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight,
                         "light goes straight through materials that transmit");
-    lsf_plan_buffer_add(plan, "ray_bundle.rest", 4 + 4 * (uint64_t)plan->width * plan->height,
+    lsf_sparse_grid_places(plan, places);
+    lsf_plan_buffer_add(plan, "ray_bundle.rest", 4 + 4 * (uint64_t)places[0] * places[1],
                         "pixels whose search takes more than a look at the slices");
-    lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, plan->width, plan->height,
+    lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, places[0], places[1],
                          "distance and node of each ray's hit");
 }
 
@@ -245,11 +248,12 @@ GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteratio
     lsf_timer_begin(pass->search_timer);
     bind_nodes(pass, bundle);
     lsf_ray_bundle_nodes_bind_textures(&pass->slots[bundle % pass->use.slots]);
-    lsf_begin_fullscreen(pass->hits_framebuffer, iteration->plan->width, iteration->plan->height,
+    lsf_begin_fullscreen(pass->hits_framebuffer, iteration->grid.width, iteration->grid.height,
                          pass->search_program);
     lsf_bind_texture(0, origins->depth);
     lsf_bind_texture(1, origins->surface);
     lsf_bind_texture(2, origins->position);
+    lsf_bind_texture(LSF_UNIT_PLACES, origins->pixels);
     glClearNamedBufferSubData(pass->rest, GL_R32UI, 0, 4, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_REST, pass->rest);
     set_ray(pass, pass->search_program, origins, region);

@@ -57,6 +57,7 @@ typedef struct lsf_ray_bundle_origins {
     GLuint depth;    /* G-buffer depth, or its split copy (R32F); 0: position is used */
     GLuint position; /* RGBA32F: xyz; w 0: no vertex */
     GLuint surface;  /* its geometric normal turns the ray: +direction or -direction */
+    GLuint pixels;   /* as in lsf_surface_maps; with depth */
 } lsf_ray_bundle_origins;
 
 enum {

@@ -280,7 +280,8 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     out->shadow.depth = target->depth;
     out->shadow.gradient = target->gradient;
     out->shadow.tint = target->tint;
-    out->seen = (lsf_surface_maps){target->depth, target->surface, target->gloss};
+    out->seen = (lsf_surface_maps){
+        .depth = target->depth, .surface = target->surface, .gloss = target->gloss};
     out->importance = target->importance;
     lsf_timer_end(pass->timer);
     if (pass->pdf_timer)

@@ -21,8 +21,6 @@ const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
      "drawn on emissive surfaces at each vertex of a path; 0: paths find these by chance"},
     {"voxel_path.sequence", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, sequence), 0, 0,
      "sobol|texture", "", "random numbers: of low discrepancy, or from a texture as in the paper"},
-    {"voxel_path.scale", LSF_OPTION_FLOAT, offsetof(lsf_voxel_path_params, scale), 0.01, 1.0, NULL,
-     "", "sides of the grid of pixels on which paths begin, to those of the picture"},
 };
 
 /* Condition of textures, beside LSF_TEXTURE_SPECULAR. */
@@ -55,11 +53,12 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     bool texture = params->sequence == LSF_VOXEL_PATH_TEXTURE;
+    uint32_t places[2];
     lsf_plan_pass_add(plan, "voxel_path", "paths of %u segment%s through the voxels", use->segments,
                       lsf_plural(use->segments));
-    lsf_plan_reads(plan, "view upsample_search|gbuffer voxelize voxel_light");
+    lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_coarse_grid_switch(plan, use->width, use->height);
+    lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_voxel_gloss_switch(plan);
@@ -78,8 +77,9 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
+    lsf_sparse_grid_places(plan, places);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), use->split_direct ? DIRECT : 0,
-                          use->width, use->height);
+                          places[0], places[1]);
     if (texture)
         lsf_plan_texture_add(plan, "voxel_path.random", GL_RGBA32F, RANDOM_SIZE, RANDOM_SIZE,
                              "random numbers, the same for all iterations");
@@ -150,10 +150,10 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs)
 {
     const lsf_voxel_path_params *p = &pass->params;
+    const lsf_sparse_grid *grid = &iteration->grid;
     lsf_timer_begin(pass->timer);
-    lsf_begin_fullscreen(pass->framebuffer, inputs->grid->width, inputs->grid->height,
+    lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
                          pass->program);
-    lsf_coarse_grid_set(inputs->grid);
     bind_inputs(pass, iteration, inputs);
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
                 p->max_samples);

@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_VOXEL_PATH_H
 #define LSF_PASSES_VOXEL_PATH_H
 
-#include "frame/coarse_grid.h"
+#include "frame/iteration.h"
 #include "frame/maps.h"
 #include "frame/voxel_grid.h"
 #include "plan/option.h"
@@ -18,14 +18,12 @@ typedef struct lsf_voxel_path_params {
     int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1 */
     int32_t emitters; /* points that are drawn on emissive surfaces at each vertex; 0: none */
     int32_t sequence; /* lsf_voxel_path_sequence */
-    float scale;      /* of the grid on which paths begin, to the picture's sides */
 } lsf_voxel_path_params;
 
 #define LSF_VOXEL_PATH_PARAMS_DEFAULTS                                                             \
-    .min_samples = 1, .max_samples = 6, .emitters = 1, .sequence = LSF_VOXEL_PATH_SOBOL,           \
-    .scale = 1.0f
+    .min_samples = 1, .max_samples = 6, .emitters = 1, .sequence = LSF_VOXEL_PATH_SOBOL
 
-#define LSF_VOXEL_PATH_OPTION_COUNT 5
+#define LSF_VOXEL_PATH_OPTION_COUNT 4
 extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];
 
 /* Lengths of a path that the plan's bounces and light take; 0: nothing to find by paths. What
@@ -33,19 +31,17 @@ extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];
 uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual);
 
 typedef struct lsf_voxel_path_use {
-    uint32_t width, height; /* of the grid of pixels on which paths begin */
     uint32_t segments;
     bool split_direct; /* what the first segment finds to shine is asked for apart */
 } lsf_voxel_path_use;
 
 typedef struct lsf_voxel_path_inputs {
-    const lsf_coarse_grid *grid;
-    const lsf_surface_maps *seen; /* by the grid */
+    const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
     GLuint radiance; /* of voxels, two sides */
 } lsf_voxel_path_inputs;
 
-/* Of the grid's size. */
+/* At the points' places. */
 typedef struct lsf_voxel_path_outputs {
     lsf_split_light light;
     lsf_split_light direct; /* 0 unless split_direct */

@@ -78,6 +78,39 @@ static bool set_value(const lsf_option_row *row, void *value, const char *text)
     return true;
 }
 
+/* Options of former versions, a point at the end stands for all of a pass, and what does their work
+ * now. */
+static const struct {
+    const char *key, *instead;
+} gone[] = {
+    {"cone.scale", "sparse.grid=2 gathers light at every second pixel along both sides"},
+    {"voxel_path.scale", "sparse.grid=2 gathers light at every second pixel along both sides"},
+    {"upsample_search.radius", "sparse.radius"},
+    {"upsample_search.min_cosine", "sparse.normal_weight"},
+    {"upsample_search.slope", "sparse.slope"},
+    {"interleave.periods", "sparse.blur=3 takes the place of the filter of two periods"},
+    {"interleave.depth_weight", "sparse.blur has no such weight"},
+    {"interleave.normal_weight", "sparse.blur has no such weight"},
+    {"blur.phases", "sparse.blur"},
+    {"blur.", "sparse.blur is the one option of the blur"},
+};
+
+static bool refuse_unknown(const char *assignment, size_t length, lsf_error *error)
+{
+    for (size_t i = 0; i < LSF_COUNT(gone); i++) {
+        size_t known = strlen(gone[i].key);
+        bool whole = known == length || gone[i].key[known - 1] == '.';
+        if (whole && strncmp(gone[i].key, assignment, known) == 0)
+            return lsf_error_set(error, LSF_ERROR_USAGE,
+                                 "-D %s: there is no such option any more; instead: %s", assignment,
+                                 gone[i].instead);
+    }
+    return lsf_error_set(error, LSF_ERROR_USAGE,
+                         "%s: no such option of a pass; lsf_option_list has all (lightsheaf "
+                         "render --list-options)",
+                         assignment);
+}
+
 bool lsf_option_set(const lsf_option_table *tables, uint32_t table_count, void *params,
                     const char *assignment, lsf_error *error)
 {
@@ -88,10 +121,7 @@ bool lsf_option_set(const lsf_option_table *tables, uint32_t table_count, void *
     const lsf_option_row *row =
         find_row(tables, table_count, assignment, (size_t)(equals - assignment), &offset);
     if (!row)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "%s: no such option of a pass; lsf_option_list has all (lightsheaf "
-                             "render --list-options)",
-                             assignment);
+        return refuse_unknown(assignment, (size_t)(equals - assignment), error);
     if (set_value(row, (char *)params + offset, equals + 1))
         return true;
     char range[256];

@@ -68,10 +68,13 @@ struct lsf_plan {
                            * filter; 1: none */
     uint32_t sky_pattern; /* side of the pattern in which pixels take different ones of these; 0:
                            * their light is not filtered, all pixels take all */
-    uint32_t tiles;       /* of pixels, to which samples are dealt out in turn; 0 is 1 */
-    bool filtered;        /* light_filter takes the noise out of the mean */
-    bool temporal;        /* light is kept from frame to frame */
-    bool failed;          /* memory ran out while it was filled */
+    uint32_t stride; /* pixels from point to point at which indirect light is gathered, a power of
+                      * two; 0 is 1 */
+    uint32_t finest_stride; /* to which it falls as iterations go on; where stride is above 1 */
+    uint32_t tiles;         /* of pixels, to which samples are dealt out in turn; 0 is 1 */
+    bool filtered;          /* light_filter takes the noise out of the mean */
+    bool temporal;          /* light is kept from frame to frame */
+    bool failed;            /* memory ran out while it was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;
     lsf_plan_resource *resources;
@@ -97,8 +100,7 @@ void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
  * the first that the plan lists is read. Names that the plan does not list count for nothing. */
 void lsf_plan_reads(lsf_plan *plan, const char *names);
 /* Light that bounced, in the picture's order: what the last pass of those that make it has left. */
-#define LSF_PLAN_INDIRECT                                                                          \
-    "upsample_search|blur|cone_trace|voxel_path|interleave|bidirectional_shade"
+#define LSF_PLAN_INDIRECT "upsampled|blur|sparse|cone_trace|voxel_path|bidirectional_shade"
 /* The stem of what the last pass fills, where it is not the beginning of the pass's own name. */
 void lsf_plan_fills(lsf_plan *plan, const char *stem);
 /* `when` says what puts it on, whether or not it is. */

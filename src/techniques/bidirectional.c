@@ -10,7 +10,6 @@
 #include "math/sampling.h"
 #include "passes/bidirectional_shade.h"
 #include "passes/compose.h"
-#include "passes/interleave.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl.h"
@@ -20,6 +19,7 @@
 #include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
+#include "techniques/sparse_chain.h"
 
 typedef struct bidirectional {
     lsf_context *context;
@@ -32,7 +32,7 @@ typedef struct bidirectional {
     lsf_bundle_directions directions;
     GLuint bundle_pdf; /* 0: uniform */
     lsf_bidirectional_shade shade;
-    lsf_interleave interleave;
+    lsf_sparse_chain sparse;
     lsf_compose compose;
     lsf_emitters emitters; /* empty unless they shine as VPLs */
     lsf_distribution light_picks;
@@ -145,10 +145,9 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
            (vpl.count == 0 || lsf_vpl_create(&b->vpl, context, plan, &vpl, error)) &&
            (s.segments == 0 || create_bundles(b, context, plan, params, scene->scene, error)) &&
            (!lsf_plan_find(plan, "bidirectional_shade.irradiance") ||
-            lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
-                                           error)) &&
-           (s.interleave == 1 ||
-            lsf_interleave_create(&b->interleave, context, plan, &params->interleave, error)) &&
+            (lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
+                                            error) &&
+             lsf_sparse_chain_create(&b->sparse, context, plan, params, error))) &&
            lsf_compose_create(&b->compose, context, plan, error);
 }
 
@@ -341,6 +340,7 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
     bool lit = s->bundle_light && segment <= s->bounces;
     lsf_bidirectional_shade_inputs inputs = turn->inputs;
     lsf_ray_bundle_origins origins = {.depth = deep ? 0 : inputs.seen->depth,
+                                      .pixels = inputs.seen->pixels,
                                       .position = deep ? b->shade.outputs.position : 0,
                                       .surface =
                                           deep ? b->shade.outputs.surface : inputs.seen->surface};
@@ -392,7 +392,7 @@ static void run_sample(sample_turn *turn, uint32_t i, uint32_t light)
     bidirectional *b = turn->b;
     const lsf_bidirectional_sampling *s = &b->sampling;
     uint32_t slot = i % s->tiles;
-    turn->region = lsf_interleave_region(turn->iteration->plan, s->interleave, slot);
+    turn->region = lsf_sparse_region(&turn->iteration->grid, s->interleave, slot);
     turn->tile_vpls = dealt(s->vpl_light ? s->vpl_count : s->emitter_count, s->tiles, slot);
     turn->tile_bundles = dealt(s->bundle_count, s->tiles, slot);
     if (i < s->vpl_count) {
@@ -474,24 +474,18 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
 {
     bidirectional *b = self;
     const lsf_gbuffer_maps *gbuffer = &b->chain.gbuffer.outputs;
-    lsf_bidirectional_shade_inputs inputs = {.seen = &gbuffer->seen};
     const lsf_split_light *light = &b->shade.outputs.light;
     share_sky(b, iteration);
     lsf_direct_chain_run(&b->chain, iteration);
-    if (b->sampling.interleave > 1) {
-        lsf_interleave_split(&b->interleave, iteration, &gbuffer->seen);
-        inputs.seen = &b->interleave.split;
-    }
-    if (light->irradiance)
+    lsf_light_parts parts = lsf_direct_chain_parts(&b->chain);
+    if (light->irradiance) {
+        lsf_bidirectional_shade_inputs inputs = {
+            .seen = lsf_sparse_chain_split(&b->sparse, iteration, &gbuffer->seen)};
         run_samples(b, iteration, &inputs);
+        parts.indirect = lsf_sparse_chain_finish(&b->sparse, iteration, &gbuffer->seen, light);
+    }
     if (b->bundle)
         lsf_ray_bundle_end(b->bundle, iteration);
-    if (b->sampling.interleave > 1) {
-        lsf_interleave_gather(&b->interleave, iteration, &gbuffer->seen, light);
-        light = &b->interleave.light;
-    }
-    lsf_light_parts parts = lsf_direct_chain_parts(&b->chain);
-    parts.indirect = *light;
     parts.split_direct = b->shade.outputs.direct;
     lsf_compose_run(&b->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){
@@ -516,7 +510,7 @@ static void destroy_bidirectional(void *self)
     if (!b)
         return;
     lsf_compose_destroy(&b->compose);
-    lsf_interleave_destroy(&b->interleave);
+    lsf_sparse_chain_destroy(&b->sparse);
     lsf_bidirectional_shade_destroy(&b->shade);
     lsf_ray_bundle_destroy(b->bundle);
     if (b->bundle_pdf)
@@ -541,7 +535,6 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
     if (b->bundle)
         lsf_ray_bundle_timers(b->bundle, bundle_timers);
     const lsf_pass_report candidates[] = {
-        {.timer = b->interleave.split_timer},
         {b->rsm.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, b->rsm.counts},
         {.timer = b->rsm.pdf_timer},
         {.timer = b->vpl.draw_timer},
@@ -553,17 +546,18 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
         {.timer = bundle_timers[2]},
         {.timer = b->shade.vpl_timer},
         {.timer = b->shade.hit_timer},
-        {.timer = b->interleave.gather_timer},
-        {.timer = b->interleave.filter_timer},
-        {.timer = b->compose.timer},
     };
+    count += lsf_sparse_chain_report_split(&b->sparse, reports + count);
     for (size_t i = 0; i < LSF_COUNT(candidates); i++)
         if (candidates[i].timer)
             reports[count++] = candidates[i];
+    count += lsf_sparse_chain_report_finish(&b->sparse, reports + count);
+    reports[count++] = (lsf_pass_report){.timer = b->compose.timer};
     return count;
 }
 
-static const char *const groups[] = {"rsm", "vpl", "bundle", "bidirectional", "mis", NULL};
+static const char *const groups[] = {"rsm", "vpl",    "bundle", "bidirectional",
+                                     "mis", "sparse", NULL};
 
 const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",

@@ -6,6 +6,7 @@
 #include "passes/compose.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
+#include "techniques/sparse_chain.h"
 
 static uint32_t max_u32(uint32_t a, uint32_t b)
 {
@@ -36,8 +37,8 @@ lsf_bidirectional_sampling lsf_bidirectional_sampling_choose(const lsf_plan *pla
     lsf_bidirectional_sampling s = {
         .bounces = plan->bounces,
         .bundle_count = (uint32_t)params->ray_bundle.count,
-        .interleave = (uint32_t)params->interleave.size,
-        .tiles = (uint32_t)(params->interleave.size * params->interleave.size)};
+        .interleave = (uint32_t)params->sparse.interleave,
+        .tiles = (uint32_t)(params->sparse.interleave * params->sparse.interleave)};
     s.vpl_light = mapped && strategy != LSF_BIDIRECTIONAL_BUNDLE && vpl_count > 0;
     s.bundle_light = mapped && strategy != LSF_BIDIRECTIONAL_VPL;
     s.vpl_emitter = r->emissive && strategy != LSF_BIDIRECTIONAL_BUNDLE && vpl_count > 0;
@@ -68,7 +69,7 @@ lsf_bidirectional_sampling lsf_bidirectional_sampling_choose(const lsf_plan *pla
     if (!s.vpl_light && !s.vpl_emitter && s.segments == 0)
         s.interleave = s.tiles = 1;
     s.split_direct =
-        (s.emission || s.vpl_emitter) && s.interleave == 1 &&
+        (s.emission || s.vpl_emitter) && lsf_sparse_chain_is_plain(plan, params, s.interleave) &&
         (plan->aovs & (LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR));
     return s;
 }
@@ -103,9 +104,10 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params,
     if (max_u32(s->vpl_count, s->emitter_count) > (uint32_t)params->vpl.count)
         lsf_plan_remark(plan, "%u VPLs an iteration instead of %d: each of %u tiles needs one",
                         s->tiles, params->vpl.count, s->tiles);
-    if ((s->emission || s->vpl_emitter) && s->interleave > 1)
-        lsf_plan_remark(plan, "with interleave.size above 1, direct light of surfaces and "
-                              "environments is in the indirect layers");
+    if ((s->emission || s->vpl_emitter) && !lsf_sparse_chain_is_plain(plan, params, s->interleave))
+        lsf_plan_remark(plan, "where light is shared between pixels (interleave.size, sparse.*), "
+                              "direct light of surfaces and environments is in the indirect "
+                              "layers");
     if (!s->whole_scene && plan->bounces > 2)
         lsf_plan_remark(plan,
                         "bundle.window=visible ends paths after one bundle: %u bounces are "
@@ -139,11 +141,6 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
     plan->tiles = s.tiles;
     lsf_direct_chain_plan(plan, params, state, NULL);
-    if (s.interleave > 1)
-        lsf_interleave_plan(plan, &params->interleave);
-    else
-        lsf_plan_omit(plan, "interleave", "%s",
-                      params->interleave.size > 1 ? "no light bounces" : "interleave.size is 1");
     if (s.vpl_light || s.bundle_light)
         lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, state);
     else
@@ -184,6 +181,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
             .split_direct = s.split_direct,
             .interleave = s.interleave};
         lsf_bidirectional_shade_plan(plan, &params->bidirectional_shade, &use);
+        lsf_sparse_chain_plan(plan, params, s.interleave);
     } else {
         lsf_plan_omit(plan, "bidirectional_shade", "no light bounces");
     }

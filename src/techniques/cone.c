@@ -4,22 +4,19 @@
 #include <stdlib.h>
 
 #include "base/base.h"
-#include "passes/blur.h"
 #include "passes/compose.h"
 #include "passes/cone_trace.h"
-#include "passes/upsample_search.h"
 #include "passes/voxel_bounce.h"
 #include "passes/voxel_mip.h"
+#include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
 /* How light goes, decided from the scene and the options. */
 typedef struct way {
-    bool traced;            /* to visible points otherwise than straight from punctual lights */
-    bool shines;            /* from surfaces or an environment */
-    uint32_t levels;        /* of radiance */
-    bool coarse;            /* cones are traced on a grid of fewer texels than pixels */
-    uint32_t width, height; /* of the grid */
-    uint32_t bounces;       /* from voxel to voxel */
+    bool traced;      /* to visible points otherwise than straight from punctual lights */
+    bool shines;      /* from surfaces or an environment */
+    uint32_t levels;  /* of radiance */
+    uint32_t bounces; /* from voxel to voxel */
 } way;
 
 /* Light of punctual lights is on voxels already, and the last bounce is at visible points; light of
@@ -28,10 +25,7 @@ static way choose_way(const lsf_plan *plan, const lsf_pass_params *params)
 {
     const lsf_requirements *r = &plan->requirements;
     way w = {.levels = lsf_cone_levels(&params->cone),
-             .shines = r->emissive || r->unlit || r->environment,
-             .width = lsf_coarse_grid_length(plan->width, params->cone.scale),
-             .height = lsf_coarse_grid_length(plan->height, params->cone.scale)};
-    w.coarse = lsf_coarse_grid_is_coarse(plan, w.width, w.height);
+             .shines = r->emissive || r->unlit || r->environment};
     w.traced = lsf_voxel_chain_has_voxels(plan) && (plan->bounces > 0 || w.shines);
     if (w.traced && plan->bounces > 0)
         w.bounces = plan->bounces - (w.shines ? 0 : 1);
@@ -44,8 +38,7 @@ typedef struct cone {
     lsf_voxel_mip mip;
     lsf_voxel_bounce bounce;
     lsf_cone_trace trace;
-    lsf_blur blur;
-    lsf_upsample_search upsample;
+    lsf_sparse_chain sparse;
     lsf_compose compose;
 } cone;
 
@@ -86,10 +79,8 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
             lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
-        lsf_cone_trace_plan(plan, &params->cone, w.width, w.height);
-        lsf_blur_plan(plan, &params->blur, w.width, w.height);
-        lsf_upsample_search_plan(plan, &params->upsample_search, w.width, w.height);
-        lsf_blur_remark(plan, &params->blur);
+        lsf_cone_trace_plan(plan, &params->cone);
+        lsf_sparse_chain_plan(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
         lsf_plan_omit(plan, "cone_trace", "no light bounces");
@@ -111,10 +102,7 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
            (c->way.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
-           (!lsf_blur_wanted(&params->blur) ||
-            lsf_blur_create(&c->blur, context, plan, &params->blur, error)) &&
-           (!c->way.coarse || lsf_upsample_search_create(&c->upsample, context, plan,
-                                                         &params->upsample_search, error));
+           lsf_sparse_chain_create(&c->sparse, context, plan, params, error);
 }
 
 static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
@@ -181,29 +169,14 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
 /* What voxels and the environment shed on visible points. */
 static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
 {
-    const lsf_surface_maps *all = &c->chain.direct.gbuffer.outputs.seen, *seen = all;
+    const lsf_surface_maps *seen = &c->chain.direct.gbuffer.outputs.seen;
     lsf_voxel_chain_begin(&c->chain, iteration);
-    lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, c->way.width, c->way.height);
-    if (c->way.coarse) {
-        lsf_upsample_search_split(&c->upsample, iteration, all);
-        grid = c->upsample.grid;
-        seen = &c->upsample.coarse;
-    }
-    const lsf_cone_trace_inputs inputs = {.grid = &grid,
-                                          .seen = seen,
+    const lsf_cone_trace_inputs inputs = {.seen =
+                                              lsf_sparse_chain_split(&c->sparse, iteration, seen),
                                           .voxels = c->chain.voxels,
                                           .radiance = light_voxels(c, iteration)};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
-    const lsf_split_light *light = &c->trace.light;
-    if (c->blur.program) {
-        const lsf_blur_inputs patterned = {.grid = &grid, .seen = seen, .light = light};
-        lsf_blur_run(&c->blur, iteration, &patterned);
-        light = &c->blur.light;
-    }
-    if (!c->way.coarse)
-        return *light;
-    lsf_upsample_search_run(&c->upsample, iteration, all, light);
-    return c->upsample.light;
+    return lsf_sparse_chain_finish(&c->sparse, iteration, seen, &c->trace.light);
 }
 
 static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs)
@@ -228,8 +201,7 @@ static void destroy_cone(void *self)
     if (!c)
         return;
     lsf_compose_destroy(&c->compose);
-    lsf_upsample_search_destroy(&c->upsample);
-    lsf_blur_destroy(&c->blur);
+    lsf_sparse_chain_destroy(&c->sparse);
     lsf_cone_trace_destroy(&c->trace);
     lsf_voxel_bounce_destroy(&c->bounce);
     lsf_voxel_mip_destroy(&c->mip);
@@ -246,19 +218,15 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
             reports[count++] = (lsf_pass_report){.timer = c->bounce.timer};
         if (c->way.levels > 1)
             reports[count++] = (lsf_pass_report){.timer = c->mip.timer};
-        if (c->way.coarse)
-            reports[count++] = (lsf_pass_report){.timer = c->upsample.split_timer};
+        count += lsf_sparse_chain_report_split(&c->sparse, reports + count);
         reports[count++] = (lsf_pass_report){.timer = c->trace.timer};
-        if (c->blur.program)
-            reports[count++] = (lsf_pass_report){.timer = c->blur.timer};
-        if (c->way.coarse)
-            reports[count++] = (lsf_pass_report){.timer = c->upsample.timer};
+        count += lsf_sparse_chain_report_finish(&c->sparse, reports + count);
     }
     reports[count++] = (lsf_pass_report){.timer = c->compose.timer};
     return count;
 }
 
-static const char *const groups[] = {"voxel", "cone", "blur", "upsample_search", NULL};
+static const char *const groups[] = {"voxel", "cone", "sparse", NULL};
 
 const lsf_technique lsf_technique_cone = {
     .name = "cone",

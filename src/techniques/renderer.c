@@ -30,14 +30,14 @@ static bool create_filters(lsf_renderer *renderer, lsf_error *error)
     const lsf_plan *plan = setup->plan;
     lsf_context *context = renderer->context;
     const lsf_pass_params *params = &setup->pass_params;
-    uint32_t tiles = (uint32_t)(params->interleave.size * params->interleave.size);
+    uint32_t tiles = (uint32_t)(params->sparse.interleave * params->sparse.interleave);
     return (!lsf_plan_find_pass(plan, "light_mean") ||
             lsf_light_mean_create(&renderer->light_mean, context, plan, error)) &&
            (!lsf_plan_find_pass(plan, "light_guide") ||
             lsf_light_guide_create(&renderer->light_guide, context, plan, error)) &&
            (!lsf_plan_find_pass(plan, "temporal") ||
             lsf_temporal_create(&renderer->temporal, context, plan, &params->temporal,
-                                lsf_plan_find_pass(plan, "interleave") ? tiles : 0, error)) &&
+                                plan->tiles > 1 ? tiles : 0, error)) &&
            (!lsf_plan_find_pass(plan, "light_filter") ||
             lsf_light_filter_create(&renderer->light_filter, context, plan, &params->light_filter,
                                     error));

@@ -88,13 +88,20 @@ static int32_t choose_interleave(const lsf_render_params *params)
     return params->samples <= PATTERN_4 || large ? 4 : 2;
 }
 
+/* sparse.grid, where nobody says it. */
+static uint32_t choose_stride(const lsf_setup *setup)
+{
+    int32_t grid = setup->pass_params.sparse.grid;
+    return grid > 0 ? 1u << (grid - 1) : 1;
+}
+
 /* A filter needs noise that differs between neighbours: not so where all pixels take the same
  * samples, unless they draw rays of their own. */
 static bool filters(const lsf_setup *setup, const lsf_technique *technique)
 {
     const lsf_pass_params *params = &setup->pass_params;
     return !setup->params.raw && params->light_filter.steps > 0 &&
-           (params->interleave.size > 1 || !technique || technique->draws_lobes);
+           (params->sparse.interleave > 1 || !technique || technique->draws_lobes);
 }
 
 /* The largest pattern, up to that of interleaving, of whose places each gets as many directions. */
@@ -120,6 +127,10 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->height = params->height;
     plan->samples = params->samples;
     plan->filtered = filters(setup, technique);
+    if (technique && technique->bounces)
+        plan->stride = choose_stride(setup);
+    plan->finest_stride =
+        lsf_sparse_grid_finest(plan->stride, params->temporal ? UINT32_MAX : params->samples);
     bool by_scene = params->bounces == LSF_BOUNCES_AUTO;
     if (technique && technique->bounces)
         plan->bounces = by_scene ? plan->requirements.bounces : params->bounces;
@@ -127,9 +138,9 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
     bool shared = !technique || !technique->draws_lobes;
-    plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.interleave.size : 1;
+    plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
     if (plan->filtered && plan->sky_lights > 0)
-        plan->sky_pattern = sky_pattern(plan->sky_lights, setup->pass_params.interleave.size);
+        plan->sky_pattern = sky_pattern(plan->sky_lights, setup->pass_params.sparse.interleave);
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);
     plan->temporal = params->temporal;
@@ -212,8 +223,8 @@ static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *
             !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count, pass_params,
                             params->options[i], error))
             return false;
-    if (pass_params->interleave.size == 0)
-        pass_params->interleave.size = choose_interleave(params);
+    if (pass_params->sparse.interleave == 0)
+        pass_params->sparse.interleave = choose_interleave(params);
     return true;
 }
 

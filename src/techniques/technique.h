@@ -8,15 +8,14 @@
 #include "passes/blur.h"
 #include "passes/compose.h"
 #include "passes/gbuffer.h"
-#include "passes/interleave.h"
 #include "passes/light_filter.h"
 #include "passes/light_guide.h"
 #include "passes/light_mean.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
+#include "passes/sparse.h"
 #include "passes/temporal.h"
-#include "passes/upsample_search.h"
 #include "passes/voxel_path.h"
 #include "passes/voxel_view.h"
 #include "passes/voxelize.h"
@@ -32,14 +31,13 @@ typedef struct lsf_pass_params {
     lsf_reflective_shadow_map_params reflective_shadow_map;
     lsf_vpl_params vpl;
     lsf_ray_bundle_params ray_bundle;
-    lsf_interleave_params interleave;
+    lsf_sparse_params sparse;
+    lsf_blur_params blur;
     lsf_bidirectional_shade_params bidirectional_shade;
     lsf_voxel_grid_params voxel_grid;
     lsf_voxelize_params voxelize;
     lsf_cone_params cone;
     lsf_voxel_path_params voxel_path;
-    lsf_blur_params blur;
-    lsf_upsample_search_params upsample_search;
     lsf_light_filter_params light_filter;
     lsf_temporal_params temporal;
 } lsf_pass_params;
@@ -50,11 +48,10 @@ typedef struct lsf_pass_params {
     .shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS},                                                \
     .reflective_shadow_map = {LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS},                          \
     .vpl = {LSF_VPL_PARAMS_DEFAULTS}, .ray_bundle = {LSF_RAY_BUNDLE_PARAMS_DEFAULTS},              \
-    .interleave = {LSF_INTERLEAVE_PARAMS_DEFAULTS},                                                \
+    .sparse = {LSF_SPARSE_PARAMS_DEFAULTS}, .blur = {LSF_BLUR_PARAMS_DEFAULTS},                    \
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
     .cone = {LSF_CONE_PARAMS_DEFAULTS}, .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
-    .blur = {LSF_BLUR_PARAMS_DEFAULTS}, .upsample_search = {LSF_UPSAMPLE_SEARCH_PARAMS_DEFAULTS},  \
     .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}, .temporal = {LSF_TEMPORAL_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];

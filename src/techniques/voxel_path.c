@@ -3,10 +3,9 @@
 #include <stdlib.h>
 
 #include "base/base.h"
-#include "passes/blur.h"
 #include "passes/compose.h"
-#include "passes/upsample_search.h"
 #include "passes/voxel_path.h"
+#include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
 /* Of paths beyond the visible point, each goes on by one ray. */
@@ -23,39 +22,34 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params)
 typedef struct voxel_path {
     lsf_voxel_chain chain;
     lsf_voxel_path path;
-    lsf_blur blur;
-    lsf_upsample_search upsample;
+    lsf_sparse_chain sparse;
     lsf_compose compose;
-    uint32_t width, height; /* of the grid on which paths begin; 0: no paths */
+    bool traced; /* there are paths */
 } voxel_path;
 
 /* No segments where there are no voxels to find. */
 static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *params,
                                    const lsf_state *state)
 {
-    lsf_voxel_path_use use = {
-        .width = lsf_coarse_grid_length(plan->width, params->voxel_path.scale),
-        .height = lsf_coarse_grid_length(plan->height, params->voxel_path.scale)};
+    lsf_voxel_path_use use = {0};
     const lsf_requirements *r = &plan->requirements;
     uint32_t layers = LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR;
     if (lsf_voxel_chain_has_voxels(plan))
         use.segments = lsf_voxel_path_segments(plan, state->light_count > 0);
     use.split_direct = use.segments > 0 && (r->emissive || r->unlit || r->environment) &&
-                       (plan->aovs & layers) && !lsf_blur_wanted(&params->blur) &&
-                       !lsf_coarse_grid_is_coarse(plan, use.width, use.height);
+                       (plan->aovs & layers) && lsf_sparse_chain_is_plain(plan, params, 1);
     return use;
 }
 
-static void remark(lsf_plan *plan, const lsf_pass_params *params, const lsf_voxel_path_use *use)
+static void remark(lsf_plan *plan, const lsf_voxel_path_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
     if (use->segments == 0)
         return;
-    lsf_blur_remark(plan, &params->blur);
     if ((r->emissive || r->unlit || r->environment) && !use->split_direct &&
         (plan->aovs & (LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR)))
         lsf_plan_remark(plan,
-                        "where paths' light is blurred or upsampled, direct light of surfaces "
+                        "where paths' light is shared between pixels, direct light of surfaces "
                         "and environments is in the indirect layers");
 }
 
@@ -66,8 +60,7 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_voxel_chain_plan(plan, params, state, &chain);
     if (use.segments > 0) {
         lsf_voxel_path_plan(plan, &params->voxel_path, &use);
-        lsf_blur_plan(plan, &params->blur, use.width, use.height);
-        lsf_upsample_search_plan(plan, &params->upsample_search, use.width, use.height);
+        lsf_sparse_chain_plan(plan, params, 1);
     } else {
         lsf_plan_omit(plan, "voxel_path",
                       lsf_voxel_chain_has_voxels(plan) ? "no light bounces"
@@ -76,20 +69,17 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_compose_plan(plan, &(lsf_compose_use){.direct = lsf_light_any(plan, state),
                                               .indirect = use.segments > 0,
                                               .split_direct = use.split_direct});
-    remark(plan, params, &use);
+    remark(plan, &use);
 }
 
 static bool create_paths(voxel_path *v, lsf_context *context, const lsf_plan *plan,
                          const lsf_pass_params *params, const lsf_voxel_path_use *use,
                          const lsf_scene *scene, const lsf_state *state, lsf_error *error)
 {
-    v->width = use->width;
-    v->height = use->height;
+    v->traced = true;
     return lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, scene, state,
                                  error) &&
-           (!lsf_blur_wanted(&params->blur) ||
-            lsf_blur_create(&v->blur, context, plan, &params->blur, error)) &&
-           lsf_upsample_search_create(&v->upsample, context, plan, &params->upsample_search, error);
+           lsf_sparse_chain_create(&v->sparse, context, plan, params, error);
 }
 
 static bool create_voxel_path(void **self, lsf_context *context, const lsf_plan *plan,
@@ -112,7 +102,7 @@ static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
 {
     voxel_path *v = self;
     lsf_voxel_chain_use use = chain_use(params);
-    if (v->width > 0 && (changes->moved || changes->materials) &&
+    if (v->traced && (changes->moved || changes->materials) &&
         !lsf_voxel_path_follow(&v->path, changes->materials))
         return LSF_UPDATE_FAILED;
     return lsf_voxel_chain_update(&v->chain, params, iteration, &use, changes);
@@ -121,28 +111,13 @@ static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
 /* Indirect light of the picture's size, in `parts`, and direct light that is asked for apart. */
 static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_light_parts *parts)
 {
-    const lsf_surface_maps *all = &v->chain.direct.gbuffer.outputs.seen, *seen = all;
-    lsf_coarse_grid grid = lsf_coarse_grid_at(iteration, v->width, v->height);
-    if (grid.coarse) {
-        lsf_upsample_search_split(&v->upsample, iteration, all);
-        seen = &v->upsample.coarse;
-    }
-    const lsf_voxel_path_inputs inputs = {.grid = &grid,
-                                          .seen = seen,
+    const lsf_surface_maps *seen = &v->chain.direct.gbuffer.outputs.seen;
+    const lsf_voxel_path_inputs inputs = {.seen =
+                                              lsf_sparse_chain_split(&v->sparse, iteration, seen),
                                           .voxels = v->chain.voxels,
                                           .radiance = v->chain.light.radiance};
     lsf_voxel_path_run(&v->path, iteration, &inputs);
-    const lsf_split_light *light = &v->path.outputs.light;
-    if (v->blur.program) {
-        const lsf_blur_inputs noisy = {.grid = &grid, .seen = seen, .light = light};
-        lsf_blur_run(&v->blur, iteration, &noisy);
-        light = &v->blur.light;
-    }
-    if (grid.coarse) {
-        lsf_upsample_search_run(&v->upsample, iteration, all, light);
-        light = &v->upsample.light;
-    }
-    parts->indirect = *light;
+    parts->indirect = lsf_sparse_chain_finish(&v->sparse, iteration, seen, &v->path.outputs.light);
     parts->split_direct = v->path.outputs.direct;
 }
 
@@ -152,7 +127,7 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
     voxel_path *v = self;
     lsf_voxel_chain_run(&v->chain, iteration);
     lsf_light_parts parts = lsf_direct_chain_parts(&v->chain.direct);
-    if (v->width > 0)
+    if (v->traced)
         run_paths(v, iteration, &parts);
     lsf_compose_run(&v->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){.parts = parts,
@@ -166,8 +141,7 @@ static void destroy_voxel_path(void *self)
     if (!v)
         return;
     lsf_compose_destroy(&v->compose);
-    lsf_upsample_search_destroy(&v->upsample);
-    lsf_blur_destroy(&v->blur);
+    lsf_sparse_chain_destroy(&v->sparse);
     lsf_voxel_path_destroy(&v->path);
     lsf_voxel_chain_destroy(&v->chain);
     free(v);
@@ -177,15 +151,16 @@ static uint32_t report_voxel_path(void *self, lsf_pass_report reports[LSF_TECHNI
 {
     voxel_path *v = self;
     uint32_t count = lsf_voxel_chain_report(&v->chain, reports);
-    lsf_timer *const timers[] = {v->upsample.split_timer, v->path.timer, v->blur.timer,
-                                 v->upsample.timer, v->compose.timer};
-    for (size_t i = 0; i < LSF_COUNT(timers); i++)
-        if (timers[i])
-            reports[count++] = (lsf_pass_report){.timer = timers[i]};
+    if (v->traced) {
+        count += lsf_sparse_chain_report_split(&v->sparse, reports + count);
+        reports[count++] = (lsf_pass_report){.timer = v->path.timer};
+        count += lsf_sparse_chain_report_finish(&v->sparse, reports + count);
+    }
+    reports[count++] = (lsf_pass_report){.timer = v->compose.timer};
     return count;
 }
 
-static const char *const groups[] = {"voxel", "voxel_path", "blur", "upsample_search", NULL};
+static const char *const groups[] = {"voxel", "voxel_path", "sparse", NULL};
 
 const lsf_technique lsf_technique_voxel_path = {
     .name = "voxel_path",

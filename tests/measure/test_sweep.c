@@ -281,7 +281,7 @@ static void test_grid(void **state)
     static const char *const techniques[] = {"bidirectional", "cone", "direct"};
     static const char *const sweeps[] = {"vpl.count=4,16", "interleave.size=1,2,4",
                                          "voxel.resolution=64"};
-    static const char *const bad[] = {"cone.count=1,2", "blur.phases=1,,2", "vpl.count="};
+    static const char *const bad[] = {"cone.count=1,2", "sparse.blur=1,,2", "vpl.count="};
     lsf_measurement m = {0};
     lsf_error error;
     assert_true(lsf_sweep_grid_add(&m, techniques, 3, sweeps, 3, &error));

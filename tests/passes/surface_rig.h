@@ -2,7 +2,6 @@
 #ifndef LSF_TESTS_PASSES_SURFACE_RIG_H
 #define LSF_TESTS_PASSES_SURFACE_RIG_H
 
-#include "frame/coarse_grid.h"
 #include "frame/maps.h"
 #include "render_gl.h"
 #include "techniques/setup.h"

@@ -225,7 +225,7 @@ static void counts_do_not_change_the_mean(void **unused)
         {SMALL_MAPS, "vpl.count=1", "bundle.count=1", "mis.beta=1"},
         {SMALL_MAPS, "vpl.count=3", "bundle.count=1", "mis.beta=2"},
         {SMALL_MAPS, "vpl.count=1", "bundle.count=4", "mis.beta=0.5"},
-        {SMALL_MAPS, "vpl.count=6", "interleave.size=2", "interleave.periods=0"},
+        {SMALL_MAPS, "vpl.count=6", "interleave.size=2", "mis.beta=1"},
     };
     lsf_scene *scene = room(LIGHT_A, 1.0f);
     double rgb[4][3];

@@ -37,7 +37,7 @@ static void rig_start(rig *r)
 {
     lsf_error error = {0};
     lsf_plan *plan = r->s.setup.plan;
-    lsf_blur_plan(plan, &r->params, r->s.width, r->s.height);
+    lsf_blur_plan(plan, &r->params);
     surface_rig_start(&r->s);
     if (!lsf_blur_create(&r->pass, r->s.context, plan, &r->params, &error))
         fail_msg("%s", error.message);
@@ -66,9 +66,8 @@ static void rig_run(rig *r)
             memcpy(r->texels[i], r->in[i][part], sizeof *r->texels);
         surface_rig_write(in[part], w, h, r->texels[0]);
     }
-    lsf_coarse_grid grid = lsf_coarse_grid_at(&r->s.iteration, w, h);
     const lsf_split_light light = {r->irradiance, r->specular};
-    const lsf_blur_inputs inputs = {.grid = &grid, .seen = &r->s.maps, .light = &light};
+    const lsf_blur_inputs inputs = {.seen = &r->s.maps, .light = &light};
     lsf_blur_run(&r->pass, &r->s.iteration, &inputs);
     const GLuint out[2] = {r->pass.light.irradiance, r->pass.light.specular};
     for (int part = 0; part < 2; part++) {

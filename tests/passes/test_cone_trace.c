@@ -321,7 +321,7 @@ static void same_bits_again(void **state)
 {
     (void)state;
     static const char *const threads[] = {"0", "1", "8"};
-    static const char *const options[] = {"voxel.resolution=40", "cone.scale=0.5"};
+    static const char *const options[] = {"voxel.resolution=40", "sparse.grid=2"};
     lsf_scene *scene = room();
     lsf_image *images[3];
     for (int i = 0; i < 3; i++) {
@@ -347,7 +347,7 @@ static void grids(void **state)
         {"voxel.resolution=24", "cone.sealed=false", "cone.offset=1"},
         {"voxel.resolution=32", "cone.sides=isotropic", "cone.turn=false"},
         {"voxel.resolution=32", "cone.distance=0", "cone.jitter=false"},
-        {"voxel.resolution=32", "voxel.jitter=false", "cone.scale=0.01"},
+        {"voxel.resolution=32", "voxel.jitter=false", "sparse.grid=16"},
     };
     lsf_scene *scene = room();
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {

@@ -1,10 +1,10 @@
-/* Interleaved sampling: the order of pixels, and what its filter keeps and removes. */
+/* Interleaved sampling: the order of pixels, and that a blur removes the pattern. */
 #include <math.h>
 
 #include "../gl/shader_folder.h"
 #include "render_gl.h"
 
-#include "passes/interleave.h"
+#include "passes/sparse.h"
 
 /* Tiles cover a picture without gaps, each pixel once, in the order that regions say. */
 static void regions_cover_the_picture(void **unused)
@@ -13,21 +13,22 @@ static void regions_cover_the_picture(void **unused)
     static const uint32_t sizes[][2] = {{1, 1}, {7, 13}, {16, 8}, {5, 33}};
     for (size_t s = 0; s < LSF_COUNT(sizes); s++)
         for (uint32_t size = 1; size <= 8; size++) {
-            lsf_plan plan = {.width = sizes[s][0], .height = sizes[s][1]};
+            const lsf_sparse_grid grid = {
+                .stride = 1, .width = sizes[s][0], .height = sizes[s][1], .layers = 1};
             uint8_t seen[33 * 33] = {0};
             uint32_t count = 0;
             for (uint32_t tile = 0; tile < size * size; tile++) {
-                lsf_region r = lsf_interleave_region(&plan, size, tile);
+                lsf_region r = lsf_sparse_region(&grid, size, tile);
                 for (int32_t y = r.y; y < r.y + r.height; y++)
                     for (int32_t x = r.x; x < r.x + r.width; x++) {
                         uint32_t px = (uint32_t)((x - r.x) * (int32_t)size + r.tile_x);
                         uint32_t py = (uint32_t)((y - r.y) * (int32_t)size + r.tile_y);
-                        assert_true(px < plan.width && py < plan.height);
-                        assert_int_equal(seen[(uint32_t)y * plan.width + (uint32_t)x]++, 0);
+                        assert_true(px < grid.width && py < grid.height);
+                        assert_int_equal(seen[(uint32_t)y * grid.width + (uint32_t)x]++, 0);
                         count++;
                     }
             }
-            assert_int_equal(count, plan.width * plan.height);
+            assert_int_equal(count, grid.width * grid.height);
         }
 }
 
@@ -54,7 +55,7 @@ static void shader_agrees(void **unused)
     for (int size = 1; size <= 8; size++)
         for (size_t s = 0; s < LSF_COUNT(sizes); s++) {
             uint32_t w = sizes[s][0], h = sizes[s][1];
-            lsf_plan plan = {.width = w, .height = h};
+            const lsf_sparse_grid grid = {.stride = 1, .width = w, .height = h, .layers = 1};
             lsf_error error = {0};
             const lsf_define define = {"LSF_INTERLEAVE", size};
             lsf_program_desc desc = {.label = "places",
@@ -76,7 +77,7 @@ static void shader_agrees(void **unused)
             for (uint32_t y = 0; y < h; y++)
                 for (uint32_t x = 0; x < w; x++) {
                     uint32_t n = (uint32_t)size;
-                    lsf_region r = lsf_interleave_region(&plan, n, y % n * n + x % n);
+                    lsf_region r = lsf_sparse_region(&grid, n, y % n * n + x % n);
                     const int32_t *p = places[y * w + x];
                     assert_int_equal(p[0], r.x + (int32_t)(x / n));
                     assert_int_equal(p[1], r.y + (int32_t)(y / n));
@@ -92,11 +93,11 @@ static void shader_agrees(void **unused)
 
 /* A floor that fills the picture, under a uniform environment: light is the same everywhere, and
  * each tile's samples are off by an error of their own. */
-static lsf_image *render_floor(int periods)
+static lsf_image *render_floor(int phases)
 {
-    char periods_option[64];
-    snprintf(periods_option, sizeof periods_option, "interleave.periods=%d", periods);
-    const char *options[] = {"interleave.size=2", "bundle.count=4", periods_option};
+    char phases_option[64];
+    snprintf(phases_option, sizeof phases_option, "sparse.blur=%d", phases);
+    const char *options[] = {"interleave.size=2", "bundle.count=4", phases_option};
     lsf_scene *scene = build_scene();
     build_material(scene, 0.8f, 0.8f, 0.8f);
     build_floor(scene, 0.0f, 4.0f);
@@ -132,17 +133,17 @@ static float spread(const lsf_image *image)
     return (high - low) / high;
 }
 
-static void filter_removes_the_pattern(void **unused)
+static void blur_removes_the_pattern(void **unused)
 {
     (void)unused;
     lsf_image *raw = render_floor(0);
     assert_true(spread(raw) > 0.05f);
-    for (int periods = 1; periods <= 3; periods++) {
-        lsf_image *filtered = render_floor(periods);
-        print_message("%d periods: spread %.2e of %.2e\n", periods, (double)spread(filtered),
+    for (int phases = 1; phases <= 3; phases++) {
+        lsf_image *blurred = render_floor(phases);
+        print_message("%d phases: spread %.2e of %.2e\n", phases, (double)spread(blurred),
                       (double)spread(raw));
-        assert_true(spread(filtered) < 1e-5f);
-        lsf_image_destroy(filtered);
+        assert_true(spread(blurred) < 1e-5f);
+        lsf_image_destroy(blurred);
     }
     lsf_image_destroy(raw);
 }
@@ -152,7 +153,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(regions_cover_the_picture),
         cmocka_unit_test(shader_agrees),
-        cmocka_unit_test(filter_removes_the_pattern),
+        cmocka_unit_test(blur_removes_the_pattern),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

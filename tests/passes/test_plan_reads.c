@@ -250,12 +250,13 @@ static const struct plan_case {
     {"direct", .aovs = LSF_AOV_NORMAL | LSF_AOV_MOTION},
     {"bidirectional", .aovs = LSF_AOV_DIRECT},
     {"bidirectional", .temporal = true},
-    {"bidirectional", .raw = true, .options = {"interleave.size=2", "interleave.periods=1"}},
+    {"bidirectional", .raw = true, .options = {"interleave.size=2", "sparse.blur=1"}},
+    {"bidirectional", .options = {"sparse.grid=4", "interleave.size=2"}},
     {"bidirectional", .raw = true, .options = {"rsm.pdf=adaptive", "bidirectional.strategy=vpl"}},
-    {"voxel_path", .aovs = LSF_AOV_VOXEL_ALBEDO, .options = {"voxel_path.scale=0.5"}},
+    {"voxel_path", .aovs = LSF_AOV_VOXEL_ALBEDO, .options = {"sparse.grid=2"}},
     {"voxel_path", .raw = true, .options = {"voxel.method=raster", "environment.directions=0"}},
-    {"cone", .options = {"cone.scale=0.5", "blur.phases=1"}},
-    {"cone", .raw = true, .options = {"cone.sealed=off"}},
+    {"cone", .options = {"sparse.grid=2", "sparse.blur=1"}},
+    {"cone", .raw = true, .options = {"cone.sealed=off", "sparse.outliers=on"}},
 };
 
 static void check(const struct plan_case *c)

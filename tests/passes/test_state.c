@@ -315,9 +315,10 @@ static void hostile_state_of_frames(void **unused)
         const char *technique, *options[3];
     } frames[] = {
         {"bidirectional", {"interleave.size=2"}},
-        {"voxel_path", {"voxel_path.scale=0.5"}},
+        {"bidirectional", {"sparse.grid=4", "interleave.size=2", "sparse.outliers=on"}},
+        {"voxel_path", {"sparse.grid=2"}},
         {"voxel_path", {"voxel.method=raster"}},
-        {"cone", {"cone.scale=0.5", "cone.sealed=off"}},
+        {"cone", {"sparse.grid=2", "cone.sealed=off"}},
     };
     lsf_scene *scene = textured_scene(true);
     finish_gl_scene(scene);

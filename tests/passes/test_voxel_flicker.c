@@ -41,7 +41,7 @@ static lsf_image *render_frame(const drawn_by *by, moving_part part, int frame)
     lsf_scene *scene = frame_scene(part, frame);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = 1};
     /* As single frames are drawn. */
-    const char *const options[] = {"shadow.filter=pcf", "blur.phases=5", by->option};
+    const char *const options[] = {"shadow.filter=pcf", "sparse.blur=5", by->option};
     params.technique = by->technique;
     params.options = options;
     params.option_count = !by->technique ? 0 : by->option ? 3 : 2;

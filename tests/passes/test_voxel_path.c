@@ -32,8 +32,8 @@ static void expect(const char *what, const lsf_image *image, double expected, do
 static const char *const coarse_grid[MAX_OPTIONS] = {"voxel.resolution=32"};
 static const char *const by_texture[MAX_OPTIONS] = {"voxel.resolution=32",
                                                     "voxel_path.sequence=texture"};
-static const char *const upsampled[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5"};
-static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "blur.phases=5"};
+static const char *const upsampled[MAX_OPTIONS] = {"voxel.resolution=32", "sparse.grid=2"};
+static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "sparse.blur=5"};
 
 /* A closed box seen from inside, every wall emitting 1 and reflecting rho:
  * L = 1 + rho + ... + rho^(N + 1): emission seen, direct light of the walls, N bounces. Voxels hold
@@ -159,8 +159,8 @@ static lsf_scene *room(float intensity)
 static void same_bits_again(void **unused)
 {
     (void)unused;
-    static const char *const single[MAX_OPTIONS] = {"voxel.resolution=32", "voxel_path.scale=0.5",
-                                                    "blur.phases=5"};
+    static const char *const single[MAX_OPTIONS] = {"voxel.resolution=32", "sparse.grid=2",
+                                                    "sparse.blur=5"};
     const char *const *const options[] = {coarse_grid, single};
     lsf_scene *scene = room(1.0f);
     for (int k = 0; k < 2; k++) {
@@ -255,9 +255,8 @@ static void sealed_room(void **unused)
 static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
-    static const char *const options[MAX_OPTIONS] = {"voxel.resolution=16", "voxel_path.scale=0.5",
-                                                     "blur.phases=5",
-                                                     "voxel_path.sequence=texture"};
+    static const char *const options[MAX_OPTIONS] = {
+        "voxel.resolution=16", "sparse.grid=2", "sparse.blur=5", "voxel_path.sequence=texture"};
     lsf_scene *scene = room(1.0f);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = params_of(1, 1, options);

@@ -1,0 +1,16 @@
+/* What the specular lobe reflects of light that is the same from everywhere: the tint by which its light is
+ * divided to be shared between pixels. */
+#ifndef LSF_LIB_SPECULAR_ALBEDO
+#define LSF_LIB_SPECULAR_ALBEDO
+
+#include "lib/brdf.glsl"
+
+/* `view`: unit, towards the viewer. */
+vec3 specular_albedo(surface s, vec3 view)
+{
+    vec3 f0 = mix(surface_f0(s), s.base_color, s.metallic);
+    float f90 = mix(surface_f90(s), 1.0, s.metallic);
+    return lobe_albedo(f0, f90, dot(s.normal, view), pow(s.roughness, 4.0));
+}
+
+#endif

@@ -1,0 +1,44 @@
+/* Where points lie in the textures in which light is gathered: those of a tile of the interleaving pattern
+ * side by side, and above them the second layer of the same. Switches LSF_SPARSE, LSF_INTERLEAVE. */
+#ifndef LSF_PASSES_SPARSE_ORDER
+#define LSF_PASSES_SPARSE_ORDER
+
+#include "lib/interleave.glsl"
+#include "lib/sparse_grid.glsl"
+
+#if LSF_SPARSE
+/* A tile's rows of points, and the row where it would begin if there were one layer. */
+int tile_rows(int tile)
+{
+    return sparse_grid.y / LSF_INTERLEAVE + int(tile < sparse_grid.y % LSF_INTERLEAVE);
+}
+
+int tile_corner(int tile)
+{
+    return interleave_corner(ivec2(0, tile), sparse_grid.xy).y;
+}
+
+ivec2 sparse_place(ivec2 point, int layer)
+{
+    ivec2 place = interleave_place(point, sparse_grid.xy);
+    int tile = point.y % LSF_INTERLEAVE;
+    place.y += (sparse_shape.y - 1) * tile_corner(tile) + layer * tile_rows(tile);
+    return place;
+}
+
+/* The inverse. */
+ivec2 sparse_point(ivec2 place, out int layer)
+{
+    int rows = sparse_grid.y / LSF_INTERLEAVE, higher = sparse_grid.y % LSF_INTERLEAVE;
+    int high = sparse_shape.y * (rows + 1), low = max(sparse_shape.y * rows, 1);
+    int tile = place.y / high;
+    if (tile >= higher)
+        tile = higher + (place.y - higher * high) / low;
+    int row = place.y - sparse_shape.y * tile_corner(tile);
+    layer = row / max(tile_rows(tile), 1);
+    row += tile_corner(tile) - layer * tile_rows(tile);
+    return interleave_pixel(ivec2(place.x, row), sparse_grid.xy);
+}
+#endif
+
+#endif

@@ -1,0 +1,47 @@
+/* What points see, in the order in which light is gathered there. */
+#include "lib/gbuffer_copy.glsl"
+#include "lib/hash.glsl"
+#include "passes/sparse_order.glsl"
+
+#if LSF_SPARSE
+#include "passes/sparse_guide.glsl"
+
+layout(binding = 3) uniform usampler2D source_texture;
+layout(location = 1) uniform uint turn; /* another number in each iteration */
+layout(location = 2 + LSF_GLOSS) out uint pixel_out;
+
+/* One of the pixels of a point's block that none of the grid's points fits, each as likely as the
+ * others; (-1, -1): there is none. */
+ivec2 own_pixel(ivec2 point, ivec2 picture)
+{
+    ivec2 corner = point * sparse_shape.x, found = ivec2(-1);
+    uint least = 0xffffffffu;
+    for (int i = 0; i < sparse_shape.x * sparse_shape.x; i++) {
+        ivec2 at = min(corner + ivec2(i % sparse_shape.x, i / sparse_shape.x), picture - 1);
+        uint number = hash(uvec3(at, turn)).x;
+        if (texelFetch(source_texture, at, 0).r == SPARSE_ALONE && number <= least) {
+            least = number;
+            found = at;
+        }
+    }
+    return found;
+}
+#endif
+
+void main()
+{
+    ivec2 place = ivec2(gl_FragCoord.xy);
+#if LSF_SPARSE
+    ivec2 picture = textureSize(source_texture, 0);
+    int layer;
+    ivec2 point = sparse_point(place, layer);
+    ivec2 pixel = layer == 0 ? sparse_pixel(point) : own_pixel(point, picture);
+    bool there = pixel.x >= 0 && all(lessThan(pixel, picture));
+    gbuffer_copy(there ? pixel : ivec2(0));
+    if (!there)
+        depth_out = 0.0;
+    pixel_out = there ? uint(pixel.x) | uint(pixel.y) << 16 : 0xffffffffu;
+#else
+    gbuffer_copy(interleave_pixel(place, textureSize(depth_texture, 0)));
+#endif
+}

@@ -1,0 +1,20 @@
+/* The tint of a pixel's specular light. */
+#ifndef LSF_PASSES_SPARSE_TINT
+#define LSF_PASSES_SPARSE_TINT
+
+#include "lib/specular_albedo.glsl"
+
+/* So that there is something left to divide. */
+#define LEAST_TINT 1e-4
+
+vec3 specular_tint(ivec2 pixel)
+{
+    surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
+#if LSF_GLOSS
+    gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+#endif
+    vec3 view = -normalize(view_ray_direction(sample_ndc(vec2(pixel) + 0.5)));
+    return max(specular_albedo(s, view), LEAST_TINT);
+}
+
+#endif

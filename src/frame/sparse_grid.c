@@ -1,0 +1,89 @@
+#include "frame/sparse_grid.h"
+
+#include "shared/scene_data.h"
+
+static uint32_t least(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Points along an axis. */
+static uint32_t points(uint32_t length, uint32_t stride)
+{
+    return (length + stride - 1) / stride;
+}
+
+uint32_t lsf_sparse_grid_finest(uint32_t stride, uint32_t iterations)
+{
+    for (uint32_t left = iterations; stride > 1 && left > stride * stride; stride /= 2)
+        left -= iterations == UINT32_MAX ? 0 : stride * stride;
+    return stride;
+}
+
+bool lsf_sparse_grid_is_sparse(const lsf_plan *plan)
+{
+    return plan->stride > 1;
+}
+
+void lsf_sparse_grid_points(const lsf_plan *plan, uint32_t size[2])
+{
+    uint32_t finest = plan->stride > 1 ? plan->finest_stride : 1;
+    size[0] = points(plan->width, finest);
+    size[1] = points(plan->height, finest);
+}
+
+void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2])
+{
+    lsf_sparse_grid_points(plan, size);
+    if (plan->stride <= 1)
+        return;
+    /* Two layers of stride 2 may be a row higher than the one of stride 1. */
+    uint32_t layered = plan->finest_stride > 1 ? plan->finest_stride : 2;
+    uint32_t rows = 2 * points(plan->height, layered);
+    size[1] = rows > size[1] ? rows : size[1];
+}
+
+void lsf_sparse_grid_switch(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_SPARSE", lsf_sparse_grid_is_sparse(plan),
+                        "indirect light is gathered at fewer points than there are pixels");
+}
+
+/* Number i of the places of a square, a power of two wide: after each 4^k of them they are a
+ * regular grid. */
+static void place_in_square(uint32_t i, uint32_t side, uint32_t place[2])
+{
+    place[0] = place[1] = 0;
+    for (uint32_t half = side / 2; half > 0; half /= 2, i /= 4) {
+        place[0] += (i & 1 ? half : 0);
+        place[1] += ((i ^ i >> 1) & 1 ? half : 0); /* the diagonal one second */
+    }
+}
+
+lsf_sparse_grid lsf_sparse_grid_at(const lsf_plan *plan, uint32_t done, uint32_t index,
+                                   uint32_t seed)
+{
+    uint32_t stride = plan->stride > 1 ? plan->stride : 1;
+    for (uint32_t before = done; stride > 1 && stride > plan->finest_stride; stride /= 2) {
+        if (before < stride * stride)
+            break;
+        before -= stride * stride;
+    }
+    lsf_sparse_grid grid = {.stride = stride,
+                            .width = points(plan->width, stride),
+                            .height = points(plan->height, stride),
+                            .layers = stride > 1 ? 2 : 1};
+    place_in_square(index % (stride * stride), stride, grid.phase);
+    grid.phase[0] = (grid.phase[0] ^ (seed & (stride - 1))) % least(stride, plan->width);
+    grid.phase[1] = (grid.phase[1] ^ (seed >> 16 & (stride - 1))) % least(stride, plan->height);
+    return grid;
+}
+
+void lsf_sparse_grid_set(const lsf_plan *plan, const lsf_sparse_grid *grid)
+{
+    if (!lsf_sparse_grid_is_sparse(plan))
+        return;
+    glUniform4i(LSF_LOCATION_SPARSE_GRID, (GLint)grid->width, (GLint)grid->height,
+                (GLint)grid->phase[0], (GLint)grid->phase[1]);
+    glUniform2i(LSF_LOCATION_SPARSE_SHAPE, (GLint)grid->stride, (GLint)grid->layers);
+}
