@@ -19,8 +19,12 @@ $(BUILD)/build.ninja:
 	meson setup $(BUILD) --prefix $(PREFIX) $(MESON_OPTIONS)
 
 .PHONY: packages
-packages:  ## install the Debian packages of packages.txt that are missing
+packages:  ## install the Debian packages of packages.txt that are missing, but those of tests
 	@scripts/install-packages $(BUILD)
+
+.PHONY: test-packages
+test-packages:
+	@scripts/install-packages $(BUILD) tests
 
 .PHONY: render
 render: packages  ## install what is missing, build, render the furnished interior to render.png
@@ -30,7 +34,7 @@ render: packages  ## install what is missing, build, render the furnished interi
 	@echo "The picture is in $(CURDIR)/render.png"
 
 .PHONY: test
-test: packages  ## install what is missing, build, run every test
+test: test-packages  ## install what is missing, build, run every test
 	@$(MAKE) --no-print-directory all
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --num-processes $(JOBS) $(TEST_OPTIONS); \
 	    scripts/test-report $(BUILD)

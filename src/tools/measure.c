@@ -4,6 +4,7 @@
 #include "tools/begin.h"
 #include "tools/imprint.h"
 #include "tools/interrupt.h"
+#include "tools/measure_html.h"
 #include "tools/measure_json.h"
 #include "tools/measure_reference.h"
 #include "tools/measure_table.h"
@@ -28,6 +29,7 @@ typedef struct measure_job {
     lsf_progress_bar bar;
     uint32_t done, total; /* iterations */
     double start;
+    char *picture_folder; /* that lasts as long as the command; NULL: none */
 } measure_job;
 
 static uint32_t or_else(uint32_t given, uint32_t otherwise)
@@ -160,8 +162,11 @@ static bool write_results(measure_job *job, lsf_error *error)
     job->measurement.seconds = lsf_now() - job->start;
     if (!lsf_measurement_derive(&job->measurement))
         return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    bool good =
+        lsf_measure_write_html(&job->measurement, &job->device, job->settings.html_path, error);
+    lsf_measure_end_pictures(&job->measurement, &job->picture_folder);
     lsf_measure_add_json(&json, &job->measurement, &job->device);
-    bool good = lsf_json_write(&json, job->settings.json_path, error) && write_csv(job, error);
+    good = good && lsf_json_write(&json, job->settings.json_path, error) && write_csv(job, error);
     free(json.text.text);
     lsf_measure_add_table(&table, &job->measurement);
     if (!good || job->settings.quiet) {
@@ -173,7 +178,8 @@ static bool write_results(measure_job *job, lsf_error *error)
 
 static bool run(measure_job *job, lsf_error *error)
 {
-    if (!open_scene(job, error) || !describe_run(job, error) || !list_configurations(job, error))
+    if (!lsf_measure_begin_pictures(&job->settings, &job->picture_folder, error) ||
+        !open_scene(job, error) || !describe_run(job, error) || !list_configurations(job, error))
         return false;
     lsf_interrupt_begin_iterations();
     bool good = lsf_measure_reference(&job->settings, job->scene, &job->measurement,
@@ -191,6 +197,7 @@ int lsf_tool_measure(int argc, char **argv)
     if (status == LSF_GO_ON) {
         status = run(&job, &error) ? 0 : lsf_report_error(&error);
         lsf_kept_reference_finish(&job.reference);
+        lsf_measure_end_pictures(&job.measurement, &job.picture_folder);
         lsf_context_destroy(job.context);
         lsf_scene_destroy(job.scene);
         free(job.scene_path);

@@ -112,6 +112,11 @@ static const lsf_command_option options[] = {
      "their mean"},
     {"csv", 0, "FILE", LSF_COMMAND_MEASURE, "Output", LSF_VALUE_JSON, AT(csv_path), 0, 0, NULL,
      NULL, "write the table as CSV, a line for each point; - is standard output"},
+    {"html", 0, "FILE", LSF_COMMAND_MEASURE, "Output", LSF_VALUE_JSON, AT(html_path), 0, 0, NULL,
+     NULL,
+     "write a report for a browser: plots, pictures and tables in one file that needs no network; "
+     "- "
+     "is standard output"},
     {"pictures", 0, "DIR", LSF_COMMAND_MEASURE, "Output", LSF_VALUE_TEXT, AT(picture_folder), 0, 0,
      NULL, NULL, "keep a picture of each point and of the reference in that folder, .exr and .png"},
 

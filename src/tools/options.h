@@ -170,9 +170,9 @@ typedef struct lsf_settings {
     lsf_list_setting thresholds;
 
     lsf_list_setting techniques, sweeps;
-    uint32_t seeds;                                /* 0: not given */
-    uint32_t reference_samples;                    /* of each half; 0: not given */
-    const char *csv_path, *picture_folder, *cache; /* NULL: not given */
+    uint32_t seeds;                                            /* 0: not given */
+    uint32_t reference_samples;                                /* of each half; 0: not given */
+    const char *csv_path, *html_path, *picture_folder, *cache; /* NULL: not given */
 
     lsf_string typed;  /* the options that shape a picture, as one would type them */
     uint64_t given[2]; /* bit i of word i / 64: row i of the table was on the command line */
