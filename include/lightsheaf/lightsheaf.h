@@ -15,6 +15,7 @@
 #include <lightsheaf/log.h>
 #include <lightsheaf/reference.h>
 #include <lightsheaf/renderer.h>
+#include <lightsheaf/sandbox.h>
 #include <lightsheaf/scene.h>
 
 #ifdef __cplusplus

@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "gl/gl.h"
+#include "gl/shader_source.h"
 
 /* --- backends --- */
 
@@ -106,35 +107,5 @@ bool lsf_memory_begin(lsf_context *context, const char *what, lsf_error *error);
 bool lsf_memory_end(lsf_context *context, GLenum kind, GLuint name, uint64_t bytes,
                     const char *what, lsf_error *error);
 void lsf_memory_forget(lsf_context *context, GLenum kind, GLuint name);
-
-/* --- shader sources --- */
-
-typedef struct lsf_embedded_file {
-    const char *path; /* below glsl/; NULL ends the table */
-    const unsigned char *bytes;
-    size_t length;
-} lsf_embedded_file;
-extern const lsf_embedded_file lsf_embedded_files[];
-
-typedef struct lsf_shader_place {
-    uint32_t file; /* in paths */
-    uint32_t line; /* from 1 */
-} lsf_shader_place;
-
-typedef struct lsf_shader_source {
-    lsf_string text;
-    char **paths; /* [0] stands for #version and the defines */
-    uint64_t path_count, path_capacity;
-    lsf_shader_place *places; /* where each line of the text came from */
-    uint64_t line_count, line_capacity;
-} lsf_shader_source;
-
-/* #version, the defines, then the file with its includes. */
-bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
-                             uint32_t define_count, lsf_shader_source *source, lsf_error *error);
-void lsf_shader_source_free(lsf_shader_source *source);
-/* A driver's log with every place as path:line:. */
-void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
-                               lsf_string *mapped);
 
 #endif

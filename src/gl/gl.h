@@ -94,6 +94,25 @@ typedef struct lsf_program_desc {
  * declaration. */
 GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error);
 
+/* A piece of a shader that somebody else wrote, or of what the library sets before and behind it.
+ */
+typedef struct lsf_shader_part {
+    const char *path;   /* what messages call it; without a text the file below glsl/ */
+    const char *text;   /* NULL: that file's */
+    const char *folder; /* of somebody else's: where its #include "..." begins; NULL: glsl/ */
+    uint32_t line;      /* number of the text's first line */
+} lsf_shader_part;
+
+/* Compiles and links the parts, one after the other, as a fragment shader that is drawn by
+ * lsf_draw_fullscreen, or a compute shader. In somebody else's text, `#include
+ * <lightsheaf/brdf.glsl>` names a file of glsl/lib or glsl/shared, #version is left out and
+ * #extension set where GLSL wants it. The caller owns the program. 0 on failure: LSF_ERROR_RENDER
+ * holds the log, every line as path:line: message, with the text's line below it. */
+GLuint lsf_program_build(lsf_context *context, const char *label, GLenum stage,
+                         const lsf_define *defines, uint32_t define_count,
+                         const lsf_shader_part *parts, uint32_t part_count, lsf_error *error);
+void lsf_program_destroy(GLuint *program); /* *program 0 allowed */
+
 /* Nothing that a draw depends on is taken over from the pass before. A pass begins its draws with
  * one of the two that follow, which set all of that state, and then changes what it wants
  * different; nothing is put back. It binds its textures by lsf_bind_texture, and its images and

@@ -34,6 +34,7 @@ typedef struct build {
     GLenum stages[FILES_MAX];
     lsf_shader_source sources[FILES_MAX];
     GLuint shaders[FILES_MAX];
+    bool foreign; /* errors are somebody else's to mend, who knows of no program */
 } build;
 
 static bool read_sources(const lsf_context *context, build *b, lsf_error *error)
@@ -65,8 +66,9 @@ static uint64_t hash_sources(const build *b)
 }
 
 /* The message holds what fits; a longer log goes whole to the log, line by line. */
-static bool report(const char *label, const char *what, const lsf_string *log, lsf_error *error)
+static bool report(const build *b, const char *what, const lsf_string *log, lsf_error *error)
 {
+    const char *label = b->desc->label ? b->desc->label : "without a label";
     const char *text = log->text ? log->text : "the driver gives no reason";
     size_t length = strlen(text);
     while (length && text[length - 1] == '\n')
@@ -79,10 +81,12 @@ static bool report(const char *label, const char *what, const lsf_string *log, l
             line += line_length + (line[line_length] == '\n');
         }
     }
-    return lsf_error_set(error, LSF_ERROR_RENDER, "program %.128s did not %s:\n%.*s%s",
-                         label ? label : "without a label", what,
-                         (int)(length > room ? room : length), text,
-                         length > room ? "\n... (the whole text is in the log)" : "");
+    int shown = (int)(length > room ? room : length);
+    const char *rest = length > room ? "\n... (the whole text is in the log)" : "";
+    if (b->foreign && strcmp(what, "compile") == 0)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "%.*s%s", shown, text, rest);
+    return lsf_error_set(error, LSF_ERROR_RENDER, "%s%.128s did not %s:\n%.*s%s",
+                         b->foreign ? "" : "program ", label, what, shown, text, rest);
 }
 
 static char *shader_log(GLuint shader)
@@ -115,7 +119,8 @@ static bool compile(build *b, lsf_error *error)
         b->shaders[i] = glCreateShader(b->stages[i]);
         glShaderSource(b->shaders[i], 1, &text, &length);
         glCompileShader(b->shaders[i]);
-        lsf_debug_label(GL_SHADER, b->shaders[i], b->desc->files[i]);
+        lsf_debug_label(GL_SHADER, b->shaders[i],
+                        b->desc->files[i] ? b->desc->files[i] : b->desc->label);
     }
     lsf_string mapped = {0};
     bool compiled = true;
@@ -129,7 +134,7 @@ static bool compile(build *b, lsf_error *error)
         free(log);
     }
     if (!compiled)
-        report(b->desc->label, "compile", &mapped, error);
+        report(b, "compile", &mapped, error);
     else if (mapped.length)
         lsf_log(LSF_LOG_DEBUG, "program %s:\n%s", b->desc->label ? b->desc->label : "",
                 mapped.text);
@@ -185,7 +190,7 @@ static GLuint link_stages(const build *b, lsf_error *error)
         lsf_string mapped = {0};
         if (log)
             map_link_log(b, log, &mapped);
-        report(b->desc->label, "link", &mapped, error);
+        report(b, "link", &mapped, error);
         free(mapped.text);
         free(log);
         glDeleteProgram(program);
@@ -224,13 +229,21 @@ static GLuint make_program(lsf_context *context, build *b, uint64_t key, lsf_err
     double start = lsf_now();
     GLuint program = compile(b, error) ? link_stages(b, error) : 0;
     bool made = lsf_memory_end(context, GL_PROGRAM, program, 0, what, program ? error : NULL);
-    if (program && (!made || !cache(context, key, program, error))) {
+    if (program && (!made || (!b->foreign && !cache(context, key, program, error)))) {
         glDeleteProgram(program);
         return 0;
     }
     if (program)
         lsf_log(LSF_LOG_DEBUG, "%s: compiled in %.1f ms", what, (lsf_now() - start) * 1e3);
     return program;
+}
+
+static void finish(build *b)
+{
+    for (uint32_t i = 0; i < b->count; i++) {
+        glDeleteShader(b->shaders[i]); /* 0 is ignored */
+        lsf_shader_source_free(&b->sources[i]);
+    }
 }
 
 GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error)
@@ -243,9 +256,33 @@ GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_e
         if (!program)
             program = make_program(context, &b, key, error);
     }
-    for (uint32_t i = 0; i < b.count; i++) {
-        glDeleteShader(b.shaders[i]); /* 0 is ignored */
-        lsf_shader_source_free(&b.sources[i]);
-    }
+    finish(&b);
     return program;
+}
+
+GLuint lsf_program_build(lsf_context *context, const char *label, GLenum stage,
+                         const lsf_define *defines, uint32_t define_count,
+                         const lsf_shader_part *parts, uint32_t part_count, lsf_error *error)
+{
+    bool drawn = stage == GL_FRAGMENT_SHADER;
+    const lsf_program_desc desc = {.label = label, .files = {"lib/fullscreen.vert.glsl"}};
+    build b = {.desc = &desc, .stages = {GL_VERTEX_SHADER}, .foreign = true};
+    GLuint program = 0;
+    if (drawn && !lsf_shader_source_build(context->shader_dir, desc.files[0], NULL, 0,
+                                          &b.sources[b.count++], error))
+        return 0;
+    b.stages[b.count] = stage;
+    if (lsf_shader_source_build_parts(context->shader_dir, defines, define_count, parts, part_count,
+                                      &b.sources[b.count], error)) {
+        b.count++;
+        program = make_program(context, &b, 0, error);
+    }
+    finish(&b);
+    return program;
+}
+
+void lsf_program_destroy(GLuint *program)
+{
+    glDeleteProgram(*program); /* 0 is ignored */
+    *program = 0;
 }

@@ -15,7 +15,8 @@
 /* A file that is being read, and the line of the file that includes it. */
 typedef struct open_file {
     const char *path;
-    uint64_t line;
+    const char *folder; /* where its #include "..." begins; NULL: it is below glsl/ */
+    uint64_t line;      /* of it that was read last */
     const struct open_file *parent;
 } open_file;
 
@@ -55,9 +56,22 @@ static bool leaves_folder(const char *path)
     return path[0] == '/';
 }
 
+static char *read_foreign(const builder *b, const open_file *file)
+{
+    lsf_error reason = {0};
+    size_t length = 0;
+    char *text = lsf_file_read(file->path, FILE_LIMIT, &length, &reason);
+    if (!text)
+        lsf_error_set(b->error, LSF_ERROR_FILE, "%.256s:%llu: #include: %.3000s",
+                      file->parent->path, (unsigned long long)file->parent->line, reason.message);
+    return text;
+}
+
 static char *read_file(const builder *b, const open_file *file)
 {
     char includer[256];
+    if (file->folder)
+        return read_foreign(b, file);
     describe_includer(file, includer, sizeof includer);
     if (leaves_folder(file->path)) {
         lsf_error_set(b->error, LSF_ERROR_RENDER, "%s: a shader's path must stay below glsl/%s",
@@ -105,9 +119,20 @@ static bool ends_in_comment(const char *line, size_t length, bool inside)
 typedef enum include_kind {
     NO_INCLUDE,
     INCLUDE,
-    SYSTEM_INCLUDE, /* <...>: meant for C, in the headers that C shares */
+    SYSTEM_INCLUDE, /* <...>: below glsl/ meant for C, in the headers that C shares */
     BAD_INCLUDE,
 } include_kind;
+
+/* What stands between the quotes, or the angle brackets, that `line` begins with. */
+static bool take_name(const char *line, const char *end, char close, char path[static 256])
+{
+    const char *last = line < end ? memchr(line + 1, close, (size_t)(end - line - 1)) : NULL;
+    if (!last || last == line + 1 || last - line > 256)
+        return false;
+    memcpy(path, line + 1, (size_t)(last - line - 1));
+    path[last - line - 1] = '\0';
+    return true;
+}
 
 static include_kind parse_include(const char *line, size_t length, char path[static 256])
 {
@@ -124,14 +149,9 @@ static include_kind parse_include(const char *line, size_t length, char path[sta
     while (line < end && isspace((unsigned char)*line))
         line++;
     if (line < end && *line == '<')
-        return SYSTEM_INCLUDE;
-    if (line == end || *line++ != '"')
+        return take_name(line, end, '>', path) ? SYSTEM_INCLUDE : BAD_INCLUDE;
+    if (line == end || *line != '"' || !take_name(line, end, '"', path))
         return BAD_INCLUDE;
-    const char *quote = memchr(line, '"', (size_t)(end - line));
-    if (!quote || quote == line || quote - line >= 256)
-        return BAD_INCLUDE;
-    memcpy(path, line, (size_t)(quote - line));
-    path[quote - line] = '\0';
     return INCLUDE;
 }
 
@@ -167,8 +187,9 @@ static bool check_cycle(const builder *b, const open_file *from, const char *pat
 
 static bool add_file(const builder *b, const open_file *opened);
 
-static void add_line(const builder *b, const char *line, size_t length, uint64_t file,
-                     uint64_t number)
+/* `file` is the index of the path that `from` has. */
+static void add_line(const builder *b, const char *line, size_t length, const open_file *from,
+                     uint64_t file)
 {
     lsf_shader_source *source = b->source;
     void *places = source->places;
@@ -178,59 +199,151 @@ static void add_line(const builder *b, const char *line, size_t length, uint64_t
         return;
     }
     source->places = places;
-    source->places[source->line_count++] = (lsf_shader_place){(uint32_t)file, (uint32_t)number};
+    source->places[source->line_count++] =
+        (lsf_shader_place){(uint32_t)file, (uint32_t)from->line, from->folder != NULL};
     lsf_string_add_bytes(&source->text, line, length);
     lsf_string_add_bytes(&source->text, "\n", 1);
 }
 
-static bool add_file(const builder *b, const open_file *opened);
-
 /* The include's own line stays as a comment, for readers of the whole text. */
 static bool add_include(const builder *b, const open_file *from, uint64_t from_index,
-                        const char *path)
+                        const open_file *included)
 {
-    if (!check_cycle(b, from, path))
+    if (!check_cycle(b, from, included->path))
         return false;
-    bool again = find_path(b->source, path) != 0;
+    bool again = find_path(b->source, included->path) != 0;
     char comment[300];
-    int length = snprintf(comment, sizeof comment, "// %s %s", again ? "above:" : "begin", path);
-    add_line(b, comment, (size_t)length, from_index, from->line);
+    snprintf(comment, sizeof comment, "// %s %s", again ? "above:" : "begin", included->path);
+    add_line(b, comment, strlen(comment), from, from_index);
     if (again)
         return true;
-    open_file included = {.path = path, .parent = from};
-    if (!add_file(b, &included))
+    if (!add_file(b, included))
         return false;
-    length = snprintf(comment, sizeof comment, "// end %s", path);
-    add_line(b, comment, (size_t)length, from_index, from->line);
+    snprintf(comment, sizeof comment, "// end %s", included->path);
+    add_line(b, comment, strlen(comment), from, from_index);
+    return true;
+}
+
+static bool bad_include(const builder *b, const open_file *file)
+{
+    return lsf_error_set(b->error, LSF_ERROR_RENDER,
+                         file->folder ? "%s:%llu: write #include \"file\", or #include "
+                                        "<lightsheaf/file> for one of the library"
+                                      : "%s:%llu: write #include \"path\", the path below glsl/",
+                         file->path, (unsigned long long)file->line);
+}
+
+/* A file of somebody else's, by its path from that of the file that names it. */
+static bool include_foreign(const builder *b, open_file *file, uint64_t index, const char *name)
+{
+    bool alone = name[0] == '/' || strcmp(file->folder, ".") == 0;
+    char *path = alone ? strdup(name) : lsf_format("%s/%s", file->folder, name);
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    char *folder = slash ? strndup(path, (size_t)(slash - path)) : strdup(".");
+    open_file included = {.path = path, .folder = folder, .parent = file};
+    bool good = path && folder ? add_include(b, file, index, &included) : out_of_memory(b);
+    free(path);
+    free(folder);
+    return good;
+}
+
+/* <lightsheaf/...>: what the library offers to shaders of others. */
+static bool include_offered(const builder *b, open_file *file, uint64_t index, const char *name)
+{
+    static const char *const folders[] = {"lib", "shared"};
+    static const char prefix[] = "lightsheaf/";
+    char path[300];
+    if (strncmp(name, prefix, strlen(prefix)) != 0)
+        return bad_include(b, file);
+    for (size_t i = 0; i < LSF_COUNT(folders); i++) {
+        snprintf(path, sizeof path, "%s/%s", folders[i], name + strlen(prefix));
+        char *embedded = read_embedded(path); /* --shader-dir holds the same files */
+        free(embedded);
+        open_file included = {.path = path, .parent = file};
+        if (embedded)
+            return add_include(b, file, index, &included);
+    }
+    return lsf_error_set(b->error, LSF_ERROR_RENDER,
+                         "%s:%llu: #include <%s>: the library has no such file; "
+                         "glsl/lib and glsl/shared hold what there is",
+                         file->path, (unsigned long long)file->line, name);
+}
+
+static bool begins_with_directive(const char *line, size_t length, const char *name)
+{
+    size_t at = 0;
+    while (at < length && (isspace((unsigned char)line[at]) || line[at] == '#'))
+        at++;
+    return at > 0 && memchr(line, '#', at) && length - at >= strlen(name) &&
+           strncmp(line + at, name, strlen(name)) == 0;
+}
+
+/* Behind the version: GLSL wants extensions there, and declarations of the library stand before
+ * what somebody else wrote. */
+static void hoist(const builder *b, const char *line, size_t length, const open_file *from,
+                  uint64_t file)
+{
+    lsf_shader_source *source = b->source;
+    add_line(b, line, length, from, file);
+    if (source->text.failed)
+        return;
+    char *text = source->text.text;
+    size_t head = strcspn(text, "\n") + 1, moved = length + 1;
+    memmove(text + head + moved, text + head, source->text.length - head - moved);
+    memcpy(text + head, line, length);
+    text[head + length] = '\n';
+    lsf_shader_place place = source->places[source->line_count - 1];
+    memmove(source->places + 2, source->places + 1,
+            (source->line_count - 2) * sizeof *source->places);
+    source->places[1] = place;
+}
+
+/* Of somebody else's files: what stands above them in the text already, or has to. */
+static void add_foreign_line(const builder *b, const char *line, size_t length,
+                             const open_file *file, uint64_t index)
+{
+    bool version = begins_with_directive(line, length, "version");
+    bool extension = begins_with_directive(line, length, "extension");
+    if (extension)
+        hoist(b, line, length, file, index);
+    add_line(b, line, version || extension ? 0 : length, file, index);
+}
+
+static bool include(const builder *b, open_file *file, uint64_t index, include_kind kind,
+                    const char *name)
+{
+    open_file below = {.path = name, .parent = file};
+    if (kind == BAD_INCLUDE)
+        return bad_include(b, file);
+    if (file->folder)
+        return kind == INCLUDE ? include_foreign(b, file, index, name)
+                               : include_offered(b, file, index, name);
+    if (kind == INCLUDE)
+        return add_include(b, file, index, &below);
+    add_line(b, "", 0, file, index);
     return true;
 }
 
 static bool add_lines(const builder *b, open_file *file, uint64_t index, const char *content)
 {
     bool in_comment = false;
-    char path[256];
+    char name[256];
     for (const char *line = content; *line;) {
-        size_t length = strcspn(line, "\n");
-        include_kind kind = in_comment ? NO_INCLUDE : parse_include(line, length, path);
-        in_comment = ends_in_comment(line, length, in_comment);
+        size_t length = strcspn(line, "\n"), next = length + (line[length] == '\n');
+        if (length > 0 && line[length - 1] == '\r')
+            length--;
+        include_kind kind = in_comment ? NO_INCLUDE : parse_include(line, length, name);
         file->line++;
-        switch (kind) {
-        case INCLUDE:
-            if (!add_include(b, file, index, path))
+        if (kind != NO_INCLUDE) {
+            if (!include(b, file, index, kind, name))
                 return false;
-            break;
-        case BAD_INCLUDE:
-            return lsf_error_set(b->error, LSF_ERROR_RENDER,
-                                 "%s:%llu: write #include \"path\", the path below glsl/",
-                                 file->path, (unsigned long long)file->line);
-        case SYSTEM_INCLUDE:
-            add_line(b, "", 0, index, file->line);
-            break;
-        case NO_INCLUDE:
-            add_line(b, line, length, index, file->line);
-            break;
+        } else if (file->folder && !in_comment) {
+            add_foreign_line(b, line, length, file, index);
+        } else {
+            add_line(b, line, length, file, index);
         }
-        line += length + (line[length] == '\n');
+        in_comment = ends_in_comment(line, length, in_comment);
+        line += next;
     }
     return true;
 }
@@ -246,34 +359,55 @@ static bool add_file(const builder *b, const open_file *opened)
     return added;
 }
 
+static bool add_part(const builder *b, const lsf_shader_part *part)
+{
+    open_file file = {.path = part->path, .folder = part->folder};
+    if (!part->text)
+        return add_file(b, &file);
+    file.line = part->line > 0 ? part->line - 1 : 0;
+    return add_path(b, file.path) && add_lines(b, &file, b->source->path_count - 1, part->text);
+}
+
 static bool add_preamble(const builder *b, const lsf_define *defines, uint32_t define_count)
 {
     static const char version[] = "#version 450 core";
+    open_file file = {.line = 1};
     if (!add_path(b, "defines"))
         return false;
-    add_line(b, version, strlen(version), 0, 1);
+    add_line(b, version, strlen(version), &file, 0);
     for (uint32_t i = 0; i < define_count; i++) {
         char *line = lsf_format("#define %s %d", defines[i].name, defines[i].value);
         if (!line)
             return out_of_memory(b);
-        add_line(b, line, strlen(line), 0, i + 2);
+        file.line++;
+        add_line(b, line, strlen(line), &file, 0);
         free(line);
     }
     return true;
 }
 
-bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
-                             uint32_t define_count, lsf_shader_source *source, lsf_error *error)
+bool lsf_shader_source_build_parts(const char *shader_dir, const lsf_define *defines,
+                                   uint32_t define_count, const lsf_shader_part *parts,
+                                   uint32_t part_count, lsf_shader_source *source, lsf_error *error)
 {
     *source = (lsf_shader_source){0};
     builder b = {shader_dir, source, error};
-    open_file file = {.path = path};
-    bool built = add_preamble(&b, defines, define_count) && add_file(&b, &file);
+    bool built = add_preamble(&b, defines, define_count);
+    for (uint32_t i = 0; built && i < part_count; i++)
+        built = add_part(&b, &parts[i]);
     if (built && source->text.failed)
         built = out_of_memory(&b);
     if (!built)
         lsf_shader_source_free(source);
     return built;
+}
+
+bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
+                             uint32_t define_count, lsf_shader_source *source, lsf_error *error)
+{
+    const lsf_shader_part file = {.path = path};
+    return lsf_shader_source_build_parts(shader_dir, defines, define_count, &file, 1, source,
+                                         error);
 }
 
 void lsf_shader_source_free(lsf_shader_source *source)
@@ -314,6 +448,17 @@ static const char *parse_place(const char *line, uint64_t *number)
     return end;
 }
 
+/* The text's line of that number, from 1. */
+static const char *line_of_text(const lsf_shader_source *source, uint64_t number, int *length)
+{
+    const char *line = source->text.text;
+    for (uint64_t i = 1; i < number; i++)
+        line += strcspn(line, "\n") + 1;
+    line += strspn(line, " \t");
+    *length = (int)strcspn(line, "\n");
+    return line;
+}
+
 void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log, lsf_string *mapped)
 {
     static const char *const severities[][2] = {{"ERROR: ", "error: "}, {"WARNING: ", "warning: "}};
@@ -334,6 +479,10 @@ void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
             lsf_shader_place place = source->places[number - 1];
             lsf_string_add(mapped, "%s:%u: %s%.*s\n", source->paths[place.file], place.line,
                            severity, (int)(line + length - message), message);
+            int shown;
+            const char *text = line_of_text(source, number, &shown);
+            if (place.foreign && shown > 0)
+                lsf_string_add(mapped, "    %.*s\n", shown, text);
         } else if (length)
             lsf_string_add(mapped, "%.*s\n", (int)length, line);
         line = next;

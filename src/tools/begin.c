@@ -16,6 +16,8 @@ static bool add_answer(lsf_string *text, const lsf_settings *settings)
         lsf_string_add(text, "lightsheaf %s\n", lsf_version());
     else if (settings->list_techniques)
         lsf_help_techniques(text);
+    else if (settings->list_names)
+        lsf_help_sandbox_names(text);
     else if (settings->list_options)
         lsf_help_pass_options(text);
     else

@@ -16,5 +16,7 @@ void lsf_help_option_title(lsf_string *text, const lsf_command_option *option);
 
 void lsf_help_pass_options(lsf_string *text);
 void lsf_help_techniques(lsf_string *text);
+/* What a shader in the sandbox may name. */
+void lsf_help_sandbox_names(lsf_string *text);
 
 #endif

@@ -109,3 +109,16 @@ void lsf_help_techniques(lsf_string *text)
     for (uint32_t i = 0; lsf_technique_name(i); i++)
         lsf_string_add(text, "%-16s%s\n", lsf_technique_name(i), lsf_technique_help(i));
 }
+
+void lsf_help_sandbox_names(lsf_string *text)
+{
+    lsf_sandbox_name name;
+    const char *group = "";
+    for (uint32_t i = 0; lsf_sandbox_list(i, &name); i++) {
+        if (strcmp(group, name.group) != 0)
+            lsf_string_add(text, "%s%ss\n", *group ? "\n" : "", name.group);
+        group = name.group;
+        lsf_string_add(text, "  %s\n", name.use);
+        add_wrapped(text, name.help, 6, 6);
+    }
+}

@@ -9,9 +9,11 @@
 #define PLANNING (RENDERING | LSF_COMMAND_PLAN)
 #define LOADING (PLANNING | LSF_COMMAND_INFO)
 #define MEASURING (LSF_COMMAND_BENCH | LSF_COMMAND_MEASURE)
-#define STAGING (PLANNING | MEASURING)
-#define DRAWING (RENDERING | MEASURING)
-#define ANY (LOADING | LSF_COMMAND_COMPARE | MEASURING | LSF_COMMAND_HELP)
+#define STAGING (PLANNING | MEASURING | LSF_COMMAND_SANDBOX)
+#define SCENES (LOADING | MEASURING | LSF_COMMAND_SANDBOX)
+#define DRAWING (RENDERING | MEASURING | LSF_COMMAND_SANDBOX)
+#define PICTURES (RENDERING | LSF_COMMAND_SANDBOX)
+#define ANY (SCENES | LSF_COMMAND_COMPARE | LSF_COMMAND_HELP)
 
 static const lsf_command commands[] = {
     {LSF_COMMAND_RENDER, "render", "[SCENE]... -o OUT", 0, UINT32_MAX,
@@ -51,6 +53,12 @@ static const lsf_command commands[] = {
      "several "
      "seeds, and prints what a frame takes and how far it is from the path-traced reference: time, "
      "memory, RMSE, relMSE, bias and SSIM, what of the error is noise and what stays."},
+    {LSF_COMMAND_SANDBOX, "sandbox", "SHADER [SCENE] -o OUT", 0, 2,
+     "run a shader of one's own against the engine",
+     "Runs SHADER, a fragment shader as Shadertoy has them or with a main of its own, or a compute "
+     "shader (.comp), and writes what it draws. It may name what the engine knows of SCENE: what "
+     "each pixel sees, lights and their shadow maps, voxels, ray-bundles, the picture of a "
+     "technique; what it names is computed, and nothing else. docs/sandbox.md has the names."},
     {LSF_COMMAND_HELP, "help", "[COMMAND]", 0, 1, "explain a command and its options",
      "Prints the options of COMMAND, or the list of commands."},
 };
@@ -71,21 +79,21 @@ const lsf_command *lsf_command_find(lsf_command_bit bit)
 #define AT(member) offsetof(lsf_settings, member)
 
 static const lsf_command_option options[] = {
-    {"output", 'o', "OUT", RENDERING, "Output", LSF_VALUE_TEXT, AT(output), 0, 0, NULL, NULL,
+    {"output", 'o', "OUT", PICTURES, "Output", LSF_VALUE_TEXT, AT(output), 0, 0, NULL, NULL,
      "where the picture goes, its format by the ending: .exr (32-bit float, linear radiance, with "
      "the layers of --aov), .hdr (RGBE), .png (tone-mapped, 8-bit sRGB); - is standard output; %s "
      "in it is the scene's name without folder and ending, which tells the pictures of several "
      "scenes apart"},
-    {"format", 0, "FORMAT", RENDERING, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
+    {"format", 0, "FORMAT", PICTURES, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
      0, "exr|hdr|png", NULL,
      "the format, whatever the ending of OUT; standard output is exr without it"},
-    {"exposure", 0, "EV|auto", RENDERING, "Output", LSF_VALUE_EXPOSURE, AT(exposure), -100, 100,
+    {"exposure", 0, "EV|auto", PICTURES, "Output", LSF_VALUE_EXPOSURE, AT(exposure), -100, 100,
      NULL, "0",
      "radiance is multiplied by 2^EV before tone mapping; auto brings the picture's log-average "
      "luminance to middle grey, 0.18; float formats hold radiance as it is"},
     {"exposure", 0, "EV", LSF_COMMAND_COMPARE | LSF_COMMAND_MEASURE, "Output", LSF_VALUE_FLOAT,
      AT(exposure.ev), -100, 100, NULL, "0", "radiance is multiplied by 2^EV before tone mapping"},
-    {"tonemap", 0, "CURVE", RENDERING, "Output", LSF_VALUE_CHOICE, AT(tonemap),
+    {"tonemap", 0, "CURVE", PICTURES, "Output", LSF_VALUE_CHOICE, AT(tonemap),
      LSF_TONE_CURVE_NEUTRAL, 0, "neutral|none|aces|agx", "neutral",
      "from radiance to .png: neutral is Khronos PBR Neutral, which keeps base colours; none is "
      "sRGB, cut off at 1; aces and agx are like film"},
@@ -146,8 +154,8 @@ static const lsf_command_option options[] = {
      "where references are kept, by what the scene's files hold and how it is seen; without it, "
      "lightsheaf in XDG_CACHE_HOME or in ~/.cache"},
 
-    {"technique", 't', "NAME", PLANNING, "Picture", LSF_VALUE_TECHNIQUE, AT(technique), 0, 0, NULL,
-     "bidirectional", "how light is found; see --list-techniques"},
+    {"technique", 't', "NAME", PLANNING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TECHNIQUE,
+     AT(technique), 0, 0, NULL, "bidirectional", "how light is found; see --list-techniques"},
     {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,
      NULL, "1024,768", "width and height in pixels; 1024x768 will do too"},
     {"resolution", 'r', "W,H", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_RESOLUTION,
@@ -156,6 +164,10 @@ static const lsf_command_option options[] = {
      "bidirectional 1920x1088, or 480x270 where OpenGL is software, cone 512x512, and voxel_path "
      "1024x768 and "
      "1920x1080"},
+    {"resolution", 'r', "W,H", LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_RESOLUTION, AT(resolution),
+     1, 65535, NULL, "640,360", "width and height in pixels; 640x360 will do too"},
+    {"samples", 's', "N", LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_COUNT, AT(samples), 1, 1000000,
+     NULL, "1", "iterations of lsf_picture in each frame"},
     {"samples", 's', "N", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_COUNT, AT(samples), 1, 64,
      NULL, NULL,
      "directions of bundles whose median is taken, or frames whose mean is; without it, 7 "
@@ -166,8 +178,8 @@ static const lsf_command_option options[] = {
      NULL,
      "seconds after which rendering ends; an iteration that is not done is dropped, but for the "
      "first"},
-    {"bounces", 'b', "N", PLANNING | LSF_COMMAND_MEASURE, "Picture", LSF_VALUE_COUNT, AT(bounces),
-     0, LSF_BOUNCES_MAX, NULL, NULL,
+    {"bounces", 'b', "N", PLANNING | LSF_COMMAND_MEASURE | LSF_COMMAND_SANDBOX, "Picture",
+     LSF_VALUE_COUNT, AT(bounces), 0, LSF_BOUNCES_MAX, NULL, NULL,
      "indirect bounces of light; 0 is direct light only; without it 3, and 7 where materials "
      "transmit light, for each side of a wall of glass takes one"},
     {"raw", 0, NULL, PLANNING | LSF_COMMAND_MEASURE, "Picture", LSF_VALUE_FLAG, AT(raw), 0, 0, NULL,
@@ -196,6 +208,16 @@ static const lsf_command_option options[] = {
     {"time", 0, "S", STAGING, "Camera", LSF_VALUE_DOUBLE, AT(time), -1e9, 1e9, NULL, "0",
      "the moment at which animations are sampled, in seconds; with --frames, that of frame 0"},
 
+    {"frame", 0, "N", LSF_COMMAND_SANDBOX, "Sequence", LSF_VALUE_COUNT, AT(frame), 0, 999999999,
+     NULL, "0",
+     "the frame whose picture is written; those before it run as well where buffers keep something "
+     "of them"},
+    {"frames", 0, "A-B", LSF_COMMAND_SANDBOX, "Sequence", LSF_VALUE_FRAMES, AT(frames), 0,
+     999999999, NULL, NULL,
+     "write the frames from A to B, each to a picture of its own: %d in OUT, or %04d for leading "
+     "zeros, is its number"},
+    {"fps", 0, "X", LSF_COMMAND_SANDBOX, "Sequence", LSF_VALUE_DOUBLE, AT(fps), 1e-6, 1e6, NULL,
+     "60", "frames a second: frame N has the time N / X, from --time on"},
     {"frames", 0, "A-B", LSF_COMMAND_RENDER, "Sequence", LSF_VALUE_FRAMES, AT(frames), 0, 999999999,
      NULL, NULL,
      "render the frames from A to B, each to a picture of its own: %d in OUT, or %04d for leading "
@@ -215,43 +237,57 @@ static const lsf_command_option options[] = {
      "keep light from frame to frame, so that few samples a frame look like many; each frame then "
      "depends on those before it: one machine renders all, from the first to the last"},
 
-    {"environment", 'e', "FILE|R,G,B", LOADING | MEASURING, "Scene", LSF_VALUE_ENVIRONMENT,
-     AT(environment), 0, 1e30, NULL, NULL,
+    {"environment", 'e', "FILE|R,G,B", SCENES, "Scene", LSF_VALUE_ENVIRONMENT, AT(environment), 0,
+     1e30, NULL, NULL,
      "light from outside: a latitude-longitude .hdr or .exr, or a uniform radiance in W/(m^2 sr)"},
-    {"environment-rotation", 0, "DEG", LOADING | MEASURING, "Scene", LSF_VALUE_FLOAT,
-     AT(environment_rotation), -36000, 36000, NULL, "0",
+    {"environment-rotation", 0, "DEG", SCENES, "Scene", LSF_VALUE_FLOAT, AT(environment_rotation),
+     -36000, 36000, NULL, "0",
      "turn the environment about the vertical axis, in degrees, anticlockwise seen from above"},
-    {"environment-strength", 0, "X", LOADING | MEASURING, "Scene", LSF_VALUE_FLOAT,
-     AT(environment_strength), 0, 1e20, NULL, "1", "multiply the environment's radiance by X"},
-    {"default-light", 0, "WHEN", LOADING | MEASURING, "Scene", LSF_VALUE_CHOICE, AT(default_light),
+    {"environment-strength", 0, "X", SCENES, "Scene", LSF_VALUE_FLOAT, AT(environment_strength), 0,
+     1e20, NULL, "1", "multiply the environment's radiance by X"},
+    {"default-light", 0, "WHEN", SCENES, "Scene", LSF_VALUE_CHOICE, AT(default_light),
      LSF_DEFAULT_LIGHT_AUTO, 0, "auto|always|never", "auto",
      "when a soft sky and a key light are added: auto is where the file has no light, its emissive "
      "materials do not light it, and there is no --environment"},
-    {"diffuse-only", 0, NULL, LOADING | MEASURING, "Scene", LSF_VALUE_FLAG, AT(diffuse_only), 0, 0,
-     NULL, NULL, "read every material as a diffuse one of its base colour, without normal maps"},
-    {"show-back-faces", 0, NULL, LOADING | MEASURING, "Scene", LSF_VALUE_FLAG, AT(show_back_faces),
-     0, 0, NULL, NULL,
+    {"diffuse-only", 0, NULL, SCENES, "Scene", LSF_VALUE_FLAG, AT(diffuse_only), 0, 0, NULL, NULL,
+     "read every material as a diffuse one of its base colour, without normal maps"},
+    {"show-back-faces", 0, NULL, SCENES, "Scene", LSF_VALUE_FLAG, AT(show_back_faces), 0, 0, NULL,
+     NULL,
      "let the camera see the backs of single-sided materials, which glTF hides; light meets both "
      "sides in any case"},
-    {"lenient", 0, NULL, LOADING | MEASURING, "Scene", LSF_VALUE_FLAG, AT(lenient), 0, 0, NULL,
-     NULL,
+    {"lenient", 0, NULL, SCENES, "Scene", LSF_VALUE_FLAG, AT(lenient), 0, 0, NULL, NULL,
      "ignore, with a warning each, extensions that the file requires and that change the look "
      "alone"},
-    {"memory-limit", 0, "GIB", LOADING | MEASURING, "Scene", LSF_VALUE_DOUBLE, AT(memory_limit),
-     0.001, 1e6, NULL, "8",
-     "refuse a scene whose loading takes more memory than this at any moment, in GiB"},
-    {"scene", 0, "NAME|INDEX", LOADING | MEASURING, "Scene", LSF_VALUE_TEXT, AT(scene), 0, 0, NULL,
-     NULL,
+    {"memory-limit", 0, "GIB", SCENES, "Scene", LSF_VALUE_DOUBLE, AT(memory_limit), 0.001, 1e6,
+     NULL, "8", "refuse a scene whose loading takes more memory than this at any moment, in GiB"},
+    {"scene", 0, "NAME|INDEX", SCENES, "Scene", LSF_VALUE_TEXT, AT(scene), 0, 0, NULL, NULL,
      "which of the file's scenes, by name or by index from 0; without it, the one that the file "
      "names, else the first"},
-    {"animation", 0, "NAME|INDEX|none", LOADING | MEASURING, "Scene", LSF_VALUE_TEXTS,
-     AT(animations), 0, 0, NULL, NULL,
+    {"animation", 0, "NAME|INDEX|none", SCENES, "Scene", LSF_VALUE_TEXTS, AT(animations), 0, 0,
+     NULL, NULL,
      "play this animation of the file alone, or none; repeatable; without it all play, and of "
      "those that move the same node the first"},
-    {"variant", 0, "NAME|INDEX", LOADING | MEASURING, "Scene", LSF_VALUE_TEXT, AT(variant), 0, 0,
-     NULL, NULL,
+    {"variant", 0, "NAME|INDEX", SCENES, "Scene", LSF_VALUE_TEXT, AT(variant), 0, 0, NULL, NULL,
      "dress the scene in one of the file's variants of materials (KHR_materials_variants); "
      "without it, in the file's own materials"},
+
+    {"new", 0, "FILE", LSF_COMMAND_SANDBOX, "Shader", LSF_VALUE_TEXT, AT(new_shader), 0, 0, NULL,
+     NULL, "write a commented shader to begin with, and end; .comp is a compute shader"},
+    {"uniform", 'u', "NAME=X", LSF_COMMAND_SANDBOX, "Shader", LSF_VALUE_TEXTS, AT(uniforms), 0, 0,
+     NULL, NULL,
+     "set a uniform that the shader declares, of vectors with commas between numbers; repeatable"},
+    {"channel", 0, "[BUFFER:]N=SOURCE", LSF_COMMAND_SANDBOX | LSF_COMMAND_PLAN, "Shader",
+     LSF_VALUE_TEXTS, AT(channels), 0, 0, NULL, NULL,
+     "what iChannelN is, as @channel in the shader says it, and in place of that; a:0=noise is "
+     "that of buffer a; repeatable"},
+    {"mouse", 0, "X,Y", LSF_COMMAND_SANDBOX, "Shader", LSF_VALUE_RESOLUTION, AT(mouse), 1, 65535,
+     NULL, NULL, "hold the mouse button there, in pixels from the lower left corner"},
+    {"watchdog", 0, "S", LSF_COMMAND_SANDBOX, "Shader", LSF_VALUE_DOUBLE, AT(watchdog), 0, 1e6,
+     NULL, "30", "seconds that a frame may take before its shader counts as hung; 0 is no limit"},
+    {"sandbox", 0, "SHADER", LSF_COMMAND_PLAN, "Shader", LSF_VALUE_TEXT, AT(sandbox), 0, 0, NULL,
+     NULL, "print what `lightsheaf sandbox SHADER` computes instead; without SCENE, of no scene"},
+    {"list-names", 0, NULL, LSF_COMMAND_SANDBOX, "Shader", LSF_VALUE_FLAG, AT(list_names), 0, 0,
+     NULL, NULL, "print the names that a shader may use, and what they are"},
 
     {"mask", 0, "FILE", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_TEXT, AT(mask), 0, 0, NULL,
      NULL, "leave out the pixels whose first channel is above 0.5"},
@@ -275,8 +311,8 @@ static const lsf_command_option options[] = {
     {"gl-debug", 0, NULL, DRAWING, "Device", LSF_VALUE_FLAG, AT(gl_debug), 0, 0, NULL, NULL,
      "make a debug context, log its messages, and stop at the first OpenGL error"},
 
-    {"list-techniques", 0, NULL, PLANNING | LSF_COMMAND_MEASURE, "General", LSF_VALUE_FLAG,
-     AT(list_techniques), 0, 0, NULL, NULL, "print the techniques"},
+    {"list-techniques", 0, NULL, PLANNING | LSF_COMMAND_MEASURE | LSF_COMMAND_SANDBOX, "General",
+     LSF_VALUE_FLAG, AT(list_techniques), 0, 0, NULL, NULL, "print the techniques"},
     {"list-options", 0, NULL, STAGING, "General", LSF_VALUE_FLAG, AT(list_options), 0, 0, NULL,
      NULL, "print the options of all passes, for -D"},
     {"quiet", 'q', NULL, ANY, "General", LSF_VALUE_FLAG, AT(quiet), 0, 0, NULL, NULL,

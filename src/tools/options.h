@@ -18,6 +18,7 @@ typedef enum lsf_command_bit {
     LSF_COMMAND_HELP = 1 << 5,
     LSF_COMMAND_BENCH = 1 << 6,
     LSF_COMMAND_MEASURE = 1 << 7,
+    LSF_COMMAND_SANDBOX = 1 << 8,
 } lsf_command_bit;
 
 typedef struct lsf_command {
@@ -161,6 +162,14 @@ typedef struct lsf_settings {
     int backend; /* lsf_backend */
     const char *shader_dir;
     bool gl_debug;
+
+    const char *new_shader; /* NULL: not given */
+    const char *sandbox;    /* shader that a plan is wanted of; NULL: none */
+    uint32_t frame;
+    lsf_list_setting channels, uniforms;
+    uint32_t mouse[2]; /* pixels from the lower left corner; 0,0: not given */
+    double watchdog;   /* seconds */
+    bool list_names;
 
     const char *mask, *difference;
     float difference_gain;

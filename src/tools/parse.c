@@ -120,10 +120,11 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
 {
     const lsf_render_params render = {LSF_RENDER_PARAMS_DEFAULTS};
     const lsf_scene_params scene = {LSF_SCENE_PARAMS_DEFAULTS};
+    bool sandbox = command->bit == LSF_COMMAND_SANDBOX;
     *settings = (lsf_settings){
         .command = command,
         .technique = render.technique,
-        .resolution = {render.width, render.height},
+        .resolution = {sandbox ? 640 : render.width, sandbox ? 360 : render.height},
         .time_limit = render.time_limit,
         .bounces = render.bounces,
         .seed = render.seed,
@@ -131,7 +132,8 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
         .environment_strength = scene.environment_strength,
         .memory_limit = (double)scene.memory_limit / 0x1p30,
         .time = render.time,
-        .fps = 24,
+        .fps = sandbox ? 60 : 24,
+        .watchdog = 30,
         .difference_gain = 4,
         .epsilon = NAN,
     };
@@ -166,7 +168,8 @@ static bool check_operands(const lsf_settings *settings, lsf_error *error)
 {
     const lsf_command *command = settings->command;
     uint32_t count = settings->operands.count;
-    if (settings->help || settings->version || settings->list_options || settings->list_techniques)
+    if (settings->help || settings->version || settings->list_options ||
+        settings->list_techniques || settings->list_names || settings->new_shader)
         return true;
     if (settings->quiet && settings->verbose)
         return lsf_error_set(error, LSF_ERROR_USAGE,
@@ -174,6 +177,9 @@ static bool check_operands(const lsf_settings *settings, lsf_error *error)
     if (count < command->operands_min)
         return lsf_error_set(error, LSF_ERROR_USAGE, "%s: needs %s; `lightsheaf help %s` explains",
                              command->name, command->operands, command->name);
+    if (command->bit == LSF_COMMAND_SANDBOX && count == 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "sandbox: needs a shader; --new my.frag writes one to begin with");
     if (count > command->operands_max)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "%s: one operand too many; %s takes %s, and `lightsheaf help %s` "
@@ -228,6 +234,8 @@ void lsf_settings_finish(lsf_settings *settings)
 {
     free((void *)settings->operands.items);
     free((void *)settings->animations.items);
+    free((void *)settings->channels.items);
+    free((void *)settings->uniforms.items);
     free((void *)settings->defines.items);
     free((void *)settings->thresholds.items);
     free((void *)settings->techniques.items);

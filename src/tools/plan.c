@@ -1,5 +1,7 @@
 #include "base/base.h"
 #include "tools/begin.h"
+#include "tools/report.h"
+#include "tools/sandbox.h"
 #include "tools/scenes.h"
 #include "tools/tools.h"
 
@@ -22,12 +24,31 @@ static bool print_plan(void *user, uint32_t index, const char *path, lsf_json *j
     return good;
 }
 
+/* Of a shader of somebody's own, with or without a scene. */
+static bool print_sandbox(void *user, uint32_t index, const char *path, lsf_json *json,
+                          lsf_error *error)
+{
+    const lsf_settings *settings = user;
+    lsf_sandbox_params params = lsf_settings_sandbox_params(settings);
+    bool named = settings->operands.count > 0;
+    double seconds;
+    lsf_scene *scene = named ? lsf_tool_load_scene(settings, path, &seconds, error) : NULL;
+    lsf_plan *plan = scene || !named ? lsf_sandbox_plan(scene, &params, error) : NULL;
+    bool good = plan && lsf_tool_print(settings, index, lsf_plan_describe(plan, false), error);
+    if (good)
+        lsf_json_text(json, NULL, lsf_plan_describe(plan, true));
+    lsf_plan_destroy(plan);
+    lsf_scene_destroy(scene);
+    return good;
+}
+
 int lsf_tool_plan(int argc, char **argv)
 {
     lsf_settings settings;
     int status = lsf_tool_begin(&settings, LSF_COMMAND_PLAN, argc, argv);
     if (status == LSF_GO_ON)
-        status = lsf_tool_for_each_scene(&settings, print_plan, &settings);
+        status = lsf_tool_for_each_scene(&settings, settings.sandbox ? print_sandbox : print_plan,
+                                         &settings);
     lsf_settings_finish(&settings);
     return status;
 }

@@ -9,6 +9,7 @@ int lsf_tool_info(int argc, char **argv);
 int lsf_tool_plan(int argc, char **argv);
 int lsf_tool_bench(int argc, char **argv);
 int lsf_tool_measure(int argc, char **argv);
+int lsf_tool_sandbox(int argc, char **argv);
 int lsf_tool_help(int argc, char **argv);
 
 #endif

@@ -1,0 +1,12 @@
+/* One light's shadow map, for shaders of others. */
+#ifndef LSF_SANDBOX_SHADOW
+#define LSF_SANDBOX_SHADOW
+
+#include "lib/shadow.glsl"
+
+float lsf_visibility(vec3 position, vec3 normal)
+{
+    return shadow_visibility(position, normal);
+}
+
+#endif

@@ -1,0 +1,43 @@
+/* What a pass reads as iChannel0 to 3. */
+#ifndef LSF_SANDBOX_CHANNEL_H
+#define LSF_SANDBOX_CHANNEL_H
+
+#include "sandbox/text.h"
+
+typedef enum lsf_sandbox_source {
+    LSF_SOURCE_NONE, /* black */
+    LSF_SOURCE_BUFFER,
+    LSF_SOURCE_PREVIOUS,
+    LSF_SOURCE_KEYBOARD,
+    LSF_SOURCE_NOISE,
+    LSF_SOURCE_FILE,
+    LSF_SOURCE_CUBE,
+} lsf_sandbox_source;
+
+typedef struct lsf_sandbox_channel {
+    lsf_sandbox_source source;
+    uint32_t buffer; /* 0 to 3 */
+    GLenum wrap, filter, shrink;
+    bool mipmap, flip;
+    char *path; /* of a file; NULL: none */
+    int64_t changed[2];
+    GLuint texture; /* owned, of noise, files and cubes */
+    uint32_t width, height;
+    struct lsf_sandbox_channel *from; /* that the texture is borrowed of */
+    bool lent;
+} lsf_sandbox_channel;
+
+/* What the text says, with paths from `folder`. LSF_ERROR_USAGE begins with `place`. */
+bool lsf_sandbox_channel_parse(lsf_sandbox_channel *channel, const char *source, const char *folder,
+                               const char *place, lsf_error *error);
+/* Makes its texture; borrows that of one of `before` that is the same. */
+bool lsf_sandbox_channel_load(lsf_sandbox_channel *channel, lsf_context *context,
+                              lsf_sandbox_channel *before, uint32_t before_count, const char *place,
+                              lsf_error *error);
+/* What was borrowed is its own from here on. */
+void lsf_sandbox_channel_keep(lsf_sandbox_channel *channel);
+void lsf_sandbox_channel_finish(lsf_sandbox_channel *channel, lsf_context *context);
+/* Wrapping and filtering as it says, of a texture that it reads. */
+void lsf_sandbox_channel_set_filter(const lsf_sandbox_channel *channel, GLuint texture);
+
+#endif

@@ -1,0 +1,220 @@
+#include "sandbox/names.h"
+
+#include <string.h>
+
+#include "base/base.h"
+
+#define U LSF_SANDBOX_UNIFORM
+#define E LSF_SANDBOX_ENGINE
+#define A LSF_SANDBOX_ANNOTATION
+#define S LSF_SANDBOX_SOURCE
+
+static const lsf_sandbox_row rows[] = {
+    {U, "iResolution", "vec3 iResolution", 0, "width and height of the picture in pixels, and 1"},
+    {U, "iTime", "float iTime", 0, "time of the frame in seconds"},
+    {U, "iTimeDelta", "float iTimeDelta", 0, "time since the frame before in seconds"},
+    {U, "iFrame", "int iFrame", 0, "number of the frame, from 0"},
+    {U, "iFrameRate", "float iFrameRate", 0, "frames a second"},
+    {U, "iMouse", "vec4 iMouse", 0,
+     "xy: where the button was held last, in pixels; zw: where it went down; z above 0 while it is "
+     "held, w above 0 in the frame in which it went down"},
+    {U, "iDate", "vec4 iDate", 0, "year, month from 0, day, and seconds of the day"},
+    {U, "iSampleRate", "float iSampleRate", 0, "44100; there is no sound"},
+    {U, "iChannelTime", "float iChannelTime[4]", 0, "iTime, for each channel"},
+    {U, "iChannelResolution", "vec3 iChannelResolution[4]", 0,
+     "width and height of each channel in texels, and 1"},
+    {U, "iChannel0", "sampler2D iChannel0", 0, "what @channel 0 says; samplerCube for cube maps"},
+    {U, "iChannel1", "sampler2D iChannel1", 0, "what @channel 1 says"},
+    {U, "iChannel2", "sampler2D iChannel2", 0, "what @channel 2 says"},
+    {U, "iChannel3", "sampler2D iChannel3", 0, "what @channel 3 says"},
+    {U, "iOutput", "image2D iOutput", 0, "what a compute shader writes the picture to, rgba32f"},
+
+    {E, "lsf_camera_position", "vec3 lsf_camera_position(vec2 pixel)", LSF_NEED_VIEW,
+     "where the pixel's view ray starts: on the near plane"},
+    {E, "lsf_camera_direction", "vec3 lsf_camera_direction(vec2 pixel)", LSF_NEED_VIEW,
+     "unit direction of the pixel's view ray"},
+    {E, "lsf_metres", "float lsf_metres(float length)", LSF_NEED_VIEW,
+     "a length of normalised space in scene units, which glTF has as metres"},
+
+    {E, "lsf_seen", "bool lsf_seen(vec2 pixel)", LSF_NEED_GBUFFER, "the pixel sees a surface"},
+    {E, "lsf_depth", "float lsf_depth(vec2 pixel)", LSF_NEED_GBUFFER,
+     "view depth of what the pixel sees; infinity where it sees nothing"},
+    {E, "lsf_position", "vec3 lsf_position(vec2 pixel)", LSF_NEED_GBUFFER,
+     "the point that the pixel sees"},
+    {E, "lsf_normal", "vec3 lsf_normal(vec2 pixel)", LSF_NEED_GBUFFER,
+     "unit shading normal there, towards the viewer"},
+    {E, "lsf_albedo", "vec3 lsf_albedo(vec2 pixel)", LSF_NEED_GBUFFER, "base colour there"},
+    {E, "lsf_surface", "surface lsf_surface(vec2 pixel)", LSF_NEED_GBUFFER,
+     "all that is known of the surface, as `<lightsheaf/brdf.glsl>` takes it: geometric_normal, "
+     "normal, base_color, metallic, roughness, f0"},
+    {E, "lsf_emission", "vec3 lsf_emission(vec2 pixel)", LSF_NEED_GBUFFER,
+     "radiance that the surface sends out itself"},
+    {E, "lsf_motion", "vec2 lsf_motion(vec2 pixel)", LSF_NEED_GBUFFER | LSF_NEED_MOTION,
+     "pixels from where it was a frame before"},
+
+    {E, "lsf_light_count", "int lsf_light_count()", LSF_NEED_LIGHTS,
+     "point, spot and directional lights"},
+    {E, "lsf_light", "vec3 lsf_light(int i, vec3 position, out vec3 direction)", LSF_NEED_LIGHTS,
+     "irradiance that a light has on a plane that faces it, without shadows; unit direction to it"},
+    {E, "lsf_visibility", "float lsf_visibility(vec3 position, vec3 normal)",
+     LSF_NEED_LIGHTS | LSF_NEED_SHADOW,
+     "1 where the light of @light sees the surface, 0 in shadow"},
+    {E, "lsf_reflective_size", "ivec3 lsf_reflective_size()",
+     LSF_NEED_LIGHTS | LSF_NEED_SHADOW | LSF_NEED_REFLECTIVE,
+     "texels and faces of its reflective shadow map"},
+    {E, "lsf_reflective", "bool lsf_reflective(ivec3 texel, out vec3 position, out surface s)",
+     LSF_NEED_LIGHTS | LSF_NEED_SHADOW | LSF_NEED_REFLECTIVE,
+     "the surface that the light of @light reaches in a texel; false where it reaches none"},
+    {E, "lsf_environment", "vec3 lsf_environment(vec3 direction)", LSF_NEED_ENVIRONMENT,
+     "radiance from outside the scene; 0 where there is no environment"},
+
+    {E, "lsf_voxel_size", "ivec3 lsf_voxel_size()", LSF_NEED_VOXELS, "voxels along x, y and z"},
+    {E, "lsf_voxel_from", "vec3 lsf_voxel_from(vec3 position)", LSF_NEED_VOXELS,
+     "from normalised space to voxels: the cell i holds i to i + 1"},
+    {E, "lsf_voxel_to", "vec3 lsf_voxel_to(vec3 voxel)", LSF_NEED_VOXELS, "and back"},
+    {E, "lsf_voxel_occupied", "bool lsf_voxel_occupied(ivec3 cell)", LSF_NEED_VOXELS,
+     "a triangle touches the cell"},
+    {E, "lsf_voxel_trace",
+     "bool lsf_voxel_trace(vec3 position, vec3 direction, float end, out ivec3 cell, out float "
+     "distance)",
+     LSF_NEED_VOXELS, "the first occupied cell on a ray within `end`; lengths of normalised space"},
+    {E, "lsf_voxel_leave", "vec3 lsf_voxel_leave(vec3 position, vec3 normal)", LSF_NEED_VOXELS,
+     "a point on a surface, lifted out of the voxels that the surface itself occupies"},
+    {E, "lsf_voxel_albedo", "vec3 lsf_voxel_albedo(ivec3 cell)", LSF_NEED_VOXELS,
+     "base colour of an occupied cell"},
+    {E, "lsf_voxel_normal", "vec3 lsf_voxel_normal(ivec3 cell)", LSF_NEED_VOXELS,
+     "unit normal of the plane in an occupied cell"},
+    {E, "lsf_voxel_radiance", "vec4 lsf_voxel_radiance(vec3 voxel, vec3 direction, float level)",
+     LSF_NEED_VOXELS | LSF_NEED_RADIANCE,
+     "radiance that one sees who looks along `direction`, premultiplied by the opacity in a; "
+     "filtered over 2^level voxels, level 0 to 4"},
+
+    {E, "lsf_bundle_size", "int lsf_bundle_size()", LSF_NEED_BUNDLE,
+     "texels along a side of the ray-bundle's map"},
+    {E, "lsf_bundle_place", "vec2 lsf_bundle_place(vec3 position)", LSF_NEED_BUNDLE,
+     "where a point lies on the map, in texels"},
+    {E, "lsf_bundle_count", "int lsf_bundle_count(ivec2 texel)", LSF_NEED_BUNDLE,
+     "surfaces that the ray of a texel meets"},
+    {E, "lsf_bundle_node", "uint lsf_bundle_node(ivec2 texel, int i)", LSF_NEED_BUNDLE,
+     "the i-th of them, in no order"},
+    {E, "lsf_bundle_depth", "float lsf_bundle_depth(uint node)", LSF_NEED_BUNDLE,
+     "how far along the bundle it lies: 0 to 1 over the whole scene"},
+    {E, "lsf_bundle_surface",
+     "surface lsf_bundle_surface(uint node, vec3 direction, out vec3 emission)", LSF_NEED_BUNDLE,
+     "its surface, as one sees it who looks along the bundle or against it"},
+    {E, "lsf_bundle_direction", "vec3 lsf_bundle_direction()", LSF_NEED_BUNDLE,
+     "unit direction of the bundle"},
+    {E, "lsf_bundle_hit", "bool lsf_bundle_hit(vec2 pixel, out float distance, out uint node)",
+     LSF_NEED_BUNDLE | LSF_NEED_HITS | LSF_NEED_GBUFFER,
+     "what the ray from the visible point meets, along the bundle or against it, on the side that "
+     "the surface faces; false where it leaves the scene"},
+
+    {E, "lsf_picture", "vec3 lsf_picture(vec2 pixel)", LSF_NEED_PICTURE,
+     "radiance as --technique finds it; while nothing changes, the mean of all frames so far"},
+    {E, "lsf_direct", "vec3 lsf_direct(vec2 pixel)", LSF_NEED_PICTURE | LSF_NEED_DIRECT,
+     "of that, reflected direct light"},
+    {E, "lsf_indirect_diffuse", "vec3 lsf_indirect_diffuse(vec2 pixel)",
+     LSF_NEED_PICTURE | LSF_NEED_DIFFUSE, "of that, indirect light by the diffuse lobe"},
+    {E, "lsf_indirect_specular", "vec3 lsf_indirect_specular(vec2 pixel)",
+     LSF_NEED_PICTURE | LSF_NEED_SPECULAR, "of that, indirect light by the specular lobe"},
+
+    {A, "@channel", "// @channel N SOURCE [wrap=] [filter=] [flip=no]", 0,
+     "what iChannelN is in this pass; wrap is repeat, clamp or mirror, filter nearest, linear or "
+     "mipmap"},
+    {A, "@slider", "uniform float x = 0.5; // @slider 0 1", 0,
+     "a uniform of one's own with its range; -u x=0.7 sets it, too"},
+    {A, "@common", "// @common", 0, "what follows is put before each pass"},
+    {A, "@buffer", "// @buffer a", 0, "what follows is the pass of buffer a, b, c or d"},
+    {A, "@image", "// @image", 0, "what follows is the pass of the picture"},
+    {A, "@output", "// @output radiance", 0,
+     "the picture is radiance, and is tone-mapped; otherwise it is what a display shows"},
+    {A, "@jitter", "// @jitter", 0,
+     "each frame sees other points of its pixels, lights' maps and voxels lie otherwise, so that a "
+     "mean over frames has neither steps nor texels; without, all frames see the same"},
+    {A, "@light", "// @light N", 0, "which light the shadow map is of, from 0"},
+    {A, "@bundle", "// @bundle X Y Z", 0,
+     "direction of the ray-bundle; without, the way the camera looks"},
+    {A, "@define", "// @define pass.key=value", 0, "an option of a pass, as -D sets it"},
+
+    {S, "a, b, c, d", "@channel 0 a", 0,
+     "a buffer: its pass of this frame, or of the frame before where that is still to come"},
+    {S, "previous", "@channel 0 previous", 0, "the picture of the frame before"},
+    {S, "keyboard", "@channel 0 keyboard", 0,
+     "256 x 3 texels by key code: held, gone down in this frame, toggled"},
+    {S, "noise", "@channel 0 noise", 0, "256 x 256 texels of random numbers in r, g, b and a"},
+    {S, "FILE", "@channel 0 wood.png", 0,
+     "a picture beside the shader: PNG, JPEG and WebP as code values, HDR and EXR as radiance"},
+    {S, "cube FILE", "@channel 0 cube sky.hdr", 0,
+     "a cube map of a latitude-longitude picture, or of six where FILE has %s: px nx py ny pz nz"},
+};
+
+const lsf_sandbox_row *lsf_sandbox_row_at(uint32_t index)
+{
+    return index < LSF_COUNT(rows) ? &rows[index] : NULL;
+}
+
+uint32_t lsf_sandbox_find_name(const char *name, size_t length)
+{
+    for (uint32_t i = 0; i < LSF_COUNT(rows); i++)
+        if (rows[i].kind <= LSF_SANDBOX_ENGINE && strlen(rows[i].name) == length &&
+            memcmp(rows[i].name, name, length) == 0)
+            return i;
+    return LSF_NONE;
+}
+
+bool lsf_sandbox_list(uint32_t index, lsf_sandbox_name *name)
+{
+    static const char *const groups[] = {"uniform", "engine", "annotation", "source"};
+    if (index >= LSF_COUNT(rows) || !name)
+        return false;
+    const lsf_sandbox_row *row = &rows[index];
+    *name = (lsf_sandbox_name){groups[row->kind], row->name, row->use, row->help};
+    return true;
+}
+
+/* What declares what each need gives; below, files of the library and the needs of who includes
+ * them. */
+static const struct {
+    uint32_t needs;
+    const char *file;
+} files[] =
+    {
+        {LSF_NEED_VIEW, "sandbox/view.glsl"},
+        {LSF_NEED_GBUFFER, "sandbox/gbuffer.glsl"},
+        {LSF_NEED_LIGHTS, "sandbox/lights.glsl"},
+        {LSF_NEED_SHADOW, "sandbox/shadow.glsl"},
+        {LSF_NEED_REFLECTIVE, "sandbox/reflective.glsl"},
+        {LSF_NEED_ENVIRONMENT, "sandbox/environment.glsl"},
+        {LSF_NEED_VOXELS, "sandbox/voxels.glsl"},
+        {LSF_NEED_RADIANCE, "sandbox/radiance.glsl"},
+        {LSF_NEED_BUNDLE, "sandbox/bundle.glsl"},
+        {LSF_NEED_HITS, "sandbox/hits.glsl"},
+        {LSF_NEED_PICTURE, "sandbox/picture.glsl"},
+},
+  included[] = {
+      {LSF_NEED_VIEW, "lib/view.glsl"},
+      {LSF_NEED_GBUFFER, "lib/gbuffer_textures.glsl"},
+      {LSF_NEED_LIGHTS | LSF_NEED_SHADOW, "lib/light.glsl"},
+      {LSF_NEED_LIGHTS | LSF_NEED_SHADOW, "lib/light_map.glsl"},
+      {LSF_NEED_LIGHTS | LSF_NEED_SHADOW, "lib/shadow.glsl"},
+      {LSF_NEED_ENVIRONMENT, "lib/environment.glsl"},
+      {LSF_NEED_VOXELS, "lib/voxel.glsl"},
+      {LSF_NEED_VOXELS, "lib/voxel_trace.glsl"},
+      {LSF_NEED_BUNDLE, "lib/ray_bundle.glsl"},
+};
+
+const char *lsf_sandbox_need_file(lsf_sandbox_need need)
+{
+    for (size_t i = 0; i < LSF_COUNT(files); i++)
+        if (files[i].needs == (uint32_t)need)
+            return files[i].file;
+    return NULL;
+}
+
+uint32_t lsf_sandbox_needs_of_file(const char *path)
+{
+    for (size_t i = 0; i < LSF_COUNT(included); i++)
+        if (strcmp(included[i].file, path) == 0)
+            return included[i].needs;
+    return 0;
+}

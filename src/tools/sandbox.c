@@ -1,0 +1,187 @@
+#include "tools/sandbox.h"
+#include "base/base.h"
+#include "tools/begin.h"
+#include "tools/interrupt.h"
+#include "tools/output.h"
+#include "tools/report.h"
+#include "tools/sandbox_new.h"
+#include "tools/scenes.h"
+#include "tools/sequence.h"
+#include "tools/tools.h"
+#include "tools/watch.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct sandbox_job {
+    const lsf_settings *settings;
+    lsf_destination *destination;
+    lsf_scene *scene; /* NULL: none */
+    lsf_context *context;
+    lsf_sandbox *sandbox;
+} sandbox_job;
+
+const char *lsf_sandbox_shader(const lsf_settings *settings)
+{
+    return settings->sandbox ? settings->sandbox : settings->operands.items[0];
+}
+
+lsf_sandbox_params lsf_settings_sandbox_params(const lsf_settings *settings)
+{
+    lsf_sandbox_params params = {LSF_SANDBOX_PARAMS_DEFAULTS};
+    params.path = lsf_sandbox_shader(settings);
+    params.channels = settings->channels.items;
+    params.channel_count = settings->channels.count;
+    params.uniforms = settings->uniforms.items;
+    params.uniform_count = settings->uniforms.count;
+    params.render = lsf_settings_render_params(settings);
+    params.render.samples = settings->samples ? settings->samples : 1;
+    return params;
+}
+
+/* --- pictures --- */
+
+static lsf_sandbox_frame frame_of(const lsf_settings *settings, uint32_t number)
+{
+    lsf_sandbox_frame frame = {LSF_SANDBOX_FRAME_DEFAULTS};
+    double since = (double)number / settings->fps;
+    frame.number = number;
+    frame.time = settings->time + since;
+    frame.time_delta = 1.0 / settings->fps;
+    for (int i = 0; i < 2; i++) {
+        frame.mouse[i] = (float)settings->mouse[i];
+        frame.mouse[2 + i] = i == 0 || number == 0 ? frame.mouse[i] : -frame.mouse[i];
+    }
+    /* The same picture whenever it is made: not today's date, but the first day of 2000. */
+    frame.date[0] = 2000.0f;
+    frame.date[2] = 1.0f;
+    frame.date[3] = (float)frame.time;
+    return frame;
+}
+
+static bool save_display(sandbox_job *job, const lsf_imprint *imprint, lsf_error *error)
+{
+    const uint32_t *size = job->settings->resolution;
+    lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
+    params.texts = imprint->texts;
+    params.text_count = LSF_COUNT(imprint->texts);
+    uint8_t *rgb = lsf_alloc((uint64_t)size[0] * size[1], 3);
+    bool good =
+        rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination->path);
+    good = good && lsf_sandbox_read_rgb8(job->sandbox, 0.0f, LSF_TONE_CURVE_NONE, rgb, error) &&
+           lsf_image_save_rgb8(rgb, size[0], size[1], job->destination->path, &params, error);
+    free(rgb);
+    return good;
+}
+
+static bool save_float(sandbox_job *job, const lsf_imprint *imprint, lsf_error *error)
+{
+    lsf_image *image = lsf_sandbox_read(job->sandbox, error);
+    if (image)
+        lsf_destination_expose(job->destination, image);
+    bool good = image && lsf_destination_save(job->destination, -1, image, imprint, error);
+    lsf_image_destroy(image);
+    return good;
+}
+
+static bool save(sandbox_job *job, uint32_t number, lsf_error *error)
+{
+    const lsf_settings *settings = job->settings;
+    bool display = job->destination->format == LSF_IMAGE_FORMAT_PNG &&
+                   !lsf_sandbox_writes_radiance(job->sandbox);
+    lsf_imprint imprint;
+    char what[200];
+    snprintf(what, sizeof what, "%s", job->destination->path);
+    lsf_watch_step(what, false);
+    bool good = lsf_imprint_make(&imprint, settings, lsf_sandbox_shader(settings), "sandbox", 0,
+                                 number + 1, error);
+    good =
+        good && (display ? save_display(job, &imprint, error) : save_float(job, &imprint, error));
+    lsf_imprint_finish(&imprint);
+    return good;
+}
+
+static bool run_frame(sandbox_job *job, uint32_t number, bool wanted, lsf_error *error)
+{
+    lsf_sandbox_frame frame = frame_of(job->settings, number);
+    char what[200];
+    snprintf(what, sizeof what, "%.150s: frame %u", lsf_sandbox_shader(job->settings), number);
+    lsf_watch_step(what, true);
+    return lsf_sandbox_run(job->sandbox, &frame, error) &&
+           (!wanted || (lsf_destination_go_to(job->destination, job->settings, number, error) &&
+                        save(job, number, error)));
+}
+
+/* Frames that are not wanted run where others keep something of them. */
+static bool run_frames(sandbox_job *job, lsf_error *error)
+{
+    const lsf_settings *settings = job->settings;
+    const lsf_sequence sequence = lsf_sequence_of(settings);
+    uint32_t first = sequence.wanted ? sequence.first : settings->frame;
+    uint64_t last = sequence.wanted ? sequence.last : settings->frame;
+    uint64_t start = lsf_sandbox_feeds_back(job->sandbox) ? 0 : first;
+    double begun = lsf_now();
+    for (uint64_t number = start; number <= last; number++)
+        if (!run_frame(job, (uint32_t)number, number >= first, error))
+            return false;
+    lsf_report_line("%s: %ux%u, %s%llu of %s, in %.2f s on %s", job->destination->path,
+                    settings->resolution[0], settings->resolution[1],
+                    last > first ? "frames up to " : "frame ", (unsigned long long)last,
+                    lsf_sandbox_shader(settings), lsf_now() - begun,
+                    lsf_context_get_info(job->context).renderer);
+    return true;
+}
+
+static bool start(sandbox_job *job, lsf_error *error)
+{
+    const lsf_settings *settings = job->settings;
+    lsf_context_params gl = lsf_settings_context_params(settings);
+    lsf_sandbox_params params = lsf_settings_sandbox_params(settings);
+    double seconds;
+    char what[200];
+    snprintf(what, sizeof what, "%.180s: compiling", params.path);
+    lsf_watch_step(what, false);
+    if (settings->operands.count > 1)
+        job->scene = lsf_tool_load_scene(settings, settings->operands.items[1], &seconds, error);
+    if (settings->operands.count > 1 && !job->scene)
+        return false;
+    job->context = lsf_context_create(&gl, error);
+    if (!job->context)
+        return false;
+    lsf_watch_step(what, true);
+    job->sandbox = lsf_sandbox_create(job->context, job->scene, &params, error);
+    return job->sandbox != NULL;
+}
+
+static int work(void *user)
+{
+    sandbox_job *job = user;
+    lsf_error error;
+    lsf_watch_step(lsf_sandbox_shader(job->settings), false);
+    job->destination = lsf_destinations_create(job->settings, 1, &error);
+    bool good = job->destination && start(job, &error) && run_frames(job, &error);
+    lsf_destinations_destroy(job->destination, 1);
+    lsf_sandbox_destroy(job->sandbox);
+    lsf_context_destroy(job->context);
+    lsf_scene_destroy(job->scene);
+    return good ? 0 : lsf_report_error(&error);
+}
+
+static int run(const lsf_settings *settings)
+{
+    lsf_error error;
+    sandbox_job job = {.settings = settings};
+    if (settings->new_shader)
+        return lsf_sandbox_new(settings->new_shader, &error) ? 0 : lsf_report_error(&error);
+    return lsf_watch(work, &job, settings->watchdog);
+}
+
+int lsf_tool_sandbox(int argc, char **argv)
+{
+    lsf_settings settings;
+    int status = lsf_tool_begin(&settings, LSF_COMMAND_SANDBOX, argc, argv);
+    if (status == LSF_GO_ON)
+        status = run(&settings);
+    lsf_settings_finish(&settings);
+    return status;
+}
