@@ -449,14 +449,15 @@ static const char *parse_place(const char *line, uint64_t *number)
 }
 
 /* The text's line of that number, from 1. */
-static const char *line_of_text(const lsf_shader_source *source, uint64_t number, int *length)
+static void add_line_of_text(const lsf_shader_source *source, uint64_t number, lsf_string *mapped)
 {
     const char *line = source->text.text;
     for (uint64_t i = 1; i < number; i++)
         line += strcspn(line, "\n") + 1;
     line += strspn(line, " \t");
-    *length = (int)strcspn(line, "\n");
-    return line;
+    int length = (int)strcspn(line, "\n");
+    if (length > 0)
+        lsf_string_add(mapped, "    %.*s\n", length, line);
 }
 
 void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log, lsf_string *mapped)
@@ -479,10 +480,8 @@ void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
             lsf_shader_place place = source->places[number - 1];
             lsf_string_add(mapped, "%s:%u: %s%.*s\n", source->paths[place.file], place.line,
                            severity, (int)(line + length - message), message);
-            int shown;
-            const char *text = line_of_text(source, number, &shown);
-            if (place.foreign && shown > 0)
-                lsf_string_add(mapped, "    %.*s\n", shown, text);
+            if (place.foreign)
+                add_line_of_text(source, number, mapped);
         } else if (length)
             lsf_string_add(mapped, "%.*s\n", (int)length, line);
         line = next;

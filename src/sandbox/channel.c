@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/base.h"
 #include "math/sampling.h"
@@ -330,21 +329,11 @@ static bool load_cube(lsf_sandbox_channel *channel, lsf_context *context, const 
 
 /* --- */
 
-static void look_at(lsf_sandbox_channel *channel)
-{
-    struct stat status;
-    channel->changed[0] = channel->changed[1] = -1;
-    if (channel->path && stat(channel->path, &status) == 0) {
-        channel->changed[0] = status.st_mtim.tv_sec;
-        channel->changed[1] = status.st_mtim.tv_nsec;
-    }
-}
-
 static bool same(const lsf_sandbox_channel *a, const lsf_sandbox_channel *b)
 {
     bool paths = a->path && b->path ? strcmp(a->path, b->path) == 0 : a->path == b->path;
     return b->texture && !b->lent && paths && a->source == b->source && a->mipmap == b->mipmap &&
-           a->flip == b->flip && a->changed[0] == b->changed[0] && a->changed[1] == b->changed[1];
+           a->flip == b->flip && memcmp(&a->stamp, &b->stamp, sizeof a->stamp) == 0;
 }
 
 bool lsf_sandbox_channel_load(lsf_sandbox_channel *channel, lsf_context *context,
@@ -353,7 +342,7 @@ bool lsf_sandbox_channel_load(lsf_sandbox_channel *channel, lsf_context *context
 {
     if (channel->source < LSF_SOURCE_NOISE)
         return true;
-    look_at(channel);
+    channel->stamp = lsf_sandbox_stamp_of(channel->path);
     for (uint32_t i = 0; i < before_count; i++)
         if (same(channel, &before[i])) {
             channel->texture = before[i].texture;

@@ -19,9 +19,9 @@ typedef struct lsf_sandbox_channel {
     uint32_t buffer; /* 0 to 3 */
     GLenum wrap, filter, shrink;
     bool mipmap, flip;
-    char *path; /* of a file; NULL: none */
-    int64_t changed[2];
-    GLuint texture; /* owned, of noise, files and cubes */
+    char *path;              /* of a file; NULL: none */
+    lsf_sandbox_stamp stamp; /* of the file */
+    GLuint texture;          /* owned, of noise, files and cubes */
     uint32_t width, height;
     struct lsf_sandbox_channel *from; /* that the texture is borrowed of */
     bool lent;

@@ -170,18 +170,20 @@ static void draw_pass(lsf_sandbox *sandbox, uint32_t index, const lsf_sandbox_fr
     lsf_timer_end(target->timer);
 }
 
+static void upload_keys(const lsf_sandbox *sandbox, const lsf_sandbox_frame *frame)
+{
+    uint8_t texels[3][LSF_SANDBOX_KEYS] = {0};
+    for (uint32_t row = 0; frame->keys && row < 3; row++)
+        for (uint32_t key = 0; key < LSF_SANDBOX_KEYS; key++)
+            texels[row][key] = frame->keys[row][key] ? 255 : 0;
+    glTextureSubImage2D(sandbox->keyboard, 0, 0, 0, LSF_SANDBOX_KEYS, 3, GL_RED, GL_UNSIGNED_BYTE,
+                        texels);
+}
+
 void lsf_sandbox_draw(lsf_sandbox *sandbox, const lsf_sandbox_frame *frame)
 {
-    if (frame->keys) {
-        uint8_t texels[3][LSF_SANDBOX_KEYS];
-        for (uint32_t row = 0; row < 3; row++)
-            for (uint32_t key = 0; key < LSF_SANDBOX_KEYS; key++)
-                texels[row][key] = frame->keys[row][key] ? 255 : 0;
-        glTextureSubImage2D(sandbox->keyboard, 0, 0, 0, LSF_SANDBOX_KEYS, 3, GL_RED,
-                            GL_UNSIGNED_BYTE, texels);
-    } else {
-        glClearTexImage(sandbox->keyboard, 0, GL_RED, GL_UNSIGNED_BYTE, NULL);
-    }
+    if (sandbox->keyboard)
+        upload_keys(sandbox, frame);
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++)
         if (sandbox->version.passes[p].program)
             draw_pass(sandbox, p, frame);

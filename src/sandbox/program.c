@@ -9,13 +9,10 @@
 
 #define MOST_PARTS 24
 
-static const char main_image[] = "layout(location = 0) out vec4 lsf_fragment;\n"
-                                 "void main()\n"
-                                 "{\n"
-                                 "    vec4 color = vec4(0.0, 0.0, 0.0, 1.0);\n"
-                                 "    mainImage(color, gl_FragCoord.xy);\n"
-                                 "    lsf_fragment = color;\n"
-                                 "}\n";
+/* One line, so that it can stand for the last one of what it calls. */
+static const char main_image[] =
+    "layout(location = 0) out vec4 lsf_fragment; void main() { vec4 color = vec4(0.0, 0.0, 0.0, "
+    "1.0); mainImage(color, gl_FragCoord.xy); lsf_fragment = color; }\n";
 
 static int channel_of(const char *name)
 {
@@ -53,6 +50,14 @@ static uint32_t add_engine(lsf_shader_part *parts, uint32_t needs)
     return count;
 }
 
+static uint32_t last_line(const lsf_shader_part *part)
+{
+    uint32_t line = part->line;
+    for (const char *at = part->text; at[0] && at[1]; at++)
+        line += *at == '\n';
+    return line;
+}
+
 static GLuint build(lsf_context *context, const lsf_sandbox_text *text, uint32_t index,
                     const lsf_sandbox_channel *channels, const lsf_plan *plan, lsf_error *error)
 {
@@ -72,7 +77,8 @@ static GLuint build(lsf_context *context, const lsf_sandbox_text *text, uint32_t
         parts[count++] = text->common;
     parts[count++] = pass->part;
     if (pass->main_image && !pass->main)
-        parts[count++] = (lsf_shader_part){.path = "sandbox", .text = main_image};
+        parts[count++] = (lsf_shader_part){
+            .path = pass->part.path, .text = main_image, .line = last_line(&pass->part)};
     GLuint program = 0;
     if (declarations.failed)
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for a shader");

@@ -81,24 +81,19 @@ static bool check_params(const lsf_sandbox_params *params, lsf_error *error)
 
 /* --- making --- */
 
+/* Those of the plan that have the same size in all of them. */
 static bool create_small_textures(lsf_sandbox *sandbox, lsf_error *error)
 {
-    const lsf_texture_desc keyboard = {.label = "sandbox.keyboard",
-                                       .target = GL_TEXTURE_2D,
-                                       .internal_format = GL_R8,
-                                       .width = LSF_SANDBOX_KEYS,
-                                       .height = 3,
-                                       .depth = 1,
-                                       .levels = 1};
-    lsf_texture_desc black = keyboard;
-    black.label = "sandbox.black";
-    black.internal_format = GL_RGBA8;
-    black.width = black.height = 1;
-    sandbox->keyboard = lsf_texture_create(sandbox->context, &keyboard, error);
-    sandbox->black = sandbox->keyboard ? lsf_texture_create(sandbox->context, &black, error) : 0;
-    if (sandbox->black)
+    const lsf_plan *plan = sandbox->version.stage->setup.plan;
+    lsf_context *context = sandbox->context;
+    bool good =
+        (sandbox->keyboard || lsf_plan_create_texture_if_planned(plan, context, "sandbox.keyboard",
+                                                                 &sandbox->keyboard, error)) &&
+        (sandbox->black ||
+         lsf_plan_create_texture(plan, context, "sandbox.black", &sandbox->black, error));
+    if (good)
         glClearTexImage(sandbox->black, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    return sandbox->black != 0;
+    return good;
 }
 
 /* What depends on the plan's size and on what passes there are. */
@@ -107,7 +102,9 @@ static bool follow_plan(lsf_sandbox *sandbox, lsf_error *error)
     const lsf_plan *plan = sandbox->version.stage->setup.plan;
     lsf_tonemap_destroy(&sandbox->tonemap);
     lsf_sandbox_targets_destroy(sandbox, false);
-    return lsf_sandbox_targets_create(sandbox, error) &&
+    if (!sandbox->version.text.keyboard)
+        lsf_texture_destroy(sandbox->context, &sandbox->keyboard);
+    return create_small_textures(sandbox, error) && lsf_sandbox_targets_create(sandbox, error) &&
            (!sandbox->version.text.radiance ||
             lsf_tonemap_create(&sandbox->tonemap, sandbox->context, plan, true, error));
 }
@@ -117,7 +114,7 @@ static bool create(lsf_sandbox *sandbox, lsf_error *error)
     const lsf_sandbox_params *params = &sandbox->params;
     if (!lsf_sandbox_version_make(&sandbox->version, sandbox->context, sandbox->scene, params, NULL,
                                   error) ||
-        !create_small_textures(sandbox, error) || !follow_plan(sandbox, error))
+        !follow_plan(sandbox, error))
         return false;
     for (uint32_t i = 0; i < params->uniform_count; i++)
         if (!lsf_sandbox_assign(sandbox, params->uniforms[i], error))

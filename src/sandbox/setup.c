@@ -187,6 +187,10 @@ static void plan_shader(lsf_sandbox_setup *setup, const lsf_sandbox_text *text)
         plan_switches(setup);
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++)
         plan_target(plan, &text->passes[p], p);
+    lsf_plan_texture_add(plan, "sandbox.black", GL_RGBA8, 1, 1, "channels that nothing is said of");
+    if (text->keyboard)
+        lsf_plan_texture_add(plan, "sandbox.keyboard", GL_R8, LSF_SANDBOX_KEYS, 3,
+                             "a channel reads the keyboard");
     if (text->radiance)
         lsf_tonemap_plan(plan, true);
     plan_names(plan, text);

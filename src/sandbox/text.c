@@ -25,14 +25,13 @@ const char *lsf_sandbox_pass_name(uint32_t pass)
 
 /* --- files --- */
 
-static void look_at(const char *path, int64_t changed[2])
+lsf_sandbox_stamp lsf_sandbox_stamp_of(const char *path)
 {
     struct stat status;
-    changed[0] = changed[1] = -1;
-    if (stat(path, &status) == 0) {
-        changed[0] = status.st_mtim.tv_sec;
-        changed[1] = status.st_mtim.tv_nsec;
-    }
+    if (!path || stat(path, &status) != 0)
+        return (lsf_sandbox_stamp){-1, -1, -1, -1};
+    return (lsf_sandbox_stamp){status.st_mtim.tv_sec, status.st_mtim.tv_nsec,
+                               (int64_t)status.st_ino, status.st_size};
 }
 
 bool lsf_sandbox_text_watch(lsf_sandbox_text *text, const char *path)
@@ -48,7 +47,7 @@ bool lsf_sandbox_text_watch(lsf_sandbox_text *text, const char *path)
     file->path = strdup(path);
     if (!file->path)
         return false;
-    look_at(path, file->changed);
+    file->stamp = lsf_sandbox_stamp_of(path);
     text->file_count++;
     return true;
 }
@@ -57,9 +56,8 @@ bool lsf_sandbox_text_changed(const lsf_sandbox_text *text)
 {
     for (uint64_t i = 0; i < text->file_count; i++) {
         const lsf_sandbox_file *file = &text->files[i];
-        int64_t now[2];
-        look_at(file->path, now);
-        if (now[0] != file->changed[0] || now[1] != file->changed[1])
+        const lsf_sandbox_stamp now = lsf_sandbox_stamp_of(file->path);
+        if (memcmp(&now, &file->stamp, sizeof now) != 0)
             return true;
     }
     return false;

@@ -47,10 +47,17 @@ typedef struct lsf_sandbox_own {
     float minimum, maximum;
 } lsf_sandbox_own;
 
+/* By what one file is told from another of its name: when it was written, which one, how long. */
+typedef struct lsf_sandbox_stamp {
+    int64_t seconds, nanoseconds, number, bytes; /* all -1: there is none */
+} lsf_sandbox_stamp;
+
+lsf_sandbox_stamp lsf_sandbox_stamp_of(const char *path); /* NULL: of none */
+
 /* A file that was read, and how it was. */
 typedef struct lsf_sandbox_file {
     char *path;
-    int64_t changed[2]; /* seconds and nanoseconds of the last change; -1: there is none */
+    lsf_sandbox_stamp stamp;
 } lsf_sandbox_file;
 
 typedef struct lsf_sandbox_text {
@@ -59,6 +66,7 @@ typedef struct lsf_sandbox_text {
     lsf_sandbox_pass_text passes[LSF_SANDBOX_PASSES];
     uint32_t needs; /* of all passes */
     bool radiance, jitter, bundle_given;
+    bool keyboard; /* some channel reads it */
     uint32_t light;
     float bundle[3];
     lsf_sandbox_place light_place;

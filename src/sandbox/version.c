@@ -61,6 +61,7 @@ static bool parse_channel(lsf_sandbox_text *text, const lsf_sandbox_params *para
                              place, lsf_sandbox_pass_name(channel->buffer),
                              lsf_sandbox_pass_name(channel->buffer));
     note_feedback(text, p, channel);
+    text->keyboard |= channel->source == LSF_SOURCE_KEYBOARD;
     return !channel->path || strstr(channel->path, "%s") ||
            lsf_sandbox_text_watch(text, channel->path) ||
            lsf_error_set(error, LSF_ERROR_RENDER, "out of memory while reading a shader");
@@ -83,7 +84,8 @@ bool lsf_sandbox_channels_parse(lsf_sandbox_text *text, const lsf_sandbox_params
 static bool same_stage(const lsf_sandbox_text *a, const lsf_sandbox_text *b)
 {
     bool same = a->needs == b->needs && a->radiance == b->radiance && a->jitter == b->jitter &&
-                a->light == b->light && memcmp(a->bundle, b->bundle, sizeof a->bundle) == 0 &&
+                a->keyboard == b->keyboard && a->light == b->light &&
+                memcmp(a->bundle, b->bundle, sizeof a->bundle) == 0 &&
                 a->define_count == b->define_count;
     for (uint64_t i = 0; same && i < a->define_count; i++)
         same = strcmp(a->defines[i], b->defines[i]) == 0;

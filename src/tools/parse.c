@@ -133,6 +133,7 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
         .memory_limit = (double)scene.memory_limit / 0x1p30,
         .time = render.time,
         .fps = sandbox ? 60 : 24,
+        .samples = sandbox ? 1 : 0,
         .watchdog = 30,
         .difference_gain = 4,
         .epsilon = NAN,

@@ -35,7 +35,6 @@ lsf_sandbox_params lsf_settings_sandbox_params(const lsf_settings *settings)
     params.uniforms = settings->uniforms.items;
     params.uniform_count = settings->uniforms.count;
     params.render = lsf_settings_render_params(settings);
-    params.render.samples = settings->samples ? settings->samples : 1;
     return params;
 }
 

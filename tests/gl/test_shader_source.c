@@ -139,7 +139,8 @@ static void test_places_of_each_driver(void **state)
 {
     (void)state;
     char *paths[] = {"defines", "passes/a.frag.glsl", "lib/b.glsl"};
-    lsf_shader_place places[] = {{0, 1}, {0, 2}, {1, 1}, {2, 1}, {2, 14}, {1, 3}};
+    lsf_shader_place places[] = {{0, 1, false}, {0, 2, false},  {1, 1, false},
+                                 {2, 1, false}, {2, 14, false}, {1, 3, false}};
     lsf_shader_source source = {
         .paths = paths, .path_count = 3, .places = places, .line_count = LSF_COUNT(places)};
     static const char *const cases[][2] = {

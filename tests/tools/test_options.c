@@ -109,9 +109,17 @@ static void test_shown_defaults_are_the_defaults(void **state)
         const lsf_command_option *option = lsf_command_option_at(i);
         if (!option->initial)
             continue;
-        lsf_command_bit command =
-            option->commands & LSF_COMMAND_RENDER ? LSF_COMMAND_RENDER : LSF_COMMAND_COMPARE;
-        const char *operands = command == LSF_COMMAND_RENDER ? "" : " a.exr b.exr";
+        static const struct {
+            lsf_command_bit command;
+            const char *operands;
+        } uses[] = {{LSF_COMMAND_RENDER, ""},
+                    {LSF_COMMAND_COMPARE, " a.exr b.exr"},
+                    {LSF_COMMAND_SANDBOX, " a.frag"}};
+        size_t use = 0;
+        while (use < LSF_COUNT(uses) - 1 && !(option->commands & uses[use].command))
+            use++;
+        lsf_command_bit command = uses[use].command;
+        const char *operands = uses[use].operands;
         char line[256];
         snprintf(line, sizeof line, "x%s --%s %s", operands, option->name, option->initial);
         must_parse(command, line);
