@@ -60,6 +60,9 @@ static uint32_t curve_of(const lsf_measurement *m, uint32_t configuration,
     return count;
 }
 
+/* Of what a sample takes beyond the last point, in parts of what one took on average. */
+#define LEAST_SLOPE 0.25
+
 double lsf_front_milliseconds(const lsf_measurement *m, uint32_t configuration, double samples)
 {
     const lsf_measured_point *curve[MOST_POINTS];
@@ -72,7 +75,10 @@ double lsf_front_milliseconds(const lsf_measurement *m, uint32_t configuration, 
         i++;
     double n0 = curve[i - 1]->samples, n1 = curve[i]->samples;
     double t0 = curve[i - 1]->milliseconds.median, t1 = curve[i]->milliseconds.median;
-    return t0 + (samples - n0) / (n1 - n0) * (t1 - t0);
+    double slope = (t1 - t0) / (n1 - n0);
+    if (samples > n1) /* noise in the times must not promise samples for nothing */
+        return t1 + (samples - n1) * fmax(slope, LEAST_SLOPE * t1 / n1);
+    return t0 + (samples - n0) * slope;
 }
 
 /* Samples between two points at which the line in logarithms meets the error. */

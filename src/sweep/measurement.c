@@ -12,6 +12,8 @@
 static void finish_configuration(lsf_configuration *configuration)
 {
     free(configuration->technique);
+    free(configuration->failure);
+    free(configuration->command);
     for (uint32_t i = 0; i < configuration->option_count; i++)
         free(configuration->options[i]);
 }
@@ -44,6 +46,39 @@ lsf_measured_point *lsf_measurement_find(const lsf_measurement *m, uint32_t conf
         if (m->points[i].configuration == configuration && m->points[i].samples == samples)
             return &m->points[i];
     return NULL;
+}
+
+static const lsf_measured_point *most_samples_below(const lsf_measurement *m,
+                                                    uint32_t configuration, uint64_t limit)
+{
+    const lsf_measured_point *most = NULL;
+    for (uint32_t i = 0; i < m->point_count; i++) {
+        const lsf_measured_point *point = &m->points[i];
+        if (point->configuration == configuration && point->samples < limit &&
+            (!most || point->samples > most->samples))
+            most = point;
+    }
+    return most;
+}
+
+const lsf_measured_point *lsf_measurement_last(const lsf_measurement *m, uint32_t configuration)
+{
+    return most_samples_below(m, configuration, UINT64_MAX);
+}
+
+const lsf_measured_point *lsf_measurement_before(const lsf_measurement *m,
+                                                 const lsf_measured_point *point)
+{
+    return most_samples_below(m, point->configuration, point->samples);
+}
+
+void lsf_measurement_drop_point(lsf_measurement *m, lsf_measured_point *point)
+{
+    free(point->picture);
+    free(point->preview);
+    size_t behind = (size_t)(&m->points[m->point_count] - (point + 1));
+    memmove(point, point + 1, behind * sizeof *point);
+    m->point_count--;
 }
 
 lsf_measured_point *lsf_measurement_add_point(lsf_measurement *m)
@@ -110,7 +145,7 @@ static lsf_estimate mean_over_seeds(const lsf_measured_point *point, size_t offs
     return lsf_mean_of(values, point->seed_count, 0.0);
 }
 
-static void derive_point(lsf_measured_point *point)
+void lsf_measured_point_derive(lsf_measured_point *point)
 {
     double milliseconds[LSF_SWEEP_MAX_SEEDS];
     for (uint32_t s = 0; s < point->seed_count; s++)
@@ -157,7 +192,7 @@ bool lsf_measurement_derive(lsf_measurement *m)
 {
     bool good = true;
     for (uint32_t i = 0; i < m->point_count; i++)
-        derive_point(&m->points[i]);
+        lsf_measured_point_derive(&m->points[i]);
     for (uint32_t i = 0; good && i < m->configuration_count; i++)
         good = fit_configuration(m, i);
     lsf_front_mark(m->points, m->point_count);

@@ -69,6 +69,8 @@ typedef struct lsf_configuration {
     uint32_t option_count;
     char *options[LSF_SWEEP_MAX_OPTIONS]; /* "vpl.count=4" */
     lsf_error_fit mse, relmse;
+    char *command; /* that renders it, but for the samples; NULL: not known */
+    char *failure; /* why there is no point of it; NULL: there is */
 } lsf_configuration;
 
 /* When a configuration gets to a relMSE. */
@@ -106,6 +108,7 @@ typedef struct lsf_answer {
 typedef struct lsf_measurement {
     char *scene, *command;
     char scene_hash[33]; /* of the files' content */
+    char key[33];        /* of all that its points depend on */
     uint32_t width, height, bounces;
     bool raw, interrupted, gpu_clock;
     double relmse_epsilon;
@@ -127,12 +130,20 @@ void lsf_measurement_finish(lsf_measurement *measurement);
 /* The point of a configuration at a number of samples; NULL: none. */
 lsf_measured_point *lsf_measurement_find(const lsf_measurement *measurement, uint32_t configuration,
                                          uint32_t samples);
+/* That of the most samples, and that of the most below another's; NULL: none. */
+const lsf_measured_point *lsf_measurement_last(const lsf_measurement *measurement,
+                                               uint32_t configuration);
+const lsf_measured_point *lsf_measurement_before(const lsf_measurement *measurement,
+                                                 const lsf_measured_point *point);
+void lsf_measurement_drop_point(lsf_measurement *measurement, lsf_measured_point *point);
 /* A zeroed one at the end; NULL without memory. */
 lsf_measured_point *lsf_measurement_add_point(lsf_measurement *measurement);
 /* A copy of technique and options, or the one that is there already; -1 without memory. */
 int64_t lsf_measurement_add_configuration(lsf_measurement *measurement, const char *technique,
                                           const char *const *options, uint32_t option_count);
 
+/* Works out what follows from the pictures of a point alone. */
+void lsf_measured_point_derive(lsf_measured_point *point);
 /* Works out all that follows from what was measured. False without memory. */
 bool lsf_measurement_derive(lsf_measurement *measurement);
 

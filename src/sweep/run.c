@@ -165,13 +165,6 @@ static bool measure(point_run *run, lsf_error *error)
     return good && save(run, error);
 }
 
-static void drop_point(lsf_measurement *measurement)
-{
-    lsf_measured_point *point = &measurement->points[--measurement->point_count];
-    free(point->picture);
-    free(point->preview);
-}
-
 bool lsf_sweep_run_point(const lsf_sweep_stage *stage, lsf_measurement *measurement,
                          uint32_t configuration, uint32_t samples, uint32_t seeds, bool *stopped,
                          lsf_error *error)
@@ -192,7 +185,9 @@ bool lsf_sweep_run_point(const lsf_sweep_stage *stage, lsf_measurement *measurem
         lsf_image_destroy(run.pictures[s]);
     free((void *)run.options);
     if (!good || run.stopped)
-        drop_point(measurement);
+        lsf_measurement_drop_point(measurement, run.point);
+    else
+        lsf_measured_point_derive(run.point);
     *stopped = run.stopped;
     return good;
 }

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Within single quotes where a shell would take it for more than a word. */
-static void add_word(lsf_string *text, const char *word)
+void lsf_imprint_add_word(lsf_string *text, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                 "_-+=./,:%@";
@@ -23,13 +22,13 @@ static void add_word(lsf_string *text, const char *word)
 void lsf_imprint_add_option(lsf_string *options, const lsf_command_option *option,
                             const char *value)
 {
-    static const char *const others[] = {"output", "format", "json", "quiet", "verbose"};
+    static const char *const others[] = {"output", "format", "json", "preset", "quiet", "verbose"};
     for (size_t i = 0; i < LSF_COUNT(others); i++)
         if (strcmp(option->name, others[i]) == 0)
             return;
     lsf_string_add(options, " --%s", option->name);
     if (value)
-        add_word(options, value);
+        lsf_imprint_add_word(options, value);
 }
 
 static char *make_command(const lsf_settings *settings, const char *scene_path)
@@ -37,7 +36,7 @@ static char *make_command(const lsf_settings *settings, const char *scene_path)
     lsf_string text = {0};
     lsf_string_add(&text, "lightsheaf %s", settings->command->name);
     if (settings->operands.count > 0)
-        add_word(&text, scene_path);
+        lsf_imprint_add_word(&text, scene_path);
     if (settings->typed.length > 0)
         lsf_string_add_bytes(&text, settings->typed.text, settings->typed.length);
     if (text.failed || settings->typed.failed) {

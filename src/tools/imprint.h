@@ -5,6 +5,9 @@
 #include "base/base.h"
 #include "tools/options.h"
 
+/* Adds a space and the word, within single quotes where a shell would take it for more than one. */
+void lsf_imprint_add_word(lsf_string *text, const char *word);
+
 /* Adds an option as one would type it, to be read by a shell; nothing where it leaves the picture
  * as it is. `value` NULL: none. */
 void lsf_imprint_add_option(lsf_string *options, const lsf_command_option *option,

@@ -1,43 +1,54 @@
+#include "tools/measure.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <xxhash.h>
+
 #include "base/base.h"
 #include "sweep/grid.h"
-#include "sweep/run.h"
 #include "tools/begin.h"
 #include "tools/imprint.h"
 #include "tools/interrupt.h"
+#include "tools/measure_answer.h"
 #include "tools/measure_html.h"
 #include "tools/measure_json.h"
+#include "tools/measure_presets.h"
+#include "tools/measure_read.h"
 #include "tools/measure_reference.h"
 #include "tools/measure_table.h"
-#include "tools/report.h"
 #include "tools/scenes.h"
 #include "tools/summary.h"
 #include "tools/tools.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-enum { SAMPLES = 16, SEEDS = 4 };
-
-typedef struct measure_job {
-    lsf_settings settings;
-    char *scene_path;
-    lsf_scene *scene;
-    lsf_context *context;
-    lsf_context_info device;
-    lsf_kept_reference reference;
-    lsf_measurement measurement;
-    lsf_progress_bar bar;
-    uint32_t done, total; /* iterations */
-    double start;
-    char *picture_folder; /* that lasts as long as the command; NULL: none */
-} measure_job;
-
-static uint32_t or_else(uint32_t given, uint32_t otherwise)
+static bool check_settings(const lsf_settings *settings, lsf_error *error)
 {
-    return given ? given : otherwise;
+    bool budget = !isnan(settings->budget_ms), wanted = !isnan(settings->error);
+    const char *path = settings->json_path;
+    if (budget && wanted)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--budget-ms and --error: one of them can be asked for at a time");
+    if (settings->saved_preset && !budget && !wanted)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--save-preset %s: say what it shall be the best for, with "
+                             "--budget-ms or --error",
+                             settings->saved_preset);
+    if (settings->resume && (!path || strcmp(path, "-") == 0))
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--resume: name the file with the points, with --json FILE");
+    if (path && settings->csv_path && strcmp(path, "-") == 0 &&
+        strcmp(settings->csv_path, "-") == 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--json - and --csv -: only one of them can go to standard output");
+    return (!settings->csv_path || lsf_file_can_write(settings->csv_path, error)) &&
+           (!settings->saved_preset || lsf_file_can_write(settings->saved_preset, error));
 }
 
-static bool open_scene(measure_job *job, lsf_error *error)
+static bool open_scene(lsf_measure_job *job, lsf_error *error)
 {
     double seconds;
     lsf_settings *settings = &job->settings;
@@ -57,72 +68,9 @@ static bool open_scene(measure_job *job, lsf_error *error)
     return true;
 }
 
-/* --- points --- */
+/* --- what is measured --- */
 
-static void advance(void *user)
-{
-    measure_job *job = user;
-    lsf_progress_bar_draw(&job->bar, ++job->done, job->total);
-}
-
-static bool go_on(void *user)
-{
-    (void)user;
-    return !lsf_interrupted();
-}
-
-static bool list_configurations(measure_job *job, lsf_error *error)
-{
-    const lsf_settings *settings = &job->settings;
-    const char *all[16];
-    const char *const *techniques = settings->techniques.items;
-    uint32_t count = settings->techniques.count;
-    if (count == 0) {
-        for (; count < LSF_COUNT(all) && lsf_technique_name(count); count++)
-            all[count] = lsf_technique_name(count);
-        techniques = all;
-    }
-    return lsf_sweep_grid_add(&job->measurement, techniques, count, settings->sweeps.items,
-                              settings->sweeps.count, error);
-}
-
-/* Iterations of one seed: 1, 2, 4 ... */
-static uint32_t iterations_up_to(uint32_t most)
-{
-    uint32_t sum = 0;
-    for (uint32_t samples = 1; samples <= most; samples *= 2)
-        sum += samples;
-    return sum;
-}
-
-static bool measure_points(measure_job *job, lsf_error *error)
-{
-    const lsf_settings *settings = &job->settings;
-    lsf_measurement *m = &job->measurement;
-    uint32_t most = or_else(settings->samples, SAMPLES), seeds = or_else(settings->seeds, SEEDS);
-    lsf_sweep_stage stage = {.context = job->context,
-                             .scene = job->scene,
-                             .params = lsf_settings_render_params(settings),
-                             .halves = {job->reference.halves[0], job->reference.halves[1]},
-                             .exposure = settings->exposure.ev,
-                             .gpu_clock = m->gpu_clock,
-                             .folder = settings->picture_folder,
-                             .advance = advance,
-                             .go_on = go_on,
-                             .user = job};
-    job->total = m->configuration_count * seeds * iterations_up_to(most);
-    lsf_progress_bar_start(&job->bar, "measure", job->total, 1.0 / 0.0);
-    bool good = true;
-    for (uint32_t samples = 1; good && !m->interrupted && samples <= most; samples *= 2)
-        for (uint32_t c = 0; good && !m->interrupted && c < m->configuration_count; c++)
-            good = lsf_sweep_run_point(&stage, m, c, samples, seeds, &m->interrupted, error);
-    lsf_progress_bar_clear();
-    return good;
-}
-
-/* --- what is written --- */
-
-static bool describe_run(measure_job *job, lsf_error *error)
+static bool describe_run(lsf_measure_job *job, lsf_error *error)
 {
     lsf_measurement *m = &job->measurement;
     const lsf_settings *settings = &job->settings;
@@ -138,12 +86,145 @@ static bool describe_run(measure_job *job, lsf_error *error)
     m->raw = settings->raw;
     m->exposure = settings->exposure.ev;
     m->gpu_clock = !job->device.software;
-    m->seed_count = or_else(settings->seeds, SEEDS);
     return good &&
            ((m->scene && m->command) || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left"));
 }
 
-static bool write_csv(const measure_job *job, lsf_error *error)
+/* An option that a pass refuses is found here, before anything is traced. */
+static bool check_plan(const lsf_measure_job *job, uint32_t configuration, lsf_error *error)
+{
+    const lsf_configuration *c = &job->measurement.configurations[configuration];
+    lsf_render_params params = lsf_settings_render_params(&job->settings);
+    const char **options =
+        lsf_alloc((uint64_t)params.option_count + c->option_count + 1, sizeof *options);
+    if (!options)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    for (uint32_t i = 0; i < params.option_count; i++)
+        options[i] = params.options[i];
+    for (uint32_t i = 0; i < c->option_count; i++)
+        options[params.option_count + i] = c->options[i];
+    params.options = options;
+    params.option_count += c->option_count;
+    params.technique = c->technique;
+    lsf_plan *plan = lsf_plan_create(job->scene, &params, error);
+    bool good = plan != NULL;
+    lsf_plan_destroy(plan);
+    free((void *)options);
+    return good;
+}
+
+static bool list_configurations(lsf_measure_job *job, lsf_error *error)
+{
+    const lsf_settings *settings = &job->settings;
+    bool good = lsf_sweep_grid_add(&job->measurement, settings->techniques.items,
+                                   settings->techniques.count, settings->sweeps.items,
+                                   settings->sweeps.count, error);
+    for (uint32_t c = 0; good && c < job->measurement.configuration_count; c++)
+        good = check_plan(job, c, error);
+    return good;
+}
+
+/* What figures depend on, beside configuration, samples and seeds of a point. */
+static bool make_key(lsf_measure_job *job, lsf_error *error)
+{
+    lsf_measurement *m = &job->measurement;
+    const lsf_settings *settings = &job->settings;
+    lsf_string text = {0};
+    lsf_string_add(&text, "%s %s %" PRIu64 " %" PRIu64 " raw %d seed %" PRIu64 " exposure %a",
+                   lsf_version(), m->reference.key, m->reference.samples[0],
+                   m->reference.samples[1], settings->raw, settings->seed,
+                   (double)settings->exposure.ev);
+    for (uint32_t i = 0; i < settings->defines.count; i++)
+        lsf_string_add(&text, " %s", settings->defines.items[i]);
+    lsf_string_add(&text, "\n%s %s %s", job->device.backend, job->device.renderer,
+                   job->device.version);
+    XXH128_hash_t hash = XXH3_128bits(text.text, text.length);
+    snprintf(m->key, sizeof m->key, "%016" PRIx64 "%016" PRIx64, hash.high64, hash.low64);
+    free(text.text);
+    return !text.failed || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+}
+
+static bool read_points(lsf_measure_job *job, lsf_error *error)
+{
+    const char *path = job->settings.json_path;
+    if (!job->settings.resume || access(path, F_OK) != 0)
+        return true;
+    if (!lsf_measure_read(&job->measurement, path, error))
+        return false;
+    for (uint32_t i = 0; i < job->measurement.point_count; i++)
+        lsf_measured_point_derive(&job->measurement.points[i]);
+    lsf_report_line("%s: %u point%s from before", path, job->measurement.point_count,
+                    lsf_plural(job->measurement.point_count));
+    return true;
+}
+
+/* --- what is written --- */
+
+char *lsf_measure_command(const lsf_measure_job *job, uint32_t configuration, uint32_t samples)
+{
+    const lsf_configuration *c = &job->measurement.configurations[configuration];
+    const lsf_settings *settings = &job->settings;
+    lsf_string text = {0};
+    lsf_string_add(&text, "lightsheaf render");
+    lsf_imprint_add_word(&text, job->scene_path);
+    lsf_string_add(&text, " --resolution %u,%u", settings->resolution[0], settings->resolution[1]);
+    if (settings->shared.text)
+        lsf_string_add(&text, "%s", settings->shared.text);
+    lsf_string_add(&text, " --technique %s", c->technique);
+    for (uint32_t i = 0; i < c->option_count; i++) {
+        lsf_string_add(&text, " -D");
+        lsf_imprint_add_word(&text, c->options[i]);
+    }
+    if (samples > 0)
+        lsf_string_add(&text, " --samples %u", samples);
+    if (text.failed || settings->shared.failed) {
+        free(text.text);
+        return NULL;
+    }
+    return text.text;
+}
+
+static bool add_commands(lsf_measure_job *job)
+{
+    for (uint32_t c = 0; c < job->measurement.configuration_count; c++) {
+        lsf_configuration *configuration = &job->measurement.configurations[c];
+        if (!configuration->command)
+            configuration->command = lsf_measure_command(job, c, 0);
+        if (!configuration->command)
+            return false;
+    }
+    return true;
+}
+
+static bool work_out(lsf_measure_job *job, lsf_error *error)
+{
+    return (lsf_measurement_derive(&job->measurement) && add_commands(job)) ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+}
+
+bool lsf_measure_write_json(lsf_measure_job *job, lsf_error *error)
+{
+    lsf_json json = {0};
+    job->measurement.seconds = lsf_now() - job->start;
+    if (!work_out(job, error))
+        return false;
+    lsf_measure_add_json(&json, &job->measurement, &job->device);
+    bool good = lsf_json_write(&json, job->settings.json_path, error);
+    free(json.text.text);
+    return good;
+}
+
+/* Its pictures end with it, and the JSON speaks of them no more. */
+static bool write_html(lsf_measure_job *job, lsf_error *error)
+{
+    job->measurement.seconds = lsf_now() - job->start;
+    bool good = work_out(job, error) && lsf_measure_write_html(&job->measurement, &job->device,
+                                                               job->settings.html_path, error);
+    lsf_measure_end_pictures(&job->measurement, &job->picture_folder);
+    return good;
+}
+
+static bool write_csv(const lsf_measure_job *job, lsf_error *error)
 {
     lsf_string text = {0};
     if (!job->settings.csv_path)
@@ -155,48 +236,53 @@ static bool write_csv(const measure_job *job, lsf_error *error)
     return good;
 }
 
-static bool write_results(measure_job *job, lsf_error *error)
+/* Where JSON or CSV takes its place, and where nothing was asked for, there is no table. */
+static bool print_table(lsf_measure_job *job, lsf_error *error)
 {
-    lsf_json json = {0};
-    lsf_string table = {0};
-    job->measurement.seconds = lsf_now() - job->start;
-    if (!lsf_measurement_derive(&job->measurement))
-        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
-    bool good =
-        lsf_measure_write_html(&job->measurement, &job->device, job->settings.html_path, error);
-    lsf_measure_end_pictures(&job->measurement, &job->picture_folder);
-    lsf_measure_add_json(&json, &job->measurement, &job->device);
-    good = good && lsf_json_write(&json, job->settings.json_path, error) && write_csv(job, error);
-    free(json.text.text);
-    lsf_measure_add_table(&table, &job->measurement);
-    if (!good || job->settings.quiet) {
-        free(table.text);
-        return good;
+    const lsf_settings *settings = &job->settings;
+    lsf_string text = {0};
+    if (settings->quiet || (settings->csv_path && strcmp(settings->csv_path, "-") == 0))
+        return true;
+    lsf_measure_add_table(&text, &job->measurement);
+    if (job->measurement.answer.given) {
+        lsf_string_add(&text, "\n");
+        lsf_measure_add_answer(&text, &job->measurement);
     }
-    return lsf_tool_print(&job->settings, 0, table.text, error);
+    return lsf_tool_print(settings, 0, text.text, error);
 }
 
-static bool run(measure_job *job, lsf_error *error)
+static bool save_preset(const lsf_measure_job *job, lsf_error *error)
 {
-    if (!lsf_measure_begin_pictures(&job->settings, &job->picture_folder, error) ||
+    const lsf_answer *answer = &job->measurement.answer;
+    return !job->settings.saved_preset || !answer->given ||
+           lsf_measure_save_preset(job->settings.saved_preset, &job->settings, &job->measurement,
+                                   error);
+}
+
+static bool run(lsf_measure_job *job, lsf_error *error)
+{
+    if (!check_settings(&job->settings, error) || !lsf_measure_fill_in(&job->settings, error) ||
+        !lsf_measure_begin_pictures(&job->settings, &job->picture_folder, error) ||
         !open_scene(job, error) || !describe_run(job, error) || !list_configurations(job, error))
         return false;
     lsf_interrupt_begin_iterations();
     bool good = lsf_measure_reference(&job->settings, job->scene, &job->measurement,
                                       &job->reference, error) &&
-                measure_points(job, error);
+                make_key(job, error) && read_points(job, error) && lsf_measure_points(job, error);
     lsf_interrupt_end_iterations();
-    return good && write_results(job, error);
+    return good && write_html(job, error) && lsf_measure_write_json(job, error) &&
+           write_csv(job, error) && save_preset(job, error) && print_table(job, error);
 }
 
 int lsf_tool_measure(int argc, char **argv)
 {
-    measure_job job = {.start = lsf_now()};
+    lsf_measure_job job = {.start = lsf_now()};
     lsf_error error;
     int status = lsf_tool_begin(&job.settings, LSF_COMMAND_MEASURE, argc, argv);
     if (status == LSF_GO_ON) {
         status = run(&job, &error) ? 0 : lsf_report_error(&error);
         lsf_kept_reference_finish(&job.reference);
+        lsf_measure_end_pictures(&job.measurement, &job.picture_folder);
         lsf_measure_end_pictures(&job.measurement, &job.picture_folder);
         lsf_context_destroy(job.context);
         lsf_scene_destroy(job.scene);

@@ -29,10 +29,13 @@ bool lsf_measure_begin_pictures(lsf_settings *settings, char **folder, lsf_error
     return true;
 }
 
-static void remove_file(char **path)
+/* What an earlier measurement has kept elsewhere stays. */
+static void remove_file(char **path, const char *folder)
 {
-    if (*path)
-        unlink(*path);
+    size_t length = strlen(folder);
+    if (!*path || strncmp(*path, folder, length) != 0 || (*path)[length] != '/')
+        return;
+    unlink(*path);
     free(*path);
     *path = NULL;
 }
@@ -42,13 +45,13 @@ void lsf_measure_end_pictures(lsf_measurement *measurement, char **folder)
     if (!*folder)
         return;
     lsf_measured_reference *reference = &measurement->reference;
-    remove_file(&reference->picture);
-    remove_file(&reference->preview);
+    remove_file(&reference->picture, *folder);
+    remove_file(&reference->preview, *folder);
     for (int i = 0; i < 2; i++)
-        remove_file(&reference->halves[i]);
+        remove_file(&reference->halves[i], *folder);
     for (uint32_t i = 0; i < measurement->point_count; i++) {
-        remove_file(&measurement->points[i].picture);
-        remove_file(&measurement->points[i].preview);
+        remove_file(&measurement->points[i].picture, *folder);
+        remove_file(&measurement->points[i].preview, *folder);
     }
     rmdir(*folder);
     free(*folder);

@@ -98,6 +98,8 @@ static void add_configuration(lsf_json *json, const lsf_measurement *m, uint32_t
     lsf_json_begin(json, NULL, '{');
     lsf_json_string(json, "technique", configuration->technique);
     add_options(json, configuration);
+    lsf_json_string(json, "command", configuration->command);
+    lsf_json_string(json, "failure", configuration->failure);
     lsf_json_begin(json, "fit", '{');
     add_fit(json, "mse", &configuration->mse);
     add_fit(json, "relmse", &configuration->relmse);
@@ -218,6 +220,7 @@ void lsf_measure_add_json(lsf_json *json, const lsf_measurement *m, const lsf_co
     lsf_json_string(json, "command", "measure");
     lsf_json_string(json, "command_line", m->command);
     lsf_json_string(json, "scene", m->scene);
+    lsf_json_string(json, "key", *m->key ? m->key : NULL);
     lsf_json_string(json, "scene_hash", *m->scene_hash ? m->scene_hash : NULL);
     lsf_json_vector(json, "resolution", (float[]){(float)m->width, (float)m->height}, 2);
     lsf_json_integer(json, "bounces", m->bounces);

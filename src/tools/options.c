@@ -128,9 +128,11 @@ static const lsf_command_option options[] = {
     {"pictures", 0, "DIR", LSF_COMMAND_MEASURE, "Output", LSF_VALUE_TEXT, AT(picture_folder), 0, 0,
      NULL, NULL, "keep a picture of each point and of the reference in that folder, .exr and .png"},
 
+    {"preset", 0, "NAME", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_CHOICE, AT(measure_preset),
+     0, 0, "quick|full", "quick",
+     "what is measured unless other options say: techniques, options, samples, seeds, reference"},
     {"technique", 't', "LIST", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_TECHNIQUES,
-     AT(techniques), 0, 0, NULL, NULL,
-     "techniques, separated by commas; without it, all; see --list-techniques"},
+     AT(techniques), 0, 0, NULL, NULL, "techniques, separated by commas; see --list-techniques"},
     {"sweep", 0, "pass.key=A,B,...", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_SWEEP,
      AT(sweeps), 0, 0, NULL, NULL,
      "measure each value of an option of a pass, with each of the other options that are swept; "
@@ -140,20 +142,34 @@ static const lsf_command_option options[] = {
      "width and height in pixels; without it, 1024x768 on a GPU and 256x192 in software"},
     {"samples", 's', "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT, AT(samples), 1,
      65536, NULL, NULL,
-     "the most iterations of a frame; fewer are measured as well, by powers of 2; without it, 16"},
+     "the most iterations of a frame; fewer are measured as well, by powers of 2"},
     {"seeds", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT, AT(seeds), 2, 32, NULL,
-     NULL,
-     "frames of each point, from different random numbers: they tell noise from bias; without it, "
-     "4"},
+     NULL, "frames of each point, from different random numbers: they tell noise from bias"},
     {"reference-samples", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT,
      AT(reference_samples), 1, 1000000, NULL, NULL,
      "samples a pixel of each half of the reference; more than there are in the cache are added to "
-     "them; without it, 256"},
+     "them"},
+    {"budget-ms", 0, "X", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_DOUBLE, AT(budget_ms), 1e-3,
+     1e9, NULL, NULL,
+     "look for the technique, options and samples of the least relMSE in a frame of X "
+     "milliseconds, "
+     "instead of measuring all of them"},
+    {"error", 0, "X", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_DOUBLE, AT(error), 1e-12, 1e12,
+     NULL, NULL, "look for those that are the soonest to a relMSE of X"},
+    {"save-preset", 0, "FILE", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_JSON, AT(saved_preset),
+     0, 0, NULL, NULL,
+     "write what was found with --budget-ms or --error as a preset, for render --preset"},
+    {"resume", 0, NULL, LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_FLAG, AT(resume), 0, 0, NULL,
+     NULL, "go on from the points that the file of --json holds, where it is there already"},
     {"cache", 0, "DIR|none", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_TEXT, AT(cache), 0, 0,
      NULL, NULL,
      "where references are kept, by what the scene's files hold and how it is seen; without it, "
      "lightsheaf in XDG_CACHE_HOME or in ~/.cache"},
 
+    {"preset", 0, "FILE", PLANNING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TEXT, AT(preset), 0,
+     0, NULL, NULL,
+     "take options from a file, one a line as name=value, as measure --save-preset writes them; "
+     "those on the command line count more"},
     {"technique", 't', "NAME", PLANNING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TECHNIQUE,
      AT(technique), 0, 0, NULL, "bidirectional", "how light is found; see --list-techniques"},
     {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,

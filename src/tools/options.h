@@ -183,8 +183,15 @@ typedef struct lsf_settings {
     uint32_t reference_samples;                                /* of each half; 0: not given */
     const char *csv_path, *html_path, *picture_folder, *cache; /* NULL: not given */
 
+    int measure_preset;                /* 0: quick, 1: full */
+    double budget_ms, error;           /* NAN: not asked for */
+    const char *preset, *saved_preset; /* NULL: not given */
+
+    char *preset_text; /* values point into it */
     lsf_string typed;  /* the options that shape a picture, as one would type them */
-    uint64_t given[2]; /* bit i of word i / 64: row i of the table was on the command line */
+    lsf_string shared; /* those of them that render takes */
+    uint64_t given[2]; /* bit i of word i / 64: row i of the table was on the command line
+                        * or in a preset */
 } lsf_settings;
 
 /* Defaults, then the command line; argv[0] is the command's name. `settings` needs no
@@ -193,6 +200,9 @@ typedef struct lsf_settings {
 bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit command, int argc, char **argv,
                         lsf_error *error);
 void lsf_settings_finish(lsf_settings *settings);
+
+/* Keeps in mind that the option was given, with that value, for what is said of the picture. */
+void lsf_settings_note(lsf_settings *settings, const lsf_command_option *option, const char *value);
 
 /* Whether the option of that long name was on the command line. */
 bool lsf_settings_given(const lsf_settings *settings, const char *name);

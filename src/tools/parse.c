@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "tools/imprint.h"
 #include "tools/number.h"
+#include "tools/preset.h"
 #include "tools/value.h"
 
 #include <getopt.h>
@@ -137,6 +138,8 @@ static void set_defaults(lsf_settings *settings, const lsf_command *command)
         .watchdog = 30,
         .difference_gain = 4,
         .epsilon = NAN,
+        .budget_ms = NAN,
+        .error = NAN,
     };
 }
 
@@ -190,6 +193,38 @@ static bool check_operands(const lsf_settings *settings, lsf_error *error)
     return true;
 }
 
+void lsf_settings_note(lsf_settings *settings, const lsf_command_option *option, const char *value)
+{
+    size_t row = (size_t)(option - lsf_command_option_at(0));
+    settings->given[row / 64] |= (uint64_t)1 << row % 64;
+    lsf_imprint_add_option(&settings->typed, option, value);
+    if (option->commands & LSF_COMMAND_RENDER)
+        lsf_imprint_add_option(&settings->shared, option, value);
+}
+
+/* The row that getopt's code stands for; NULL: none. */
+static const lsf_command_option *find_option(const lsf_command *command, int code)
+{
+    if (code >= FIRST_LONG_VALUE)
+        return lsf_command_option_at((size_t)(code - FIRST_LONG_VALUE));
+    return code ? find_by_letter(command, code) : NULL;
+}
+
+/* What the command line says goes over what its preset says, wherever that stands. */
+static bool read_preset(lsf_settings *settings, int argc, char **argv, const char *letters,
+                        const struct option *longs, lsf_error *error)
+{
+    const char *path = NULL;
+    int code;
+    while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
+        const lsf_command_option *option =
+            code == '?' || code == ':' || code == 1 ? NULL : find_option(settings->command, code);
+        if (option && strcmp(option->name, "preset") == 0 && option->type == LSF_VALUE_TEXT)
+            path = optarg;
+    }
+    return !path || lsf_preset_read(settings, path, error);
+}
+
 bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, char **argv,
                         lsf_error *error)
 {
@@ -201,6 +236,9 @@ bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, c
 
     optind = 0; /* glibc: start afresh */
     opterr = 0;
+    if (!read_preset(settings, argc, argv, letters, longs, error))
+        return false;
+    optind = 0;
     int code;
     while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
         if (code == 1) {
@@ -209,21 +247,16 @@ bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, c
             continue;
         }
         int which = code == '?' || code == ':' ? optopt : code;
-        const lsf_command_option *option =
-            which >= FIRST_LONG_VALUE ? lsf_command_option_at((size_t)(which - FIRST_LONG_VALUE))
-            : which                   ? find_by_letter(command, which)
-                                      : NULL;
+        const lsf_command_option *option = find_option(command, which);
         if (!option) {
             char letter[] = {'-', (char)which, '\0'};
             return bad_option(command, which ? letter : argv[optind - 1], error);
         }
         if (code == '?' || code == ':')
             return bad_argument(option, code == ':', error);
-        size_t row = (size_t)(option - lsf_command_option_at(0));
-        settings->given[row / 64] |= (uint64_t)1 << row % 64;
         if (!lsf_settings_set(settings, option, optarg, error))
             return false;
-        lsf_imprint_add_option(&settings->typed, option, option->argument ? optarg : NULL);
+        lsf_settings_note(settings, option, option->argument ? optarg : NULL);
     }
     for (; optind < argc; optind++) /* behind "--" */
         if (!lsf_list_append(&settings->operands, argv[optind]))
@@ -242,6 +275,8 @@ void lsf_settings_finish(lsf_settings *settings)
     free((void *)settings->techniques.items);
     free((void *)settings->sweeps.items);
     free(settings->typed.text);
+    free(settings->shared.text);
+    free(settings->preset_text);
     *settings = (lsf_settings){0};
 }
 

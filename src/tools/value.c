@@ -231,8 +231,10 @@ static bool set_techniques(lsf_list_setting *place, const lsf_command_option *op
             if (strlen(lsf_technique_name(i)) == length &&
                 strncmp(lsf_technique_name(i), part, length) == 0)
                 found = lsf_technique_name(i);
+        char name[64];
+        lsf_print(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), part);
         if (!found)
-            return bad_technique(option, text, error);
+            return bad_technique(option, name, error);
         if (!append_value(place, option, found, error))
             return false;
         part += length;

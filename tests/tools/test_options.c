@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static lsf_settings settings;
 static lsf_error error;
@@ -114,6 +115,7 @@ static void test_shown_defaults_are_the_defaults(void **state)
             const char *operands;
         } uses[] = {{LSF_COMMAND_RENDER, ""},
                     {LSF_COMMAND_COMPARE, " a.exr b.exr"},
+                    {LSF_COMMAND_MEASURE, ""},
                     {LSF_COMMAND_SANDBOX, " a.frag"}};
         size_t use = 0;
         while (use < LSF_COUNT(uses) - 1 && !(option->commands & uses[use].command))
@@ -365,6 +367,62 @@ static void test_bad_values(void **state)
     must_refuse(LSF_COMMAND_COMPARE, "compare a b --threshold rmse=a", "--threshold rmse=a", NULL);
 }
 
+static const char *preset_path;
+
+static void write_preset(const char *text)
+{
+    assert_true(lsf_file_write(preset_path, text, strlen(text), &error));
+}
+
+static void parse_with_preset(const char *words)
+{
+    char line[512];
+    snprintf(line, sizeof line, "render a.glb -o a.exr %s --preset %s", words, preset_path);
+    must_parse(LSF_COMMAND_RENDER, line);
+}
+
+/* A preset stands before the command line, wherever that names it. */
+static void test_presets(void **state)
+{
+    (void)state;
+    char line[256];
+    write_preset("# best\n\n  technique=cone \nsamples=7\r\nraw\ndefine=cone.count=4\n"
+                 "define=voxel.resolution=64\ncamera=Side view\nbounces=2");
+    parse_with_preset("-s 9 -D cone.count=5");
+    assert_string_equal(settings.technique, "cone");
+    assert_int_equal(settings.samples, 9);
+    assert_int_equal(settings.bounces, 2);
+    assert_true(settings.raw);
+    assert_string_equal(settings.camera, "Side view");
+    assert_int_equal(settings.defines.count, 3);
+    assert_string_equal(settings.defines.items[0], "cone.count=4");
+    assert_string_equal(settings.defines.items[2], "cone.count=5"); /* the last one counts */
+    assert_true(lsf_settings_given(&settings, "camera"));
+    assert_false(lsf_settings_given(&settings, "seed"));
+    /* The picture's header tells the options, for the file may be another one then. */
+    assert_non_null(strstr(settings.typed.text, "--camera 'Side view'"));
+    assert_null(strstr(settings.typed.text, "preset"));
+
+    static const struct {
+        const char *text, *says;
+    } bad[] = {
+        {"technique=cone\nsamples=none\n", "line 2: --samples none: expected a whole number"},
+        {"sample=3", "line 1: sample: not an option of render that a preset may hold; did you mean "
+                     "samples?"},
+        {"output=b.exr", "output: not an option"},
+        {"preset=b", "preset: not an option"},
+        {"raw=1", "raw: takes no value"},
+        {"samples", "samples: write =VALUE behind it: a whole number"},
+    };
+    snprintf(line, sizeof line, "render a.glb -o a.exr --preset %s", preset_path);
+    for (size_t i = 0; i < LSF_COUNT(bad); i++) {
+        write_preset(bad[i].text);
+        must_refuse(LSF_COMMAND_RENDER, line, bad[i].says, preset_path);
+    }
+    assert_false(parse(LSF_COMMAND_RENDER, "render --preset there/is/none -o a.exr"));
+    assert_int_equal(error.code, LSF_ERROR_FILE);
+}
+
 static void test_numbers(void **state)
 {
     (void)state;
@@ -394,9 +452,14 @@ int main(void)
         cmocka_unit_test(test_forms),
         cmocka_unit_test(test_pass_options),
         cmocka_unit_test(test_bad_values),
+        cmocka_unit_test(test_presets),
         cmocka_unit_test(test_numbers),
     };
+    char path[] = "/tmp/lightsheaf-preset-XXXXXX";
+    close(mkstemp(path));
+    preset_path = path;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    unlink(path);
     lsf_settings_finish(&settings);
     return failed;
 }

@@ -1,0 +1,424 @@
+#include "sweep/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/base.h"
+#include "sweep/fit.h"
+#include "sweep/front.h"
+#include "sweep/statistics.h"
+
+enum { ROUGH_SEEDS = 2, FEWEST = 3, FEW_SAMPLES = 4 };
+#define FIRST_PART (1.0 / 64.0) /* of the time, and what each rung multiplies it by */
+#define GROWTH 4.0
+/* An error may turn out less by this factor, for two seeds tell it badly, and its power be off by
+ * so much. */
+#define DOUBT 1.5
+#define DOUBT_POWER 0.3
+
+typedef struct candidate {
+    uint32_t configuration;
+    double foretold; /* relMSE in all of the time */
+    double doubt;    /* factor by which it may be less */
+} candidate;
+
+typedef struct search_run {
+    const lsf_search *search;
+    lsf_measurement *m;
+    candidate *candidates;
+    uint32_t count;
+    bool stopped;
+} search_run;
+
+static bool measure(search_run *run, uint32_t configuration, uint32_t samples, uint32_t seeds,
+                    lsf_error *error)
+{
+    return run->search->measure(run->search->user, configuration, samples, seeds, &run->stopped,
+                                error);
+}
+
+/* All configurations that have not failed. */
+static bool list_candidates(search_run *run, lsf_error *error)
+{
+    run->candidates = lsf_alloc((uint64_t)run->m->configuration_count + 1, sizeof(candidate));
+    if (!run->candidates)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    for (uint32_t c = 0; c < run->m->configuration_count; c++)
+        run->candidates[run->count++].configuration = c;
+    return true;
+}
+
+/* Those without a point have failed. */
+static void drop_failures(search_run *run)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < run->count; i++)
+        if (lsf_measurement_last(run->m, run->candidates[i].configuration))
+            run->candidates[kept++] = run->candidates[i];
+    run->count = kept;
+}
+
+/* The most samples whose frame takes no longer, by what was measured; 0: none does. */
+static uint32_t samples_within(const search_run *run, uint32_t configuration, double milliseconds)
+{
+    uint32_t low = 0, high = run->search->most_samples;
+    while (low < high) {
+        uint32_t middle = low + (high - low + 1) / 2;
+        if (lsf_front_milliseconds(run->m, configuration, middle) <= milliseconds)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
+static uint32_t power_of_two_within(uint32_t samples)
+{
+    uint32_t power = 1;
+    while (power <= samples / 2)
+        power *= 2;
+    return power;
+}
+
+/* --- within a time --- */
+
+/* How fast `value` falls with samples from one point to the next, as a power; within limits, for
+ * few seeds tell it badly. */
+static double slope_between(double before, double after, double ratio, double least, double most)
+{
+    double slope = log(before / after) / log(ratio);
+    return slope >= least ? fmin(slope, most) : least; /* NAN: least */
+}
+
+/* The error that so many samples will have. Variance falls with them as it did between the last two
+ * points, or as 1 / N; what looks like bias falls as it did, which is all that is left of a
+ * filter's, or stays. */
+static double foretell(const search_run *run, uint32_t configuration, uint32_t samples)
+{
+    const lsf_measured_point *last = lsf_measurement_last(run->m, configuration);
+    const lsf_measured_point *before = lsf_measurement_before(run->m, last);
+    double variance = fmin(fmax(last->relmse.variance, 0.0), last->relmse.error.value);
+    double bias = last->relmse.error.value - variance, power = 1.0, bias_power = 0.0;
+    double more = fmax((double)samples / last->samples, 1.0);
+    if (before) {
+        double ratio = (double)last->samples / before->samples;
+        power = slope_between(before->relmse.variance, variance, ratio, 0.7, 1.2);
+        bias_power = slope_between(before->relmse.error.value - before->relmse.variance, bias,
+                                   ratio, 0.0, 1.0);
+    }
+    return bias * pow(more, -bias_power) + variance * pow(more, -power);
+}
+
+static int by_foretold(const void *a, const void *b)
+{
+    double left = ((const candidate *)a)->foretold, right = ((const candidate *)b)->foretold;
+    return (left > right) - (left < right);
+}
+
+/* Leaves out what takes too long with one sample, what is not foretold to come near the best even
+ * if it falls faster than it seems, and the worst of too many. */
+static void thin_out(search_run *run)
+{
+    uint32_t kept = 0, most = FEWEST + 2 * run->count / 3;
+    for (uint32_t i = 0; i < run->count; i++) {
+        uint32_t c = run->candidates[i].configuration;
+        uint32_t samples = samples_within(run, c, run->search->budget_ms);
+        if (samples == 0)
+            continue;
+        double more = fmax((double)samples / lsf_measurement_last(run->m, c)->samples, 1.0);
+        run->candidates[kept] = (candidate){.configuration = c,
+                                            .foretold = foretell(run, c, samples),
+                                            .doubt = DOUBT * pow(more, DOUBT_POWER)};
+        kept++;
+    }
+    qsort(run->candidates, kept, sizeof *run->candidates, by_foretold);
+    run->count = 0;
+    for (uint32_t i = 0; i < kept; i++) {
+        const candidate *c = &run->candidates[i];
+        if (run->count < most && c->foretold <= c->doubt * run->candidates[0].foretold)
+            run->candidates[run->count++] = *c;
+    }
+}
+
+/* Says how much the frames of a rung will be. */
+static void expect_rung(const search_run *run, double milliseconds, uint32_t seeds)
+{
+    uint32_t iterations = 0;
+    for (uint32_t i = 0; i < run->count; i++)
+        iterations += seeds * samples_within(run, run->candidates[i].configuration, milliseconds);
+    if (run->search->expect)
+        run->search->expect(run->search->user, iterations);
+}
+
+static bool measure_rung(search_run *run, double milliseconds, lsf_error *error)
+{
+    bool good = true;
+    expect_rung(run, milliseconds, ROUGH_SEEDS);
+    for (uint32_t i = 0; good && !run->stopped && i < run->count; i++) {
+        uint32_t c = run->candidates[i].configuration;
+        uint32_t samples = samples_within(run, c, milliseconds);
+        good = measure(run, c, samples ? samples : 1, ROUGH_SEEDS, error);
+    }
+    return good;
+}
+
+/* With as many samples as fit. Each attempt knows better how long a sample takes. */
+static bool measure_finalist(search_run *run, uint32_t configuration, lsf_error *error)
+{
+    const lsf_search *search = run->search;
+    bool good = true, settled = false;
+    uint32_t samples = 0;
+    for (int attempt = 0; good && !settled && !run->stopped && attempt < 3; attempt++) {
+        uint32_t before = samples;
+        samples = samples_within(run, configuration, search->budget_ms);
+        settled = samples == 0 || (samples <= before + before / 16 && samples >= before);
+        if (!settled)
+            good = measure(run, configuration, samples, search->seeds, error);
+    }
+    uint32_t power = power_of_two_within(samples);
+    if (good && !run->stopped && samples > 0 && power < samples)
+        good = measure(run, configuration, power, search->seeds, error);
+    return good;
+}
+
+/* Of all points that fit and have enough seeds the one of the least error. */
+static const lsf_measured_point *best_within(const search_run *run)
+{
+    const lsf_measured_point *best = NULL;
+    for (uint32_t i = 0; i < run->m->point_count; i++) {
+        const lsf_measured_point *point = &run->m->points[i];
+        if (point->milliseconds.median > run->search->budget_ms ||
+            (best && best->seed_count > point->seed_count))
+            continue;
+        if (!best || point->seed_count > best->seed_count ||
+            point->relmse.error.value < best->relmse.error.value)
+            best = point;
+    }
+    return best;
+}
+
+/* Standard deviation of the mean error, by seeds alone: what the reference does wrong it does to
+ * all. */
+static double deviation_of(const lsf_measured_point *point)
+{
+    double squares = 0.0, mean = point->relmse.error.value;
+    uint32_t n = point->seed_count;
+    for (uint32_t s = 0; s < n; s++)
+        squares += pow(point->relmse.products[s][s] - mean, 2.0);
+    return n > 1 ? sqrt(squares / (n - 1) / n) : INFINITY;
+}
+
+/* Probability that of each other configuration no point that fits is better by 10 %, by Student's
+ * distribution of the difference; the chances of being wrong add up. Points of few seeds are those
+ * of candidates that were left behind, and do not count. */
+static double confidence_in(const search_run *run, const lsf_measured_point *best)
+{
+    double wrong = 0.0;
+    for (uint32_t c = 0; c < run->m->configuration_count; c++) {
+        double worst = 0.0;
+        for (uint32_t i = 0; c != best->configuration && i < run->m->point_count; i++) {
+            const lsf_measured_point *other = &run->m->points[i];
+            if (other->configuration != c || other->seed_count < best->seed_count ||
+                other->milliseconds.median > run->search->budget_ms)
+                continue;
+            double difference = 1.1 * other->relmse.error.value - best->relmse.error.value;
+            double deviation = hypot(1.1 * deviation_of(other), deviation_of(best));
+            double right = deviation > 0.0 ? lsf_student_probability(difference / deviation,
+                                                                     2 * (best->seed_count - 1))
+                                           : difference >= 0.0;
+            worst = fmax(worst, 1.0 - right);
+        }
+        wrong += worst;
+    }
+    return fmax(1.0 - wrong, 0.0);
+}
+
+static const lsf_measured_point *quickest(const lsf_measurement *m)
+{
+    const lsf_measured_point *best = NULL;
+    for (uint32_t i = 0; i < m->point_count; i++)
+        if (!best || m->points[i].milliseconds.median < best->milliseconds.median)
+            best = &m->points[i];
+    return best;
+}
+
+static void answer_with(search_run *run, const lsf_measured_point *point, bool met,
+                        double confidence)
+{
+    lsf_answer *answer = &run->m->answer;
+    answer->given = point != NULL;
+    answer->budget_ms = run->search->budget_ms;
+    answer->relmse = run->search->relmse;
+    answer->candidates = run->m->configuration_count;
+    answer->finalists = run->count;
+    if (!point)
+        return;
+    answer->met = met;
+    answer->configuration = point->configuration;
+    answer->samples = point->samples;
+    answer->error = point->relmse.error;
+    answer->milliseconds = point->milliseconds.median;
+    answer->confidence = confidence;
+}
+
+/* One sample of each, and a few where they fit: what a frame takes however few it has, and how
+ * error falls. */
+static bool look(search_run *run, lsf_error *error)
+{
+    bool good = true;
+    for (uint32_t i = 0; good && !run->stopped && i < run->count; i++) {
+        uint32_t c = run->candidates[i].configuration;
+        good = measure(run, c, 1, ROUGH_SEEDS, error);
+        uint32_t few = samples_within(run, c, run->search->budget_ms);
+        if (good && !run->stopped && few > 1 && few < run->search->most_samples)
+            good = measure(run, c, few < FEW_SAMPLES ? few : FEW_SAMPLES, ROUGH_SEEDS, error);
+    }
+    drop_failures(run);
+    return good;
+}
+
+static bool search_within(search_run *run, lsf_error *error)
+{
+    const lsf_search *search = run->search;
+    bool good = look(run, error);
+    for (double part = FIRST_PART; good && !run->stopped && part < 1.0; part *= GROWTH) {
+        good = measure_rung(run, part * search->budget_ms, error);
+        if (good && !run->stopped)
+            thin_out(run);
+    }
+    expect_rung(run, search->budget_ms, search->seeds);
+    for (uint32_t i = 0; good && !run->stopped && i < run->count; i++)
+        good = measure_finalist(run, run->candidates[i].configuration, error);
+    if (!good)
+        return false;
+    const lsf_measured_point *best = best_within(run);
+    if (best)
+        answer_with(run, best, true, confidence_in(run, best));
+    else
+        answer_with(run, quickest(run->m), false, NAN);
+    return true;
+}
+
+/* --- to an error --- */
+
+/* Samples of its next frame, or 0: it has got there, or there is no use in it. */
+static uint32_t next_samples(const search_run *run, uint32_t configuration, double best_ms)
+{
+    const lsf_measured_point *last = lsf_measurement_last(run->m, configuration);
+    if (!last)
+        return 0; /* it fails */
+    double samples = GROWTH * last->samples;
+    bool there = last->relmse.error.value <= run->search->relmse;
+    if (there || samples > run->search->most_samples ||
+        lsf_front_milliseconds(run->m, configuration, samples) > best_ms)
+        return 0;
+    return (uint32_t)samples;
+}
+
+/* The candidate whose next frame is the shortest; UINT32_MAX: none has one. */
+static uint32_t pick_next(const search_run *run, double best_ms, uint32_t *samples)
+{
+    uint32_t picked = UINT32_MAX;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < run->count; i++) {
+        uint32_t c = run->candidates[i].configuration;
+        uint32_t next = next_samples(run, c, best_ms);
+        double milliseconds = next ? lsf_front_milliseconds(run->m, c, next) : INFINITY;
+        if (milliseconds < least) {
+            picked = c;
+            *samples = next;
+            least = milliseconds;
+        }
+    }
+    return picked;
+}
+
+/* The soonest point that gets there and has enough seeds. */
+static const lsf_measured_point *soonest(const search_run *run)
+{
+    const lsf_measured_point *best = NULL;
+    for (uint32_t i = 0; i < run->m->point_count; i++) {
+        const lsf_measured_point *point = &run->m->points[i];
+        if (point->relmse.error.value <= run->search->relmse &&
+            point->seed_count >= run->search->seeds &&
+            (!best || point->milliseconds.median < best->milliseconds.median))
+            best = point;
+    }
+    return best;
+}
+
+static double best_time(const search_run *run)
+{
+    const lsf_measured_point *best = soonest(run);
+    return best ? best->milliseconds.median : INFINITY;
+}
+
+/* Of a configuration that got there: by how few samples, with all the seeds. */
+static bool settle(search_run *run, uint32_t configuration, lsf_error *error)
+{
+    bool good = true;
+    for (int attempt = 0; good && !run->stopped && attempt < 4; attempt++) {
+        lsf_time_to_error time = lsf_front_time_to(run->m, configuration, run->search->relmse);
+        if (isnan(time.samples) || time.samples > run->search->most_samples)
+            break;
+        uint32_t samples = (uint32_t)fmax(ceil(time.samples - 1e-6), 1.0);
+        const lsf_measured_point *point = lsf_measurement_find(run->m, configuration, samples);
+        if (point && point->seed_count >= run->search->seeds)
+            break;
+        good = measure(run, configuration, samples, run->search->seeds, error);
+    }
+    return good;
+}
+
+static const lsf_measured_point *least_error(const lsf_measurement *m)
+{
+    const lsf_measured_point *best = NULL;
+    for (uint32_t i = 0; i < m->point_count; i++)
+        if (!best || m->points[i].relmse.error.value < best->relmse.error.value)
+            best = &m->points[i];
+    return best;
+}
+
+static bool search_error(search_run *run, lsf_error *error)
+{
+    const lsf_search *search = run->search;
+    bool good = true;
+    for (uint32_t i = 0; good && !run->stopped && i < run->count; i++)
+        good = measure(run, run->candidates[i].configuration, 1, ROUGH_SEEDS, error);
+    drop_failures(run);
+    for (uint32_t i = 0; good && !run->stopped && i < run->count; i++) {
+        uint32_t c = run->candidates[i].configuration;
+        if (lsf_measurement_last(run->m, c)->relmse.error.value <= search->relmse)
+            good = settle(run, c, error);
+    }
+    while (good && !run->stopped) {
+        uint32_t samples, c = pick_next(run, best_time(run), &samples);
+        if (c == UINT32_MAX)
+            break;
+        good = measure(run, c, samples, ROUGH_SEEDS, error);
+        if (good && !run->stopped &&
+            lsf_measurement_last(run->m, c)->relmse.error.value <= search->relmse)
+            good = settle(run, c, error);
+    }
+    if (!good)
+        return false;
+    const lsf_measured_point *best = soonest(run);
+    if (!best) {
+        answer_with(run, least_error(run->m), false, NAN);
+        return true;
+    }
+    double deviation = deviation_of(best), left = search->relmse - best->relmse.error.value;
+    answer_with(run, best, true,
+                deviation > 0.0 ? lsf_student_probability(left / deviation, best->seed_count - 1)
+                                : 1.0);
+    return true;
+}
+
+bool lsf_search_run(const lsf_search *search, lsf_error *error)
+{
+    search_run run = {.search = search, .m = search->measurement};
+    bool good = list_candidates(&run, error) &&
+                (isnan(search->relmse) ? search_within(&run, error) : search_error(&run, error));
+    free(run.candidates);
+    return good;
+}

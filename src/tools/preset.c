@@ -1,0 +1,100 @@
+#include "tools/preset.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "tools/imprint.h"
+#include "tools/number.h"
+#include "tools/value.h"
+
+enum { LARGEST = 1 << 16 }; /* bytes */
+
+/* Where a picture goes, and what is said about it, is for the command line. */
+static bool may_stand(const lsf_command_option *option)
+{
+    static const char *const groups[] = {"Picture", "Camera", "Scene"};
+    for (size_t i = 0; i < LSF_COUNT(groups); i++)
+        if (strcmp(option->group, groups[i]) == 0)
+            return strcmp(option->name, "preset") != 0;
+    return false;
+}
+
+static const char *next_name(size_t index, void *user)
+{
+    const lsf_command *command = user;
+    size_t seen = 0;
+    for (size_t i = 0; lsf_command_option_at(i); i++) {
+        const lsf_command_option *option = lsf_command_option_at(i);
+        if ((option->commands & command->bit) && may_stand(option) && seen++ == index)
+            return option->name;
+    }
+    return NULL;
+}
+
+static const lsf_command_option *find(const lsf_command *command, const char *name)
+{
+    for (size_t i = 0; lsf_command_option_at(i); i++) {
+        const lsf_command_option *option = lsf_command_option_at(i);
+        if ((option->commands & command->bit) && strcmp(option->name, name) == 0 &&
+            may_stand(option))
+            return option;
+    }
+    return NULL;
+}
+
+static bool read_line(lsf_settings *settings, char *line, lsf_error *error)
+{
+    char *value = strchr(line, '=');
+    if (value)
+        *value++ = '\0';
+    const lsf_command_option *option = find(settings->command, line);
+    if (!option) {
+        const char *nearest = lsf_nearest(line, next_name, (void *)(uintptr_t)settings->command);
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "%s: not an option of %s that a preset may hold%s%s%s", line,
+                             settings->command->name, nearest ? "; did you mean " : "",
+                             nearest ? nearest : "", nearest ? "?" : "");
+    }
+    if (!option->argument != !value) {
+        char *range = lsf_command_option_range(option);
+        lsf_error_set(error, LSF_ERROR_USAGE, "%s: %s%s", line,
+                      value ? "takes no value; write it alone" : "write =VALUE behind it: ",
+                      value ? "" : (range ? range : option->argument));
+        free(range);
+        return false;
+    }
+    if (!lsf_settings_set(settings, option, value, error))
+        return false;
+    lsf_settings_note(settings, option, value);
+    return true;
+}
+
+/* Without the space around it; NULL: there is nothing in it. */
+static char *trim(char *line)
+{
+    line += strspn(line, " \t\r");
+    size_t length = strlen(line);
+    while (length > 0 && strchr(" \t\r", line[length - 1]))
+        line[--length] = '\0';
+    return *line && *line != '#' ? line : NULL;
+}
+
+bool lsf_preset_read(lsf_settings *settings, const char *path, lsf_error *error)
+{
+    size_t length;
+    lsf_error cause;
+    free(settings->preset_text);
+    settings->preset_text = lsf_file_read(path, LARGEST, &length, error);
+    if (!settings->preset_text)
+        return false;
+    if (strlen(settings->preset_text) != length)
+        return lsf_error_set(error, LSF_ERROR_FILE, "%s: is no preset: it holds a NUL", path);
+    char *rest = settings->preset_text, *line;
+    for (uint32_t number = 1; (line = strsep(&rest, "\n")); number++) {
+        char *text = trim(line);
+        if (text && !read_line(settings, text, &cause))
+            return lsf_error_set(error, cause.code, "%s: line %u: %s", path, number, cause.message);
+    }
+    return true;
+}
