@@ -9,12 +9,13 @@
 /* Made by the pass light_guide. */
 layout(binding = 0) uniform sampler2D guide_texture; /* octahedral normal, mean reverse-Z depth, alpha of the lobe */
 layout(binding = 1) uniform sampler2D slope_texture; /* of that depth, for each pixel along x and y; `spread`; `alike` */
+layout(binding = 15) uniform sampler2D turn_texture; /* of the normal, for each pixel along x and y [radians] */
 layout(location = 0) uniform vec2 guide_weights;     /* light_filter.depth_weight, .normal_weight */
 
 struct light_guide {
     vec3 normal; /* unit */
     float depth; /* 0: nothing is seen */
-    vec2 slope;
+    vec2 slope, turn;
     float spread; /* of depth within the pixel, beyond that of its plane */
     float alike;  /* 1 where all normals within the pixel are the same, less the more they differ */
     float scale;  /* from differences of depth to distances from the surface's plane [pixels] */
@@ -58,6 +59,7 @@ light_guide light_guide_at(ivec2 pixel)
     g.normal = octahedral_normal(texel.xy);
     g.depth = texel.z;
     g.slope = slope.xy;
+    g.turn = texelFetch(turn_texture, pixel, 0).xy;
     g.spread = slope.z;
     g.alike = slope.w;
     /* By how many pixels' widths a surface moves away from the viewer for each unit of depth. */
@@ -77,14 +79,23 @@ light_guide light_guide_at(ivec2 pixel)
     return g;
 }
 
-/* 1 where the neighbour, of which the guide is given, lies on the pixel's plane and looks the same way. */
+/* Pixels over which a surface counts as one although it is curved: the sides of patterns of samples are no longer. */
+#define LSF_CURVED_REACH 4.0
+
+/* 1 where the neighbour, of which the guide is given, lies on the pixel's surface and looks the way that this would
+ * there, as curved as it is beside the pixel. */
 float plane_weight(light_guide g, ivec2 pixel, ivec2 neighbour, vec4 texel, vec3 normal)
 {
     float cosine = dot(g.normal, normal);
     vec2 apart = vec2(neighbour - pixel);
-    float off = max(abs(texel.z - g.depth - dot(g.slope, apart)) - 2.0 * g.spread, 0.0) * g.scale /
-                (guide_weights.x * length(apart));
-    float weight = exp2(guide_weights.y * g.alike * log2(cosine) - off * off);
+    float distance = length(apart);
+    float turn = dot(abs(apart), g.turn) * min(LSF_CURVED_REACH / distance, 1.0);
+    float off = max(abs(texel.z - g.depth - dot(g.slope, apart)) - 2.0 * g.spread, 0.0) * g.scale / distance;
+    /* A chord leaves the plane by half the angle of the normals. */
+    off = max(off - 0.5 * turn, 0.0) / guide_weights.x;
+    float angle = max(sqrt(max(2.0 - 2.0 * cosine, 0.0)) - turn, 0.0);
+    /* Powers of cosines of small angles: cos^p = e^(-p angle^2 / 2). */
+    float weight = exp2(-off * off - guide_weights.y * g.alike * 0.7213475 * angle * angle);
     return texel.z == 0.0 || cosine <= 0.0 ? 0.0 : weight;
 }
 

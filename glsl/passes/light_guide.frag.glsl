@@ -13,6 +13,7 @@ layout(location = 1) uniform float lobe_kernel;                /* [sr] */
 layout(location = 0) uniform float iterations;
 layout(location = 0) out vec4 guide_out;
 layout(location = 1) out vec4 slope_out;
+layout(location = 2) out vec2 turn_out;
 
 /* The slope of depth: of two one-sided differences the smaller, so that it is the surface's own beside an edge. */
 float slope_along(ivec2 pixel, ivec2 along, float depth)
@@ -34,7 +35,6 @@ vec3 unit_or_zero(vec3 v)
     return v * inversesqrt(max(dot(v, v), 1e-20));
 }
 
-#if LSF_LOBE
 /* How far the normal turns from a pixel to the next, of both sides the smaller [radians]. */
 float turn_along(ivec2 pixel, ivec2 along, vec3 normal)
 {
@@ -44,13 +44,13 @@ float turn_along(ivec2 pixel, ivec2 along, vec3 normal)
     return min(length(after - normal), length(before - normal));
 }
 
+#if LSF_LOBE
 /* Of the lobe as it was sampled: glossy ones are spread over `lobe_kernel` (lib/brdf.glsl, kernel_alpha). */
-float alpha_at(ivec2 pixel, vec3 normal)
+float alpha_at(ivec2 pixel, float turn)
 {
     vec4 factor = texelFetch(specular_factor_texture, pixel, 0);
     float reflects = max(factor.r, max(factor.g, factor.b)), kernel = lobe_kernel;
 #if LSF_PATTERN > 1
-    float turn = 0.5 * (turn_along(pixel, ivec2(1, 0), normal) + turn_along(pixel, ivec2(0, 1), normal));
     float side = float(LSF_PATTERN);
     kernel *= pooling_spread(kernel, reflects, pow(factor.a, 4.0), side * turn, side);
 #endif
@@ -63,14 +63,16 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 mean = texelFetch(mean_texture, pixel, 0);
     guide_out = slope_out = vec4(0.0);
+    turn_out = vec2(0.0);
     if (mean.w == 0.0)
         return;
     vec3 normal = unit_or_zero(mean.xyz);
     /* Normals of one iteration that cancel out in the mean look nowhere in particular. */
     guide_out.xy = dot(normal, normal) > 0.5 ? octahedral_place(normal) : vec2(0.0);
     guide_out.z = mean.w;
+    turn_out = vec2(turn_along(pixel, ivec2(1, 0), normal), turn_along(pixel, ivec2(0, 1), normal));
 #if LSF_LOBE
-    guide_out.w = alpha_at(pixel, normal);
+    guide_out.w = alpha_at(pixel, 0.5 * (turn_out.x + turn_out.y));
 #endif
     vec2 slope = vec2(slope_along(pixel, ivec2(1, 0), mean.w), slope_along(pixel, ivec2(0, 1), mean.w));
     float variance = max(texelFetch(factor_texture, pixel, 0).a, 0.0) / iterations;

@@ -15,3 +15,10 @@ void lsf_surface_maps_bind(const lsf_surface_maps *maps)
     lsf_bind_texture(2, maps->gloss);
     lsf_bind_texture(LSF_UNIT_PLACES, maps->pixels);
 }
+
+void lsf_guide_maps_bind(const lsf_guide_maps *maps)
+{
+    lsf_bind_texture(0, maps->guide);
+    lsf_bind_texture(1, maps->slope);
+    lsf_bind_texture(15, maps->turn);
+}

@@ -41,6 +41,15 @@ typedef struct lsf_light_parts {
 /* The format of the G-buffer's gloss, once that is planned; GL_NONE: it has none. */
 GLenum lsf_gbuffer_gloss(const lsf_plan *plan);
 
+/* What filters of light go by to stay on one surface: lib/light_guide.glsl has what they hold. */
+typedef struct lsf_guide_maps {
+    GLuint guide, slope; /* RGBA32F */
+    GLuint turn;         /* RG16F */
+} lsf_guide_maps;
+
+/* For lib/light_guide.glsl, to units 0, 1 and 15. */
+void lsf_guide_maps_bind(const lsf_guide_maps *maps);
+
 /* For lib/gbuffer_textures.glsl, to units 0 to 2, and lib/sparse.glsl. */
 void lsf_surface_maps_bind(const lsf_surface_maps *maps);
 

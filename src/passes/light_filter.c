@@ -228,8 +228,7 @@ void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration
     lsf_iteration_bind_view(iteration);
     glCopyImageSubData(inputs->picture, GL_TEXTURE_2D, 0, 0, 0, 0, pass->picture, GL_TEXTURE_2D, 0,
                        0, 0, 0, (GLsizei)plan->width, (GLsizei)plan->height, 1);
-    lsf_bind_texture(0, inputs->guide);
-    lsf_bind_texture(1, inputs->slope);
+    lsf_guide_maps_bind(&inputs->guide);
     divide(pass, plan, n, inputs);
     blend(pass, plan, n, run_steps(pass, plan, n), inputs);
     lsf_timer_end(pass->timer);

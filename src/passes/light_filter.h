@@ -4,6 +4,7 @@
 #define LSF_PASSES_LIGHT_FILTER_H
 
 #include "frame/iteration.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_light_filter_params {
@@ -27,7 +28,7 @@ typedef struct lsf_light_filter_part {
 } lsf_light_filter_part;
 
 typedef struct lsf_light_filter_inputs {
-    GLuint guide, slope; /* as lsf_light_guide's */
+    lsf_guide_maps guide;
     GLuint half; /* as lsf_light_mean's, of the first `half_count` iterations; 0: there is none */
     uint32_t half_count;
     GLuint picture;                 /* RGBA32F mean of the whole picture */

@@ -7,8 +7,10 @@
 #define AT(member) offsetof(lsf_light_guide, member)
 
 static const lsf_texture_row textures[] = {
-    {"light_guide.guide", GL_RGBA32F, AT(guide), 0, "normal, depth and lobe, for filters of light"},
-    {"light_guide.slope", GL_RGBA32F, AT(slope), 0, "of what is seen"},
+    {"light_guide.guide", GL_RGBA32F, AT(maps.guide), 0,
+     "normal, depth and lobe, for filters of light"},
+    {"light_guide.slope", GL_RGBA32F, AT(maps.slope), 0, "of what is seen"},
+    {"light_guide.turn", GL_RG16F, AT(maps.turn), 0, "of normals from pixel to pixel"},
 };
 
 void lsf_light_guide_plan(lsf_plan *plan)
@@ -30,10 +32,11 @@ bool lsf_light_guide_create(lsf_light_guide *pass, lsf_context *context, const l
     *pass = (lsf_light_guide){.context = context};
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error))
         return false;
-    const lsf_framebuffer_desc desc = {.label = "light_guide",
-                                       .color_count = 2,
-                                       .colors = {pass->guide, pass->slope},
-                                       .layer = -1};
+    const lsf_framebuffer_desc desc = {
+        .label = "light_guide",
+        .color_count = 3,
+        .colors = {pass->maps.guide, pass->maps.slope, pass->maps.turn},
+        .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program =
         pass->framebuffer ? lsf_plan_program(plan, context, "light_guide", files, error) : 0;

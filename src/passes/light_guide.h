@@ -4,6 +4,7 @@
 #define LSF_PASSES_LIGHT_GUIDE_H
 
 #include "frame/iteration.h"
+#include "frame/maps.h"
 
 typedef struct lsf_light_guide_inputs {
     GLuint mean;                            /* lsf_light_mean.guide */
@@ -14,10 +15,7 @@ typedef struct lsf_light_guide_inputs {
 
 typedef struct lsf_light_guide {
     lsf_context *context;
-    GLuint guide; /* output, RGBA32F: octahedral normal, reverse-Z depth (0: nothing is seen), alpha
-                   * of the specular lobe */
-    GLuint slope; /* output, RGBA32F: of depth along x and y, for each pixel; deviation of depth
-                   * beyond that of a plane; 0..1, how alike the pixel's normals are */
+    lsf_guide_maps maps; /* output */
     GLuint framebuffer, program;
     lsf_timer *timer;
 } lsf_light_guide;

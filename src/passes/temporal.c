@@ -174,8 +174,7 @@ static void begin(const lsf_plan *plan, GLuint framebuffer, GLuint program,
                   const lsf_temporal_inputs *inputs)
 {
     lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
-    lsf_bind_texture(0, inputs->guide);
-    lsf_bind_texture(1, inputs->slope);
+    lsf_guide_maps_bind(&inputs->guide);
     lsf_bind_texture(2, inputs->motion);
 }
 

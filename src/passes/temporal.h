@@ -4,6 +4,7 @@
 #define LSF_PASSES_TEMPORAL_H
 
 #include "frame/iteration.h"
+#include "frame/maps.h"
 #include "plan/option.h"
 
 typedef struct lsf_temporal_params {
@@ -22,7 +23,7 @@ typedef struct lsf_temporal_light {
 } lsf_temporal_light;
 
 typedef struct lsf_temporal_inputs {
-    GLuint guide, slope;         /* as lsf_light_guide's */
+    lsf_guide_maps guide;
     GLuint motion;               /* of lsf_gbuffer_maps, with depth and instance */
     GLuint picture;              /* RGBA32F mean of the whole picture */
     lsf_temporal_light parts[2]; /* diffuse, specular */

@@ -175,8 +175,7 @@ static void guide(lsf_renderer *renderer, uint32_t iterations)
 static lsf_temporal_inputs temporal_inputs(const lsf_renderer *renderer)
 {
     const lsf_light_mean *mean = &renderer->light_mean;
-    return (lsf_temporal_inputs){.guide = renderer->light_guide.guide,
-                                 .slope = renderer->light_guide.slope,
+    return (lsf_temporal_inputs){.guide = renderer->light_guide.maps,
                                  .motion = renderer->outputs.parts.gbuffer->motion,
                                  .picture = renderer->accumulate.means[0],
                                  .parts = {{mean->diffuse.light, mean->diffuse.factor},
@@ -189,8 +188,7 @@ static void filter(lsf_renderer *renderer, GLuint picture)
     const lsf_temporal_part *kept = renderer->temporal.parts;
     bool temporal = renderer->temporal.timer;
     const lsf_light_filter_inputs inputs = {
-        .guide = renderer->light_guide.guide,
-        .slope = renderer->light_guide.slope,
+        .guide = renderer->light_guide.maps,
         .half = temporal ? 0 : mean->half, /* the mean is not of the frame's iterations alone */
         .half_count = lsf_light_mean_half(renderer->samples),
         .picture = picture,

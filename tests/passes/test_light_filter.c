@@ -114,8 +114,7 @@ static void filter(rig *r)
                                           .specular_factor = r->mean.specular.factor};
     lsf_light_guide_run(&r->guide, r->s.setup.plan, r->iterations, &means);
     const lsf_light_filter_inputs inputs = {
-        .guide = r->guide.guide,
-        .slope = r->guide.slope,
+        .guide = r->guide.maps,
         .half = r->mean.half,
         .half_count = lsf_light_mean_half(r->iterations),
         .picture = r->picture,
