@@ -123,6 +123,9 @@ const lsf_requirements *lsf_scene_get_requirements(const lsf_scene *scene);
 uint32_t lsf_scene_camera_count(const lsf_scene *scene); /* at least 1 */
 const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index);
 
+/* Seconds until the last key of its animations; 0 where there are none. */
+double lsf_scene_duration(const lsf_scene *scene);
+
 /* What was ignored or repaired while loading, one sentence each. */
 uint32_t lsf_scene_note_count(const lsf_scene *scene);
 const char *lsf_scene_note(const lsf_scene *scene, uint32_t index);

@@ -23,8 +23,10 @@ static double last_key(const lsf_curve *curve)
 }
 
 /* Time of the last key of all. */
-static double animation_duration(const lsf_scene *scene)
+double lsf_scene_duration(const lsf_scene *scene)
 {
+    if (!scene)
+        return 0.0;
     double duration = 0.0;
     for (uint32_t i = 0; i < scene->channel_count; i++)
         duration = fmax(duration, last_key(&scene->channels[i].curve));
@@ -207,7 +209,7 @@ static void describe_json(lsf_string *out, const lsf_scene *scene)
     add_extensions_json(out, scene);
     lsf_string_add(out, "  \"animation\": {\"channels\": %u, \"seconds\": ",
                    scene->channel_count + scene->animated_count);
-    lsf_string_add_json_number(out, animation_duration(scene));
+    lsf_string_add_json_number(out, lsf_scene_duration(scene));
     lsf_string_add(out, "},\n  \"bounds\": {");
     add_vector(out, "min", r->bounds_min);
     lsf_string_add(out, ", ");
@@ -311,7 +313,7 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
     uint32_t channels = scene->channel_count + scene->animated_count;
     if (channels > 0)
         lsf_string_add(out, "animated     %u channel%s, %.9g s\n", channels, lsf_plural(channels),
-                       animation_duration(scene));
+                       lsf_scene_duration(scene));
     if (r->bounds_min[0] <= r->bounds_max[0])
         lsf_string_add(out, "bounds       %.9g %.9g %.9g to %.9g %.9g %.9g\n", r->bounds_min[0],
                        r->bounds_min[1], r->bounds_min[2], r->bounds_max[0], r->bounds_max[1],

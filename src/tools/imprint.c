@@ -22,7 +22,8 @@ void lsf_imprint_add_word(lsf_string *text, const char *word)
 void lsf_imprint_add_option(lsf_string *options, const lsf_command_option *option,
                             const char *value)
 {
-    static const char *const others[] = {"output", "format", "json", "preset", "quiet", "verbose"};
+    static const char *const others[] = {"output", "format",  "json", "preset",
+                                         "quiet",  "verbose", "view"};
     for (size_t i = 0; i < LSF_COUNT(others); i++)
         if (strcmp(option->name, others[i]) == 0)
             return;

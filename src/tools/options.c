@@ -9,10 +9,11 @@
 #define PLANNING (RENDERING | LSF_COMMAND_PLAN)
 #define LOADING (PLANNING | LSF_COMMAND_INFO)
 #define MEASURING (LSF_COMMAND_BENCH | LSF_COMMAND_MEASURE)
-#define STAGING (PLANNING | MEASURING | LSF_COMMAND_SANDBOX)
-#define SCENES (LOADING | MEASURING | LSF_COMMAND_SANDBOX)
+#define STAGING (PLANNING | MEASURING | LSF_COMMAND_SANDBOX | LSF_COMMAND_VIEW)
+#define SCENES (LOADING | MEASURING | LSF_COMMAND_SANDBOX | LSF_COMMAND_VIEW)
 #define DRAWING (RENDERING | MEASURING | LSF_COMMAND_SANDBOX)
 #define PICTURES (RENDERING | LSF_COMMAND_SANDBOX)
+#define SHOWING (PLANNING | LSF_COMMAND_VIEW)
 #define ANY (SCENES | LSF_COMMAND_COMPARE | LSF_COMMAND_HELP)
 
 static const lsf_command commands[] = {
@@ -21,6 +22,10 @@ static const lsf_command commands[] = {
      "Renders SCENE (.gltf or .glb, - for standard input; without one, the furnished interior that "
      "comes with Lightsheaf) into OUT by iterations that converge. It needs neither display nor "
      "GPU."},
+    {LSF_COMMAND_VIEW, "view", "[SCENE]...", 0, UINT32_MAX, "look at scenes in a window",
+     "Shows SCENE in a window, in which the camera moves, techniques and their options are tried, "
+     "and light is seen to change; without one, a page of the scenes that come with Lightsheaf. "
+     "What is still becomes the picture that `render` makes. H shows keys and buttons."},
     {LSF_COMMAND_REFERENCE, "reference", "[SCENE]... -o OUT", 0, UINT32_MAX,
      "path-trace the same picture on the CPU, as ground truth",
      "Path-traces SCENE on the CPU: what a technique's picture is measured against. It takes the "
@@ -87,13 +92,13 @@ static const lsf_command_option options[] = {
     {"format", 0, "FORMAT", PICTURES, "Output", LSF_VALUE_CHOICE, AT(format), LSF_IMAGE_FORMAT_EXR,
      0, "exr|hdr|png", NULL,
      "the format, whatever the ending of OUT; standard output is exr without it"},
-    {"exposure", 0, "EV|auto", PICTURES, "Output", LSF_VALUE_EXPOSURE, AT(exposure), -100, 100,
-     NULL, "0",
+    {"exposure", 0, "EV|auto", PICTURES | LSF_COMMAND_VIEW, "Output", LSF_VALUE_EXPOSURE,
+     AT(exposure), -100, 100, NULL, "0",
      "radiance is multiplied by 2^EV before tone mapping; auto brings the picture's log-average "
      "luminance to middle grey, 0.18; float formats hold radiance as it is"},
     {"exposure", 0, "EV", LSF_COMMAND_COMPARE | LSF_COMMAND_MEASURE, "Output", LSF_VALUE_FLOAT,
      AT(exposure.ev), -100, 100, NULL, "0", "radiance is multiplied by 2^EV before tone mapping"},
-    {"tonemap", 0, "CURVE", PICTURES, "Output", LSF_VALUE_CHOICE, AT(tonemap),
+    {"tonemap", 0, "CURVE", PICTURES | LSF_COMMAND_VIEW, "Output", LSF_VALUE_CHOICE, AT(tonemap),
      LSF_TONE_CURVE_NEUTRAL, 0, "neutral|none|aces|agx", "neutral",
      "from radiance to .png: neutral is Khronos PBR Neutral, which keeps base colours; none is "
      "sRGB, cut off at 1; aces and agx are like film"},
@@ -170,7 +175,7 @@ static const lsf_command_option options[] = {
      0, NULL, NULL,
      "take options from a file, one a line as name=value, as measure --save-preset writes them; "
      "those on the command line count more"},
-    {"technique", 't', "NAME", PLANNING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TECHNIQUE,
+    {"technique", 't', "NAME", SHOWING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TECHNIQUE,
      AT(technique), 0, 0, NULL, "bidirectional", "how light is found; see --list-techniques"},
     {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,
      NULL, "1024,768", "width and height in pixels; 1024x768 will do too"},
@@ -188,17 +193,17 @@ static const lsf_command_option options[] = {
      NULL, NULL,
      "directions of bundles whose median is taken, or frames whose mean is; without it, 7 "
      "directions, 32 frames on a GPU and 3 in software"},
-    {"samples", 's', "N", PLANNING, "Picture", LSF_VALUE_COUNT, AT(samples), 1, 1000000000, NULL,
+    {"samples", 's', "N", SHOWING, "Picture", LSF_VALUE_COUNT, AT(samples), 1, 1000000000, NULL,
      NULL, "iterations; 64, or with --time-limit as many as fit"},
     {"time-limit", 0, "S", PLANNING, "Picture", LSF_VALUE_DOUBLE, AT(time_limit), 0.001, 1e9, NULL,
      NULL,
      "seconds after which rendering ends; an iteration that is not done is dropped, but for the "
      "first"},
-    {"bounces", 'b', "N", PLANNING | LSF_COMMAND_MEASURE | LSF_COMMAND_SANDBOX, "Picture",
+    {"bounces", 'b', "N", SHOWING | LSF_COMMAND_MEASURE | LSF_COMMAND_SANDBOX, "Picture",
      LSF_VALUE_COUNT, AT(bounces), 0, LSF_BOUNCES_MAX, NULL, NULL,
      "indirect bounces of light; 0 is direct light only; without it 3, and 7 where materials "
      "transmit light, for each side of a wall of glass takes one"},
-    {"raw", 0, NULL, PLANNING | LSF_COMMAND_MEASURE, "Picture", LSF_VALUE_FLAG, AT(raw), 0, 0, NULL,
+    {"raw", 0, NULL, SHOWING | LSF_COMMAND_MEASURE, "Picture", LSF_VALUE_FLAG, AT(raw), 0, 0, NULL,
      NULL,
      "the mean of the iterations alone: no filter, and all pixels take the same samples unless "
      "interleave.size says otherwise"},
@@ -207,7 +212,7 @@ static const lsf_command_option options[] = {
     {"define", 'D', "pass.key=value", STAGING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,
      NULL, "set an option of a pass; repeatable; see --list-options"},
 
-    {"background", 0, "R,G,B|environment|transparent", PLANNING, "Picture", LSF_VALUE_BACKGROUND,
+    {"background", 0, "R,G,B|environment|transparent", SHOWING, "Picture", LSF_VALUE_BACKGROUND,
      AT(background), 0, 1e30, NULL, NULL,
      "what is seen where no surface is: a radiance; environment; or transparent, which gives .exr "
      "and .png the alpha of each pixel; without it, the environment, or grey before the default "
@@ -253,6 +258,9 @@ static const lsf_command_option options[] = {
      "keep light from frame to frame, so that few samples a frame look like many; each frame then "
      "depends on those before it: one machine renders all, from the first to the last"},
 
+    {"view", 0, "FILE", SHOWING, "Scene", LSF_VALUE_TEXT, AT(view_file), 0, 0, NULL, NULL,
+     "take scene, camera and options from a view that `lightsheaf view` has saved; those on the "
+     "command line count more"},
     {"environment", 'e', "FILE|R,G,B", SCENES, "Scene", LSF_VALUE_ENVIRONMENT, AT(environment), 0,
      1e30, NULL, NULL,
      "light from outside: a latitude-longitude .hdr or .exr, or a uniform radiance in W/(m^2 sr)"},
@@ -319,15 +327,30 @@ static const lsf_command_option options[] = {
     {"epsilon", 0, "X", LSF_COMMAND_COMPARE, "Comparison", LSF_VALUE_DOUBLE, AT(epsilon), 0, 1e30,
      NULL, NULL, "added to the squared reference in relMSE; without it, 0.01 of its squared mean"},
 
+    {"resolution", 'r', "W,H", LSF_COMMAND_VIEW, "Window", LSF_VALUE_RESOLUTION, AT(resolution), 64,
+     16384, NULL, NULL, "width and height of the window; without it 1280,800"},
+    {"full-screen", 0, NULL, LSF_COMMAND_VIEW, "Window", LSF_VALUE_FLAG, AT(full_screen), 0, 0,
+     NULL, NULL, "fill the screen"},
+    {"budget", 0, "MS", LSF_COMMAND_VIEW, "Window", LSF_VALUE_DOUBLE, AT(budget), 1, 10000, NULL,
+     NULL,
+     "milliseconds that a frame may take while things move: pictures are as large, and maps as "
+     "fine, as it allows; without it 100 in software, 33 on a GPU"},
+    {"record", 0, "FILE", LSF_COMMAND_VIEW, "Window", LSF_VALUE_TEXT, AT(record), 0, 0, NULL, NULL,
+     "write down what is done with mouse and keys, frame by frame"},
+    {"replay", 0, "FILE", LSF_COMMAND_VIEW, "Window", LSF_VALUE_TEXT, AT(replay), 0, 0, NULL, NULL,
+     "do what such a file says, then end"},
+    {"list-keys", 0, NULL, LSF_COMMAND_VIEW, "General", LSF_VALUE_FLAG, AT(list_keys), 0, 0, NULL,
+     NULL, "print keys and buttons"},
+
     {"backend", 0, "NAME", DRAWING, "Device", LSF_VALUE_CHOICE, AT(backend), LSF_BACKEND_AUTO, 0,
      "auto|egl|osmesa", "auto",
      "where OpenGL comes from: auto is EGL on a GPU, else EGL in software, else OSMesa"},
-    {"shader-dir", 0, "DIR", DRAWING, "Device", LSF_VALUE_TEXT, AT(shader_dir), 0, 0, NULL, NULL,
-     "read the shaders from DIR instead of the built-in copy"},
+    {"shader-dir", 0, "DIR", DRAWING | LSF_COMMAND_VIEW, "Device", LSF_VALUE_TEXT, AT(shader_dir),
+     0, 0, NULL, NULL, "read the shaders from DIR instead of the built-in copy"},
     {"gl-debug", 0, NULL, DRAWING, "Device", LSF_VALUE_FLAG, AT(gl_debug), 0, 0, NULL, NULL,
      "make a debug context, log its messages, and stop at the first OpenGL error"},
 
-    {"list-techniques", 0, NULL, PLANNING | LSF_COMMAND_MEASURE | LSF_COMMAND_SANDBOX, "General",
+    {"list-techniques", 0, NULL, SHOWING | LSF_COMMAND_MEASURE | LSF_COMMAND_SANDBOX, "General",
      LSF_VALUE_FLAG, AT(list_techniques), 0, 0, NULL, NULL, "print the techniques"},
     {"list-options", 0, NULL, STAGING, "General", LSF_VALUE_FLAG, AT(list_options), 0, 0, NULL,
      NULL, "print the options of all passes, for -D"},

@@ -19,6 +19,7 @@ typedef enum lsf_command_bit {
     LSF_COMMAND_BENCH = 1 << 6,
     LSF_COMMAND_MEASURE = 1 << 7,
     LSF_COMMAND_SANDBOX = 1 << 8,
+    LSF_COMMAND_VIEW = 1 << 9,
 } lsf_command_bit;
 
 typedef struct lsf_command {
@@ -188,6 +189,14 @@ typedef struct lsf_settings {
     const char *preset, *saved_preset; /* NULL: not given */
 
     char *preset_text; /* values point into it */
+    const char *record, *replay;
+    double budget; /* milliseconds; 0: by the device */
+    bool full_screen, list_keys;
+
+    const char *view_file;  /* NULL: not given */
+    const char *view_scene; /* that it names; NULL: none */
+    char *view_text;        /* values point into it */
+
     lsf_string typed;  /* the options that shape a picture, as one would type them */
     lsf_string shared; /* those of them that render takes */
     uint64_t given[2]; /* bit i of word i / 64: row i of the table was on the command line

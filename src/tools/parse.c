@@ -214,15 +214,18 @@ static const lsf_command_option *find_option(const lsf_command *command, int cod
 static bool read_preset(lsf_settings *settings, int argc, char **argv, const char *letters,
                         const struct option *longs, lsf_error *error)
 {
-    const char *path = NULL;
+    const char *path = NULL, *view = NULL;
     int code;
     while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
         const lsf_command_option *option =
             code == '?' || code == ':' || code == 1 ? NULL : find_option(settings->command, code);
         if (option && strcmp(option->name, "preset") == 0 && option->type == LSF_VALUE_TEXT)
             path = optarg;
+        if (option && strcmp(option->name, "view") == 0)
+            view = optarg;
     }
-    return !path || lsf_preset_read(settings, path, error);
+    return (!path || lsf_preset_read(settings, path, error)) &&
+           (!view || lsf_view_read(settings, view, error));
 }
 
 bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, char **argv,
@@ -261,6 +264,9 @@ bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, c
     for (; optind < argc; optind++) /* behind "--" */
         if (!lsf_list_append(&settings->operands, argv[optind]))
             return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", argv[optind]);
+    if (settings->view_scene && settings->operands.count == 0 &&
+        !lsf_list_append(&settings->operands, settings->view_scene))
+        return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", settings->view_scene);
     return check_operands(settings, error);
 }
 
@@ -274,6 +280,7 @@ void lsf_settings_finish(lsf_settings *settings)
     free((void *)settings->thresholds.items);
     free((void *)settings->techniques.items);
     free((void *)settings->sweeps.items);
+    free(settings->view_text);
     free(settings->typed.text);
     free(settings->shared.text);
     free(settings->preset_text);

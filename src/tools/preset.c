@@ -14,9 +14,13 @@ enum { LARGEST = 1 << 16 }; /* bytes */
 static bool may_stand(const lsf_command_option *option)
 {
     static const char *const groups[] = {"Picture", "Camera", "Scene"};
+    static const char *const others[] = {"exposure", "tonemap", "resolution"};
+    for (size_t i = 0; i < LSF_COUNT(others); i++)
+        if (strcmp(option->name, others[i]) == 0)
+            return true;
     for (size_t i = 0; i < LSF_COUNT(groups); i++)
         if (strcmp(option->group, groups[i]) == 0)
-            return strcmp(option->name, "preset") != 0;
+            return strcmp(option->name, "preset") != 0 && strcmp(option->name, "view") != 0;
     return false;
 }
 
@@ -80,21 +84,38 @@ static char *trim(char *line)
     return *line && *line != '#' ? line : NULL;
 }
 
-bool lsf_preset_read(lsf_settings *settings, const char *path, lsf_error *error)
+/* The word before the scene's path in a view. */
+#define SCENE "file="
+
+static bool read_file(lsf_settings *settings, const char *path, char **content, bool view,
+                      lsf_error *error)
 {
     size_t length;
     lsf_error cause;
-    free(settings->preset_text);
-    settings->preset_text = lsf_file_read(path, LARGEST, &length, error);
-    if (!settings->preset_text)
+    free(*content);
+    *content = lsf_file_read(path, LARGEST, &length, error);
+    if (!*content)
         return false;
-    if (strlen(settings->preset_text) != length)
-        return lsf_error_set(error, LSF_ERROR_FILE, "%s: is no preset: it holds a NUL", path);
-    char *rest = settings->preset_text, *line;
+    if (strlen(*content) != length)
+        return lsf_error_set(error, LSF_ERROR_FILE, "%s: is no %s: it holds a NUL", path,
+                             view ? "view" : "preset");
+    char *rest = *content, *line;
     for (uint32_t number = 1; (line = strsep(&rest, "\n")); number++) {
         char *text = trim(line);
-        if (text && !read_line(settings, text, &cause))
+        if (text && view && strncmp(text, SCENE, strlen(SCENE)) == 0)
+            settings->view_scene = text + strlen(SCENE);
+        else if (text && !read_line(settings, text, &cause))
             return lsf_error_set(error, cause.code, "%s: line %u: %s", path, number, cause.message);
     }
     return true;
+}
+
+bool lsf_preset_read(lsf_settings *settings, const char *path, lsf_error *error)
+{
+    return read_file(settings, path, &settings->preset_text, false, error);
+}
+
+bool lsf_view_read(lsf_settings *settings, const char *path, lsf_error *error)
+{
+    return read_file(settings, path, &settings->view_text, true, error);
 }

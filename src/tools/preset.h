@@ -5,8 +5,10 @@
 
 #include "tools/options.h"
 
-/* Sets what the file says. Options of the picture, its camera and its scene may stand there, which
- * the command takes. LSF_ERROR_FILE or LSF_ERROR_USAGE name file and line. */
+/* Sets what the file says. Options of the picture, its camera, its scene and its tones may stand
+ * there, which the command takes. LSF_ERROR_FILE or LSF_ERROR_USAGE name file and line. */
 bool lsf_preset_read(lsf_settings *settings, const char *path, lsf_error *error);
+/* The same of a view, which may also name its scene, as file=PATH. */
+bool lsf_view_read(lsf_settings *settings, const char *path, lsf_error *error);
 
 #endif

@@ -10,6 +10,8 @@ int lsf_tool_plan(int argc, char **argv);
 int lsf_tool_bench(int argc, char **argv);
 int lsf_tool_measure(int argc, char **argv);
 int lsf_tool_sandbox(int argc, char **argv);
+int lsf_tool_view(int argc, char **argv);
+int lsf_tool_view(int argc, char **argv);
 int lsf_tool_help(int argc, char **argv);
 
 #endif

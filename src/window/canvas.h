@@ -25,6 +25,18 @@ void lsf_canvas_write(lsf_canvas *canvas, const uint8_t *rgb);
 /* The same the other way. */
 void lsf_canvas_read(const lsf_canvas *canvas, uint8_t *rgb);
 
+/* How values become visible. */
+typedef enum lsf_tint {
+    LSF_TINT_COLOR,    /* linear R, G, B times `scale` */
+    LSF_TINT_SIGNED,   /* -1..1 of X, Y, Z times `scale` as dark to bright; nothing: black */
+    LSF_TINT_DISTANCE, /* near is bright; half as bright at 1 / `scale` */
+    LSF_TINT_MOTION    /* X and Y times `scale` as red and green about grey */
+} lsf_tint;
+
+/* Draws a texture of the canvas' size, GL's name, rows from the bottom. False: no shader. */
+bool lsf_canvas_tint(lsf_canvas *canvas, uint32_t texture, lsf_tint tint, float scale);
+void lsf_canvas_close_tints(void); /* before the context goes */
+
 #ifdef __cplusplus
 }
 #endif

@@ -20,6 +20,24 @@
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                             \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                           \
     X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)                                   \
+    X(PFNGLCREATESHADERPROC, CreateShader)                                                         \
+    X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                         \
+    X(PFNGLCOMPILESHADERPROC, CompileShader)                                                       \
+    X(PFNGLDELETESHADERPROC, DeleteShader)                                                         \
+    X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                       \
+    X(PFNGLATTACHSHADERPROC, AttachShader)                                                         \
+    X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                           \
+    X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                         \
+    X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                       \
+    X(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                                             \
+    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                   \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                             \
+    X(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit)                                                   \
+    X(PFNGLBINDSAMPLERPROC, BindSampler)                                                           \
+    X(PFNGLUNIFORM1IPROC, Uniform1i)                                                               \
+    X(PFNGLUNIFORM1FPROC, Uniform1f)                                                               \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                             \
     X(PFNGLVIEWPORTPROC, Viewport)                                                                 \
     X(PFNGLDISABLEPROC, Disable)                                                                   \
     X(PFNGLGETERRORPROC, GetError)

@@ -31,6 +31,7 @@ typedef enum lsf_ui_color {
 
 /* --- measures --- */
 
+float lsf_ui_em(void);   /* height of the text: what `lines` count */
 float lsf_ui_line(void); /* height of a line of widgets with the gap below it */
 float lsf_ui_text_width(const char *text);
 
@@ -81,7 +82,9 @@ bool lsf_ui_button(const char *label);
 bool lsf_ui_check(const char *label, bool *value);
 bool lsf_ui_slider(const char *label, float *value, float low, float high, const char *format,
                    bool logarithmic);
-bool lsf_ui_slider_int(const char *label, int *value, int low, int high, bool logarithmic);
+/* `format` NULL: the number. */
+bool lsf_ui_slider_int(const char *label, int *value, int low, int high, const char *format,
+                       bool logarithmic);
 /* One to four numbers that are dragged, `speed` a pixel. */
 bool lsf_ui_drag(const char *label, float *values, int count, float speed, float low, float high,
                  const char *format);

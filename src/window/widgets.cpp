@@ -69,6 +69,11 @@ float from_srgb(float x)
 
 /* --- measures --- */
 
+float lsf_ui_em(void)
+{
+    return em();
+}
+
 float lsf_ui_line(void)
 {
     return ImGui::GetFrameHeightWithSpacing();
@@ -260,7 +265,7 @@ bool lsf_ui_button(const char *label)
 
 bool lsf_ui_check(const char *label, bool *value)
 {
-    bool changed = ImGui::Checkbox(label, value);
+    bool changed = ImGui::Checkbox(begin_value(label), value);
     ui::note(label);
     return changed;
 }
@@ -274,9 +279,10 @@ bool lsf_ui_slider(const char *label, float *value, float low, float high, const
     return assign_numbers(label, value, 1) || changed;
 }
 
-bool lsf_ui_slider_int(const char *label, int *value, int low, int high, bool logarithmic)
+bool lsf_ui_slider_int(const char *label, int *value, int low, int high, const char *format,
+                       bool logarithmic)
 {
-    bool changed = ImGui::SliderInt(begin_value(label), value, low, high, "%d",
+    bool changed = ImGui::SliderInt(begin_value(label), value, low, high, format ? format : "%d",
                                     (logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
                                         ImGuiSliderFlags_AlwaysClamp);
     float number;

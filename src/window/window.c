@@ -1,6 +1,7 @@
 #include "window/window_parts.h"
 
 #include "base/base.h"
+#include "window/canvas.h"
 #include "window/gl_calls.h"
 #include "window/ui_frame.h"
 
@@ -71,6 +72,8 @@ static bool open_context(lsf_window *window, lsf_error *error)
 static void close_context(lsf_window *window)
 {
     lsf_ui_close();
+    if (window->context)
+        lsf_canvas_close_tints();
     lsf_context_destroy(window->context);
     window->context = NULL;
     if (window->handle)

@@ -6,7 +6,7 @@ import subprocess
 
 from command import COMMAND, DONE, FILE, SOURCE_ROOT, USAGE, CommandTest, main
 
-COMMANDS = ("render", "reference", "compare", "info", "plan", "bench", "measure", "help")
+COMMANDS = ("render", "view", "reference", "compare", "info", "plan", "bench", "measure", "help")
 
 
 class Help(CommandTest):

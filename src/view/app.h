@@ -1,0 +1,185 @@
+/* What the files of the viewer share. */
+#ifndef LSF_VIEW_APP_H
+#define LSF_VIEW_APP_H
+
+#include "view/budget.h"
+#include "view/camera.h"
+#include "view/view.h"
+#include "window/canvas.h"
+#include "window/ui.h"
+
+enum { LSF_VIEWER_OPTIONS = 96, LSF_VIEWER_PASSES = 40, LSF_VIEWER_HISTORY = 96 };
+
+/* --- settings: what a picture is of, beside scene and camera --- */
+
+typedef struct lsf_viewer_option {
+    const char *key, *type, *help; /* lsf_option's */
+    char range[80], initial[32], unit[24];
+    char value[32];
+} lsf_viewer_option;
+
+typedef struct lsf_viewer_settings {
+    int technique;
+    uint32_t samples; /* of a finished picture */
+    int bounces;      /* -1: as many as the scene asks for */
+    uint64_t seed;
+    bool raw;
+    float exposure;
+    int curve;
+    int layer; /* 0: the picture, else the AOV of bit layer - 1 */
+    lsf_background background;
+    float background_radiance[3];
+    uint32_t option_count;
+    lsf_viewer_option options[LSF_VIEWER_OPTIONS];
+} lsf_viewer_settings;
+
+void lsf_viewer_settings_start(lsf_viewer_settings *settings, const lsf_viewer_start *start);
+
+/* Sets what render params take of them; they borrow `storage`. */
+typedef struct lsf_viewer_assignments {
+    char text[LSF_VIEWER_OPTIONS + 8][128];
+    const char *items[LSF_VIEWER_OPTIONS + 8];
+    uint32_t count;
+} lsf_viewer_assignments;
+void lsf_viewer_settings_params(const lsf_viewer_settings *settings, lsf_render_params *params,
+                                lsf_viewer_assignments *storage);
+bool lsf_viewer_option_changed(const lsf_viewer_option *option);
+
+/* --- pictures --- */
+
+/* A renderer and the canvas that shows its picture. */
+typedef struct lsf_viewer_picture {
+    lsf_renderer *renderer;
+    lsf_canvas canvas;
+    uint32_t width, height;
+    uint32_t done;    /* iterations of the picture that is shown */
+    uint32_t samples; /* that it is to have */
+    bool begun;       /* it is of what the viewer shows */
+    uint32_t version; /* of the settings that its renderer has */
+    lsf_error error;  /* code LSF_OK: none */
+} lsf_viewer_picture;
+
+/* Milliseconds of the last frames, by passes. */
+typedef struct lsf_viewer_times {
+    const char *names[LSF_VIEWER_PASSES];
+    float milliseconds[LSF_VIEWER_HISTORY][LSF_VIEWER_PASSES];
+    float mean[LSF_VIEWER_PASSES]; /* of a frame, over the last ones */
+    uint32_t pass_count, next;     /* the row to fill next */
+} lsf_viewer_times;
+
+/* --- the viewer --- */
+
+typedef enum lsf_viewer_tab {
+    LSF_VIEWER_TAB_PICTURE,
+    LSF_VIEWER_TAB_SCENE,
+    LSF_VIEWER_TAB_COMPARE,
+    LSF_VIEWER_TAB_PASSES,
+    LSF_VIEWER_TAB_COUNT
+} lsf_viewer_tab;
+
+typedef struct lsf_viewer {
+    const lsf_viewer_start *start;
+    lsf_window *window;
+    lsf_context *context;
+    const lsf_input *input;
+    lsf_context_info device;
+
+    /* Files that are open, and the one that is shown. */
+    char **paths;
+    uint32_t path_count, shown;
+    uint64_t path_capacity;
+    lsf_scene *scene; /* NULL: the start page, or a file that did not load */
+    lsf_scene_params scene_params;
+    lsf_error scene_error;
+
+    lsf_viewer_camera camera;
+    uint32_t file_camera;
+    char camera_name[16]; /* its index as text */
+    lsf_viewer_settings settings;
+    uint32_t settings_version; /* counts changes */
+    double time, duration;     /* seconds of animations */
+    bool playing;
+
+    lsf_rect area; /* of the picture, in the window */
+    lsf_viewer_picture lively, still;
+    lsf_viewer_times times;
+    lsf_budget budget;
+    lsf_viewer_assignments assignments;
+    bool stale;         /* something is otherwise than in the frame before */
+    bool moving;        /* lively pictures are shown */
+    double quiet_since; /* seconds on the input's clock */
+    char *plan_text;
+    bool plan_wanted;
+    bool cut;           /* nothing that is shown goes on: another scene, a jump in time */
+    bool tones_changed; /* exposure or curve: pictures are shown anew */
+    bool expose_wanted; /* the exposure is to follow from the next finished picture */
+
+    bool panels, cheat_sheet;
+    lsf_viewer_tab tab;
+    bool tab_wanted;  /* `tab` comes to the front */
+    char notice[256]; /* in the status bar, for a while */
+    lsf_ui_color notice_color;
+    double notice_until;
+    char *capture; /* the picture goes there as soon as it is finished */
+} lsf_viewer;
+
+/* Something of the picture is otherwise from now on. */
+void lsf_viewer_touch(lsf_viewer *viewer);
+/* ... and of its settings. */
+void lsf_viewer_touch_settings(lsf_viewer *viewer);
+/* A line in the status bar for some seconds. */
+void lsf_viewer_say(lsf_viewer *viewer, lsf_ui_color color, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* --- files.c --- */
+
+bool lsf_viewer_add_path(lsf_viewer *viewer, const char *path);
+/* Shows the file of that index; what fails is shown, too. */
+void lsf_viewer_show_file(lsf_viewer *viewer, uint32_t index);
+void lsf_viewer_close_scene(lsf_viewer *viewer);
+
+/* --- pictures.c --- */
+
+/* Parameters of a picture of that size, of everything as it is; they borrow from the viewer. */
+lsf_render_params lsf_viewer_params(lsf_viewer *viewer, uint32_t width, uint32_t height);
+/* Brings the picture that is shown a frame further. */
+void lsf_viewer_refine(lsf_viewer *viewer);
+/* The picture that is to be looked at: of the two. */
+const lsf_viewer_picture *lsf_viewer_shown(const lsf_viewer *viewer);
+bool lsf_viewer_finished(const lsf_viewer *viewer);
+void lsf_viewer_drop_pictures(lsf_viewer *viewer);
+/* Saves the finished picture as PNG, with how it was made. */
+void lsf_viewer_save_picture(lsf_viewer *viewer, const char *path);
+
+/* --- layers.c --- */
+
+/* Shows a layer's texture, as the layer is best seen, in a canvas of its size. */
+void lsf_viewer_show_layer(lsf_viewer *viewer, uint32_t texture, lsf_canvas *canvas);
+const char *lsf_viewer_layer_name(int layer); /* "Picture", "Albedo", ...; NULL past the end */
+
+/* --- keys.c --- */
+
+void lsf_viewer_handle(lsf_viewer *viewer);
+bool lsf_viewer_key(uint32_t index, lsf_viewer_key_row *row);
+/* Functions of keys and menus alike. */
+void lsf_viewer_reset(lsf_viewer *viewer);
+void lsf_viewer_next_camera(lsf_viewer *viewer);
+void lsf_viewer_screenshot(lsf_viewer *viewer);
+void lsf_viewer_copy_command(lsf_viewer *viewer);
+void lsf_viewer_save_view(lsf_viewer *viewer);
+void lsf_viewer_set_technique(lsf_viewer *viewer, int technique);
+
+/* --- command_line.c --- */
+
+/* The options that make this very picture, each with a space before it, or each in a line of its
+ * own; malloc'ed, NULL without memory. */
+char *lsf_viewer_command(lsf_viewer *viewer);
+char *lsf_viewer_view_file(lsf_viewer *viewer);
+
+/* --- panels --- */
+
+void lsf_viewer_show_panels(lsf_viewer *viewer);
+void lsf_viewer_picture_tab(lsf_viewer *viewer);
+void lsf_viewer_passes_tab(lsf_viewer *viewer);
+
+#endif

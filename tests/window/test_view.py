@@ -1,0 +1,95 @@
+"""The viewer under a display without a screen: what it shows is what `lightsheaf render` makes."""
+import os
+import shlex
+
+from display import WindowTest, main, read_png
+
+COMMAND = os.environ["LSF_COMMAND"]
+SCENES = os.path.join(os.environ["LSF_SOURCE_ROOT"], "data/scenes")
+SIZE = "96,72"
+PAGE = os.path.join(os.environ["LSF_SOURCE_ROOT"], "docs/window.md")
+BEGIN, END = "<!-- keys: begin -->\n", "<!-- keys: end -->"
+
+
+class View(WindowTest):
+    def view(self, *lines, scene="cornell_point.gltf", words=(), status=0):
+        """Without panels, so that the picture fills the window."""
+        script = self.write("script", "\n".join(lines) + "\n")
+        scenes = [os.path.join(SCENES, scene)] if scene else []
+        return self.run_program(COMMAND, "view", *scenes, "-r", SIZE, "-s", "2", "--replay", script,
+                                *words, status=status)
+
+    def shot(self, *lines, **keywords):
+        """The last picture that is saved, and the command line that is copied for it."""
+        keys = ["900 settle", "900 key F12", "901 key-up F12", "903 key Control", "904 key C",
+                "905 key-up C", "905 key-up Control", "906 key Shift", "907 key F12",
+                "908 key-up Shift", "910 close"]
+        done = self.view("1 key Tab", "2 key-up Tab", *lines, *keys, **keywords)
+        self.assertEqual(done.stderr, "")
+        return done.stdout.splitlines()[-1]
+
+    def check(self, *lines, **keywords):
+        """What was copied makes what was saved, to the bit, and so does the window."""
+        command = self.shot(*lines, **keywords)
+        self.assertTrue(command.startswith("lightsheaf render "), command)
+        self.run_program(COMMAND, *shlex.split(command)[1:], "-q", "-o", "rendered.png")
+        rendered = read_png(self.path("rendered.png"))
+        self.assertEqual(read_png(self.path("lightsheaf-0001.png")), rendered, command)
+        self.assertEqual(read_png(self.path("lightsheaf-0001-window.png"))[:2], rendered[:2])
+        self.assertEqual(read_png(self.path("lightsheaf-0001-window.png"))[2], rendered[2], command)
+        return command, rendered
+
+    def test_the_file_s_own_camera(self):
+        command, (width, height, _) = self.check()
+        self.assertEqual((width, height), (96, 72))
+        self.assertNotIn("--camera", command)
+
+    def test_moves_of_the_camera(self):
+        command, _ = self.check("5 move 40 40", "6 button 0", "7 move 60 30", "8 button-up 0",
+                                "9 button 2", "10 move 55 35", "11 button-up 2", "12 scroll 2",
+                                "13 button 1", "14 key W", "15 move 50 30", "20 key-up W",
+                                "21 button-up 1", words=["-t", "direct"])
+        self.assertIn("--camera-position", command)
+        self.assertIn("--camera-target", command)
+
+    def test_the_page_lists_the_keys(self):
+        """LSF_UPDATE=1 in the environment brings docs/window.md up to date instead."""
+        lines = self.run_program(COMMAND, "view", "--list-keys").stdout.splitlines()
+        rows = "".join(f"| {line[:31].strip()} | {line[31:]} |\n" for line in lines)
+        self.assertGreater(len(lines), 20)
+        with open(PAGE, encoding="utf-8") as file:
+            before, rest = file.read().split(BEGIN)
+        table, after = rest.split(END)
+        wanted = "| keys | what they do |\n| --- | --- |\n" + rows
+        if os.environ.get("LSF_UPDATE"):
+            with open(PAGE, "w", encoding="utf-8") as file:
+                file.write(before + BEGIN + wanted + END + after)
+        else:
+            self.assertEqual(table, wanted)
+
+    def test_no_display(self):
+        done = self.run_program(COMMAND, "view", status=4, environment={"PATH": "/usr/bin"})
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertIn("xvfb-run", done.stderr)
+
+    def test_a_scene_that_does_not_load_is_told_in_the_window(self):
+        self.write("bad.gltf", "{")
+        self.view("20 key Shift", "20 key F12", "25 close", scene=None,
+                  words=[self.path("bad.gltf"), "-r", "320,240"])
+        colors = {pixel for row in read_png(self.path("lightsheaf-0001-window.png"))[2] for pixel in row}
+        self.assertTrue(any(r > 200 and g < 150 and b < 140 for r, g, b in colors), "the red heading")
+
+    def test_a_view_that_was_saved_is_rendered_and_shown_again(self):
+        self.view("1 key Tab", "5 move 40 40", "6 button 0", "7 move 60 30", "8 button-up 0",
+                  "9 key Control", "10 key S", "11 key-up S", "12 key-up Control", "13 settle",
+                  "14 key F12", "15 settle", "16 close", words=["-t", "direct", "--exposure", "1.5"])
+        self.run_program(COMMAND, "render", "--view", "lightsheaf-0001.view", "-q", "-o", "rendered.png")
+        rendered = read_png(self.path("rendered.png"))
+        self.assertEqual(read_png(self.path("lightsheaf-0001.png")), rendered)
+        self.view("1 key Tab", "2 settle", "3 key F12", "4 settle", "5 close", scene=None,
+                  words=["--view", "lightsheaf-0001.view"])
+        self.assertEqual(read_png(self.path("lightsheaf-0002.png")), rendered)
+
+
+if __name__ == "__main__":
+    main()
