@@ -30,10 +30,17 @@ static bool create_voxels(lsf_sandbox_engine *engine, lsf_error *error)
                              &engine->grid, setup->setup.scene, error))
         return false;
     lsf_voxel_light_use use = lsf_sandbox_voxel_light(setup);
-    return !has(engine, LSF_NEED_RADIANCE) ||
-           (lsf_voxel_light_create(&engine->voxel_light, engine->context, plan, &use, error) &&
-            lsf_voxel_mip_create(&engine->voxel_mip, engine->context, plan, &engine->grid,
-                                 use.sides, error));
+    if (!has(engine, LSF_NEED_RADIANCE))
+        return true;
+    if (!lsf_voxel_light_create(&engine->voxel_light, engine->context, plan, &use, error) ||
+        !lsf_voxel_mip_create(&engine->voxel_mip, engine->context, plan, &engine->grid, use.sides,
+                              error))
+        return false;
+    /* Shaders ask for places between texels, and between levels. */
+    GLuint radiance = engine->voxel_light.radiance;
+    glTextureParameteri(radiance, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(radiance, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return true;
 }
 
 static bool create_own(lsf_sandbox_engine *engine, lsf_error *error)

@@ -118,7 +118,7 @@ void lsf_help_sandbox_names(lsf_string *text)
         if (strcmp(group, name.group) != 0)
             lsf_string_add(text, "%s%ss\n", *group ? "\n" : "", name.group);
         group = name.group;
-        lsf_string_add(text, "  %s\n", name.use);
+        lsf_string_add(text, "  %s\n%6s", name.use, "");
         add_wrapped(text, name.help, 6, 6);
     }
 }
