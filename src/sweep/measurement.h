@@ -40,6 +40,18 @@ typedef struct lsf_measured_seed {
     uint64_t non_finite; /* pixels, left out of all figures */
 } lsf_measured_seed;
 
+/* Frames that follow each other, from a camera that moves and from one that stands still. All
+ * errors are weighed as in relMSE. */
+typedef struct lsf_measured_path {
+    uint32_t frames; /* 0: none were measured */
+    bool temporal;   /* light was kept from frame to frame */
+    lsf_quartiles milliseconds;
+    lsf_estimate relmse;     /* mean over frames */
+    lsf_estimate difference; /* of the change from frame to frame: squared error */
+    lsf_estimate flicker;    /* squared change from frame to frame where nothing moves */
+    double motion;           /* squared change of the reference from frame to frame */
+} lsf_measured_path;
+
 /* A configuration at one number of samples. */
 typedef struct lsf_measured_point {
     uint32_t configuration;
@@ -48,6 +60,7 @@ typedef struct lsf_measured_point {
     lsf_measured_seed seeds[LSF_SWEEP_MAX_SEEDS];
     uint64_t gl_bytes, gl_bytes_peak; /* while its frames were made */
     lsf_squared_error mse, relmse;
+    lsf_measured_path path;
     char *picture, *preview; /* files of the first seed: linear radiance, and tone-mapped; NULL */
     /* What follows. */
     lsf_quartiles milliseconds;

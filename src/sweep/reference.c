@@ -66,6 +66,7 @@ bool lsf_kept_reference_trace(lsf_kept_reference *kept, const lsf_scene *scene,
         kept->seconds += results[h].build_seconds + results[h].render_seconds;
     }
     kept->rounds += good;
+    kept->traced |= good;
     lsf_image_destroy(traced[0]);
     lsf_image_destroy(traced[1]);
     return good;

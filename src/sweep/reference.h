@@ -9,6 +9,7 @@ typedef struct lsf_kept_reference {
     uint32_t rounds;      /* of tracing, each with a seed of its own */
     uint64_t samples[2];  /* a pixel, of each half */
     double seconds;       /* that tracing them took */
+    bool traced;          /* something was, since it was loaded */
     lsf_image *halves[2]; /* R, G, B; NULL: nothing was traced yet */
 } lsf_kept_reference;
 

@@ -37,6 +37,14 @@ static bool check_settings(const lsf_settings *settings, lsf_error *error)
                              "--save-preset %s: say what it shall be the best for, with "
                              "--budget-ms or --error",
                              settings->saved_preset);
+    if (settings->temporal && !settings->frames.given && settings->turntable == 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--temporal: there are no frames; say which with --frames or "
+                             "--turntable");
+    if ((settings->frames.given && settings->frames.first == settings->frames.last) ||
+        settings->turntable == 1)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--frames: two frames at least tell what changes between them");
     if (settings->resume && (!path || strcmp(path, "-") == 0))
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--resume: name the file with the points, with --json FILE");
@@ -136,12 +144,14 @@ static bool make_key(lsf_measure_job *job, lsf_error *error)
                    (double)settings->exposure.ev);
     for (uint32_t i = 0; i < settings->defines.count; i++)
         lsf_string_add(&text, " %s", settings->defines.items[i]);
+    lsf_string_add(&text, "%s", job->path_key.text ? job->path_key.text : "");
     lsf_string_add(&text, "\n%s %s %s", job->device.backend, job->device.renderer,
                    job->device.version);
     XXH128_hash_t hash = XXH3_128bits(text.text, text.length);
     snprintf(m->key, sizeof m->key, "%016" PRIx64 "%016" PRIx64, hash.high64, hash.low64);
     free(text.text);
-    return !text.failed || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    return (!text.failed && !job->path_key.failed) ||
+           lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
 }
 
 static bool read_points(lsf_measure_job *job, lsf_error *error)
@@ -268,7 +278,8 @@ static bool run(lsf_measure_job *job, lsf_error *error)
     lsf_interrupt_begin_iterations();
     bool good = lsf_measure_reference(&job->settings, job->scene, &job->measurement,
                                       &job->reference, error) &&
-                make_key(job, error) && read_points(job, error) && lsf_measure_points(job, error);
+                lsf_measure_begin_path(job, error) && make_key(job, error) &&
+                read_points(job, error) && lsf_measure_points(job, error);
     lsf_interrupt_end_iterations();
     return good && write_html(job, error) && lsf_measure_write_json(job, error) &&
            write_csv(job, error) && save_preset(job, error) && print_table(job, error);
@@ -282,6 +293,7 @@ int lsf_tool_measure(int argc, char **argv)
     if (status == LSF_GO_ON) {
         status = run(&job, &error) ? 0 : lsf_report_error(&error);
         lsf_kept_reference_finish(&job.reference);
+        lsf_measure_end_path(&job);
         lsf_measure_end_pictures(&job.measurement, &job.picture_folder);
         lsf_measure_end_pictures(&job.measurement, &job.picture_folder);
         lsf_context_destroy(job.context);

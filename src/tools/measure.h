@@ -2,7 +2,9 @@
 #ifndef LSF_TOOLS_MEASURE_H
 #define LSF_TOOLS_MEASURE_H
 
+#include "base/base.h"
 #include "sweep/measurement.h"
+#include "sweep/path.h"
 #include "sweep/reference.h"
 #include "tools/options.h"
 #include "tools/report.h"
@@ -14,12 +16,21 @@ typedef struct lsf_measure_job {
     lsf_context *context;
     lsf_context_info device;
     lsf_kept_reference reference;
+    lsf_path_frame *frames; /* of the path; NULL: none is measured */
+    lsf_kept_reference *frame_references;
+    uint32_t frame_count;
+    lsf_string path_key; /* of their references */
     lsf_measurement measurement;
     lsf_progress_bar bar;
     uint32_t done, total; /* iterations, as far as they are foreseen */
     double start;
     char *picture_folder; /* that lasts as long as the command; NULL: none */
 } lsf_measure_job;
+
+/* Where frames are asked for: their views and references, which the measurement's key depends on.
+ * End it either way. */
+bool lsf_measure_begin_path(lsf_measure_job *job, lsf_error *error);
+void lsf_measure_end_path(lsf_measure_job *job);
 
 /* Measures the grid, or searches it for what is asked for. An interrupt ends it with what there is.
  * After each point the file of --json is written anew. */

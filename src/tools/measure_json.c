@@ -136,6 +136,32 @@ static void add_squared_error(lsf_json *json, const char *name, const lsf_square
     lsf_json_end(json, '}');
 }
 
+static void add_quartiles(lsf_json *json, lsf_quartiles milliseconds)
+{
+    lsf_json_begin(json, "milliseconds", '{');
+    lsf_json_number(json, "median", milliseconds.median);
+    lsf_json_number(json, "lower_quartile", milliseconds.lower);
+    lsf_json_number(json, "upper_quartile", milliseconds.upper);
+    lsf_json_end(json, '}');
+}
+
+static void add_path(lsf_json *json, const lsf_measured_path *path)
+{
+    if (path->frames == 0) {
+        lsf_json_string(json, "path", NULL);
+        return;
+    }
+    lsf_json_begin(json, "path", '{');
+    lsf_json_integer(json, "frames", path->frames);
+    lsf_json_bool(json, "temporal", path->temporal);
+    add_quartiles(json, path->milliseconds);
+    add_estimate(json, "relmse", path->relmse);
+    add_estimate(json, "difference", path->difference);
+    add_estimate(json, "flicker", path->flicker);
+    lsf_json_number(json, "motion", path->motion);
+    lsf_json_end(json, '}');
+}
+
 static void add_seed(lsf_json *json, const lsf_measured_seed *seed)
 {
     lsf_json_begin(json, NULL, '{');
@@ -158,11 +184,7 @@ static void add_point(lsf_json *json, const lsf_measurement *m, const lsf_measur
     lsf_json_string(json, "technique", configuration->technique);
     add_options(json, configuration);
     lsf_json_integer(json, "samples", point->samples);
-    lsf_json_begin(json, "milliseconds", '{');
-    lsf_json_number(json, "median", point->milliseconds.median);
-    lsf_json_number(json, "lower_quartile", point->milliseconds.lower);
-    lsf_json_number(json, "upper_quartile", point->milliseconds.upper);
-    lsf_json_end(json, '}');
+    add_quartiles(json, point->milliseconds);
     lsf_json_begin(json, "gl_bytes", '{');
     lsf_json_integer(json, "plan", point->gl_bytes);
     lsf_json_integer(json, "peak", point->gl_bytes_peak);
@@ -178,6 +200,7 @@ static void add_point(lsf_json *json, const lsf_measurement *m, const lsf_measur
     add_estimate(json, "psnr", point->psnr);
     add_estimate(json, "flip", point->flip);
     add_estimate(json, "flip_hdr", point->flip_hdr);
+    add_path(json, &point->path);
     lsf_json_bool(json, "front", point->front);
     lsf_json_number(json, "ssim_gain", point->ssim_gain);
     lsf_json_string(json, "picture", point->picture);
@@ -259,12 +282,16 @@ static void add_csv_estimate(lsf_string *text, lsf_estimate estimate)
     add_csv_number(text, estimate.high);
 }
 
+static const lsf_measured_path no_path = {
+    .relmse = {.value = NAN}, .difference = {.value = NAN}, .flicker = {.value = NAN}};
+
 void lsf_measure_add_csv(lsf_string *text, const lsf_measurement *m)
 {
     lsf_string_add(text, "technique,options,samples,milliseconds,milliseconds_lower_quartile,"
                          "milliseconds_upper_quartile,gl_bytes_peak,rmse,rmse_low,rmse_high,relmse,"
                          "relmse_low,relmse_high,relmse_variance,relmse_squared_bias,bias_r,bias_g,"
-                         "bias_b,ssim,ssim_low,ssim_high,flip,flip_hdr,front,ssim_gain\r\n");
+                         "bias_b,ssim,ssim_low,ssim_high,flip,flip_hdr,front,ssim_gain,path_relmse,"
+                         "path_difference,path_flicker\r\n");
     for (uint32_t i = 0; i < m->point_count; i++) {
         const lsf_measured_point *point = &m->points[i];
         const lsf_configuration *configuration = &m->configurations[point->configuration];
@@ -287,6 +314,10 @@ void lsf_measure_add_csv(lsf_string *text, const lsf_measurement *m)
         add_csv_number(text, point->flip_hdr.value);
         lsf_string_add(text, ",%s", point->front ? "true" : "false");
         add_csv_number(text, point->ssim_gain);
+        const lsf_measured_path *path = point->path.frames > 0 ? &point->path : &no_path;
+        add_csv_number(text, path->relmse.value);
+        add_csv_number(text, path->difference.value);
+        add_csv_number(text, path->flicker.value);
         lsf_string_add(text, "\r\n");
     }
 }

@@ -27,9 +27,11 @@ static bool go_on(void *user)
 static lsf_sweep_stage stage_of(lsf_measure_job *job)
 {
     const lsf_settings *settings = &job->settings;
+    lsf_render_params params = lsf_settings_render_params(settings);
+    params.temporal = false; /* of frames that follow each other alone */
     return (lsf_sweep_stage){.context = job->context,
                              .scene = job->scene,
-                             .params = lsf_settings_render_params(settings),
+                             .params = params,
                              .halves = {job->reference.halves[0], job->reference.halves[1]},
                              .exposure = settings->exposure.ev,
                              .gpu_clock = job->measurement.gpu_clock,
@@ -52,6 +54,17 @@ static bool note_failure(lsf_measure_job *job, uint32_t configuration, const lsf
     return failed->failure || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
 }
 
+/* The frames of the path, with the point that was measured last. */
+static bool measure_path(lsf_measure_job *job, const lsf_sweep_stage *stage, bool *stopped,
+                         lsf_error *error)
+{
+    lsf_measurement *m = &job->measurement;
+    if (job->frame_count == 0 || *stopped)
+        return true;
+    return lsf_sweep_run_path(stage, m, &m->points[m->point_count - 1], job->frames,
+                              job->frame_count, job->settings.temporal, stopped, error);
+}
+
 /* As lsf_search_measure. */
 static bool measure_point(void *user, uint32_t configuration, uint32_t samples, uint32_t seeds,
                           bool *stopped, lsf_error *error)
@@ -68,7 +81,8 @@ static bool measure_point(void *user, uint32_t configuration, uint32_t samples, 
     }
     if (point)
         lsf_measurement_drop_point(m, point);
-    if (!lsf_sweep_run_point(&stage, m, configuration, samples, seeds, stopped, &cause))
+    if (!lsf_sweep_run_point(&stage, m, configuration, samples, seeds, stopped, &cause) ||
+        !measure_path(job, &stage, stopped, &cause))
         return cause.code == LSF_ERROR_RENDER
                    ? note_failure(job, configuration, &cause, error)
                    : lsf_error_set(error, cause.code, "%s", cause.message);
@@ -84,7 +98,8 @@ static bool sweep(lsf_measure_job *job, lsf_error *error)
     lsf_measurement *m = &job->measurement;
     bool good = true, stopped = false;
     for (uint32_t samples = 1; samples <= settings->samples; samples *= 2)
-        job->total += samples * settings->seeds * m->configuration_count;
+        job->total +=
+            samples * settings->seeds * m->configuration_count * (1 + 2 * job->frame_count);
     lsf_progress_bar_start(&job->bar, "measure", job->total, INFINITY);
     for (uint32_t samples = 1; good && !stopped && samples <= settings->samples; samples *= 2)
         for (uint32_t c = 0; good && !stopped && c < m->configuration_count; c++)

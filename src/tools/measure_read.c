@@ -80,6 +80,33 @@ static void read_seed(lsf_measured_seed *seed, const lsf_json_document *d,
     seed->non_finite = is_count(non_finite, 0x1p53) ? (uint64_t)non_finite : 0;
 }
 
+static lsf_estimate read_estimate(const lsf_json_document *d, const lsf_json_value *object,
+                                  const char *name)
+{
+    const lsf_json_value *value = lsf_json_find(d, object, name);
+    return (lsf_estimate){lsf_json_find_number(d, value, "value"),
+                          lsf_json_find_number(d, value, "low"),
+                          lsf_json_find_number(d, value, "high")};
+}
+
+static void read_path(lsf_measured_path *path, const lsf_json_document *d,
+                      const lsf_json_value *value)
+{
+    const lsf_json_value *times = lsf_json_find(d, value, "milliseconds");
+    double frames = lsf_json_find_number(d, value, "frames");
+    if (!is_count(frames, UINT32_MAX))
+        return; /* there are none */
+    path->frames = (uint32_t)frames;
+    path->temporal = lsf_json_find_number(d, value, "temporal") > 0.0;
+    path->milliseconds = (lsf_quartiles){lsf_json_find_number(d, times, "lower_quartile"),
+                                         lsf_json_find_number(d, times, "median"),
+                                         lsf_json_find_number(d, times, "upper_quartile")};
+    path->relmse = read_estimate(d, value, "relmse");
+    path->difference = read_estimate(d, value, "difference");
+    path->flicker = read_estimate(d, value, "flicker");
+    path->motion = lsf_json_find_number(d, value, "motion");
+}
+
 static bool copy_path(char **path, const lsf_json_document *d, const lsf_json_value *value,
                       const char *name)
 {
@@ -108,6 +135,7 @@ static bool read_point(lsf_measurement *m, const lsf_json_document *d, const lsf
     const lsf_json_value *seed = lsf_json_first(d, lsf_json_find(d, value, "seeds"));
     for (; seed && point->seed_count < LSF_SWEEP_MAX_SEEDS; seed = lsf_json_next(d, seed))
         read_seed(&point->seeds[point->seed_count++], d, seed);
+    read_path(&point->path, d, lsf_json_find(d, value, "path"));
     return point->seed_count > 0 &&
            read_products(&point->mse, d, lsf_json_find(d, value, "mse"), point->seed_count) &&
            read_products(&point->relmse, d, lsf_json_find(d, value, "relmse"), point->seed_count) &&

@@ -41,14 +41,14 @@ static void make_folder(const char *path)
 }
 
 /* The file of this reference; NULL: none is kept. */
-static char *cache_path(const lsf_settings *settings, const lsf_scene *scene, char key[33])
+static char *cache_path(const lsf_settings *settings, const lsf_scene *scene,
+                        const lsf_render_params *params, char key[33])
 {
     lsf_scene_params scene_params = lsf_settings_scene_params(settings);
-    lsf_render_params params = lsf_settings_render_params(settings);
     const char *wanted = settings->cache;
     char hash[33], *path = NULL;
     if (!lsf_scene_content_hash(scene, hash) ||
-        !lsf_reference_key(hash, &scene_params, &params, lsf_summary_bounces(settings, scene), key))
+        !lsf_reference_key(hash, &scene_params, params, lsf_summary_bounces(settings, scene), key))
         return NULL;
     if (wanted && strcmp(wanted, "none") == 0)
         return NULL;
@@ -76,11 +76,12 @@ static void load_cached(lsf_kept_reference *kept, const char *path, const lsf_se
 
 /* --- tracing --- */
 
-static bool trace(const lsf_settings *settings, const lsf_scene *scene, const char *path,
-                  lsf_kept_reference *kept, lsf_error *error)
+static bool trace(const lsf_settings *settings, const lsf_scene *scene,
+                  const lsf_render_params *view, const char *path, lsf_kept_reference *kept,
+                  lsf_error *error)
 {
     lsf_progress_bar bar;
-    lsf_render_params params = lsf_settings_render_params(settings);
+    lsf_render_params params = *view;
     uint64_t wanted = settings->reference_samples ? settings->reference_samples : REFERENCE_SAMPLES;
     bool good = true, warned = false;
     params.progress = lsf_interrupt_progress;
@@ -155,18 +156,25 @@ static bool save(const lsf_settings *settings, const lsf_kept_reference *kept,
     return good;
 }
 
+bool lsf_measure_trace(const lsf_settings *settings, const lsf_scene *scene,
+                       const lsf_render_params *params, lsf_kept_reference *kept, char key[33],
+                       lsf_error *error)
+{
+    char *path = cache_path(settings, scene, params, key);
+    load_cached(kept, path, settings);
+    bool good = trace(settings, scene, params, path, kept, error);
+    free(path);
+    return good;
+}
+
 bool lsf_measure_reference(const lsf_settings *settings, const lsf_scene *scene,
                            lsf_measurement *measurement, lsf_kept_reference *kept, lsf_error *error)
 {
     lsf_measured_reference *reference = &measurement->reference;
-    char *path = cache_path(settings, scene, reference->key);
-    load_cached(kept, path, settings);
-    uint32_t before = kept->rounds;
-    bool good = trace(settings, scene, path, kept, error);
-    reference->cached = kept->rounds == before;
-    free(path);
-    if (!good)
+    lsf_render_params params = lsf_settings_render_params(settings);
+    if (!lsf_measure_trace(settings, scene, &params, kept, reference->key, error))
         return false;
     describe(kept, measurement);
+    reference->cached = !kept->traced;
     return save(settings, kept, reference, error);
 }

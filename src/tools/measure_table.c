@@ -58,15 +58,23 @@ static void add_point(lsf_string *text, const lsf_measurement *m, const lsf_meas
                    100.0 * largest_bias(point), point->ssim.value, point->flip.value);
     if (isfinite(point->ssim_gain))
         lsf_string_add(text, " %7.2g", point->ssim_gain);
+    else if (point->path.frames > 0)
+        lsf_string_add(text, " %7s", "");
+    if (point->path.frames > 0)
+        lsf_string_add(text, " %9.3g %9.3g %9.3g", point->path.relmse.value,
+                       point->path.difference.value, point->path.flicker.value);
     lsf_string_add(text, "\n");
 }
 
 void lsf_measure_add_table(lsf_string *text, const lsf_measurement *m)
 {
     size_t width = widest_name(m);
-    lsf_string_add(text, "  %-*s %7s %9s %7s %9s %9s %-8s %6s %8s %7s %7s %7s\n", (int)width,
+    lsf_string_add(text, "  %-*s %7s %9s %7s %9s %9s %-8s %6s %8s %7s %7s %7s", (int)width,
                    "technique", "samples", "ms", "MiB", "RMSE", "relMSE", "95 %", "noise", "bias",
                    "SSIM", "FLIP", "gain/ms");
+    if (m->point_count > 0 && m->points[0].path.frames > 0)
+        lsf_string_add(text, " %9s %9s %9s", "frames", "change", "flicker");
+    lsf_string_add(text, "\n");
     for (uint32_t c = 0; c < m->configuration_count; c++)
         for (uint32_t i = 0; i < m->point_count; i++)
             if (m->points[i].configuration == c)

@@ -166,6 +166,19 @@ static const lsf_command_option options[] = {
      "write what was found with --budget-ms or --error as a preset, for render --preset"},
     {"resume", 0, NULL, LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_FLAG, AT(resume), 0, 0, NULL,
      NULL, "go on from the points that the file of --json holds, where it is there already"},
+    {"frames", 0, "A-B", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_FRAMES, AT(frames), 0,
+     999999999, NULL, NULL,
+     "measure the frames from A to B of the animation, or of --turntable, too: their error, that "
+     "of "
+     "what changes from one to the next, and flicker where nothing moves"},
+    {"fps", 0, "X", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_DOUBLE, AT(fps), 1e-6, 1e6, NULL,
+     "24", "frames a second, in the time of animations"},
+    {"turntable", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT, AT(turntable), 1,
+     1000000, NULL, NULL,
+     "carry the camera around the scene's centre, about the vertical axis, once in N frames, of "
+     "which the first 8 are measured without --frames"},
+    {"temporal", 0, NULL, LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_FLAG, AT(temporal), 0, 0,
+     NULL, NULL, "keep light from frame to frame in frames that follow each other"},
     {"cache", 0, "DIR|none", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_TEXT, AT(cache), 0, 0,
      NULL, NULL,
      "where references are kept, by what the scene's files hold and how it is seen; without it, "

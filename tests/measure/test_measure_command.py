@@ -180,6 +180,27 @@ class Measure(CommandTest):
         self.assertIs(resumed["interrupted"], False)
         self.assertEqual(resumed["points"][0]["seeds"], report["points"][0]["seeds"])
 
+    def test_frames(self):
+        """What is kept from frame to frame flickers less; a path that stands still changes nothing."""
+        paths = {}
+        words = ("-t", "voxel_path", "--sweep", "voxel.resolution=8", "-s", "1", "--frames", "0-2",
+                 "--json", "a.json")
+        for name, more in (("still", []), ("turn", ["--turntable", "90"]),
+                           ("temporal", ["--turntable", "90", "--temporal"])):
+            self.measure(*words, *more)
+            point = self.read_json("a.json")["points"][0]
+            paths[name] = point["path"]
+            self.assertEqual((paths[name]["frames"], paths[name]["temporal"]),
+                             (3, name == "temporal"))
+        self.assertEqual(paths["still"]["motion"], 0)
+        self.assertGreater(paths["turn"]["motion"], 0.01)
+        self.assertLess(paths["temporal"]["flicker"]["value"],
+                        0.7 * paths["turn"]["flicker"]["value"])
+        self.assertLess(paths["temporal"]["difference"]["value"],
+                        paths["turn"]["difference"]["value"])
+        self.measure(*words, "--turntable", "90", "--temporal", "--resume")
+        self.assertEqual(self.read_json("a.json")["points"][0]["path"], paths["temporal"])
+
     def test_wrong_usage(self):
         for words, says in (
                 (["--budget-ms", "1", "--error", "1"], "--budget-ms and --error"),
@@ -190,6 +211,8 @@ class Measure(CommandTest):
                 (["--sweep", "vpl.cuont=1"], "did you mean vpl.count?"),
                 (["--sweep", "vpl.count=1,many"], "vpl.count"),
                 (["-t", "direct,cones"], "did you mean"),
+                (["--temporal"], "--temporal: there are no frames"),
+                (["--frames", "3-3"], "--frames: two frames"),
                 (["--seeds", "1"], "--seeds 1")):
             self.refuse("measure", CORNELL, *SMALL, *words, says=[says])
         self.assertEqual(self.files(), [])

@@ -12,6 +12,7 @@
 #include "sweep/fit.h"
 #include "sweep/front.h"
 #include "sweep/grid.h"
+#include "sweep/path.h"
 #include "sweep/statistics.h"
 
 #include <math.h>
@@ -121,6 +122,38 @@ static void test_products_of_patterns(void **state)
         lsf_image_destroy(pictures[s]);
     lsf_image_destroy(halves[0]);
     lsf_image_destroy(halves[1]);
+}
+
+/* Two frames of one scene: what moves, what is missing of it, noise of pictures and halves. */
+static void test_changes(void **state)
+{
+    (void)state;
+    lsf_image *x[2] = {new_image(), new_image()}, *halves[2][2];
+    for (uint32_t f = 0; f < 2; f++)
+        for (uint32_t h = 0; h < 2; h++)
+            halves[f][h] = new_image();
+    for (uint32_t i = 0; i < PIXELS; i++)
+        for (uint32_t c = 0; c < 3; c++)
+            for (uint32_t f = 0; f < 2; f++) {
+                float moves = f ? 0.5f * pattern(16, i) : 0.0f;
+                float noise = 1e-3f; /* so little that weights are all alike */
+                x[f]->pixels[3 * i + c] = 100.0f + 0.75f * moves + 0.25f * pattern(1 + f, i);
+                for (uint32_t h = 0; h < 2; h++)
+                    halves[f][h]->pixels[3 * i + c] =
+                        100.0f + moves + noise * pattern(4 + 2 * f + h, i);
+            }
+    double weight = 1.0 / (1.01 * 100.0 * 100.0);
+    lsf_path_change change = lsf_path_change_of(x[1], x[0], (const lsf_image *const *)halves[1],
+                                                (const lsf_image *const *)halves[0]);
+    NEAR(change.motion / weight / 0.25, 1.0, 1e-3);
+    NEAR(change.difference / weight / (0.125 * 0.125 + 2.0 * 0.25 * 0.25), 1.0, 1e-3);
+    double flicker = lsf_path_flicker_of(x[1], x[0], (const lsf_image *const *)halves[0]);
+    NEAR(flicker / weight / (0.375 * 0.375 + 2.0 * 0.25 * 0.25), 1.0, 1e-3);
+    for (uint32_t f = 0; f < 2; f++) {
+        lsf_image_destroy(x[f]);
+        lsf_image_destroy(halves[f][0]);
+        lsf_image_destroy(halves[f][1]);
+    }
 }
 
 /* --- fits --- */
@@ -307,6 +340,7 @@ int main(void)
         cmocka_unit_test(test_student),
         cmocka_unit_test(test_means),
         cmocka_unit_test(test_products_of_patterns),
+        cmocka_unit_test(test_changes),
         cmocka_unit_test(test_fit_of_a_law),
         cmocka_unit_test(test_intervals_hold_the_truth),
         cmocka_unit_test(test_front),
