@@ -11,8 +11,8 @@ typedef struct measure_preset {
 } measure_preset;
 
 static const measure_preset presets[] = {
-    {{"voxel.resolution=64,128", "vpl.count=1,4"}, 16, 4, 256},
-    {{"voxel.resolution=64,128,256", "vpl.count=1,4,16", "bundle.count=1,4", "cone.count=6,12",
+    {{"voxel.resolution=64,128"}, 8, 4, 256},
+    {{"voxel.resolution=64,128,256", "vpl.count=1,16,64", "bundle.count=1,4", "cone.count=6,12",
       "voxel_path.max_samples=1,6"},
      64,
      8,
@@ -21,12 +21,12 @@ static const measure_preset presets[] = {
 
 /* Candidates of an answer. */
 static const measure_preset searches[] = {
-    {{"voxel.resolution=32,64,128", "vpl.count=1,4,16", "interleave.size=0,4", "cone.scale=0.5,1",
+    {{"voxel.resolution=32,64,128", "vpl.count=1,32", "interleave.size=0,4", "cone.scale=0.5,1",
       "voxel_path.scale=0.5,1"},
      4096,
      4,
      256},
-    {{"voxel.resolution=32,64,128,256", "vpl.count=1,4,16", "bundle.count=1,4",
+    {{"voxel.resolution=32,64,128,256", "vpl.count=1,16,64", "bundle.count=1,4",
       "interleave.size=0,1,4", "cone.scale=0.5,1", "voxel_path.scale=0.5,1",
       "voxel_path.max_samples=1,6"},
      65536,
