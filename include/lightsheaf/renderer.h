@@ -146,6 +146,23 @@ char *lsf_plan_describe(const lsf_plan *plan, bool json); /* malloc'ed; NULL wit
  * graph for Graphviz. malloc'ed; NULL without memory. */
 char *lsf_plan_dot(const lsf_plan *plan);
 
+typedef struct lsf_price_list {
+    char **names;
+    uint32_t count;
+    uint64_t capacity;
+} lsf_price_list;
+
+/* What one plan has and another has not, such as that of lsf_scene_without. */
+typedef struct lsf_price {
+    int64_t bytes;                              /* more, of OpenGL memory */
+    lsf_price_list passes, switches, resources; /* a switch is its pass, a blank and its name */
+} lsf_price;
+
+/* `price` needs no initialisation, and lsf_price_finish after success. */
+bool lsf_plan_price(const lsf_plan *with, const lsf_plan *without, lsf_price *price,
+                    lsf_error *error);
+void lsf_price_finish(lsf_price *price);
+
 /* A renderer owns every GL object that the plan lists and nothing else. The scene and the
  * context are borrowed and must outlive it. */
 typedef struct lsf_renderer lsf_renderer;

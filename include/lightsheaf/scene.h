@@ -120,6 +120,35 @@ typedef struct lsf_requirements {
 /* NULL of one that is still being built (build.h). */
 const lsf_requirements *lsf_scene_get_requirements(const lsf_scene *scene);
 
+/* What a scene may hold that rendering has to pay for. */
+typedef enum lsf_feature {
+    LSF_FEATURE_EMISSION,
+    LSF_FEATURE_UNLIT,
+    LSF_FEATURE_MASKS, /* alphaMode MASK */
+    LSF_FEATURE_BLENDING,
+    LSF_FEATURE_GLOSS,       /* roughness and metallic, and what implies them: coats, sheens */
+    LSF_FEATURE_NORMAL_MAPS, /* of coats, too */
+    LSF_FEATURE_ANISOTROPY,
+    LSF_FEATURE_TINTED_REFLECTION, /* KHR_materials_specular and _ior */
+    LSF_FEATURE_COATS,
+    LSF_FEATURE_SHEENS,
+    LSF_FEATURE_TRANSMISSION,
+    LSF_FEATURE_TEXTURES,
+    LSF_FEATURE_VERTEX_COLORS,
+    LSF_FEATURE_LIGHTS, /* punctual, and the key light */
+    LSF_FEATURE_ENVIRONMENT_MAP,
+    LSF_FEATURE_ENVIRONMENT,
+    LSF_FEATURE_MOTION, /* animations */
+    LSF_FEATURE_COUNT,
+} lsf_feature;
+
+const char *lsf_feature_name(lsf_feature feature); /* "normal maps"; NULL past the end */
+bool lsf_scene_has(const lsf_scene *scene, lsf_feature feature);
+/* The same scene without it, to see what it costs: blended and masked materials become opaque, an
+ * environment map uniform. It borrows from `scene`, which stays as it is and has to outlive it.
+ * NULL with LSF_ERROR_USAGE where an animation brings the feature back. */
+lsf_scene *lsf_scene_without(const lsf_scene *scene, lsf_feature feature, lsf_error *error);
+
 uint32_t lsf_scene_camera_count(const lsf_scene *scene); /* at least 1 */
 const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index);
 

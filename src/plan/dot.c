@@ -1,5 +1,4 @@
 /* The plan as a graph in the language of Graphviz ("The DOT Language", graphviz.org). */
-#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,42 +13,19 @@ static void add_quoted(lsf_string *out, const char *text, size_t length)
         lsf_string_add(out, text[i] == '"' || text[i] == '\\' ? "\\%c" : "%c", text[i]);
 }
 
-/* The length of a resource's name without the number that tells it from its like. */
-static size_t kind_length(const char *resource)
-{
-    size_t length = strlen(resource), digits = length;
-    while (digits > 0 && isdigit((unsigned char)resource[digits - 1]))
-        digits--;
-    bool numbered = digits < length && digits > 1 && strchr("._", resource[digits - 1]);
-    return numbered ? digits - 1 : length;
-}
-
-static bool same_kind(const char *a, const char *b)
-{
-    size_t length = kind_length(a);
-    return kind_length(b) == length && strncmp(a, b, length) == 0;
-}
-
-static bool starts_kind(const lsf_plan *plan, uint64_t resource)
-{
-    for (uint64_t i = 0; i < resource; i++)
-        if (same_kind(plan->resources[i].name, plan->resources[resource].name))
-            return false;
-    return true;
-}
-
 static void add_kind(const lsf_plan *plan, uint64_t first, lsf_string *out)
 {
     const lsf_plan_resource *resource = &plan->resources[first];
     uint64_t count = 0, bytes = 0;
     bool alike = !resource->is_buffer;
     for (uint64_t i = first; i < plan->resource_count; i++)
-        if (same_kind(resource->name, plan->resources[i].name)) {
+        if (lsf_plan_same_kind(resource->name, plan->resources[i].name)) {
             count++;
             bytes += plan->resources[i].bytes;
             alike &= plan->resources[i].bytes == resource->bytes;
         }
-    size_t length = kind_length(resource->name), stem = lsf_plan_stem_length(resource->name);
+    size_t length = lsf_plan_kind_length(resource->name),
+           stem = lsf_plan_stem_length(resource->name);
     size_t shown = stem < length ? stem + 1 : 0; /* "depth" of "gbuffer.depth" */
     add_quoted(out, resource->name + shown, length - shown);
     if (count > 1)
@@ -78,7 +54,7 @@ static void add_stem(const lsf_plan *plan, uint64_t first, lsf_string *out)
     lsf_string_add_size(out, (double)bytes);
     lsf_string_add(out, "\\l");
     for (uint64_t i = first; i < plan->resource_count; i++)
-        if (lsf_plan_same_stem(name, plan->resources[i].name) && starts_kind(plan, i))
+        if (lsf_plan_same_stem(name, plan->resources[i].name) && lsf_plan_starts_kind(plan, i))
             add_kind(plan, i, out);
     lsf_string_add(out, "\"];\n");
 }

@@ -1,5 +1,6 @@
 #include "plan/flow.h"
 
+#include <ctype.h>
 #include <string.h>
 
 /* "gbuffer" is "gbuffer.depth" and all other resources of that stem, "view" one alone. */
@@ -72,6 +73,29 @@ bool lsf_plan_starts_stem(const lsf_plan *plan, uint64_t resource)
 {
     for (uint64_t i = 0; i < resource; i++)
         if (lsf_plan_same_stem(plan->resources[i].name, plan->resources[resource].name))
+            return false;
+    return true;
+}
+
+size_t lsf_plan_kind_length(const char *resource)
+{
+    size_t length = strlen(resource), digits = length;
+    while (digits > 0 && isdigit((unsigned char)resource[digits - 1]))
+        digits--;
+    bool numbered = digits < length && digits > 1 && strchr("._", resource[digits - 1]);
+    return numbered ? digits - 1 : length;
+}
+
+bool lsf_plan_same_kind(const char *a, const char *b)
+{
+    size_t length = lsf_plan_kind_length(a);
+    return lsf_plan_kind_length(b) == length && strncmp(a, b, length) == 0;
+}
+
+bool lsf_plan_starts_kind(const lsf_plan *plan, uint64_t resource)
+{
+    for (uint64_t i = 0; i < resource; i++)
+        if (lsf_plan_same_kind(plan->resources[i].name, plan->resources[resource].name))
             return false;
     return true;
 }

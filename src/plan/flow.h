@@ -14,6 +14,11 @@ size_t lsf_plan_stem_length(const char *resource);
 bool lsf_plan_same_stem(const char *a, const char *b);
 bool lsf_plan_starts_stem(const lsf_plan *plan, uint64_t resource);
 
+/* Those of a kind differ by a number at their end: "ray_bundle.keys" of "ray_bundle.keys_3". */
+size_t lsf_plan_kind_length(const char *resource);
+bool lsf_plan_same_kind(const char *a, const char *b);
+bool lsf_plan_starts_kind(const lsf_plan *plan, uint64_t resource);
+
 typedef enum lsf_plan_flow {
     LSF_PLAN_NO_FLOW,
     LSF_PLAN_READS, /* and does not fill */

@@ -156,6 +156,10 @@ void lsf_scene_destroy(lsf_scene *scene)
 {
     if (!scene)
         return;
+    if (scene->borrows) {
+        lsf_scene_without_destroy(scene);
+        return;
+    }
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         free(scene->meshes[i].name);
     for (uint32_t i = 0; i < scene->node_count; i++)

@@ -292,6 +292,7 @@ struct lsf_scene {
     lsf_requirements requirements;
     lsf_edits edits;         /* made since it was loaded */
     struct lsf_draft *draft; /* of a scene that is being built (draft.h); NULL: it is whole */
+    bool borrows; /* lsf_scene_without made it: only materials, nodes and notes are its own */
 };
 
 /* Takes more of the bytes that the scene is loaded from into its hash, in a fixed order. */
@@ -327,6 +328,9 @@ void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,
 /* Makes blended materials opaque whose alpha is 1 wherever they are used: factor, texture and
  * vertex colours (alpha.c). */
 void lsf_scene_settle_alpha(lsf_scene *scene);
+
+/* Of one that lsf_scene_without has made. */
+void lsf_scene_without_destroy(lsf_scene *scene);
 
 /* Fills scene->requirements from what the instances use (requirements.c). False without memory. */
 bool lsf_scene_compute_requirements(lsf_scene *scene);

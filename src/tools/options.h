@@ -176,7 +176,7 @@ typedef struct lsf_settings {
     float difference_gain;
     double epsilon; /* NAN: relative to the reference's mean */
     bool flip;
-    bool dot;
+    bool dot, prices;
     lsf_list_setting thresholds;
 
     lsf_list_setting techniques, sweeps;

@@ -1,9 +1,44 @@
 #include "base/base.h"
 #include "tools/begin.h"
+#include "tools/prices.h"
 #include "tools/report.h"
 #include "tools/sandbox.h"
 #include "tools/scenes.h"
 #include "tools/tools.h"
+
+static bool print_prices(const lsf_settings *settings, uint32_t index, const lsf_scene *scene,
+                         lsf_json *json, lsf_error *error)
+{
+    lsf_render_params params = lsf_settings_render_params(settings);
+    lsf_prices prices;
+    lsf_string text = {0};
+    bool good = lsf_prices_make(&prices, scene, &params, error);
+    if (good) {
+        lsf_prices_add_text(&text, &prices);
+        good = lsf_tool_print(settings, index, text.text, error);
+    }
+    if (good) {
+        lsf_json_begin(json, NULL, '{');
+        lsf_prices_add_json(json, "prices", &prices);
+        lsf_json_end(json, '}');
+    }
+    lsf_prices_finish(&prices);
+    return good;
+}
+
+/* NULL: it could not be made. Destroys the plan. */
+static bool print_whole(const lsf_settings *settings, uint32_t index, lsf_plan *plan,
+                        lsf_json *json, lsf_error *error)
+{
+    bool good =
+        plan &&
+        lsf_tool_print(settings, index,
+                       settings->dot ? lsf_plan_dot(plan) : lsf_plan_describe(plan, false), error);
+    if (good)
+        lsf_json_text(json, NULL, lsf_plan_describe(plan, true));
+    lsf_plan_destroy(plan);
+    return good;
+}
 
 static bool print_plan(void *user, uint32_t index, const char *path, lsf_json *json,
                        lsf_error *error)
@@ -12,14 +47,11 @@ static bool print_plan(void *user, uint32_t index, const char *path, lsf_json *j
     lsf_render_params params = lsf_settings_render_params(settings);
     double seconds;
     lsf_scene *scene = lsf_tool_load_scene(settings, path, &seconds, error);
-    lsf_plan *plan = scene ? lsf_plan_create(scene, &params, error) : NULL;
-    bool good =
-        plan &&
-        lsf_tool_print(settings, index,
-                       settings->dot ? lsf_plan_dot(plan) : lsf_plan_describe(plan, false), error);
-    if (good)
-        lsf_json_text(json, NULL, lsf_plan_describe(plan, true));
-    lsf_plan_destroy(plan);
+    bool good = scene;
+    if (good && settings->prices)
+        good = print_prices(settings, index, scene, json, error);
+    else if (good)
+        good = print_whole(settings, index, lsf_plan_create(scene, &params, error), json, error);
     lsf_scene_destroy(scene);
     return good;
 }
@@ -34,10 +66,7 @@ static bool print_sandbox(void *user, uint32_t index, const char *path, lsf_json
     double seconds;
     lsf_scene *scene = named ? lsf_tool_load_scene(settings, path, &seconds, error) : NULL;
     lsf_plan *plan = scene || !named ? lsf_sandbox_plan(scene, &params, error) : NULL;
-    bool good = plan && lsf_tool_print(settings, index, lsf_plan_describe(plan, false), error);
-    if (good)
-        lsf_json_text(json, NULL, lsf_plan_describe(plan, true));
-    lsf_plan_destroy(plan);
+    bool good = print_whole(settings, index, plan, json, error);
     lsf_scene_destroy(scene);
     return good;
 }

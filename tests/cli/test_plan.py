@@ -1,4 +1,4 @@
-"""lightsheaf plan: the plan as a graph."""
+"""lightsheaf plan: the plan as a graph, and what each feature of a scene costs."""
 import json
 import os
 import re
@@ -82,6 +82,45 @@ class Graph(CommandTest):
     def test_names_are_quoted(self):
         self.scene('a"b\\.gltf')
         self.parse(self.graph('a"b\\.gltf'))
+
+
+class Prices(CommandTest):
+    def plan(self, *words):
+        return json.loads(self.run_command("plan", *words, "--json", "-").stdout)
+
+    def price(self, feature, *words):
+        found = [p for p in self.plan(*words, "--prices")["prices"] if p["feature"] == feature]
+        self.assertLessEqual(len(found), 1)
+        return found[0] if found else None
+
+    def test_a_feature_costs_what_the_plan_without_it_saves(self):
+        """Against a file that never had the feature."""
+        self.scene("with.gltf", emissive=True)
+        self.scene("without.gltf")
+        for technique in TECHNIQUES:
+            words = ("--technique", technique)
+            price = self.price("emission", "with.gltf", *words)
+            with_it, without = self.plan("with.gltf", *words), self.plan("without.gltf", *words)
+            self.assertEqual(price["bytes"], with_it["bytes"] - without["bytes"])
+            names = lambda plan: {p["name"] for p in plan["passes"]}
+            self.assertEqual(set(price["passes"]), names(with_it) - names(without))
+            self.assertIn("gbuffer.emission", price["resources"])
+            on = lambda plan: {f'{p["name"]} {s["name"]}' for p in plan["passes"] for s in p["switches"]
+                               if s["value"]}
+            gone = {s for s in on(with_it) - on(without) if s.split()[0] in names(without)}
+            self.assertEqual(set(price["switches"]), gone)
+            self.assertIsNone(price["milliseconds"])
+            self.assertIsNone(self.price("emission", "without.gltf", *words))
+
+    def test_the_interior(self):
+        text = self.run_command("plan", INTERIOR, "--environment", "1,1,1", "--prices").stdout.decode()
+        rows = [line[:18].strip() for line in text.splitlines()[1:]]
+        self.assertEqual(rows, ["emission", "gloss", "normal maps", "textures", "vertex colours", "lights",
+                                "environment"])
+        price = self.price("textures", INTERIOR)
+        self.assertIn("scene.texture x 6", price["resources"])
+        price = self.price("lights", INTERIOR, "--technique", "direct")
+        self.assertEqual(price["passes"], ["shadow_map", "direct_light"])
 
 
 if __name__ == "__main__":

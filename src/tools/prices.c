@@ -1,0 +1,118 @@
+#include "tools/prices.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/base.h"
+
+static bool add_feature(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
+                        const lsf_plan *with, lsf_feature feature, lsf_error *error)
+{
+    lsf_error cause;
+    lsf_scene *without = lsf_scene_without(scene, feature, &cause);
+    if (!without) /* animations need it, which is no failure */
+        return cause.code == LSF_ERROR_USAGE ||
+               lsf_error_set(error, cause.code, "%s", cause.message);
+    lsf_plan *plan = lsf_plan_create(without, params, error);
+    lsf_feature_price *row = &prices->features[prices->count];
+    *row = (lsf_feature_price){.feature = feature, .milliseconds = NAN};
+    bool good = plan && lsf_plan_price(with, plan, &row->price, error);
+    prices->count += good;
+    lsf_plan_destroy(plan);
+    lsf_scene_destroy(without);
+    return good;
+}
+
+bool lsf_prices_make(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
+                     lsf_error *error)
+{
+    *prices = (lsf_prices){0};
+    lsf_plan *with = lsf_plan_create(scene, params, error);
+    bool good = with;
+    for (int f = 0; good && f < LSF_FEATURE_COUNT; f++)
+        if (lsf_scene_has(scene, (lsf_feature)f))
+            good = add_feature(prices, scene, params, with, (lsf_feature)f, error);
+    lsf_plan_destroy(with);
+    return good;
+}
+
+void lsf_prices_finish(lsf_prices *prices)
+{
+    for (uint32_t i = 0; i < prices->count; i++)
+        lsf_price_finish(&prices->features[i].price);
+    prices->count = 0;
+}
+
+/* --- text --- */
+
+/* A few names, and how many more. */
+static void add_names(lsf_string *text, const lsf_price_list *list, const char *what)
+{
+    enum { SHOWN = 3 };
+    if (list->count == 0)
+        return;
+    lsf_string_add(text, "; %s ", what);
+    for (uint32_t i = 0; i < list->count && i < SHOWN; i++)
+        lsf_string_add(text, "%s%s", i ? ", " : "", list->names[i]);
+    if (list->count > SHOWN)
+        lsf_string_add(text, " and %u more", list->count - SHOWN);
+}
+
+static void add_size(lsf_string *text, int64_t bytes)
+{
+    lsf_string size = {0};
+    lsf_string_add_size(&size, fabs((double)bytes));
+    lsf_string_add(text, "%s%s", bytes < 0 ? "-" : "", size.text ? size.text : "");
+    free(size.text);
+}
+
+void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices)
+{
+    lsf_string_add(text, "%-18s %12s  %s\n", "without", "saved", "and what goes");
+    for (uint32_t i = 0; i < prices->count; i++) {
+        const lsf_feature_price *row = &prices->features[i];
+        lsf_string bytes = {0}, rest = {0};
+        add_size(&bytes, row->price.bytes);
+        if (isfinite(row->milliseconds))
+            lsf_string_add(&rest, "; %.3g ms", row->milliseconds);
+        add_names(&rest, &row->price.passes, "passes");
+        add_names(&rest, &row->price.resources, "resources");
+        if (row->price.switches.count)
+            lsf_string_add(&rest, "; %u switch%s", row->price.switches.count,
+                           row->price.switches.count == 1 ? "" : "es");
+        lsf_string_add(text, "%-18s %12s  %s\n", lsf_feature_name(row->feature),
+                       bytes.text ? bytes.text : "", rest.text ? rest.text + 2 : "nothing");
+        free(bytes.text);
+        free(rest.text);
+    }
+    if (prices->count == 0)
+        lsf_string_add(text, "nothing: the scene has none of the features that cost\n");
+}
+
+/* --- JSON --- */
+
+static void add_list(lsf_json *json, const char *name, const lsf_price_list *list)
+{
+    lsf_json_begin(json, name, '[');
+    for (uint32_t i = 0; i < list->count; i++)
+        lsf_json_string(json, NULL, list->names[i]);
+    lsf_json_end(json, ']');
+}
+
+void lsf_prices_add_json(lsf_json *json, const char *name, const lsf_prices *prices)
+{
+    lsf_json_begin(json, name, '[');
+    for (uint32_t i = 0; i < prices->count; i++) {
+        const lsf_feature_price *row = &prices->features[i];
+        lsf_json_begin(json, NULL, '{');
+        lsf_json_string(json, "feature", lsf_feature_name(row->feature));
+        lsf_json_number(json, "bytes", (double)row->price.bytes);
+        lsf_json_number(json, "milliseconds", row->milliseconds);
+        add_list(json, "passes", &row->price.passes);
+        add_list(json, "resources", &row->price.resources);
+        add_list(json, "switches", &row->price.switches);
+        lsf_json_end(json, '}');
+    }
+    lsf_json_end(json, ']');
+}

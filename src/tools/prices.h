@@ -1,0 +1,29 @@
+/* What each feature of a scene costs: its plan with and without it. */
+#ifndef LSF_TOOLS_PRICES_H
+#define LSF_TOOLS_PRICES_H
+
+#include <lightsheaf/renderer.h>
+
+#include "tools/json.h"
+
+typedef struct lsf_feature_price {
+    lsf_feature feature;
+    lsf_price price;
+    double milliseconds; /* of a frame, that it saves; NAN: not measured */
+} lsf_feature_price;
+
+typedef struct lsf_prices {
+    lsf_feature_price features[LSF_FEATURE_COUNT];
+    uint32_t count;
+} lsf_prices;
+
+/* Of all features that the scene has and can do without. `prices` is to be finished either way. */
+bool lsf_prices_make(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
+                     lsf_error *error);
+void lsf_prices_finish(lsf_prices *prices);
+
+void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices);
+/* An array. */
+void lsf_prices_add_json(lsf_json *json, const char *name, const lsf_prices *prices);
+
+#endif
