@@ -64,10 +64,20 @@ static bool has_group(const char *const *groups, const char *key)
     return false;
 }
 
+static bool is_option(const char *key)
+{
+    lsf_option option;
+    for (uint32_t i = 0; lsf_option_list(i, &option); i++)
+        if (strcmp(option.key, key) == 0)
+            return true;
+    return false;
+}
+
 bool lsf_technique_takes(const char *technique, const char *key)
 {
     const lsf_technique *found = technique && key ? lsf_technique_find(technique) : NULL;
-    return found && (has_group(common_groups, key) || has_group(found->groups, key));
+    return found && is_option(key) &&
+           (has_group(common_groups, key) || has_group(found->groups, key));
 }
 
 bool lsf_option_list(uint32_t index, lsf_option *option)
