@@ -462,6 +462,7 @@ static void add_line_of_text(const lsf_shader_source *source, uint64_t number, l
 
 void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log, lsf_string *mapped)
 {
+    uint64_t shown = 0; /* line of the text: several messages may be about one */
     static const char *const severities[][2] = {{"ERROR: ", "error: "}, {"WARNING: ", "warning: "}};
     for (const char *line = log; *line;) {
         size_t length = strcspn(line, "\n");
@@ -480,8 +481,9 @@ void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
             lsf_shader_place place = source->places[number - 1];
             lsf_string_add(mapped, "%s:%u: %s%.*s\n", source->paths[place.file], place.line,
                            severity, (int)(line + length - message), message);
-            if (place.foreign)
+            if (place.foreign && number != shown)
                 add_line_of_text(source, number, mapped);
+            shown = number;
         } else if (length)
             lsf_string_add(mapped, "%.*s\n", (int)length, line);
         line = next;

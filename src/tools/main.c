@@ -18,8 +18,7 @@ static const struct {
     {LSF_COMMAND_COMPARE, lsf_tool_compare}, {LSF_COMMAND_INFO, lsf_tool_info},
     {LSF_COMMAND_PLAN, lsf_tool_plan},       {LSF_COMMAND_BENCH, lsf_tool_bench},
     {LSF_COMMAND_MEASURE, lsf_tool_measure}, {LSF_COMMAND_SANDBOX, lsf_tool_sandbox},
-    {LSF_COMMAND_VIEW, lsf_tool_view},       {LSF_COMMAND_VIEW, lsf_tool_view},
-    {LSF_COMMAND_HELP, lsf_tool_help},
+    {LSF_COMMAND_VIEW, lsf_tool_view},       {LSF_COMMAND_HELP, lsf_tool_help},
 };
 
 static const char *next_command(size_t index, void *user)

@@ -58,10 +58,11 @@ static const lsf_command commands[] = {
      "several "
      "seeds, and prints what a frame takes and how far it is from the path-traced reference: time, "
      "memory, RMSE, relMSE, bias and SSIM, what of the error is noise and what stays."},
-    {LSF_COMMAND_SANDBOX, "sandbox", "SHADER [SCENE] -o OUT", 0, 2,
+    {LSF_COMMAND_SANDBOX, "sandbox", "SHADER [SCENE] [-o OUT]", 0, 2,
      "run a shader of one's own against the engine",
      "Runs SHADER, a fragment shader as Shadertoy has them or with a main of its own, or a compute "
-     "shader (.comp), and writes what it draws. It may name what the engine knows of SCENE: what "
+     "shader (.comp), in a window, where it is read again whenever it is saved, or writes what it "
+     "draws to OUT. It may name what the engine knows of SCENE: what "
      "each pixel sees, lights and their shadow maps, voxels, ray-bundles, the picture of a "
      "technique; what it names is computed, and nothing else. docs/sandbox.md has the names."},
     {LSF_COMMAND_HELP, "help", "[COMMAND]", 0, 1, "explain a command and its options",
@@ -345,15 +346,15 @@ static const lsf_command_option options[] = {
 
     {"resolution", 'r', "W,H", LSF_COMMAND_VIEW, "Window", LSF_VALUE_RESOLUTION, AT(resolution), 64,
      16384, NULL, NULL, "width and height of the window; without it 1280,800"},
-    {"full-screen", 0, NULL, LSF_COMMAND_VIEW, "Window", LSF_VALUE_FLAG, AT(full_screen), 0, 0,
+    {"full-screen", 0, NULL, LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_FLAG, AT(full_screen), 0, 0,
      NULL, NULL, "fill the screen"},
     {"budget", 0, "MS", LSF_COMMAND_VIEW, "Window", LSF_VALUE_DOUBLE, AT(budget), 1, 10000, NULL,
      NULL,
      "milliseconds that a frame may take while things move: pictures are as large, and maps as "
      "fine, as it allows; without it 100 in software, 33 on a GPU"},
-    {"record", 0, "FILE", LSF_COMMAND_VIEW, "Window", LSF_VALUE_TEXT, AT(record), 0, 0, NULL, NULL,
+    {"record", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT, AT(record), 0, 0, NULL, NULL,
      "write down what is done with mouse and keys, frame by frame"},
-    {"replay", 0, "FILE", LSF_COMMAND_VIEW, "Window", LSF_VALUE_TEXT, AT(replay), 0, 0, NULL, NULL,
+    {"replay", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT, AT(replay), 0, 0, NULL, NULL,
      "do what such a file says, then end"},
     {"list-keys", 0, NULL, LSF_COMMAND_VIEW, "General", LSF_VALUE_FLAG, AT(list_keys), 0, 0, NULL,
      NULL, "print keys and buttons"},

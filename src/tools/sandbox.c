@@ -1,5 +1,6 @@
 #include "tools/sandbox.h"
 #include "base/base.h"
+#include "easel/easel.h"
 #include "tools/begin.h"
 #include "tools/interrupt.h"
 #include "tools/output.h"
@@ -12,6 +13,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct sandbox_job {
     const lsf_settings *settings;
@@ -166,12 +168,68 @@ static int work(void *user)
     return good ? 0 : lsf_report_error(&error);
 }
 
-static int run(const lsf_settings *settings)
+/* --- in a window --- */
+
+static lsf_easel_start easel_start(const lsf_settings *settings)
+{
+    lsf_easel_start start = {.sandbox = lsf_settings_sandbox_params(settings),
+                             .scene = lsf_settings_scene_params(settings),
+                             .context = lsf_settings_context_params(settings),
+                             .exposure = settings->exposure.ev,
+                             .curve = (lsf_tone_curve)settings->tonemap,
+                             .watchdog = settings->watchdog,
+                             .window = {LSF_WINDOW_PARAMS_DEFAULTS}};
+    if (settings->operands.count > 1)
+        start.scene_path = settings->operands.items[1];
+    start.window.title = start.sandbox.path;
+    start.window.width = settings->resolution[0];
+    start.window.height = settings->resolution[1];
+    start.window.full_screen = settings->full_screen;
+    start.window.shader_dir = settings->shader_dir;
+    start.window.record = settings->record;
+    start.window.replay = settings->replay;
+    return start;
+}
+
+/* The command line as a program of its own has it. NULL without memory. */
+static char **whole_command(int argc, char **argv)
+{
+    char **command = lsf_alloc((uint64_t)argc + 2, sizeof *command);
+    if (command) {
+        command[0] = (char *)"lightsheaf";
+        memcpy(command + 1, argv, (size_t)argc * sizeof *command);
+    }
+    return command;
+}
+
+static int show(const lsf_settings *settings, int argc, char **argv)
+{
+    static const void *table;
+    lsf_error error;
+    lsf_easel_start start = easel_start(settings);
+    const lsf_easel_module *module =
+        lsf_module_table(LSF_WINDOW_MODULE_NAME, LSF_EASEL_MODULE_TABLE,
+                         "it comes with Lightsheaf, and needs libglfw3", &table, &error);
+    if (!module)
+        return lsf_report_error(&error);
+    if (getenv(LSF_EASEL_WORKER))
+        return module->work(&start);
+    char **command = whole_command(argc, argv);
+    start.command = command;
+    bool good = command ? module->show(&start, &error)
+                        : lsf_error_set(&error, LSF_ERROR_RENDER, "no memory left");
+    free(command);
+    return good ? 0 : lsf_report_error(&error);
+}
+
+static int run(const lsf_settings *settings, int argc, char **argv)
 {
     lsf_error error;
     sandbox_job job = {.settings = settings};
     if (settings->new_shader)
         return lsf_sandbox_new(settings->new_shader, &error) ? 0 : lsf_report_error(&error);
+    if (!settings->output)
+        return show(settings, argc, argv);
     return lsf_watch(work, &job, settings->watchdog);
 }
 
@@ -180,7 +238,7 @@ int lsf_tool_sandbox(int argc, char **argv)
     lsf_settings settings;
     int status = lsf_tool_begin(&settings, LSF_COMMAND_SANDBOX, argc, argv);
     if (status == LSF_GO_ON)
-        status = run(&settings);
+        status = run(&settings, argc, argv);
     lsf_settings_finish(&settings);
     return status;
 }

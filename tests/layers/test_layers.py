@@ -28,22 +28,24 @@ ALLOWED = {
     "bench": {"base", "math", "gl", "scene", "plan", "frame", "passes", "techniques", "reference"},
     "window": {"base"},
     "view": {"base", "window"},
+    "easel": {"base", "window", "view"},
     "sweep": {"base"},
     "report": {"base"},
     "tools": {"base", "math", "gl", "scene", "io", "plan", "frame", "passes", "techniques", "measure", "sweep",
-              "report", "sandbox", "view"},
+              "report", "sandbox", "view", "easel"},
 }
 # Headers that a layer offers to one that may not see the rest of it.
 EXCEPTIONS = {
     ("measure", "io"): {"io/io.h", "io/image.h"},
     ("tools", "gl"): {"gl/gl.h"},
     ("tools", "view"): {"view/view.h"},
+    ("tools", "easel"): {"easel/easel.h"},
 }
 # Layers whose functions another one calls by public headers alone.
 PUBLIC = {
     "window": {"gl", "io"},
     "view": {"gl", "io", "measure", "plan", "reference", "scene", "techniques"},
-    "view": {"gl", "io", "measure", "plan", "reference", "scene", "techniques"},
+    "easel": {"gl", "io", "sandbox", "scene", "techniques"},
     "report": {"io"},
     "sweep": {"gl", "io", "measure", "plan", "reference", "techniques"},
     "tools": {"bench", "reference"},

@@ -1,0 +1,103 @@
+"""The sandbox in a window, under a display without a screen."""
+import os
+import threading
+import time
+
+from display import WindowTest, main, read_png
+
+COMMAND = os.environ["LSF_COMMAND"]
+SCENE = os.path.join(os.environ["LSF_SOURCE_ROOT"], "data/scenes/cornell_point.gltf")
+SIZE = "96,64"
+NO_GL = 4
+
+MOVES = """uniform float gain = 1.0; // @slider 0 2
+void mainImage(out vec4 c, in vec2 p)
+{
+    c = vec4(gain * p / iResolution.xy, fract(iTime), 1.0);
+}
+"""
+
+
+class Sandbox(WindowTest):
+    def show(self, shader, *lines, words=(), status=0):
+        """Without panels, so that the picture fills the window."""
+        self.write("my.frag", shader)
+        script = self.write("script", "\n".join(["1 key Tab", "2 key-up Tab", *lines]) + "\n")
+        return self.run_program(COMMAND, "sandbox", "my.frag", *words, "-r", SIZE, "--replay", script, status=status)
+
+    def shot(self, number=1):
+        return read_png(self.path(f"lightsheaf-{number:04}.png"))
+
+    def test_the_picture_is_that_of_the_command(self):
+        again = ["3 key F6", "4 key-up F6", "5 key F5", "6 key-up F5", "7 settle", "8 key F12", "9 key-up F12", "12 close"]
+        done = self.show(MOVES, *again)
+        self.assertEqual(done.stderr, "")
+        self.run_program(COMMAND, "sandbox", "my.frag", "-q", "-r", SIZE, "-o", "made.png")
+        self.assertEqual(self.shot(), read_png(self.path("made.png")))
+
+    def test_a_scene_and_its_camera(self):
+        turned = ["3 key F6", "4 key-up F6", "5 settle", "6 move 40 40", "7 button 1", "8 move 50 44", "9 button-up 1",
+                  "10 settle", "11 key F12", "12 key-up F12", "15 close"]
+        self.show("void mainImage(out vec4 c, in vec2 p) { c = vec4(lsf_albedo(p), 1.0); }", *turned, words=[SCENE])
+        self.run_program(COMMAND, "sandbox", "my.frag", SCENE, "-q", "-r", SIZE, "-o", "made.png")
+        shown, made = self.shot(), read_png(self.path("made.png"))
+        self.assertEqual(shown[:2], made[:2])
+        self.assertNotEqual(shown[2], made[2], "the camera has turned")
+
+    def test_mouse_and_keys(self):
+        """The button is held at (24, 16) from the lower left; A is held, B has been pressed once."""
+        shader = """// @channel 0 keyboard
+        float key(int code, int row) { return texelFetch(iChannel0, ivec2(code, row), 0).r; }
+        void mainImage(out vec4 c, in vec2 p)
+        {
+            c = vec4(iMouse.xy == vec2(24.0, 16.0) && iMouse.z == 20.0 ? 1.0 : 0.0, key(65, 0), key(66, 2), 1.0);
+        }
+        """
+        self.show(shader, "3 key F6", "4 key-up F6", "5 move 20 40", "6 button 0", "7 move 24 48", "8 key A", "9 key B",
+                  "10 key-up B", "11 settle", "12 key F12", "13 key-up F12", "16 close")
+        self.assertEqual(self.shot()[2][10][10], (255, 255, 255))
+
+    def test_sliders(self):
+        self.show(MOVES, "3 key F6", "4 key-up F6", "5 key F5", "6 key-up F5", "7 settle", "8 key Tab", "9 key-up Tab",
+                  "10 settle", "11 set gain = 0.5", "12 settle", "13 key Tab", "14 key-up Tab", "15 settle", "16 key F12",
+                  "17 key-up F12", "20 close")
+        self.run_program(COMMAND, "sandbox", "my.frag", "-q", "-r", SIZE, "-u", "gain=0.5", "-o", "made.png")
+        self.assertEqual(self.shot(), read_png(self.path("made.png")))
+
+    def test_saving_the_shader(self):
+        """A mistake is told, and the last good shader goes on; what comes after it is shown."""
+        red = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 1.0); }"
+
+        def edit():
+            for number, color in ((1, "wrong"), (2, "0.0, 1.0, 0.0")):
+                while not os.path.exists(self.path(f"lightsheaf-{number:04}.png")):
+                    time.sleep(0.01)
+                self.write("my.frag", red.replace("1.0, 0.0, 0.0", color))
+
+        editor = threading.Thread(target=edit, daemon=True)
+        editor.start()
+        shots = [line for frame in (10, 130, 250) for line in (f"{frame} key F12", f"{frame + 1} key-up F12")]
+        steps = [f"{frame} step 0.02" for frame in range(5, 255)]
+        lines = sorted(["4 key F6", "5 key-up F6", "6 settle", *shots, *steps], key=lambda line: int(line.split()[0]))
+        done = self.show(red, *lines, "260 close")
+        self.assertIn("my.frag:1: error: `wrong' undeclared", done.stderr)
+        self.assertEqual([self.shot(number)[2][5][5] for number in (1, 2, 3)], [(255, 0, 0), (255, 0, 0), (0, 255, 0)])
+
+    def test_mistakes_and_hangs(self):
+        done = self.show("void mainImage(out vec4 c, in vec2 p) { c = x; }", "3 key F6", "4 key-up F6", "30 settle",
+                         "40 close")
+        self.assertIn("my.frag:1: error: `x' undeclared", done.stderr)
+        loops = "".join(f"for (int {i} = 0; {i} < 65000 + iFrame; {i}++) " for i in "ijkl")
+        done = self.show(f"void mainImage(out vec4 c, in vec2 p) {{ c = vec4(0.0); {loops} c.r = fract(sin(c.r + "
+                         "float(i ^ j ^ k ^ l)));}", "3 key F6", "4 key-up F6", "30 settle", "40 close", words=["--watchdog", "1"])
+        self.assertIn("my.frag: frame 0: no end after 1 s", done.stderr)
+
+    def test_without_a_display(self):
+        environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        self.write("my.frag", MOVES)
+        done = self.run_program(COMMAND, "sandbox", "my.frag", environment=environment, status=NO_GL)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1)
+
+
+if __name__ == "__main__":
+    main()
