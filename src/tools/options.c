@@ -346,16 +346,16 @@ static const lsf_command_option options[] = {
 
     {"resolution", 'r', "W,H", LSF_COMMAND_VIEW, "Window", LSF_VALUE_RESOLUTION, AT(resolution), 64,
      16384, NULL, NULL, "width and height of the window; without it 1280,800"},
-    {"full-screen", 0, NULL, LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_FLAG, AT(full_screen), 0, 0,
-     NULL, NULL, "fill the screen"},
+    {"full-screen", 0, NULL, LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_FLAG,
+     AT(full_screen), 0, 0, NULL, NULL, "fill the screen"},
     {"budget", 0, "MS", LSF_COMMAND_VIEW, "Window", LSF_VALUE_DOUBLE, AT(budget), 1, 10000, NULL,
      NULL,
      "milliseconds that a frame may take while things move: pictures are as large, and maps as "
      "fine, as it allows; without it 100 in software, 33 on a GPU"},
-    {"record", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT, AT(record), 0, 0, NULL, NULL,
-     "write down what is done with mouse and keys, frame by frame"},
-    {"replay", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT, AT(replay), 0, 0, NULL, NULL,
-     "do what such a file says, then end"},
+    {"record", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT,
+     AT(record), 0, 0, NULL, NULL, "write down what is done with mouse and keys, frame by frame"},
+    {"replay", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT,
+     AT(replay), 0, 0, NULL, NULL, "do what such a file says, then end"},
     {"list-keys", 0, NULL, LSF_COMMAND_VIEW, "General", LSF_VALUE_FLAG, AT(list_keys), 0, 0, NULL,
      NULL, "print keys and buttons"},
 
