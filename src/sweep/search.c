@@ -8,7 +8,7 @@
 #include "sweep/front.h"
 #include "sweep/statistics.h"
 
-enum { ROUGH_SEEDS = 2, FEWEST = 3, FEW_SAMPLES = 4 };
+enum { ROUGH_SEEDS = 2, FEWEST = 3, FEW_SAMPLES = 4, MOST_CONTENDERS = 6, DECISIONS = 2 };
 #define FIRST_PART (1.0 / 64.0) /* of the time, and what each rung multiplies it by */
 #define GROWTH 4.0
 /* An error may turn out less by this factor, for two seeds tell it badly, and its power be off by
@@ -27,6 +27,7 @@ typedef struct search_run {
     lsf_measurement *m;
     candidate *candidates;
     uint32_t count;
+    double seed_variance; /* of the logarithm of an error, from one seed to another */
     bool stopped;
 } search_run;
 
@@ -115,11 +116,35 @@ static int by_foretold(const void *a, const void *b)
     return (left > right) - (left < right);
 }
 
+/* Variance of the logarithm of one seed's error, from the scatter of all candidates: that of
+ * one alone is not known from few seeds. */
+static double pooled_variance(const search_run *run)
+{
+    double sum = 0.0;
+    uint32_t degrees = 0;
+    for (uint32_t i = 0; i < run->count; i++) {
+        const lsf_measured_point *p =
+            lsf_measurement_last(run->m, run->candidates[i].configuration);
+        for (uint32_t s = 0; s < p->seed_count; s++)
+            sum += pow(p->relmse.products[s][s] / p->relmse.error.value - 1.0, 2.0);
+        degrees += p->seed_count - 1;
+    }
+    return degrees > 0 && isfinite(sum) ? sum / degrees : 0.0;
+}
+
+/* How far apart two errors of so many seeds may be by chance, as a factor. */
+static double chance_factor(double variance_of_seed, uint32_t seeds)
+{
+    return exp(DOUBT * sqrt(2.0 * variance_of_seed / seeds));
+}
+
 /* Leaves out what takes too long with one sample, what is not foretold to come near the best even
  * if it falls faster than it seems, and the worst of too many. */
 static void thin_out(search_run *run)
 {
     uint32_t kept = 0, most = FEWEST + 2 * run->count / 3;
+    run->seed_variance = pooled_variance(run);
+    double doubt = chance_factor(run->seed_variance, run->search->seeds);
     for (uint32_t i = 0; i < run->count; i++) {
         uint32_t c = run->candidates[i].configuration;
         uint32_t samples = samples_within(run, c, run->search->budget_ms);
@@ -128,7 +153,7 @@ static void thin_out(search_run *run)
         double more = fmax((double)samples / lsf_measurement_last(run->m, c)->samples, 1.0);
         run->candidates[kept] = (candidate){.configuration = c,
                                             .foretold = foretell(run, c, samples),
-                                            .doubt = DOUBT * pow(more, DOUBT_POWER)};
+                                            .doubt = doubt * pow(more, DOUBT_POWER)};
         kept++;
     }
     qsort(run->candidates, kept, sizeof *run->candidates, by_foretold);
@@ -153,11 +178,11 @@ static void expect_rung(const search_run *run, double milliseconds, uint32_t see
 static bool measure_rung(search_run *run, double milliseconds, lsf_error *error)
 {
     bool good = true;
-    expect_rung(run, milliseconds, ROUGH_SEEDS);
+    expect_rung(run, milliseconds, run->search->seeds);
     for (uint32_t i = 0; good && !run->stopped && i < run->count; i++) {
         uint32_t c = run->candidates[i].configuration;
         uint32_t samples = samples_within(run, c, milliseconds);
-        good = measure(run, c, samples ? samples : 1, ROUGH_SEEDS, error);
+        good = measure(run, c, samples ? samples : 1, run->search->seeds, error);
     }
     return good;
 }
@@ -195,6 +220,29 @@ static const lsf_measured_point *best_within(const search_run *run)
             best = point;
     }
     return best;
+}
+
+/* Measures those among which the seeds have not decided from twice as many; false when there is
+ * nothing to decide, or on failure. */
+static bool measure_contenders(search_run *run, lsf_error *error, bool *good)
+{
+    const lsf_measured_point *best = best_within(run);
+    uint32_t list[2 * MOST_CONTENDERS], count = 0;
+    if (!best || 2 * best->seed_count > LSF_SWEEP_MAX_SEEDS)
+        return false;
+    uint32_t seeds = best->seed_count;
+    double most = best->relmse.error.value * chance_factor(run->seed_variance, seeds);
+    for (uint32_t i = 0; i < run->m->point_count && count < MOST_CONTENDERS; i++) {
+        const lsf_measured_point *point = &run->m->points[i];
+        if (point->seed_count < seeds || point->relmse.error.value > most ||
+            point->milliseconds.median > run->search->budget_ms)
+            continue;
+        list[2 * count] = point->configuration;
+        list[2 * count++ + 1] = point->samples;
+    }
+    for (uint32_t i = 0; *good && count > 1 && !run->stopped && i < count; i++)
+        *good = measure(run, list[2 * i], list[2 * i + 1], 2 * seeds, error);
+    return *good && count > 1 && !run->stopped;
 }
 
 /* Standard deviation of the mean error, by seeds alone: what the reference does wrong it does to
@@ -270,8 +318,11 @@ static bool look(search_run *run, lsf_error *error)
         uint32_t c = run->candidates[i].configuration;
         good = measure(run, c, 1, ROUGH_SEEDS, error);
         uint32_t few = samples_within(run, c, run->search->budget_ms);
-        if (good && !run->stopped && few > 1 && few < run->search->most_samples)
-            good = measure(run, c, few < FEW_SAMPLES ? few : FEW_SAMPLES, ROUGH_SEEDS, error);
+        if (good && !run->stopped && few > 0)
+            good = measure(run, c, 1, run->search->seeds, error);
+        if (good && !run->stopped && few > 1)
+            good =
+                measure(run, c, few < FEW_SAMPLES ? few : FEW_SAMPLES, run->search->seeds, error);
     }
     drop_failures(run);
     return good;
@@ -289,6 +340,9 @@ static bool search_within(search_run *run, lsf_error *error)
     expect_rung(run, search->budget_ms, search->seeds);
     for (uint32_t i = 0; good && !run->stopped && i < run->count; i++)
         good = measure_finalist(run, run->candidates[i].configuration, error);
+    for (int i = 0; good && !run->stopped && i < DECISIONS; i++)
+        if (!measure_contenders(run, error, &good))
+            break;
     if (!good)
         return false;
     const lsf_measured_point *best = best_within(run);

@@ -155,8 +155,8 @@ static void test_nothing_is_quick_enough(void **state)
     lsf_measurement_finish(&w.measurement);
 }
 
-/* Random curves with noise: at most a tenth more error than the best, in most worlds, for less than
- * a third of the time that an exhaustive search would take. */
+/* Random curves with noise: at most a tenth more error than the best but in four of 180 answers, for
+ * less than half of the time that an exhaustive search would take. */
 static void test_regret(void **state)
 {
     (void)state;
@@ -195,8 +195,8 @@ static void test_regret(void **state)
     print_message("%u of %u answers are worse by more than 10 %%, %.0f %% at most; %.2f of the "
                   "time of an exhaustive search\n",
                   poor, WORLDS * 3, 100.0 * worst, spent / exhaustive);
-    assert_true(poor <= WORLDS * 3 / 20);
-    assert_true(spent < 0.34 * exhaustive);
+    assert_true(poor <= 4);
+    assert_true(spent < 0.5 * exhaustive);
 }
 
 static void test_to_an_error(void **state)
