@@ -46,9 +46,10 @@ typedef struct power_law {
     double floor, noise, exponent;
 } power_law;
 
-/* Slope of the variance's logarithm over that of samples. Where nothing is left of the noise, as of
- * equal pictures, or where it does not fall, there is no telling it from a floor. */
-static double find_exponent(const fit_data *data, int left_out)
+/* A straight line through the variance's logarithm over that of samples. Where nothing is left of
+ * the noise, as of equal pictures, or where it does not fall, there is no telling it from a floor.
+ */
+static void fit_variance(const fit_data *data, int left_out, double *noise, double *exponent)
 {
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
     for (uint32_t k = 0; k < data->points; k++) {
@@ -64,14 +65,16 @@ static double find_exponent(const fit_data *data, int left_out)
         xy += u * v;
     }
     double spread = n * xx - x * x;
-    return n >= 2.0 && spread > 0.0 ? -(n * xy - x * y) / spread : NAN;
+    *exponent = n >= 2.0 && spread > 0.0 ? -(n * xy - x * y) / spread : NAN;
+    *noise = exp((y + *exponent * x) / n);
 }
 
-/* Least squares of (floor + noise N^-p) / e - 1, e the mean error at N: errors are about as large
- * as their errors are, relatively. */
+/* The squared bias is floor + b N^-p, b what of it falls with the noise, by least squares of its
+ * differences in parts of the error at N, to which its deviation is proportional. */
 static power_law fit(const fit_data *data, int left_out)
 {
-    double p = find_exponent(data, left_out);
+    double variance, p;
+    fit_variance(data, left_out, &variance, &p);
     double aa = 0.0, ab = 0.0, bb = 0.0, a = 0.0, b = 0.0;
     for (uint32_t k = 0; k < data->points; k++) {
         double on, off;
@@ -80,12 +83,12 @@ static power_law fit(const fit_data *data, int left_out)
         aa += weight * weight;
         ab += weight * decay;
         bb += decay * decay;
-        a += weight;
-        b += decay;
+        a += weight * weight * off;
+        b += weight * decay * off;
     }
     double determinant = aa * bb - ab * ab;
     return (power_law){.floor = (a * bb - b * ab) / determinant,
-                       .noise = (b * aa - a * ab) / determinant,
+                       .noise = variance + (b * aa - a * ab) / determinant,
                        .exponent = p};
 }
 

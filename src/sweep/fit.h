@@ -7,9 +7,9 @@
 /* Fills in error, squared bias and variance from the products of `seeds` seeds. */
 void lsf_squared_error_derive(lsf_squared_error *error, uint32_t seeds);
 
-/* Fits error(N) = floor + noise N^-p to points of one configuration, of as many seeds each. The
- * exponent is that by which the variance over seeds falls (least squares of logarithms); floor and
- * noise follow by least squares of relative errors. Intervals are by the jackknife over seeds. */
+/* Fits error(N) = floor + noise N^-p to points of one configuration, of as many seeds each: the
+ * variance over seeds as a power of N, and the squared bias as a floor and a part that falls like
+ * the variance. Intervals are by the jackknife over seeds. */
 lsf_error_fit lsf_error_fit_make(const lsf_squared_error *const *errors, const uint32_t *samples,
                                  uint32_t points, uint32_t seeds);
 

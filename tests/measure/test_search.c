@@ -155,8 +155,8 @@ static void test_nothing_is_quick_enough(void **state)
     lsf_measurement_finish(&w.measurement);
 }
 
-/* Random curves with noise: at most a tenth more error than the best but in four of 180 answers, for
- * less than half of the time that an exhaustive search would take. */
+/* Random curves with noise: at most a tenth more error than the best but in four of 180 answers,
+ * for less than half of the time that an exhaustive search would take. */
 static void test_regret(void **state)
 {
     (void)state;
