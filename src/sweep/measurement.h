@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { LSF_SWEEP_MAX_SEEDS = 32, LSF_SWEEP_MAX_OPTIONS = 16 };
+enum { LSF_SWEEP_MAX_SEEDS = 32, LSF_SWEEP_MAX_OPTIONS = 16, LSF_SWEEP_MAX_PASSES = 64 };
 
 /* With its 95 % confidence interval. NAN: not known. */
 typedef struct lsf_estimate {
@@ -52,12 +52,21 @@ typedef struct lsf_measured_path {
     double motion;           /* squared change of the reference from frame to frame */
 } lsf_measured_path;
 
+/* What a pass took of the frame of the first seed. */
+typedef struct lsf_measured_pass {
+    char name[48];
+    uint64_t runs;
+    double milliseconds; /* of these runs together */
+} lsf_measured_pass;
+
 /* A configuration at one number of samples. */
 typedef struct lsf_measured_point {
     uint32_t configuration;
     uint32_t samples; /* iterations of a frame */
     uint32_t seed_count;
     lsf_measured_seed seeds[LSF_SWEEP_MAX_SEEDS];
+    uint32_t pass_count;
+    lsf_measured_pass passes[LSF_SWEEP_MAX_PASSES];
     uint64_t gl_bytes, gl_bytes_peak; /* while its frames were made */
     lsf_squared_error mse, relmse;
     lsf_measured_path path;

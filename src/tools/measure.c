@@ -295,7 +295,6 @@ int lsf_tool_measure(int argc, char **argv)
         lsf_kept_reference_finish(&job.reference);
         lsf_measure_end_path(&job);
         lsf_measure_end_pictures(&job.measurement, &job.picture_folder);
-        lsf_measure_end_pictures(&job.measurement, &job.picture_folder);
         lsf_context_destroy(job.context);
         lsf_scene_destroy(job.scene);
         free(job.scene_path);

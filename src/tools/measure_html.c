@@ -58,7 +58,8 @@ void lsf_measure_end_pictures(lsf_measurement *measurement, char **folder)
     *folder = NULL;
 }
 
-/* Returns their number. Those of the front come first: there may not be room for all. */
+/* Returns their number. Those of the front come first: there may not be room for all. Pictures of
+ * points that were measured before may be gone. */
 static uint32_t list_pictures(const lsf_measurement *m, lsf_report_picture *pictures)
 {
     uint32_t count = 0;
@@ -66,9 +67,10 @@ static uint32_t list_pictures(const lsf_measurement *m, lsf_report_picture *pict
         pictures[count++] = (lsf_report_picture){"reference", m->reference.picture};
     for (int front = 1; front >= 0; front--)
         for (uint32_t i = 0; i < m->point_count; i++) {
-            if (m->points[i].front != (front == 1) || !m->points[i].picture)
+            const char *path = m->points[i].picture;
+            if (m->points[i].front != (front == 1) || !path || access(path, R_OK) != 0)
                 continue;
-            pictures[count].path = m->points[i].picture;
+            pictures[count].path = path;
             snprintf(pictures[count++].id, sizeof pictures->id, "point-%u", i);
         }
     return count;

@@ -189,6 +189,15 @@ static void add_point(lsf_json *json, const lsf_measurement *m, const lsf_measur
     lsf_json_integer(json, "plan", point->gl_bytes);
     lsf_json_integer(json, "peak", point->gl_bytes_peak);
     lsf_json_end(json, '}');
+    lsf_json_begin(json, "passes", '[');
+    for (uint32_t i = 0; i < point->pass_count; i++) {
+        lsf_json_begin(json, NULL, '{');
+        lsf_json_string(json, "name", point->passes[i].name);
+        lsf_json_integer(json, "runs", point->passes[i].runs);
+        lsf_json_number(json, "milliseconds", point->passes[i].milliseconds);
+        lsf_json_end(json, '}');
+    }
+    lsf_json_end(json, ']');
     add_estimate(json, "rmse", point->rmse);
     add_squared_error(json, "mse", &point->mse, point->seed_count);
     add_squared_error(json, "relmse", &point->relmse, point->seed_count);

@@ -4,6 +4,7 @@
 #include "tools/json_read.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,6 +116,23 @@ static bool copy_path(char **path, const lsf_json_document *d, const lsf_json_va
     return !text || *path;
 }
 
+static void read_passes(lsf_measured_point *point, const lsf_json_document *d,
+                        const lsf_json_value *passes)
+{
+    const lsf_json_value *value = lsf_json_first(d, passes);
+    for (; value && point->pass_count < LSF_SWEEP_MAX_PASSES; value = lsf_json_next(d, value)) {
+        const char *name = lsf_json_find_string(d, value, "name");
+        double runs = lsf_json_find_number(d, value, "runs");
+        lsf_measured_pass *pass = &point->passes[point->pass_count];
+        if (!name || !is_count(runs, 0x1p53))
+            continue;
+        snprintf(pass->name, sizeof pass->name, "%s", name);
+        pass->runs = (uint64_t)runs;
+        pass->milliseconds = lsf_json_find_number(d, value, "milliseconds");
+        point->pass_count++;
+    }
+}
+
 static bool read_point(lsf_measurement *m, const lsf_json_document *d, const lsf_json_value *value)
 {
     double samples = lsf_json_find_number(d, value, "samples");
@@ -135,6 +153,7 @@ static bool read_point(lsf_measurement *m, const lsf_json_document *d, const lsf
     const lsf_json_value *seed = lsf_json_first(d, lsf_json_find(d, value, "seeds"));
     for (; seed && point->seed_count < LSF_SWEEP_MAX_SEEDS; seed = lsf_json_next(d, seed))
         read_seed(&point->seeds[point->seed_count++], d, seed);
+    read_passes(point, d, lsf_json_find(d, value, "passes"));
     read_path(&point->path, d, lsf_json_find(d, value, "path"));
     return point->seed_count > 0 &&
            read_products(&point->mse, d, lsf_json_find(d, value, "mse"), point->seed_count) &&
