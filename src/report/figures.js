@@ -83,15 +83,16 @@ function timedPoints() {
 
 function passBars(container, readOut) {
   const timed = timedPoints();
-  const sum = (point) => point.passes.reduce((total, pass) => total + pass.milliseconds, 0);
+  const took = (point, pass) => point.samples * pass.milliseconds; /* which is a mean per iteration */
+  const sum = (point) => point.passes.reduce((total, pass) => total + took(point, pass), 0);
   const longest = Math.max(...timed.map(sum), 0);
   const names = [...new Set(timed.flatMap((point) => point.passes.map((pass) => pass.name)))];
   for (const point of timed) {
     const bar = element("div", { class: "bar", role: "list" });
     bar.style.width = `${100 * sum(point) / longest}%`;
     for (const pass of point.passes) {
-      const share = 100 * pass.milliseconds / sum(point);
-      const said = `${pass.name}: ${number(pass.milliseconds)} ms, ${number(share, 2)} %`;
+      const share = 100 * took(point, pass) / sum(point);
+      const said = `${pass.name}: ${number(took(point, pass))} ms, ${number(share, 2)} %`;
       const part = element("span", { role: "listitem", title: said, "aria-label": said });
       part.style.flexGrow = String(pass.milliseconds);
       part.style.background = colourOf(names.indexOf(pass.name));

@@ -76,8 +76,9 @@ configurations.forEach((configuration, index) => {
 });
 
 get("passes").hidden = !passBars(get("pass-bars"), (said) => { get("pass-readout").textContent = said; });
-if (data.prices && data.prices.length) {
-  new Table(get("price-table"), priceColumns(), data.prices, null);
+if (data.prices && data.prices.features.length) {
+  new Table(get("price-table"), priceColumns(), data.prices.features, null);
+  get("price-technique").textContent = data.prices.technique;
   get("prices").hidden = false;
 }
 /* First of all what is best. */

@@ -56,7 +56,7 @@ typedef struct lsf_measured_path {
 typedef struct lsf_measured_pass {
     char name[48];
     uint64_t runs;
-    double milliseconds; /* of these runs together */
+    double milliseconds; /* mean per iteration */
 } lsf_measured_pass;
 
 /* A configuration at one number of samples. */

@@ -57,7 +57,8 @@ static double poll_milliseconds(lsf_renderer *renderer, lsf_measured_point *poin
         if (!point || times[i].runs == 0 || point->pass_count == LSF_SWEEP_MAX_PASSES)
             continue;
         lsf_measured_pass *pass = &point->passes[point->pass_count++];
-        *pass = (lsf_measured_pass){.runs = times[i].runs, .milliseconds = times[i].milliseconds};
+        *pass = (lsf_measured_pass){.runs = times[i].runs,
+                                    .milliseconds = times[i].milliseconds / point->samples};
         snprintf(pass->name, sizeof pass->name, "%s", times[i].name);
     }
     return sum;

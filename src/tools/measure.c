@@ -218,7 +218,7 @@ bool lsf_measure_write_json(lsf_measure_job *job, lsf_error *error)
     job->measurement.seconds = lsf_now() - job->start;
     if (!work_out(job, error))
         return false;
-    lsf_measure_add_json(&json, &job->measurement, &job->device);
+    lsf_measure_add_json(&json, &job->measurement, &job->device, &job->prices);
     bool good = lsf_json_write(&json, job->settings.json_path, error);
     free(json.text.text);
     return good;
@@ -228,8 +228,9 @@ bool lsf_measure_write_json(lsf_measure_job *job, lsf_error *error)
 static bool write_html(lsf_measure_job *job, lsf_error *error)
 {
     job->measurement.seconds = lsf_now() - job->start;
-    bool good = work_out(job, error) && lsf_measure_write_html(&job->measurement, &job->device,
-                                                               job->settings.html_path, error);
+    bool good = work_out(job, error) &&
+                lsf_measure_write_html(&job->measurement, &job->device, &job->prices,
+                                       job->settings.html_path, error);
     lsf_measure_end_pictures(&job->measurement, &job->picture_folder);
     return good;
 }
@@ -279,7 +280,8 @@ static bool run(lsf_measure_job *job, lsf_error *error)
     bool good = lsf_measure_reference(&job->settings, job->scene, &job->measurement,
                                       &job->reference, error) &&
                 lsf_measure_begin_path(job, error) && make_key(job, error) &&
-                read_points(job, error) && lsf_measure_points(job, error);
+                read_points(job, error) && lsf_measure_points(job, error) &&
+                lsf_measure_prices(job, error);
     lsf_interrupt_end_iterations();
     return good && write_html(job, error) && lsf_measure_write_json(job, error) &&
            write_csv(job, error) && save_preset(job, error) && print_table(job, error);
@@ -298,6 +300,7 @@ int lsf_tool_measure(int argc, char **argv)
         lsf_context_destroy(job.context);
         lsf_scene_destroy(job.scene);
         free(job.scene_path);
+        lsf_prices_finish(&job.prices);
         lsf_measurement_finish(&job.measurement);
     }
     lsf_settings_finish(&job.settings);

@@ -7,6 +7,7 @@
 #include "sweep/path.h"
 #include "sweep/reference.h"
 #include "tools/options.h"
+#include "tools/prices.h"
 #include "tools/report.h"
 
 typedef struct lsf_measure_job {
@@ -24,6 +25,7 @@ typedef struct lsf_measure_job {
     lsf_progress_bar bar;
     uint32_t done, total; /* iterations, as far as they are foreseen */
     double start;
+    lsf_prices prices;    /* of the first technique; none unless they are asked for */
     char *picture_folder; /* that lasts as long as the command; NULL: none */
 } lsf_measure_job;
 
@@ -35,6 +37,9 @@ void lsf_measure_end_path(lsf_measure_job *job);
 /* Measures the grid, or searches it for what is asked for. An interrupt ends it with what there is.
  * After each point the file of --json is written anew. */
 bool lsf_measure_points(lsf_measure_job *job, lsf_error *error);
+
+/* Where prices are asked for: plans and times frames without each feature of the scene. */
+bool lsf_measure_prices(lsf_measure_job *job, lsf_error *error);
 
 /* Writes the JSON where --json says. What follows from the points is worked out first. */
 bool lsf_measure_write_json(lsf_measure_job *job, lsf_error *error);

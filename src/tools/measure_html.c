@@ -77,13 +77,13 @@ static uint32_t list_pictures(const lsf_measurement *m, lsf_report_picture *pict
 }
 
 bool lsf_measure_write_html(const lsf_measurement *m, const lsf_context_info *device,
-                            const char *path, lsf_error *error)
+                            const lsf_prices *prices, const char *path, lsf_error *error)
 {
     if (!path)
         return true;
     lsf_json json = {0};
     lsf_report_picture *pictures = lsf_alloc((uint64_t)m->point_count + 1, sizeof *pictures);
-    lsf_measure_add_json(&json, m, device);
+    lsf_measure_add_json(&json, m, device, prices);
     bool good =
         (pictures && !json.text.failed) || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
     good =

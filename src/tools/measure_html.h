@@ -6,6 +6,7 @@
 
 #include "sweep/measurement.h"
 #include "tools/options.h"
+#include "tools/prices.h"
 
 /* Where a report is asked for and no folder for pictures: one that lasts as long as the command.
  * Sets settings->picture_folder. */
@@ -15,6 +16,6 @@ void lsf_measure_end_pictures(lsf_measurement *measurement, char **folder);
 
 /* Nothing without a path. */
 bool lsf_measure_write_html(const lsf_measurement *measurement, const lsf_context_info *device,
-                            const char *path, lsf_error *error);
+                            const lsf_prices *prices, const char *path, lsf_error *error);
 
 #endif

@@ -245,7 +245,8 @@ static void add_answer(lsf_json *json, const lsf_measurement *m)
 
 /* --- all of it --- */
 
-void lsf_measure_add_json(lsf_json *json, const lsf_measurement *m, const lsf_context_info *device)
+void lsf_measure_add_json(lsf_json *json, const lsf_measurement *m, const lsf_context_info *device,
+                          const lsf_prices *prices)
 {
     lsf_json_begin(json, NULL, '{');
     lsf_json_string(json, "lightsheaf", lsf_version());
@@ -273,6 +274,7 @@ void lsf_measure_add_json(lsf_json *json, const lsf_measurement *m, const lsf_co
     for (uint32_t i = 0; i < m->point_count; i++)
         add_point(json, m, &m->points[i]);
     lsf_json_end(json, ']');
+    lsf_prices_add_json(json, "prices", prices);
     add_answer(json, m);
     lsf_json_end(json, '}');
 }

@@ -5,11 +5,11 @@
 #include <lightsheaf/context.h>
 
 #include "sweep/measurement.h"
-#include "tools/json.h"
+#include "tools/prices.h"
 
 /* The whole measurement, as one object. */
 void lsf_measure_add_json(lsf_json *json, const lsf_measurement *measurement,
-                          const lsf_context_info *device);
+                          const lsf_context_info *device, const lsf_prices *prices);
 
 /* A line of names, then one for each point (RFC 4180). */
 void lsf_measure_add_csv(lsf_string *text, const lsf_measurement *measurement);

@@ -116,9 +116,11 @@ static const lsf_command_option options[] = {
     {"dot", 0, NULL, LSF_COMMAND_PLAN, "Output", LSF_VALUE_FLAG, AT(dot), 0, 0, NULL, NULL,
      "print the plan as a graph for Graphviz: passes in order, what they fill and read, its bytes, "
      "and the switches that are on"},
-    {"prices", 0, NULL, LSF_COMMAND_PLAN, "Output", LSF_VALUE_FLAG, AT(prices), 0, 0, NULL, NULL,
-     "print what each feature of the scene costs: what the plan is without it in bytes, passes, "
-     "resources and switches"},
+    {"prices", 0, NULL, LSF_COMMAND_PLAN | LSF_COMMAND_MEASURE, "Output", LSF_VALUE_FLAG,
+     AT(prices), 0, 0, NULL, NULL,
+     "say what each feature of the scene costs: bytes, passes, resources and switches that the "
+     "plan "
+     "has without it no more; measure, which takes its first technique, times a frame, too"},
     {"json", 0, "FILE", LOADING | LSF_COMMAND_COMPARE | MEASURING, "Output", LSF_VALUE_JSON,
      AT(json_path), 0, 0, NULL, NULL,
      "write as JSON what is found, decided and measured; - is standard output, where it takes the "

@@ -6,8 +6,8 @@
 #include "tools/scenes.h"
 #include "tools/tools.h"
 
-static bool print_prices(const lsf_settings *settings, uint32_t index, const lsf_scene *scene,
-                         lsf_json *json, lsf_error *error)
+static bool print_prices(const lsf_settings *settings, uint32_t index, const char *path,
+                         const lsf_scene *scene, lsf_json *json, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(settings);
     lsf_prices prices;
@@ -19,6 +19,7 @@ static bool print_prices(const lsf_settings *settings, uint32_t index, const lsf
     }
     if (good) {
         lsf_json_begin(json, NULL, '{');
+        lsf_json_string(json, "scene", path);
         lsf_prices_add_json(json, "prices", &prices);
         lsf_json_end(json, '}');
     }
@@ -49,7 +50,7 @@ static bool print_plan(void *user, uint32_t index, const char *path, lsf_json *j
     lsf_scene *scene = lsf_tool_load_scene(settings, path, &seconds, error);
     bool good = scene;
     if (good && settings->prices)
-        good = print_prices(settings, index, scene, json, error);
+        good = print_prices(settings, index, path, scene, json, error);
     else if (good)
         good = print_whole(settings, index, lsf_plan_create(scene, &params, error), json, error);
     lsf_scene_destroy(scene);

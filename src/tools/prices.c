@@ -27,7 +27,8 @@ static bool add_feature(lsf_prices *prices, const lsf_scene *scene, const lsf_re
 bool lsf_prices_make(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
                      lsf_error *error)
 {
-    *prices = (lsf_prices){0};
+    *prices = (lsf_prices){
+        .technique = params->technique, .width = params->width, .height = params->height};
     lsf_plan *with = lsf_plan_create(scene, params, error);
     bool good = with;
     for (int f = 0; good && f < LSF_FEATURE_COUNT; f++)
@@ -102,7 +103,14 @@ static void add_list(lsf_json *json, const char *name, const lsf_price_list *lis
 
 void lsf_prices_add_json(lsf_json *json, const char *name, const lsf_prices *prices)
 {
-    lsf_json_begin(json, name, '[');
+    if (!prices->technique) {
+        lsf_json_string(json, name, NULL);
+        return;
+    }
+    lsf_json_begin(json, name, '{');
+    lsf_json_string(json, "technique", prices->technique);
+    lsf_json_vector(json, "resolution", (float[]){(float)prices->width, (float)prices->height}, 2);
+    lsf_json_begin(json, "features", '[');
     for (uint32_t i = 0; i < prices->count; i++) {
         const lsf_feature_price *row = &prices->features[i];
         lsf_json_begin(json, NULL, '{');
@@ -115,4 +123,5 @@ void lsf_prices_add_json(lsf_json *json, const char *name, const lsf_prices *pri
         lsf_json_end(json, '}');
     }
     lsf_json_end(json, ']');
+    lsf_json_end(json, '}');
 }

@@ -13,6 +13,8 @@ typedef struct lsf_feature_price {
 } lsf_feature_price;
 
 typedef struct lsf_prices {
+    const char *technique; /* of the parameters */
+    uint32_t width, height;
     lsf_feature_price features[LSF_FEATURE_COUNT];
     uint32_t count;
 } lsf_prices;
@@ -23,7 +25,7 @@ bool lsf_prices_make(lsf_prices *prices, const lsf_scene *scene, const lsf_rende
 void lsf_prices_finish(lsf_prices *prices);
 
 void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices);
-/* An array. */
+/* An object, or null where nothing was priced. */
 void lsf_prices_add_json(lsf_json *json, const char *name, const lsf_prices *prices);
 
 #endif

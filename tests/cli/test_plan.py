@@ -89,7 +89,7 @@ class Prices(CommandTest):
         return json.loads(self.run_command("plan", *words, "--json", "-").stdout)
 
     def price(self, feature, *words):
-        found = [p for p in self.plan(*words, "--prices")["prices"] if p["feature"] == feature]
+        found = [p for p in self.plan(*words, "--prices")["prices"]["features"] if p["feature"] == feature]
         self.assertLessEqual(len(found), 1)
         return found[0] if found else None
 

@@ -38,7 +38,7 @@ class Report(CommandTest):
         self.scene(NAME)
         self.run_command("measure", NAME, "-t", "direct,cone", "--sweep", "voxel.resolution=16,32", "-s", "4",
                          "--seeds", "2", "--reference-samples", "8", "-r", "48,36", "--cache", "none",
-                         "--html", "r.html", "--json", "r.json", "--pictures", "pictures", "-q")
+                         "--prices", "--html", "r.html", "--json", "r.json", "--pictures", "pictures", "-q")
         self.data = self.read_json("r.json")
         self.browser = browser.Browser()
         self.addCleanup(self.browser.close)
@@ -88,6 +88,7 @@ class Report(CommandTest):
         self.plots()
         self.pictures()
         self.tables()
+        self.prices()
         self.names()
         self.shoot("light.png")
         self.dark()
@@ -238,6 +239,19 @@ class Report(CommandTest):
         self.js("document.querySelector('#points tbody tr').click()")
         worst = max(range(len(self.data["points"])), key=lambda i: self.data["points"][i]["relmse"]["value"])
         self.assertEqual(self.js("return document.getElementById('picture-choice').value"), str(worst))
+
+    def prices(self):
+        prices = self.data["prices"]
+        self.assertEqual(self.text("#price-technique"), prices["technique"])
+        rows = self.js("""return [...document.querySelectorAll('#price-table tbody tr')]
+            .map((row) => [...row.cells].map((cell) => cell.textContent))""")
+        self.assertEqual([row[0] for row in rows], [price["feature"] for price in prices["features"]])
+        self.assertIn("lights", [row[0] for row in rows])
+        for row, price in zip(rows, prices["features"]):
+            self.assertAlmostEqual(float(row[2]), price["milliseconds"], delta=0.01 * abs(price["milliseconds"]))
+        bars = self.js("return [...document.querySelectorAll('.bar')].map((bar) => bar.children.length)")
+        self.assertEqual(len(bars), len(self.data["configurations"]))
+        self.assertTrue(all(bars))
 
     def names(self):
         """All that can be operated has a name for who cannot see it."""

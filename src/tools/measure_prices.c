@@ -1,0 +1,72 @@
+/* What a frame takes with and without each feature of the scene. */
+#include "tools/measure.h"
+
+#include <math.h>
+
+#include "sweep/statistics.h"
+#include "tools/interrupt.h"
+
+enum { FRAMES = 5 }; /* of each, in turn with the other's, so that both see the same machine */
+
+static bool time_frame(const lsf_measure_job *job, lsf_renderer *renderer, double *milliseconds,
+                       lsf_error *error)
+{
+    const lsf_frame frame = {LSF_FRAME_DEFAULTS, .time = job->settings.time, .cut = true};
+    const lsf_pass_time *times;
+    lsf_renderer_poll_times(renderer, &times);
+    double start = lsf_now();
+    if (!lsf_renderer_begin_frame(renderer, &frame, error) || !lsf_renderer_run(renderer, error))
+        return false;
+    *milliseconds = 1e3 * (lsf_now() - start);
+    if (!job->measurement.gpu_clock)
+        return true;
+    *milliseconds = 0.0;
+    for (uint32_t i = 0, count = lsf_renderer_poll_times(renderer, &times); i < count; i++)
+        *milliseconds += times[i].milliseconds;
+    return true;
+}
+
+/* The first frame of each does not count. */
+static bool time_both(const lsf_measure_job *job, lsf_renderer *const renderers[2],
+                      double *difference, lsf_error *error)
+{
+    double milliseconds[2][FRAMES + 1];
+    for (int frame = 0; frame <= FRAMES; frame++)
+        for (int which = 0; which < 2; which++)
+            if (!time_frame(job, renderers[which], &milliseconds[which][frame], error))
+                return false;
+    *difference = lsf_quartiles_of(milliseconds[0] + 1, FRAMES).median -
+                  lsf_quartiles_of(milliseconds[1] + 1, FRAMES).median;
+    return true;
+}
+
+static bool time_feature(const lsf_measure_job *job, const lsf_render_params *params,
+                         lsf_feature_price *price, lsf_error *error)
+{
+    lsf_scene *without = lsf_scene_without(job->scene, price->feature, error);
+    lsf_renderer *renderers[2] = {0};
+    bool good = without != NULL;
+    for (int i = 0; good && i < 2; i++)
+        good = (renderers[i] = lsf_renderer_create(job->context, i ? without : job->scene, params,
+                                                   error)) != NULL;
+    good = good && time_both(job, renderers, &price->milliseconds, error);
+    for (int i = 0; i < 2; i++)
+        lsf_renderer_destroy(renderers[i]);
+    lsf_scene_destroy(without);
+    return good;
+}
+
+bool lsf_measure_prices(lsf_measure_job *job, lsf_error *error)
+{
+    lsf_render_params params = lsf_settings_render_params(&job->settings);
+    const lsf_measurement *m = &job->measurement;
+    if (!job->settings.prices || m->configuration_count == 0)
+        return true;
+    params.technique = m->configurations[0].technique;
+    params.samples = 1;
+    params.temporal = false;
+    bool good = lsf_prices_make(&job->prices, job->scene, &params, error);
+    for (uint32_t i = 0; good && i < job->prices.count && !lsf_interrupted(); i++)
+        good = time_feature(job, &params, &job->prices.features[i], error);
+    return good;
+}
