@@ -110,7 +110,7 @@ lsf_plan *lsf_sandbox_plan(const lsf_scene *scene, const lsf_sandbox_params *par
 
 /* A name, or an annotation, that the sandbox gives a meaning to. */
 typedef struct lsf_sandbox_name {
-    const char *group; /* "uniform", "engine", "annotation", "source" */
+    const char *group; /* "uniform", "engine", "older", "annotation", "source" */
     const char *name;
     const char *use; /* as it is written */
     const char *help;

@@ -168,11 +168,14 @@ int lsf_easel_work(const lsf_easel_start *start)
     bool started = start_worker(&w, &error);
     if (!started)
         snprintf(w.answer.error, sizeof w.answer.error, "%s", error.message);
-    while (recv(LSF_EASEL_SOCKET, &request, sizeof request, 0) == (ssize_t)sizeof request) {
+    bool lost = false; /* the context: another process gets a new one */
+    while (!lost &&
+           recv(LSF_EASEL_SOCKET, &request, sizeof request, 0) == (ssize_t)sizeof request) {
         if (started)
             serve(&w, &request);
         if (send(LSF_EASEL_SOCKET, &w.answer, sizeof w.answer, 0) < 0)
             break;
+        lost = started && !lsf_context_check(w.context, &error);
     }
     lsf_sandbox_destroy(w.sandbox);
     lsf_context_destroy(w.context);

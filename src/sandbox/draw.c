@@ -131,6 +131,7 @@ static void set_uniforms(const lsf_sandbox *sandbox, const lsf_sandbox_pass *pas
     double rate = frame->time_delta > 0.0 ? 1.0 / frame->time_delta : 0.0;
     glUniform3f(location(pass, "iResolution"), (float)plan->width, (float)plan->height, 1.0f);
     glUniform1f(location(pass, "iTime"), (float)frame->time);
+    glUniform1f(location(pass, "iGlobalTime"), (float)frame->time);
     glUniform1f(location(pass, "iTimeDelta"), (float)frame->time_delta);
     glUniform1f(location(pass, "iFrameRate"), (float)rate);
     glUniform1i(location(pass, "iFrame"), (GLint)frame->number);

@@ -6,12 +6,14 @@
 
 #define U LSF_SANDBOX_UNIFORM
 #define E LSF_SANDBOX_ENGINE
+#define O LSF_SANDBOX_OLDER
 #define A LSF_SANDBOX_ANNOTATION
 #define S LSF_SANDBOX_SOURCE
 
 static const lsf_sandbox_row rows[] = {
     {U, "iResolution", "vec3 iResolution", 0, "width and height of the picture in pixels, and 1"},
     {U, "iTime", "float iTime", 0, "time of the frame in seconds"},
+    {U, "iGlobalTime", "float iGlobalTime", 0, "iTime, as older shaders call it"},
     {U, "iTimeDelta", "float iTimeDelta", 0, "time since the frame before in seconds"},
     {U, "iFrame", "int iFrame", 0, "number of the frame, from 0"},
     {U, "iFrameRate", "float iFrameRate", 0, "frames a second"},
@@ -118,6 +120,12 @@ static const lsf_sandbox_row rows[] = {
     {E, "lsf_indirect_specular", "vec3 lsf_indirect_specular(vec2 pixel)",
      LSF_NEED_PICTURE | LSF_NEED_SPECULAR, "of that, indirect light by the specular lobe"},
 
+    {O, "texture2D", "texture2D texture", 0, "texture, as older shaders write it"},
+    {O, "textureCube", "textureCube texture", 0, "texture, as older shaders write it"},
+    {O, "texture2DLod", "texture2DLod textureLod", 0, "textureLod, as older shaders write it"},
+    {O, "texture2DLodEXT", "texture2DLodEXT textureLod", 0,
+     "textureLod, as older shaders write it"},
+
     {A, "@channel", "// @channel N SOURCE [wrap=] [filter=] [flip=no]", 0,
      "what iChannelN is in this pass; wrap is repeat, clamp or mirror, filter nearest, linear or "
      "mipmap"},
@@ -156,7 +164,7 @@ const lsf_sandbox_row *lsf_sandbox_row_at(uint32_t index)
 uint32_t lsf_sandbox_find_name(const char *name, size_t length)
 {
     for (uint32_t i = 0; i < LSF_COUNT(rows); i++)
-        if (rows[i].kind <= LSF_SANDBOX_ENGINE && strlen(rows[i].name) == length &&
+        if (rows[i].kind <= LSF_SANDBOX_OLDER && strlen(rows[i].name) == length &&
             memcmp(rows[i].name, name, length) == 0)
             return i;
     return LSF_NONE;
@@ -164,11 +172,12 @@ uint32_t lsf_sandbox_find_name(const char *name, size_t length)
 
 bool lsf_sandbox_list(uint32_t index, lsf_sandbox_name *name)
 {
-    static const char *const groups[] = {"uniform", "engine", "annotation", "source"};
+    static const char *const groups[] = {"uniform", "engine", "older", "annotation", "source"};
     if (index >= LSF_COUNT(rows) || !name)
         return false;
     const lsf_sandbox_row *row = &rows[index];
-    *name = (lsf_sandbox_name){groups[row->kind], row->name, row->use, row->help};
+    const char *use = row->kind == LSF_SANDBOX_OLDER ? row->name : row->use;
+    *name = (lsf_sandbox_name){groups[row->kind], row->name, use, row->help};
     return true;
 }
 

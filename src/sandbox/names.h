@@ -27,6 +27,7 @@ typedef enum lsf_sandbox_need {
 typedef enum lsf_sandbox_kind {
     LSF_SANDBOX_UNIFORM,    /* set for each frame */
     LSF_SANDBOX_ENGINE,     /* a function on what the engine has made of the scene */
+    LSF_SANDBOX_OLDER,      /* what GLSL of WebGL 1 had, as a macro */
     LSF_SANDBOX_ANNOTATION, /* stands in a comment */
     LSF_SANDBOX_SOURCE,     /* of a channel */
 } lsf_sandbox_kind;

@@ -27,6 +27,8 @@ static void add_declarations(lsf_string *text, const lsf_sandbox_pass_text *pass
     for (uint32_t i = 0; lsf_sandbox_row_at(i); i++) {
         const lsf_sandbox_row *row = lsf_sandbox_row_at(i);
         int channel = channel_of(row->name);
+        if (pass->mentions[i] && row->kind == LSF_SANDBOX_OLDER)
+            lsf_string_add(text, "#define %s\n", row->use);
         if (row->kind != LSF_SANDBOX_UNIFORM || !pass->mentions[i] || pass->declares[i])
             continue;
         if (strcmp(row->name, "iOutput") == 0)

@@ -215,6 +215,14 @@ static bool check_scene(const lsf_sandbox_setup *setup, const lsf_sandbox_text *
                          "one behind the shader");
 }
 
+static bool check_triangles(const lsf_sandbox_setup *setup, lsf_error *error)
+{
+    bool named = needs(setup, LSF_NEED_VOXELS) || needs(setup, LSF_NEED_BUNDLE);
+    return !named || setup->plan->requirements.triangles > 0 ||
+           lsf_error_set(error, LSF_ERROR_USAGE,
+                         "the shader names voxels or a ray-bundle, and the scene has no triangles");
+}
+
 static bool check_light(const lsf_sandbox_setup *setup, const lsf_sandbox_text *text,
                         lsf_error *error)
 {
@@ -294,7 +302,7 @@ static bool begin_plan(lsf_sandbox_setup *setup, const lsf_sandbox_text *text, l
     }
     setup->plan->technique = LSF_SANDBOX_PASS;
     setup->plan->samples = 1;
-    return check_light(setup, text, error);
+    return check_triangles(setup, error) && check_light(setup, text, error);
 }
 
 bool lsf_sandbox_setup_begin(lsf_sandbox_setup *setup, const lsf_scene *scene,

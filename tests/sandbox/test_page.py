@@ -12,7 +12,7 @@ from command import CommandTest
 SCENE = str(ROOT / "data/scenes/cornell_point.gltf")
 PAGE = ROOT / "docs/sandbox.md"
 BEGIN, END = "<!-- names: begin -->\n", "<!-- names: end -->"
-TITLES = {"uniforms": "Uniforms", "engines": "Of the engine", "annotations": "In comments", "sources": "Sources of channels"}
+TITLES = {"uniforms": "Uniforms", "engines": "Of the engine", "olders": "Older names", "annotations": "In comments", "sources": "Sources of channels"}
 
 
 class Page(CommandTest):

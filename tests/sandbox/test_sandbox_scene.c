@@ -200,6 +200,12 @@ static void test_no_such_light(void **state)
         sandbox_params("\n// @light 1\n" IMAGE "{ c = vec4(lsf_visibility(vec3(0.0), p.xyx)); }");
     sandbox_refuse(scene, &params, "test.frag:2: @light 1: the scene has 1 light");
     destroy_scene(scene);
+    const lsf_sandbox_params voxels =
+        sandbox_params(IMAGE "{ c = vec4(lsf_voxel_size(), lsf_bundle_size()); }");
+    scene = build_scene();
+    finish_gl_scene(scene);
+    sandbox_refuse(scene, &voxels, "the shader names voxels or a ray-bundle, and the scene has no");
+    destroy_scene(scene);
 }
 
 int main(void)
