@@ -46,6 +46,7 @@ static int by_samples(const void *a, const void *b)
     return (left->samples > right->samples) - (left->samples < right->samples);
 }
 
+enum { MOST_TARGETS = 24 };
 enum { MOST_POINTS = 32 }; /* of a configuration: sample counts are powers of two, or nearly */
 
 /* Its points by rising samples. */
@@ -129,10 +130,10 @@ bool lsf_front_times(lsf_measurement *m)
     double least = INFINITY, most = 0.0;
     for (uint32_t i = 0; i < m->point_count; i++) {
         double error = m->points[i].relmse.error.value;
-        if (error > 0.0)
-            least = fmin(least, error);
-        if (error > most)
-            most = error;
+        if (!(error > 0.0) || !isfinite(error))
+            continue;
+        least = fmin(least, error);
+        most = fmax(most, error);
     }
     free(m->times);
     m->times = NULL;
@@ -140,6 +141,7 @@ bool lsf_front_times(lsf_measurement *m)
     if (!(most > 0.0))
         return true;
     int first = (int)floor(2.0 * log10(most)), last = (int)floor(2.0 * log10(least));
+    last = last < first - MOST_TARGETS + 1 ? first - MOST_TARGETS + 1 : last;
     uint32_t targets = (uint32_t)(first - last + 1);
     m->times = lsf_alloc((uint64_t)targets * m->configuration_count, sizeof *m->times);
     if (!m->times)

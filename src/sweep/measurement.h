@@ -134,9 +134,8 @@ typedef struct lsf_measurement {
     uint32_t width, height, bounces;
     bool raw, interrupted, gpu_clock;
     double relmse_epsilon;
-    float exposure;      /* EV, of SSIM and previews */
-    uint32_t seed_count; /* wanted of each point */
-    double seconds;      /* that all of it took */
+    float exposure; /* EV, of SSIM and previews */
+    double seconds; /* that all of it took */
     lsf_measured_reference reference;
     uint32_t configuration_count, point_count;
     uint64_t configuration_capacity, point_capacity;

@@ -14,6 +14,7 @@ enum { ROUGH_SEEDS = 2, FEWEST = 3, FEW_SAMPLES = 4, MOST_CONTENDERS = 6, DECISI
 /* An error may turn out less by this factor, for two seeds tell it badly, and its power be off by
  * so much. */
 #define DOUBT 1.5
+#define HOPELESS 2.0 /* times the error that is asked for: a floor */
 #define DOUBT_POWER 0.3
 
 typedef struct candidate {
@@ -363,7 +364,8 @@ static uint32_t next_samples(const search_run *run, uint32_t configuration, doub
         return 0; /* it fails */
     double samples = GROWTH * last->samples;
     bool there = last->relmse.error.value <= run->search->relmse;
-    if (there || samples > run->search->most_samples ||
+    double least = foretell(run, configuration, run->search->most_samples);
+    if (there || least > HOPELESS * run->search->relmse || samples > run->search->most_samples ||
         lsf_front_milliseconds(run->m, configuration, samples) > best_ms)
         return 0;
     return (uint32_t)samples;

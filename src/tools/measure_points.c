@@ -54,15 +54,14 @@ static bool note_failure(lsf_measure_job *job, uint32_t configuration, const lsf
     return failed->failure || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
 }
 
-/* The frames of the path, with the point that was measured last. */
-static bool measure_path(lsf_measure_job *job, const lsf_sweep_stage *stage, bool *stopped,
-                         lsf_error *error)
+/* The frames of the path, where they are not with the point yet. */
+static bool measure_path(lsf_measure_job *job, const lsf_sweep_stage *stage,
+                         lsf_measured_point *point, bool *stopped, lsf_error *error)
 {
-    lsf_measurement *m = &job->measurement;
-    if (job->frame_count == 0 || *stopped)
+    if (*stopped || !point || point->path.frames == job->frame_count)
         return true;
-    return lsf_sweep_run_path(stage, m, &m->points[m->point_count - 1], job->frames,
-                              job->frame_count, job->settings.temporal, stopped, error);
+    return lsf_sweep_run_path(stage, &job->measurement, point, job->frames, job->frame_count,
+                              job->settings.temporal, stopped, error);
 }
 
 /* As lsf_search_measure. */
@@ -75,14 +74,19 @@ static bool measure_point(void *user, uint32_t configuration, uint32_t samples, 
     const char *path = job->settings.json_path;
     lsf_error cause;
     lsf_measured_point *point = lsf_measurement_find(m, configuration, samples);
-    if (m->configurations[configuration].failure || (point && point->seed_count >= seeds)) {
+    bool there = point && point->seed_count >= seeds && point->path.frames == job->frame_count;
+    if (m->configurations[configuration].failure || there) {
         job->total -= job->total > samples * seeds ? samples * seeds : 0;
         return true;
     }
-    if (point)
+    if (point && point->seed_count < seeds) {
         lsf_measurement_drop_point(m, point);
-    if (!lsf_sweep_run_point(&stage, m, configuration, samples, seeds, stopped, &cause) ||
-        !measure_path(job, &stage, stopped, &cause))
+        point = NULL;
+    }
+    if ((!point &&
+         !lsf_sweep_run_point(&stage, m, configuration, samples, seeds, stopped, &cause)) ||
+        !measure_path(job, &stage, lsf_measurement_find(m, configuration, samples), stopped,
+                      &cause))
         return cause.code == LSF_ERROR_RENDER
                    ? note_failure(job, configuration, &cause, error)
                    : lsf_error_set(error, cause.code, "%s", cause.message);

@@ -12,12 +12,19 @@ static void add_name(lsf_string *text, const lsf_configuration *configuration)
         lsf_string_add(text, " %s", configuration->options[i]);
 }
 
+static bool is_shown(const lsf_measurement *m, const lsf_measured_point *point)
+{
+    return !m->answer.given || point->front ||
+           (point->configuration == m->answer.configuration && point->samples == m->answer.samples);
+}
+
 static size_t widest_name(const lsf_measurement *m)
 {
-    size_t widest = 0;
-    for (uint32_t i = 0; i < m->configuration_count; i++) {
+    size_t widest = sizeof "technique" - 1;
+    for (uint32_t i = 0; i < m->point_count; i++) {
         lsf_string name = {0};
-        add_name(&name, &m->configurations[i]);
+        if (is_shown(m, &m->points[i]))
+            add_name(&name, &m->configurations[m->points[i].configuration]);
         widest = name.length > widest ? name.length : widest;
         free(name.text);
     }
@@ -77,7 +84,7 @@ void lsf_measure_add_table(lsf_string *text, const lsf_measurement *m)
     lsf_string_add(text, "\n");
     for (uint32_t c = 0; c < m->configuration_count; c++)
         for (uint32_t i = 0; i < m->point_count; i++)
-            if (m->points[i].configuration == c)
+            if (m->points[i].configuration == c && is_shown(m, &m->points[i]))
                 add_point(text, m, &m->points[i], width);
     lsf_string_add(text,
                    "* on the Pareto front: nothing is better in as little time. noise: of relMSE, "
