@@ -40,6 +40,32 @@ bool lsf_scene_get_node(const lsf_scene *scene, uint32_t node, double matrix[16]
  * and affine: its last row 0, 0, 0, 1. */
 bool lsf_scene_set_node(lsf_scene *scene, uint32_t node, const double matrix[16], lsf_error *error);
 
+/* What a node is. */
+typedef struct lsf_node_info {
+    uint32_t parent;              /* a node before this one; LSF_NONE: none */
+    uint32_t mesh, light, camera; /* that it carries; LSF_NONE: none */
+} lsf_node_info;
+
+bool lsf_scene_get_node_info(const lsf_scene *scene, uint32_t node, lsf_node_info *info,
+                             lsf_error *error);
+/* From the node to the scene at a time of its animations, column-major. */
+bool lsf_scene_get_node_world(const lsf_scene *scene, uint32_t node, double time, double matrix[16],
+                              lsf_error *error);
+
+/* Where a ray meets the scene. */
+typedef struct lsf_hit {
+    uint32_t node, material; /* LSF_NONE: it meets nothing, and the rest is 0 */
+    double distance;         /* from its origin, scene units */
+    double position[3];
+    float normal[3]; /* of the triangle, unit, on the side that the ray comes from */
+} lsf_hit;
+
+/* What a program points at: the nearest triangle along a ray at a time of the animations, whatever
+ * its alpha. It tries every triangle whose instance's box the ray meets: milliseconds for some
+ * hundred thousand. No direction is LSF_ERROR_USAGE. */
+bool lsf_scene_trace(const lsf_scene *scene, double time, const double origin[3],
+                     const double direction[3], lsf_hit *hit, lsf_error *error);
+
 typedef enum lsf_light_type {
     LSF_LIGHT_POINT,
     LSF_LIGHT_SPOT,
@@ -59,6 +85,12 @@ bool lsf_scene_get_light(const lsf_scene *scene, uint32_t light, lsf_light_desc 
 /* LSF_ERROR_USAGE names the value that is out of range. */
 bool lsf_scene_set_light(lsf_scene *scene, uint32_t light, const lsf_light_desc *desc,
                          lsf_error *error);
+
+/* A light and where it stands, for lsf_scene_params.lights. */
+typedef struct lsf_placed_light {
+    lsf_light_desc light;
+    double matrix[16]; /* from the light, which shines along -z, to the scene, column-major */
+} lsf_placed_light;
 
 typedef enum lsf_alpha_mode { LSF_ALPHA_OPAQUE, LSF_ALPHA_MASK, LSF_ALPHA_BLEND } lsf_alpha_mode;
 
@@ -100,6 +132,13 @@ bool lsf_scene_get_material(const lsf_scene *scene, uint32_t material, lsf_mater
  * whose surfaces none were read or made cannot become anisotropic. */
 bool lsf_scene_set_material(lsf_scene *scene, uint32_t material, const lsf_material_desc *desc,
                             lsf_error *error);
+
+/* An edit as text, as the command line takes it: KIND/WHICH/VALUE=NUMBERS, with a kind "node",
+ * "light" or "material", an index or a name, and a value of the descriptions above. "node" has
+ * matrix; "light" has intensity, range, inner_cone and outer_cone; "material" has base_color (three
+ * numbers, or four), metallic, roughness, emission, ior, transmission, coat and coat_roughness.
+ * "light/0/intensity=3,3,2.5". LSF_ERROR_USAGE says what is wrong with it. */
+bool lsf_scene_edit(lsf_scene *scene, const char *edit, lsf_error *error);
 
 #if defined(__GNUC__)
 #pragma GCC visibility pop

@@ -47,13 +47,17 @@ typedef struct lsf_scene_params {
     const char *variant;           /* KHR_materials_variants; NULL: the file's own materials */
     const char *const *animations; /* those that play; NULL: all */
     uint32_t animation_count;
+    const struct lsf_placed_light *lights; /* beside what lights the file: edit.h; on nodes of their
+                                            * own, the last ones */
+    uint32_t light_count;
 } lsf_scene_params;
 
 #define LSF_SCENE_PARAMS_DEFAULTS                                                                  \
     .environment_path = NULL, .environment_radiance = NULL, .environment_rotation = 0.0f,          \
     .environment_strength = 1.0f, .default_light = LSF_DEFAULT_LIGHT_AUTO, .diffuse_only = false,  \
     .show_back_faces = false, .lenient = false, .memory_limit = (uint64_t)8 << 30, .name = NULL,   \
-    .scene = NULL, .variant = NULL, .animations = NULL, .animation_count = 0
+    .scene = NULL, .variant = NULL, .animations = NULL, .animation_count = 0, .lights = NULL,      \
+    .light_count = 0
 
 /* Loads .gltf or .glb with its buffers and textures (paths confined to the file's folder), and
  * the environment. Whatever is ignored is logged as one warning each and kept for

@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "io/io.h"
+#include "scene/added_lights.h"
 #include "scene/complete.h"
 #include "scene/draft.h"
 #include "scene/environment.h"
@@ -85,7 +86,8 @@ static lsf_scene *load(const lsf_gltf_source *source, const lsf_scene_params *pa
     uint64_t memory_left;
     if (!lsf_gltf_load(scene, source, params, &memory_left, error) ||
         !load_environment(scene, params, memory_left, error) ||
-        !lsf_scene_complete(scene, params->default_light, error)) {
+        !lsf_scene_complete(scene, params->default_light, error) ||
+        !lsf_added_lights_place(scene, params, error)) {
         lsf_scene_destroy(scene);
         return NULL;
     }

@@ -277,6 +277,16 @@ static const lsf_command_option options[] = {
      "keep light from frame to frame, so that few samples a frame look like many; each frame then "
      "depends on those before it: one machine renders all, from the first to the last"},
 
+    {"light", 0, "X,Y,Z,R,G,B", SHOWING, "Scene", LSF_VALUE_LIGHT, AT(lights), -1e30, 1e30, NULL,
+     NULL,
+     "put a point light there, in scene units, with that intensity in W/sr, beside whatever lights "
+     "the scene; repeatable"},
+    {"edit", 0, "KIND/WHICH/VALUE=NUMBERS", SHOWING, "Scene", LSF_VALUE_TEXTS, AT(edits), 0, 0,
+     NULL, NULL,
+     "change a node, a light or a material of the scene, by name or by index from 0: "
+     "light/0/intensity=3,3,2.5, material/wall/base_color=0.8,0.2,0.2 or node/lamp/matrix= and 16 "
+     "numbers; also range, inner_cone, outer_cone, and metallic, roughness, emission, ior, "
+     "transmission, coat, coat_roughness; repeatable"},
     {"view", 0, "FILE", SHOWING, "Scene", LSF_VALUE_TEXT, AT(view_file), 0, 0, NULL, NULL,
      "take scene, camera and options from a view that `lightsheaf view` has saved; those on the "
      "command line count more"},
@@ -444,6 +454,8 @@ char *lsf_command_option_range(const lsf_command_option *option)
     case LSF_VALUE_BACKGROUND:
         return lsf_format("environment, transparent, or three numbers from 0 separated by commas, "
                           "such as 1,1,1");
+    case LSF_VALUE_LIGHT:
+        return lsf_format("six numbers separated by commas, such as 0,1.5,0,10,10,10");
     case LSF_VALUE_THRESHOLD:
         return lsf_format("METRIC=X, such as rmse=0.02, with one of %s", option->choices);
     }

@@ -58,6 +58,7 @@ typedef enum lsf_value_type {
     LSF_VALUE_EXPOSURE,    /* lsf_exposure_setting */
     LSF_VALUE_BACKGROUND,  /* lsf_background_setting */
     LSF_VALUE_THRESHOLD,   /* lsf_list_setting of "metric=x" */
+    LSF_VALUE_LIGHT,       /* lsf_lights_setting */
 } lsf_value_type;
 
 typedef struct lsf_command_option {
@@ -117,6 +118,12 @@ typedef struct lsf_background_setting {
     float radiance[3];
 } lsf_background_setting;
 
+typedef struct lsf_lights_setting {
+    lsf_placed_light *items;
+    uint32_t count;
+    uint64_t capacity;
+} lsf_lights_setting;
+
 typedef struct lsf_settings {
     const lsf_command *command;
     lsf_list_setting operands;
@@ -158,7 +165,8 @@ typedef struct lsf_settings {
     bool diffuse_only, show_back_faces, lenient;
     double memory_limit;         /* GiB */
     const char *scene, *variant; /* NULL: not given */
-    lsf_list_setting animations;
+    lsf_list_setting animations, edits;
+    lsf_lights_setting lights;
 
     int backend; /* lsf_backend */
     const char *shader_dir;

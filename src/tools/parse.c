@@ -274,6 +274,8 @@ void lsf_settings_finish(lsf_settings *settings)
 {
     free((void *)settings->operands.items);
     free((void *)settings->animations.items);
+    free((void *)settings->edits.items);
+    free(settings->lights.items);
     free((void *)settings->channels.items);
     free((void *)settings->uniforms.items);
     free((void *)settings->defines.items);
@@ -351,6 +353,8 @@ lsf_scene_params lsf_settings_scene_params(const lsf_settings *settings)
     params.variant = settings->variant;
     params.animations = settings->animations.items; /* NULL: not given */
     params.animation_count = settings->animations.count;
+    params.lights = settings->lights.items;
+    params.light_count = settings->lights.count;
     if (params.animation_count == 1 && strcmp(params.animations[0], "none") == 0)
         params.animation_count = 0;
     return params;

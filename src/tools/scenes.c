@@ -82,6 +82,11 @@ lsf_scene *lsf_tool_load_scene(const lsf_settings *settings, const char *path, d
     double start = lsf_now();
     lsf_scene *scene = strcmp(path, "-") == 0 ? load_standard_input(&params, error)
                                               : lsf_scene_load(path, &params, error);
+    for (uint32_t i = 0; scene && i < settings->edits.count; i++)
+        if (!lsf_scene_edit(scene, settings->edits.items[i], error)) {
+            lsf_scene_destroy(scene);
+            scene = NULL;
+        }
     *seconds = lsf_now() - start;
     return scene;
 }

@@ -3,10 +3,28 @@
 #include "base/base.h"
 #include "tools/number.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
+
+/* A point light of X,Y,Z,R,G,B. */
+static bool add_light(lsf_lights_setting *lights, const lsf_command_option *option,
+                      const char *text)
+{
+    float v[6];
+    void *items = lights->items;
+    if (!lsf_parse_numbers(text, option->minimum, option->maximum, 6, v) ||
+        !lsf_grow(&items, &lights->capacity, (uint64_t)lights->count + 1, sizeof *lights->items))
+        return false;
+    lights->items = items;
+    lights->items[lights->count++] = (lsf_placed_light){
+        .light = {.type = LSF_LIGHT_POINT, .intensity = {v[3], v[4], v[5]}, .range = INFINITY},
+        .matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, (double)v[0], (double)v[1], (double)v[2],
+                   1}};
+    return true;
+}
 
 static void *place_of(lsf_settings *settings, const lsf_command_option *option)
 {
@@ -282,6 +300,9 @@ bool lsf_settings_set(lsf_settings *settings, const lsf_command_option *option, 
             *(lsf_vector_setting *)place = vector;
         break;
     }
+    case LSF_VALUE_LIGHT:
+        good = add_light(place, option, text);
+        break;
     case LSF_VALUE_FRAMES:
         good = set_frames(place, option, text);
         break;

@@ -114,6 +114,8 @@ static bool view(const lsf_viewer_start *start, lsf_error *error)
     for (uint32_t i = 0; i < viewer->path_count; i++)
         free(viewer->paths[i]);
     free(viewer->paths);
+    for (int kind = 0; kind < LSF_KIND_CAMERA; kind++)
+        free(viewer->edited[kind]);
     free(viewer->plan_text);
     free(viewer->capture);
     free(viewer);

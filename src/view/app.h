@@ -8,7 +8,12 @@
 #include "window/canvas.h"
 #include "window/ui.h"
 
-enum { LSF_VIEWER_OPTIONS = 96, LSF_VIEWER_PASSES = 40, LSF_VIEWER_HISTORY = 96 };
+enum {
+    LSF_VIEWER_OPTIONS = 96,
+    LSF_VIEWER_PASSES = 40,
+    LSF_VIEWER_HISTORY = 96,
+    LSF_VIEWER_LIGHTS = 32, /* that can be added */
+};
 
 /* --- settings: what a picture is of, beside scene and camera --- */
 
@@ -61,7 +66,7 @@ typedef struct lsf_viewer_picture {
 
 /* Milliseconds of the last frames, by passes. */
 typedef struct lsf_viewer_times {
-    const char *names[LSF_VIEWER_PASSES];
+    char names[LSF_VIEWER_PASSES][40];
     float milliseconds[LSF_VIEWER_HISTORY][LSF_VIEWER_PASSES];
     float mean[LSF_VIEWER_PASSES]; /* of a frame, over the last ones */
     uint32_t pass_count, next;     /* the row to fill next */
@@ -90,6 +95,14 @@ typedef struct lsf_viewer {
     uint64_t path_capacity;
     lsf_scene *scene; /* NULL: the start page, or a file that did not load */
     lsf_scene_params scene_params;
+    lsf_placed_light lights[LSF_VIEWER_LIGHTS]; /* that were added, those of the start first */
+    bool *edited[LSF_KIND_CAMERA];              /* of each node, light, material: its user did it */
+    uint32_t node, light, material;             /* that are chosen; LSF_NONE: none */
+    double anchor[3];                           /* where the chosen node's handles are */
+    int dragged;                                /* axis of the handle in hand; -1: none */
+    float turn, strength;                       /* of the environment, as the sliders have them */
+    double press_x, press_y;                    /* where the left button went down */
+    bool placing;                               /* the next click puts a light there */
     lsf_error scene_error;
 
     lsf_viewer_camera camera;
@@ -138,6 +151,31 @@ bool lsf_viewer_add_path(lsf_viewer *viewer, const char *path);
 void lsf_viewer_show_file(lsf_viewer *viewer, uint32_t index);
 void lsf_viewer_close_scene(lsf_viewer *viewer);
 
+/* --- edits.c --- */
+
+/* What its user has edited, as lsf_scene_edit takes it, one in a line; malloc'ed, "" where there is
+ * nothing; NULL without memory. */
+char *lsf_viewer_edits(const lsf_viewer *viewer);
+/* Nothing of the scene that is loaded is edited yet. False without memory. */
+bool lsf_viewer_begin_edits(lsf_viewer *viewer);
+/* Loads the file again, as scene_params now are, and edits it as before. */
+void lsf_viewer_reload(lsf_viewer *viewer);
+void lsf_viewer_set_light(lsf_viewer *viewer, uint32_t light, const lsf_light_desc *desc);
+void lsf_viewer_set_material(lsf_viewer *viewer, uint32_t material, const lsf_material_desc *desc);
+/* Moves the node by that much, in the scene. */
+void lsf_viewer_move_node(lsf_viewer *viewer, uint32_t node, const double by[3]);
+void lsf_viewer_add_light(lsf_viewer *viewer, const double position[3]);
+
+/* --- handles.c --- */
+
+/* Clicks on the picture: choosing, turning about a point, placing lights; and the handles of what
+ * is chosen. True where they take the drag. */
+bool lsf_viewer_point(lsf_viewer *viewer);
+void lsf_viewer_choose_node(lsf_viewer *viewer, uint32_t node);
+void lsf_viewer_draw_handles(const lsf_viewer *viewer);
+/* What is under the cursor. False: nothing, or it is not over the picture. */
+bool lsf_viewer_pick(const lsf_viewer *viewer, lsf_hit *hit);
+
 /* --- pictures.c --- */
 
 /* Parameters of a picture of that size, of everything as it is; they borrow from the viewer. */
@@ -181,5 +219,6 @@ char *lsf_viewer_view_file(lsf_viewer *viewer);
 void lsf_viewer_show_panels(lsf_viewer *viewer);
 void lsf_viewer_picture_tab(lsf_viewer *viewer);
 void lsf_viewer_passes_tab(lsf_viewer *viewer);
+void lsf_viewer_scene_tab(lsf_viewer *viewer);
 
 #endif

@@ -133,11 +133,29 @@ static void add_picture(writer *w, const lsf_viewer *viewer)
         add(w, "tonemap", curves[settings->curve]);
 }
 
+static void add_edits(writer *w, const lsf_viewer *viewer)
+{
+    const lsf_scene_params *params = &viewer->scene_params;
+    for (uint32_t i = 0; i < params->light_count; i++) {
+        const float *rgb = params->lights[i].light.intensity;
+        const double *at = params->lights[i].matrix + 12;
+        add_format(w, "light", "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", at[0], at[1], at[2], (double)rgb[0],
+                   (double)rgb[1], (double)rgb[2]);
+    }
+    char *edits = lsf_viewer_edits(viewer), *rest = edits, *line;
+    w->text.failed = w->text.failed || !edits;
+    while (edits && (line = strsep(&rest, "\n")) != NULL)
+        if (*line)
+            add(w, "edit", line);
+    free(edits);
+}
+
 static char *write(lsf_viewer *viewer, writer *w)
 {
     add_picture(w, viewer);
     add_camera(w, viewer);
     add_scene(w, &viewer->scene_params);
+    add_edits(w, viewer);
     if (w->text.failed) {
         free(w->text.text);
         return NULL;

@@ -33,8 +33,11 @@ static const char *name_of(const char *path)
 static bool load(lsf_viewer *viewer, lsf_error *error)
 {
     viewer->scene = lsf_scene_load(viewer->paths[viewer->shown], &viewer->scene_params, error);
-    if (!viewer->scene)
+    if (!viewer->scene || !lsf_viewer_begin_edits(viewer))
         return false;
+    for (uint32_t i = 0; i < viewer->start->edit_count; i++)
+        if (!lsf_scene_edit(viewer->scene, viewer->start->edits[i], error))
+            return false;
     lsf_render_params params = lsf_viewer_params(viewer, 1024, 768);
     params.camera = viewer->start->render.camera;
     params.camera_position = viewer->start->render.camera_position;
@@ -51,6 +54,14 @@ void lsf_viewer_show_file(lsf_viewer *viewer, uint32_t index)
     viewer->time = viewer->start->render.time;
     viewer->playing = false;
     viewer->file_camera = 0;
+    viewer->scene_params = viewer->start->scene;
+    uint32_t lights = viewer->scene_params.light_count;
+    viewer->scene_params.light_count = lights < LSF_VIEWER_LIGHTS ? lights : LSF_VIEWER_LIGHTS;
+    if (lights > 0)
+        memcpy(viewer->lights, viewer->scene_params.lights,
+               viewer->scene_params.light_count * sizeof viewer->lights[0]);
+    viewer->turn = viewer->scene_params.environment_rotation;
+    viewer->strength = viewer->scene_params.environment_strength;
     if (!load(viewer, &viewer->scene_error)) {
         lsf_scene_destroy(viewer->scene);
         viewer->scene = NULL;

@@ -232,7 +232,8 @@ static void close_window(lsf_viewer *viewer)
 
 static void escape(lsf_viewer *viewer)
 {
-    viewer->cheat_sheet = false;
+    viewer->cheat_sheet = viewer->placing = false;
+    viewer->node = LSF_NONE;
 }
 
 /* --- the table --- */
@@ -251,6 +252,7 @@ static const struct {
     {"Right drag", "look around", 0, 0, false, NULL},
     {"Right held, W A S D", "fly; Q and E go down and up, Shift four times as fast", 0, 0, false,
      NULL},
+    {"Click", "choose what is there, to move and to change it", 0, 0, false, NULL},
     {"Double click", "go around that point", 0, 0, false, NULL},
     {"Enter", "put the camera back where the file has it", LSF_KEY_ENTER, 0, false, restore_camera},
     {"F", "see the whole scene", 'F', 0, false, frame_all},
@@ -275,15 +277,15 @@ static const struct {
     {"F12", "save the picture, as soon as it is finished", LSF_KEY_F12, 0, false,
      lsf_viewer_screenshot},
     {"Shift+F12", "save the window as it is", LSF_KEY_F12, LSF_SHIFT, true, capture_window},
-    {"Ctrl+C", "copy the command line that renders this picture, and print it", 'C', LSF_CONTROL,
-     false, lsf_viewer_copy_command},
+    {"Ctrl+C", "copy, and print, the command line of this picture", 'C', LSF_CONTROL, false,
+     lsf_viewer_copy_command},
     {"Ctrl+S", "save the view for lightsheaf render --view", 'S', LSF_CONTROL, false,
      lsf_viewer_save_view},
     {"Tab", "show or hide the panels", LSF_KEY_TAB, 0, true, toggle_panels},
     {"F11", "fill the screen, or go back to a window", LSF_KEY_F11, 0, true, toggle_full_screen},
     {"H", "show this list", 'H', 0, true, toggle_sheet},
     {"Ctrl+Q", "end", 'Q', LSF_CONTROL, true, close_window},
-    {NULL, NULL, LSF_KEY_ESCAPE, 0, true, escape},
+    {"Escape", "choose nothing", LSF_KEY_ESCAPE, 0, true, escape},
 };
 
 bool lsf_viewer_key(uint32_t index, lsf_viewer_key_row *row)
@@ -352,7 +354,8 @@ void lsf_viewer_handle(lsf_viewer *viewer)
     }
     if (!viewer->scene)
         return;
-    drag(viewer);
+    if (!lsf_viewer_point(viewer))
+        drag(viewer);
     if (flying)
         fly(viewer);
     if (input->scroll != 0.0 && inside(viewer)) {

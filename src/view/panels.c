@@ -90,7 +90,7 @@ static void side_panel(lsf_viewer *viewer, lsf_rect rect)
         void (*show)(lsf_viewer *viewer);
     } tabs[LSF_VIEWER_TAB_COUNT] = {
         [LSF_VIEWER_TAB_PICTURE] = {"Picture", lsf_viewer_picture_tab},
-        [LSF_VIEWER_TAB_SCENE] = {"Scene", NULL},
+        [LSF_VIEWER_TAB_SCENE] = {"Scene", lsf_viewer_scene_tab},
         [LSF_VIEWER_TAB_COMPARE] = {"Compare", NULL},
         [LSF_VIEWER_TAB_PASSES] = {"Passes", lsf_viewer_passes_tab},
     };
@@ -164,7 +164,7 @@ static void cheat_sheet(lsf_viewer *viewer)
 {
     lsf_viewer_key_row row;
     (void)viewer;
-    lsf_ui_dialogue_begin("Keys and mouse", 40.0f);
+    lsf_ui_dialogue_begin("Keys and mouse", 44.0f);
     lsf_ui_text(LSF_UI_ACCENT, "Keys and mouse");
     lsf_ui_gap();
     for (uint32_t i = 0; lsf_viewer_key(i, &row); i++) {
@@ -213,6 +213,8 @@ static void draw_picture(const lsf_viewer *viewer)
         return;
     lsf_ui_draw_begin(LSF_UNDER_PANELS, &viewer->area);
     lsf_ui_draw_picture(shown->canvas.texture, viewer->area);
+    if (viewer->panels)
+        lsf_viewer_draw_handles(viewer);
     lsf_ui_draw_end();
 }
 

@@ -75,7 +75,7 @@ static uint32_t column_of(lsf_viewer_times *times, const char *name)
             return i;
     if (times->pass_count == LSF_VIEWER_PASSES)
         return LSF_VIEWER_PASSES - 1;
-    times->names[times->pass_count] = name;
+    lsf_print(times->names[times->pass_count], sizeof times->names[0], "%s", name);
     return times->pass_count++;
 }
 

@@ -12,6 +12,8 @@ typedef struct lsf_viewer_start {
     uint32_t path_count;      /* 0: a page of the scenes that come with Lightsheaf */
     const char *scene_folder; /* where those lie; NULL: nowhere */
     lsf_scene_params scene;
+    const char *const *edits; /* of the scene, as lsf_scene_edit takes them */
+    uint32_t edit_count;
     lsf_render_params render; /* size and progress are the window's own */
     bool auto_exposure;
     float exposure; /* EV */

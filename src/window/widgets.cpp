@@ -110,6 +110,7 @@ void lsf_ui_dialogue_begin(const char *title, float width_lines)
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, size.y - 2.0f * em()));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.3f * em(), 1.0f * em()));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6.0f);
+    ImGui::SetNextWindowBgAlpha(1.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
     ImGui::Begin(title, nullptr, FIXED | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PopStyleVar(3);

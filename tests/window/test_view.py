@@ -52,6 +52,18 @@ class View(WindowTest):
         self.assertIn("--camera-position", command)
         self.assertIn("--camera-target", command)
 
+    def test_what_is_edited(self):
+        """A node that is clicked is moved by its arrow; a new light, dimmed; a material, recoloured."""
+        command, _ = self.check("2 key-up Tab", "3 key Tab", "4 key-up Tab", "5 move 60 95", "6 button 0",
+                                "7 button-up 0", "8 press Scene", "9 set Roughness = 0.25",
+                                "10 set Base colour = 0.25,0.5,0.75", "11 press New light", "12 move 50 120",
+                                "13 button 0", "14 button-up 0", "15 set Intensity = 0.5",
+                                "16 set Position = 0.25,1.25,0.5", "20 key Tab", "21 key-up Tab",
+                                words=["-t", "direct", "-r", "400,240"])
+        for part in ("--light ", "--edit light/1/intensity=0.5,0.5,0.5", "/roughness=0.25",
+                     "/base_color=0.25,0.5,0.75,1", "--edit node/9/matrix=1,0,0,0,0,1,0,0,0,0,1,0,0.25"):
+            self.assertIn(part, command)
+
     def test_the_page_lists_the_keys(self):
         """LSF_UPDATE=1 in the environment brings docs/window.md up to date instead."""
         lines = self.run_program(COMMAND, "view", "--list-keys").stdout.splitlines()

@@ -1,0 +1,18 @@
+/* Lights that whoever loads a scene puts beside its own. */
+#ifndef LSF_SCENE_ADDED_LIGHTS_H
+#define LSF_SCENE_ADDED_LIGHTS_H
+
+#include "scene/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Adds params->lights with a node each to a whole scene. LSF_ERROR_USAGE names what one of them
+ * cannot have. */
+bool lsf_added_lights_place(lsf_scene *scene, const lsf_scene_params *params, lsf_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,195 @@
+/* The tab of the scene: nodes, lights and materials, and what can be changed of them. */
+#include "view/app.h"
+
+#include "base/base.h"
+
+#include <math.h>
+#include <string.h>
+
+static void label_of(const lsf_viewer *viewer, lsf_kind kind, uint32_t index, char *label,
+                     size_t size)
+{
+    static const char *const words[] = {"node", "light", "material"};
+    const char *name = lsf_scene_name(viewer->scene, kind, index);
+    if (name && *name)
+        lsf_print(label, size, "%.60s##%s%u", name, words[kind], index);
+    else
+        lsf_print(label, size, "%s %u##%s%u", words[kind], index, words[kind], index);
+}
+
+/* --- lists --- */
+
+static int depth_of(const lsf_viewer *viewer, uint32_t node)
+{
+    lsf_node_info info;
+    int depth = 0;
+    while (depth < 12 && lsf_scene_get_node_info(viewer->scene, node, &info, NULL) &&
+           info.parent != LSF_NONE) {
+        node = info.parent;
+        depth++;
+    }
+    return depth;
+}
+
+static void node_list(lsf_viewer *viewer)
+{
+    char label[128];
+    lsf_ui_list_begin("nodes", 11.0f);
+    for (uint32_t i = 0; i < lsf_scene_count(viewer->scene, LSF_KIND_NODE); i++) {
+        lsf_node_info info;
+        if (!lsf_scene_get_node_info(viewer->scene, i, &info, NULL))
+            continue;
+        bool bare = info.mesh == LSF_NONE && info.light == LSF_NONE;
+        label_of(viewer, LSF_KIND_NODE, i, label, sizeof label);
+        if (lsf_ui_row(label, depth_of(viewer, i), i == viewer->node, bare))
+            lsf_viewer_choose_node(viewer, i);
+        if (info.light != LSF_NONE)
+            lsf_ui_help("carries a light");
+    }
+    lsf_ui_list_end();
+}
+
+static void list(lsf_viewer *viewer, lsf_kind kind, uint32_t *chosen, float lines)
+{
+    char label[128];
+    lsf_ui_list_begin(kind == LSF_KIND_LIGHT ? "lights" : "materials", lines);
+    for (uint32_t i = 0; i < lsf_scene_count(viewer->scene, kind); i++) {
+        label_of(viewer, kind, i, label, sizeof label);
+        if (lsf_ui_row(label, 0, i == *chosen, false))
+            *chosen = i;
+    }
+    lsf_ui_list_end();
+}
+
+/* --- what is chosen --- */
+
+static void node_values(lsf_viewer *viewer)
+{
+    double world[16];
+    float position[3], before[3];
+    if (!lsf_scene_get_node_world(viewer->scene, viewer->node, viewer->time, world, NULL))
+        return;
+    for (int i = 0; i < 3; i++)
+        position[i] = before[i] = (float)world[12 + i];
+    if (lsf_ui_drag("Position", position, 3, 0.004f * viewer->camera.extent, -INFINITY, INFINITY,
+                    "%.3f")) {
+        double by[3];
+        for (int i = 0; i < 3; i++)
+            by[i] = (double)position[i] - (double)before[i];
+        lsf_viewer_move_node(viewer, viewer->node, by);
+    }
+    lsf_ui_help("In the scene; or drag the arrows in the picture");
+}
+
+static void light_values(lsf_viewer *viewer)
+{
+    lsf_light_desc desc;
+    if (!lsf_scene_get_light(viewer->scene, viewer->light, &desc, NULL))
+        return;
+    float most = fmaxf(desc.intensity[0], fmaxf(desc.intensity[1], desc.intensity[2]));
+    float color[3] = {1.0f, 1.0f, 1.0f};
+    for (int i = 0; i < 3 && most > 0.0f; i++)
+        color[i] = desc.intensity[i] / most;
+    bool changed = lsf_ui_color3("Colour", color);
+    float top = desc.type == LSF_LIGHT_DIRECTIONAL
+                    ? 100.0f
+                    : 100.0f * viewer->camera.extent * viewer->camera.extent;
+    changed = lsf_ui_slider("Intensity", &most, 0.0f, fmaxf(top, most), "%.4g", true) || changed;
+    lsf_ui_help(desc.type == LSF_LIGHT_DIRECTIONAL ? "W/m^2 of the brightest colour; 0 is off"
+                                                   : "W/sr of the brightest colour; 0 is off");
+    if (desc.type == LSF_LIGHT_SPOT) {
+        float degrees = desc.outer_cone * (float)(180.0 / M_PI);
+        if (lsf_ui_slider("Cone", &degrees, 1.0f, 89.0f, "%.1f°", false)) {
+            desc.outer_cone = degrees * (float)(M_PI / 180.0);
+            desc.inner_cone = fminf(desc.inner_cone, 0.999f * desc.outer_cone);
+            changed = true;
+        }
+    }
+    if (!changed)
+        return;
+    for (int i = 0; i < 3; i++)
+        desc.intensity[i] = most * color[i];
+    lsf_viewer_set_light(viewer, viewer->light, &desc);
+}
+
+static void material_values(lsf_viewer *viewer)
+{
+    lsf_material_desc desc;
+    if (!lsf_scene_get_material(viewer->scene, viewer->material, &desc, NULL))
+        return;
+    bool changed = lsf_ui_color3("Base colour", desc.base_color);
+    lsf_ui_help("By which the material's texture, if it has one, is multiplied");
+    changed = lsf_ui_slider("Metallic", &desc.metallic, 0.0f, 1.0f, "%.2f", false) || changed;
+    changed = lsf_ui_slider("Roughness", &desc.roughness, 0.0f, 1.0f, "%.2f", false) || changed;
+    float most = fmaxf(desc.emission[0], fmaxf(desc.emission[1], desc.emission[2]));
+    float color[3] = {1.0f, 1.0f, 1.0f};
+    for (int i = 0; i < 3 && most > 0.0f; i++)
+        color[i] = desc.emission[i] / most;
+    bool glows = lsf_ui_slider("Emission", &most, 0.0f, fmaxf(100.0f, most), "%.3g", true);
+    lsf_ui_help("Radiance of the brightest colour, W/(m^2 sr)");
+    if (most > 0.0f)
+        glows = lsf_ui_color3("Its colour", color) || glows;
+    for (int i = 0; i < 3 && glows; i++)
+        desc.emission[i] = most * color[i];
+    for (int i = 0; i < 3; i++)
+        desc.base_color[i] = fminf(fmaxf(desc.base_color[i], 0.0f), 1.0f);
+    if (changed || glows)
+        lsf_viewer_set_material(viewer, viewer->material, &desc);
+}
+
+static void environment_values(lsf_viewer *viewer)
+{
+    lsf_scene_params *params = &viewer->scene_params;
+    bool reload = lsf_ui_slider("Turn", &viewer->turn, -180.0f, 180.0f, "%.0f°", false) &&
+                  lsf_window_replays(viewer->window);
+    reload = lsf_ui_settled() || reload;
+    lsf_ui_help("About the vertical axis; the scene is loaded anew when you let go");
+    reload = (lsf_ui_slider("Strength", &viewer->strength, 0.0f, 16.0f, "%.2f", true) &&
+              lsf_window_replays(viewer->window)) ||
+             reload;
+    reload = lsf_ui_settled() || reload;
+    if (!reload || (viewer->turn == params->environment_rotation &&
+                    viewer->strength == params->environment_strength))
+        return;
+    params->environment_rotation = viewer->turn;
+    params->environment_strength = viewer->strength;
+    lsf_viewer_reload(viewer);
+}
+
+void lsf_viewer_scene_tab(lsf_viewer *viewer)
+{
+    lsf_ui_gap();
+    lsf_ui_text(LSF_UI_DIM, "%u nodes, %u lights, %u materials, %llu triangles",
+                lsf_scene_count(viewer->scene, LSF_KIND_NODE),
+                lsf_scene_count(viewer->scene, LSF_KIND_LIGHT),
+                lsf_scene_count(viewer->scene, LSF_KIND_MATERIAL),
+                (unsigned long long)lsf_scene_get_requirements(viewer->scene)->triangles);
+    if (lsf_ui_section("Nodes", true)) {
+        node_list(viewer);
+        if (viewer->node != LSF_NONE)
+            node_values(viewer);
+        else
+            lsf_ui_text(LSF_UI_DIM, "Click on something in the picture");
+    }
+    if (lsf_ui_section("Lights", true)) {
+        if (lsf_scene_count(viewer->scene, LSF_KIND_LIGHT) > 0)
+            list(viewer, LSF_KIND_LIGHT, &viewer->light, 4.5f);
+        if (viewer->light != LSF_NONE)
+            light_values(viewer);
+        if (lsf_ui_button(viewer->placing ? "Click where it is to be" : "New light"))
+            viewer->placing = !viewer->placing;
+        lsf_ui_help("Puts a light a little off the surface that is clicked next");
+    }
+    if (lsf_ui_section("Materials", true)) {
+        list(viewer, LSF_KIND_MATERIAL, &viewer->material, 6.0f);
+        if (viewer->material != LSF_NONE)
+            material_values(viewer);
+    }
+    if (lsf_scene_get_requirements(viewer->scene)->environment &&
+        lsf_ui_section("Environment", true))
+        environment_values(viewer);
+    uint32_t notes = lsf_scene_note_count(viewer->scene);
+    if (notes > 0 && lsf_ui_section("Notes", false))
+        for (uint32_t i = 0; i < notes; i++)
+            lsf_ui_text_wrapped(LSF_UI_DIM, lsf_scene_note(viewer->scene, i));
+}
