@@ -1,5 +1,5 @@
-// A cone tracer of one's own: light that voxels send out, gathered by cones through its pyramid, beside the direct
-// light of the scene's first light.
+// A cone tracer of one's own: light that voxels and the environment send out, gathered by cones through a pyramid,
+// beside the direct light of the scene's first light.
 //
 //     lightsheaf sandbox cone_tracer.frag scene.gltf -o cones.png
 //
@@ -23,12 +23,12 @@ vec3 trace_cone(vec3 start, vec3 direction, float cell)
         clear *= 1.0 - seen.a;
         t += 0.7 * width;
     }
-    return light;
+    return light + clear * lsf_environment(direction);
 }
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord)
 {
-    fragColor = vec4(0.0, 0.0, 0.0, 1.0);
+    fragColor = vec4(lsf_environment(lsf_camera_direction(fragCoord)), 1.0);
     if (!lsf_seen(fragCoord))
         return;
     surface s = lsf_surface(fragCoord);

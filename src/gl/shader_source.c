@@ -326,8 +326,11 @@ static bool include(const builder *b, open_file *file, uint64_t index, include_k
 
 static bool add_lines(const builder *b, open_file *file, uint64_t index, const char *content)
 {
+    static const char mark[] = "\xef\xbb\xbf"; /* of UTF-8, which some editors begin files with */
     bool in_comment = false;
     char name[256];
+    if (file->folder && strncmp(content, mark, strlen(mark)) == 0)
+        content += strlen(mark);
     for (const char *line = content; *line;) {
         size_t length = strcspn(line, "\n"), next = length + (line[length] == '\n');
         if (length > 0 && line[length - 1] == '\r')

@@ -50,14 +50,9 @@ class Page(CommandTest):
         self.assertEqual(len({self.pixels(f"{i}.png") for i in range(3)}), 3)
 
     def test_examples(self):
-        """Each runs, small, and is listed."""
-        text = PAGE.read_text(encoding="utf-8")
-        for path in sorted((ROOT / "data/sandbox").glob("*.frag")):
-            self.assertIn(f"| `{path.name}` |", text)
-            needs_scene = "lsf_" in path.read_text(encoding="utf-8").replace("lightsheaf", "")
-            self.run_command("sandbox", str(path), *([SCENE] if needs_scene else []), "-o", f"{path.stem}.png", "-r", "32,32",
-                             "--frame", "3", "-D", "voxel.resolution=32")
-            self.assertGreater(len(self.pixels(f"{path.stem}.png")), 150, "one colour alone")
+        """Each has its row; test_shadertoy.c runs them."""
+        rows = re.findall(r"^\| `(\w+\.frag)` \|", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual(sorted(rows), sorted(path.name for path in (ROOT / "data/sandbox").glob("*.frag")))
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ static void test_main_of_its_own(void **state)
         "void main() { color = vec4(gl_FragCoord.xy / iResolution.xy, 2.0, 1.0); }",
         1, 31, 0, 31.5f / 64, 0.5f / 64, 2, 1e-6f);
     sandbox_assert_pixel(NULL,
-                         "// says so behind #version, too\n"
+                         "\xef\xbb\xbf// with a mark of UTF-8; says so behind #version, too\r\n"
                          "#extension GL_ARB_shader_ballot : enable\n"
                          "layout(location = 0) out vec4 color;\n"
                          "void main() { color = vec4(0.25); }",

@@ -5,11 +5,11 @@
 
 #include "base/base.h"
 
-static char *read_shader(const char *name)
+static char *read_shader(const char *folder, const char *name)
 {
     size_t length;
     lsf_error error;
-    char *path = lsf_format("%s/tests/sandbox/shaders/%s.frag", getenv("LSF_SOURCE_ROOT"), name);
+    char *path = lsf_format("%s/%s/%s.frag", getenv("LSF_SOURCE_ROOT"), folder, name);
     char *text = lsf_file_read(path, 1 << 20, &length, &error);
     if (!text)
         fail_msg("%s", error.message);
@@ -37,7 +37,7 @@ static void test_run_unchanged(void **state)
                                         "four",   "textures", "tiles", "stars"};
     (void)state;
     for (size_t i = 0; i < LSF_COUNT(names); i++) {
-        char *text = read_shader(names[i]);
+        char *text = read_shader("tests/sandbox/shaders", names[i]);
         lsf_sandbox_params params = sandbox_params(text);
         params.path = names[i];
         lsf_image *image = sandbox_picture(NULL, &params, 4);
@@ -52,7 +52,7 @@ static void test_run_unchanged(void **state)
 static void test_paint(void **state)
 {
     (void)state;
-    char *text = read_shader("paint");
+    char *text = read_shader("tests/sandbox/shaders", "paint");
     lsf_sandbox_params params = sandbox_params(text);
     uint8_t keys[3][LSF_SANDBOX_KEYS] = {{0}}, rgb[64 * 64 * 3];
     lsf_sandbox *sandbox = sandbox_make(NULL, &params);
@@ -92,10 +92,41 @@ static void test_older_names(void **state)
                          2, 0, 0, 1.0f / 60, 1, 0, 1e-6f);
 }
 
+/* The shaders that come with the library, with a scene where they name one. */
+static void test_examples(void **state)
+{
+    static const struct {
+        const char *name;
+        bool scene;
+    } examples[] = {{"cone_tracer", true}, {"depth_complexity", true}, {"islands", false},
+                    {"maze", false},       {"monte_carlo", true},      {"toon", true},
+                    {"voxel_ao", true}};
+    static const char *const options[] = {"voxel.resolution=32", "bundle.resolution=64"};
+    (void)state;
+    lsf_error error;
+    char *path = lsf_format("%s/data/scenes/cornell_point.gltf", getenv("LSF_SOURCE_ROOT"));
+    lsf_scene *scene = lsf_scene_load(path, NULL, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    for (size_t i = 0; i < LSF_COUNT(examples); i++) {
+        char *text = read_shader("data/sandbox", examples[i].name);
+        lsf_sandbox_params params = sandbox_params(text);
+        params.path = examples[i].name;
+        params.render.options = options;
+        params.render.option_count = LSF_COUNT(options);
+        lsf_image *image = sandbox_picture(examples[i].scene ? scene : NULL, &params, 3);
+        assert_shows_something(examples[i].name, image);
+        lsf_image_destroy(image);
+        free(text);
+    }
+    lsf_scene_destroy(scene);
+    free(path);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_run_unchanged),
-                                       cmocka_unit_test(test_paint),
-                                       cmocka_unit_test(test_older_names)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_run_unchanged), cmocka_unit_test(test_paint),
+        cmocka_unit_test(test_older_names), cmocka_unit_test(test_examples)};
     return cmocka_run_group_tests(tests, sandbox_setup, sandbox_teardown);
 }
