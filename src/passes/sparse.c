@@ -10,12 +10,14 @@ const lsf_option_row lsf_sparse_options[LSF_SPARSE_OPTION_COUNT] = {
     {"sparse.grid", LSF_OPTION_ENUM, offsetof(lsf_sparse_params, grid), 0, 0, "auto|1|2|4|8|16",
      "pixels",
      "from point to point at which indirect light is gathered, halved whenever all pixels have had "
-     "their turn; 1: every pixel"},
+     "their turn; 1: every pixel; auto: 1, or with a time limit and cone or voxel_path as fine as "
+     "the first iteration takes"},
     {"interleave.size", LSF_OPTION_INT, offsetof(lsf_sparse_params, interleave), 0, 8, NULL,
      "points",
      "side of the pattern in which neighbouring pixels take different samples; 1: all the same; 0: "
-     "4 up to 4 iterations, and up to 128 in pictures of 131072 pixels and more; 2 up to 128 and "
-     "with a time limit; else 1"},
+     "4 up to 4 iterations without a grid, and up to 128 in pictures of 131072 pixels and more; 2 "
+     "up "
+     "to 128 and with a time limit; else 1"},
     {"sparse.radius", LSF_OPTION_INT, offsetof(lsf_sparse_params, radius), 1, 16, NULL, "points",
      "how far to search for light of the surface that a pixel shows"},
     {"sparse.slope", LSF_OPTION_FLOAT, offsetof(lsf_sparse_params, slope), 1e-3, 10.0, NULL, "",
@@ -107,6 +109,11 @@ void lsf_sparse_plan(lsf_plan *plan, const lsf_sparse_params *params, uint32_t i
     if (sparse) {
         lsf_plan_pass_add(plan, "sparse_fit", "pixels whose surface every %u-th of them shows",
                           plan->stride);
+        lsf_plan_remark(plan,
+                        "indirect light is gathered at every %u-th pixel along both sides, others "
+                        "in each iteration%s (sparse.grid)",
+                        plan->stride,
+                        params->chosen ? ", so that the first fits into the time limit" : "");
         lsf_plan_reads(plan, "view gbuffer");
         plan_switches(plan, 1, false);
     }

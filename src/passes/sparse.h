@@ -16,11 +16,12 @@ typedef struct lsf_sparse_params {
     float slope;         /* at which a point's light counts half, by how far it rises from the plane
                           * for its distance */
     float normal_weight; /* exponent of the cosine between normals */
+    bool chosen;         /* the grid: by the plan */
     bool outliers;       /* are scaled to the mean of their neighbours */
 } lsf_sparse_params;
 
 #define LSF_SPARSE_PARAMS_DEFAULTS                                                                 \
-    .grid = 0, .interleave = 0, .radius = 3, .slope = 0.125f, .normal_weight = 8.0f,               \
+    .grid = 0, .interleave = 0, .radius = 3, .slope = 0.125f, .normal_weight = 32.0f,              \
     .outliers = false
 
 #define LSF_SPARSE_OPTION_COUNT 6

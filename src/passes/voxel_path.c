@@ -12,10 +12,10 @@
 #define RANDOM_SIZE 512
 
 const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
-    {"voxel_path.min_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, min_samples), 1, 64,
-     NULL, "paths", "that begin at a pixel of roughness 0"},
-    {"voxel_path.max_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, max_samples), 1, 64,
-     NULL, "paths", "that begin at a pixel of roughness 1"},
+    {"voxel_path.min_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, min_samples), 1,
+     LSF_VOXEL_PATH_MOST, NULL, "paths", "that begin at a pixel of roughness 0"},
+    {"voxel_path.max_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, max_samples), 1,
+     LSF_VOXEL_PATH_MOST, NULL, "paths", "that begin at a pixel of roughness 1"},
     {"voxel_path.emitters", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, emitters), 0, 16, NULL,
      "points",
      "drawn on emissive surfaces at each vertex of a path; 0: paths find these by chance"},

@@ -20,6 +20,10 @@ typedef struct lsf_voxel_path_params {
     int32_t sequence; /* lsf_voxel_path_sequence */
 } lsf_voxel_path_params;
 
+/* Paths of a pixel, at most: software GL ends all loops of a shader together after 65535 turns,
+ * some 40 of which a segment takes. */
+#define LSF_VOXEL_PATH_MOST 64
+
 #define LSF_VOXEL_PATH_PARAMS_DEFAULTS                                                             \
     .min_samples = 1, .max_samples = 6, .emitters = 1, .sequence = LSF_VOXEL_PATH_SOBOL
 

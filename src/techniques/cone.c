@@ -234,6 +234,7 @@ const lsf_technique lsf_technique_cone = {
     .groups = groups,
     .bounces = true,
     .draws_lobes = true,
+    .traces_pixels = true,
     .plan = plan_cone,
     .create = create_cone,
     .update = update_cone,

@@ -88,11 +88,33 @@ static int32_t choose_interleave(const lsf_render_params *params)
     return params->samples <= PATTERN_4 || large ? 4 : 2;
 }
 
-/* sparse.grid, where nobody says it. */
-static uint32_t choose_stride(const lsf_setup *setup)
+/* Points that two cores trace in a second, with some of it left for all else: 1 to 6 voxel paths
+ * each took 4 us of a core. */
+#define POINTS_PER_SECOND 0x1p18
+
+/* sparse.grid, where nobody says it: as fine as the first iteration fits into a time limit. */
+static int32_t choose_grid(const lsf_render_params *params)
 {
-    int32_t grid = setup->pass_params.sparse.grid;
-    return grid > 0 ? 1u << (grid - 1) : 1;
+    const lsf_technique *technique = lsf_technique_find(params->technique);
+    double pixels = (double)params->width * params->height;
+    double points = POINTS_PER_SECOND * params->time_limit;
+    bool sparse = technique && technique->traces_pixels && !params->raw;
+    int32_t logarithm = 0;
+    for (; sparse && logarithm < 4 && pixels > points; logarithm++)
+        pixels /= 4.0;
+    return logarithm + 1;
+}
+
+/* What nobody says. */
+static void choose_points(lsf_pass_params *pass_params, const lsf_render_params *params)
+{
+    lsf_sparse_params *sparse = &pass_params->sparse;
+    if (sparse->grid == 0) {
+        sparse->grid = choose_grid(params);
+        sparse->chosen = sparse->grid > 1;
+    }
+    if (sparse->interleave == 0)
+        sparse->interleave = choose_interleave(params);
 }
 
 /* A filter needs noise that differs between neighbours: not so where all pixels take the same
@@ -127,8 +149,8 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->height = params->height;
     plan->samples = params->samples;
     plan->filtered = filters(setup, technique);
-    if (technique && technique->bounces)
-        plan->stride = choose_stride(setup);
+    int32_t grid = setup->pass_params.sparse.grid;
+    plan->stride = technique && technique->bounces ? 1u << (grid - 1) : 1;
     plan->finest_stride =
         lsf_sparse_grid_finest(plan->stride, params->temporal ? UINT32_MAX : params->samples);
     bool by_scene = params->bounces == LSF_BOUNCES_AUTO;
@@ -223,8 +245,7 @@ static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *
             !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count, pass_params,
                             params->options[i], error))
             return false;
-    if (pass_params->sparse.interleave == 0)
-        pass_params->sparse.interleave = choose_interleave(params);
+    choose_points(pass_params, params);
     return true;
 }
 

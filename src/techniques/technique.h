@@ -101,7 +101,8 @@ typedef struct lsf_technique {
     bool refracts; /* scatters and refracts light that surfaces transmit; else that goes straight */
     bool draws_lobes; /* finds the environment by rays drawn from the BRDF, which suit a uniform one
                        * better than directions drawn by its radiance */
-    bool maps_scene;  /* draws maps that hold all of the scene: where it is empty matters to them */
+    bool traces_pixels; /* most of an iteration's time goes with the pixels that it traces */
+    bool maps_scene; /* draws maps that hold all of the scene: where it is empty matters to them */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
     /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets

@@ -169,6 +169,7 @@ const lsf_technique lsf_technique_voxel_path = {
     .bounces = true,
     .refracts = true,
     .draws_lobes = true,
+    .traces_pixels = true,
     .plan = plan_voxel_path,
     .create = create_voxel_path,
     .update = update_voxel_path,

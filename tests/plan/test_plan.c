@@ -1,5 +1,6 @@
 /* Scenes that differ in one feature each: the plan's passes, bytes and switches differ by just what
  * that feature needs. Needs no GL. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -274,6 +275,92 @@ static void only_what_is_planned_is_created(void **state)
     lsf_plan_destroy(plan);
 }
 
+/* What is planned for a picture of indirect light; NULL with an error. */
+static lsf_plan *plan_points(const char *technique, double time_limit, uint32_t width, bool raw,
+                             const char *option, lsf_error *error)
+{
+    const char *const options[] = {option};
+    lsf_scene *scene = build_scene();
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 2, 0), lsf_f3(0, -1, 0), 1.0f);
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    build_floor(scene, 0.0f, 1.0f);
+    finish_scene(scene);
+    lsf_scene_compute_requirements(scene);
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
+    params.technique = technique;
+    params.time_limit = time_limit;
+    params.width = params.height = width;
+    params.raw = raw;
+    params.options = options;
+    params.option_count = option ? 1 : 0;
+    lsf_plan *plan = lsf_plan_create(scene, &params, error);
+    destroy_scene(scene);
+    return plan;
+}
+
+/* Fewer points than pixels where a first iteration would take too long, with a word on it. */
+static void points_where_they_pay(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *technique;
+        double time_limit;
+        uint32_t width;
+        bool raw;
+        const char *option;
+        uint32_t stride;
+    } cases[] = {
+        {"voxel_path", 1.0, 1024, false, NULL, 2},
+        {"voxel_path", 0.1, 1024, false, NULL, 8},
+        {"voxel_path", 1e-3, 4096, false, NULL, 16},
+        {"cone", 1.0, 1024, false, NULL, 2},
+        {"voxel_path", 4.0, 1024, false, NULL, 1},
+        {"voxel_path", 1.0, 512, false, NULL, 1},
+        {"voxel_path", INFINITY, 4096, false, NULL, 1},
+        {"voxel_path", 1.0, 1024, true, NULL, 1},
+        {"voxel_path", 1.0, 1024, false, "sparse.grid=1", 1},
+        {"bidirectional", 1.0, 1024, false, NULL, 1},
+        {"bidirectional", INFINITY, 64, true, "sparse.grid=16", 16},
+        {"direct", 1.0, 1024, false, "sparse.grid=16", 1},
+    };
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        lsf_error error = {0};
+        lsf_plan *plan = plan_points(cases[i].technique, cases[i].time_limit, cases[i].width,
+                                     cases[i].raw, cases[i].option, &error);
+        if (!plan)
+            fail_msg("%s", error.message);
+        bool sparse = cases[i].stride > 1, told = false;
+        for (uint64_t r = 0; r < plan->remark_count; r++)
+            told |= strstr(plan->remarks[r], "sparse.grid") != NULL;
+        assert_int_equal(plan->stride, cases[i].stride);
+        assert_int_equal(told, sparse);
+        assert_int_equal(lsf_plan_find_pass(plan, "sparse_fit") != NULL, sparse);
+        assert_int_equal(lsf_plan_find(plan, "upsampled.irradiance") != NULL, sparse);
+        lsf_plan_destroy(plan);
+    }
+}
+
+/* An option that is gone names what does its work now. */
+static void options_that_are_gone(void **unused)
+{
+    (void)unused;
+    static const char *const options[][2] = {
+        {"cone.scale=0.5", "sparse.grid"},
+        {"voxel_path.scale=0.5", "sparse.grid"},
+        {"blur.phases=5", "sparse.blur"},
+        {"blur.slope=1", "sparse.blur"},
+        {"upsample_search.slope=1", "sparse.slope"},
+        {"interleave.periods=2", "sparse.blur"},
+        {"cone.scales=1", "no such option of a pass"},
+    };
+    for (size_t i = 0; i < LSF_COUNT(options); i++) {
+        lsf_error error = {0};
+        assert_null(plan_points("cone", INFINITY, 64, false, options[i][0], &error));
+        assert_int_equal(error.code, LSF_ERROR_USAGE);
+        assert_non_null(strstr(error.message, options[i][1]));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +374,8 @@ int main(void)
         cmocka_unit_test(no_light_no_shadow),
         cmocka_unit_test(bad_params),
         cmocka_unit_test(only_what_is_planned_is_created),
+        cmocka_unit_test(points_where_they_pay),
+        cmocka_unit_test(options_that_are_gone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
