@@ -11,16 +11,13 @@
 enum { ROUGH_SEEDS = 2, FEWEST = 3, FEW_SAMPLES = 4, MOST_CONTENDERS = 6, DECISIONS = 2 };
 #define FIRST_PART (1.0 / 64.0) /* of the time, and what each rung multiplies it by */
 #define GROWTH 4.0
-/* An error may turn out less by this factor, for two seeds tell it badly, and its power be off by
- * so much. */
-#define DOUBT 1.5
+#define CHANCE 1.5   /* standard deviations by which errors that seeds tell may be off */
+#define SURE 0.9     /* probability that nothing is better by 10 % */
 #define HOPELESS 2.0 /* times the error that is asked for: a floor */
-#define DOUBT_POWER 0.3
 
 typedef struct candidate {
     uint32_t configuration;
-    double foretold; /* relMSE in all of the time */
-    double doubt;    /* factor by which it may be less */
+    double least, most; /* relMSE that is foretold of all of the time */
 } candidate;
 
 typedef struct search_run {
@@ -84,36 +81,24 @@ static uint32_t power_of_two_within(uint32_t samples)
 
 /* --- within a time --- */
 
-/* How fast `value` falls with samples from one point to the next, as a power; within limits, for
- * few seeds tell it badly. */
-static double slope_between(double before, double after, double ratio, double least, double most)
-{
-    double slope = log(before / after) / log(ratio);
-    return slope >= least ? fmin(slope, most) : least; /* NAN: least */
-}
-
-/* The error that so many samples will have. Variance falls with them as it did between the last two
- * points, or as 1 / N; what looks like bias falls as it did, which is all that is left of a
- * filter's, or stays. */
-static double foretell(const search_run *run, uint32_t configuration, uint32_t samples)
+/* The errors that so many samples may have, from those of the most that were measured: variance
+ * falls as their power 0.7 at least; what looks like bias stays, or is a filter's and falls with
+ * the variance, as 1 / N then. */
+static void foretell(const search_run *run, uint32_t configuration, uint32_t samples, double *least,
+                     double *most)
 {
     const lsf_measured_point *last = lsf_measurement_last(run->m, configuration);
-    const lsf_measured_point *before = lsf_measurement_before(run->m, last);
-    double variance = fmin(fmax(last->relmse.variance, 0.0), last->relmse.error.value);
-    double bias = last->relmse.error.value - variance, power = 1.0, bias_power = 0.0;
+    double error = last->relmse.error.value;
+    double variance = fmin(fmax(last->relmse.variance, 0.0), error);
     double more = fmax((double)samples / last->samples, 1.0);
-    if (before) {
-        double ratio = (double)last->samples / before->samples;
-        power = slope_between(before->relmse.variance, variance, ratio, 0.7, 1.2);
-        bias_power = slope_between(before->relmse.error.value - before->relmse.variance, bias,
-                                   ratio, 0.0, 1.0);
-    }
-    return bias * pow(more, -bias_power) + variance * pow(more, -power);
+    *least = error / more;
+    *most = error - variance + variance * pow(more, -0.7);
 }
 
 static int by_foretold(const void *a, const void *b)
 {
-    double left = ((const candidate *)a)->foretold, right = ((const candidate *)b)->foretold;
+    const candidate *x = a, *y = b;
+    double left = x->least * x->most, right = y->least * y->most;
     return (left > right) - (left < right);
 }
 
@@ -136,34 +121,30 @@ static double pooled_variance(const search_run *run)
 /* How far apart two errors of so many seeds may be by chance, as a factor. */
 static double chance_factor(double variance_of_seed, uint32_t seeds)
 {
-    return exp(DOUBT * sqrt(2.0 * variance_of_seed / seeds));
+    return exp(CHANCE * sqrt(2.0 * variance_of_seed / seeds));
 }
 
-/* Leaves out what takes too long with one sample, what is not foretold to come near the best even
- * if it falls faster than it seems, and the worst of too many. */
+/* Leaves out what takes too long with one sample, what is foretold to be worse than another one in
+ * any case, and the worst of too many. */
 static void thin_out(search_run *run)
 {
-    uint32_t kept = 0, most = FEWEST + 2 * run->count / 3;
+    uint32_t kept = 0, allowed = FEWEST + 2 * run->count / 3;
+    double bound = INFINITY;
     run->seed_variance = pooled_variance(run);
-    double doubt = chance_factor(run->seed_variance, run->search->seeds);
     for (uint32_t i = 0; i < run->count; i++) {
-        uint32_t c = run->candidates[i].configuration;
-        uint32_t samples = samples_within(run, c, run->search->budget_ms);
+        candidate c = run->candidates[i];
+        uint32_t samples = samples_within(run, c.configuration, run->search->budget_ms);
         if (samples == 0)
             continue;
-        double more = fmax((double)samples / lsf_measurement_last(run->m, c)->samples, 1.0);
-        run->candidates[kept] = (candidate){.configuration = c,
-                                            .foretold = foretell(run, c, samples),
-                                            .doubt = doubt * pow(more, DOUBT_POWER)};
-        kept++;
+        foretell(run, c.configuration, samples, &c.least, &c.most);
+        bound = fmin(bound, c.most * chance_factor(run->seed_variance, run->search->seeds));
+        run->candidates[kept++] = c;
     }
     qsort(run->candidates, kept, sizeof *run->candidates, by_foretold);
     run->count = 0;
-    for (uint32_t i = 0; i < kept; i++) {
-        const candidate *c = &run->candidates[i];
-        if (run->count < most && c->foretold <= c->doubt * run->candidates[0].foretold)
-            run->candidates[run->count++] = *c;
-    }
+    for (uint32_t i = 0; i < kept && run->count < allowed; i++)
+        if (run->candidates[i].least <= bound)
+            run->candidates[run->count++] = run->candidates[i];
 }
 
 /* Says how much the frames of a rung will be. */
@@ -257,7 +238,7 @@ static double deviation_of(const lsf_measured_point *point)
     return n > 1 ? sqrt(squares / (n - 1) / n) : INFINITY;
 }
 
-/* Probability that of each other configuration no point that fits is better by 10 %, by Student's
+/* Probability that of each configuration no other point that fits is better by 10 %, by Student's
  * distribution of the difference; the chances of being wrong add up. Points of few seeds are those
  * of candidates that were left behind, and do not count. */
 static double confidence_in(const search_run *run, const lsf_measured_point *best)
@@ -265,9 +246,10 @@ static double confidence_in(const search_run *run, const lsf_measured_point *bes
     double wrong = 0.0;
     for (uint32_t c = 0; c < run->m->configuration_count; c++) {
         double worst = 0.0;
-        for (uint32_t i = 0; c != best->configuration && i < run->m->point_count; i++) {
+        for (uint32_t i = 0; i < run->m->point_count; i++) {
             const lsf_measured_point *other = &run->m->points[i];
-            if (other->configuration != c || other->seed_count < best->seed_count ||
+            if (other == best || other->configuration != c ||
+                other->seed_count < best->seed_count ||
                 other->milliseconds.median > run->search->budget_ms)
                 continue;
             double difference = 1.1 * other->relmse.error.value - best->relmse.error.value;
@@ -280,6 +262,12 @@ static double confidence_in(const search_run *run, const lsf_measured_point *bes
         wrong += worst;
     }
     return fmax(1.0 - wrong, 0.0);
+}
+
+static bool is_sure(const search_run *run)
+{
+    const lsf_measured_point *best = best_within(run);
+    return !best || confidence_in(run, best) >= SURE;
 }
 
 static const lsf_measured_point *quickest(const lsf_measurement *m)
@@ -341,7 +329,7 @@ static bool search_within(search_run *run, lsf_error *error)
     expect_rung(run, search->budget_ms, search->seeds);
     for (uint32_t i = 0; good && !run->stopped && i < run->count; i++)
         good = measure_finalist(run, run->candidates[i].configuration, error);
-    for (int i = 0; good && !run->stopped && i < DECISIONS; i++)
+    for (int i = 0; good && !run->stopped && i < DECISIONS && !is_sure(run); i++)
         if (!measure_contenders(run, error, &good))
             break;
     if (!good)
@@ -364,7 +352,8 @@ static uint32_t next_samples(const search_run *run, uint32_t configuration, doub
         return 0; /* it fails */
     double samples = GROWTH * last->samples;
     bool there = last->relmse.error.value <= run->search->relmse;
-    double least = foretell(run, configuration, run->search->most_samples);
+    double least, most;
+    foretell(run, configuration, run->search->most_samples, &least, &most);
     if (there || least > HOPELESS * run->search->relmse || samples > run->search->most_samples ||
         lsf_front_milliseconds(run->m, configuration, samples) > best_ms)
         return 0;

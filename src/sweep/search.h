@@ -25,10 +25,11 @@ typedef struct lsf_search {
  *
  * Within a time: by rungs, as in successive halving (Jamieson and Talwalkar 2016): frames of 1/64
  * of the time, then of four times as long as those before. What a configuration's error will be in
- * the whole time is foretold by what of it is variance and what bias, and by how both fell; a third
- * is left behind, and whatever would not be the best even if it fell faster than it seems. The last
- * ones are measured in the whole time, with as many samples as fit and with the power of 2 below,
- * at which low-discrepancy sequences are at their best.
+ * the whole time is foretold within bounds by what of it is variance and what bias; a third is left
+ * behind, and whatever is worse than another one even at the best of its bounds. The last ones are
+ * measured in the whole time, with as many samples as fit and with the power of 2 below, at which
+ * low-discrepancy sequences are at their best; and where chance may have decided, from twice as
+ * many seeds.
  *
  * To an error: the configuration goes on whose next frame, of four times the samples, takes the
  * shortest, until it gets there or until that frame would take longer than one that did. */

@@ -21,9 +21,9 @@ static const measure_preset presets[] = {
 
 /* Candidates of an answer. */
 static const measure_preset searches[] = {
-    {{"voxel.resolution=32,64,128", "vpl.count=1,32", "sparse.grid=auto,1,4"}, 4096, 4, 256},
+    {{"voxel.resolution=32,64,128", "vpl.count=1,32", "sparse.grid=1,2,4"}, 4096, 4, 256},
     {{"voxel.resolution=32,64,128,256", "vpl.count=1,16,64", "bundle.count=1,4",
-      "sparse.grid=auto,1,4", "interleave.size=0,1", "voxel_path.max_samples=1,6"},
+      "sparse.grid=1,2,4", "interleave.size=0,1", "voxel_path.max_samples=1,6"},
      65536,
      8,
      1024},
