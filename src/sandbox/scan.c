@@ -16,6 +16,7 @@ typedef struct scanner {
     const char *path;
     uint32_t line;
     bool in_comment;  /* of the kind that spans lines */
+    bool after_void;  /* the word before was that: what follows is a function */
     char uniform[64]; /* that the line declares, or "" */
     bool code;        /* the line holds more than a comment */
     bool range;       /* a slider's, of a line above that is a comment alone */
@@ -168,12 +169,13 @@ static bool read_annotation(scanner *s, const char *comment)
 
 /* --- names --- */
 
-static bool note_name(const scanner *s, const char *word, size_t length, bool declared)
+static bool note_name(scanner *s, const char *word, size_t length, bool declared)
 {
     lsf_sandbox_pass_text *pass = s->pass;
     uint32_t name = lsf_sandbox_find_name(word, length);
-    pass->main_image |= length == 9 && memcmp(word, "mainImage", length) == 0;
-    pass->main |= length == 4 && memcmp(word, "main", length) == 0;
+    pass->main_image |= s->after_void && length == 9 && memcmp(word, "mainImage", length) == 0;
+    pass->main |= s->after_void && length == 4 && memcmp(word, "main", length) == 0;
+    s->after_void = length == 4 && memcmp(word, "void", length) == 0;
     if (name == LSF_NONE)
         return true;
     pass->needs |= lsf_sandbox_row_at(name)->needs;
