@@ -59,10 +59,10 @@ static bool next_text(const description *d, size_t *at, lsf_header_text *text)
 static void describe_json(const description *d, lsf_string *out)
 {
     static const char *const types[] = {"u8", "u16", "f32"};
-    lsf_string_add(out, "{\n  \"path\": ");
+    lsf_string_add(out, "{\n  \"picture\": ");
     lsf_string_add_json(out, d->path);
     lsf_string_add(out,
-                   ",\n  \"format\": \"%s\", \"width\": %u, \"height\": %u, \"type\": \"%s\",\n"
+                   ",\n  \"format\": \"%s\", \"resolution\": [%u, %u], \"type\": \"%s\",\n"
                    "  \"channels\": [",
                    formats[d->header.file], d->header.width, d->header.height,
                    types[d->header.type]);

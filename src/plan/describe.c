@@ -79,8 +79,7 @@ static void describe_json(const lsf_plan *plan, lsf_string *out)
 {
     lsf_string_add(out, "{\n  ");
     add_text_field(out, "technique", plan->technique);
-    lsf_string_add(out, ",\n  \"width\": %u, \"height\": %u, \"samples\": ", plan->width,
-                   plan->height);
+    lsf_string_add(out, ",\n  \"resolution\": [%u, %u], \"samples\": ", plan->width, plan->height);
     lsf_string_add_json_number(out, plan->samples == UINT32_MAX ? INFINITY : plan->samples);
     lsf_string_add(out, ", \"bounces\": %u,\n  \"bytes\": %llu,\n  \"passes\": [", plan->bounces,
                    (unsigned long long)lsf_plan_bytes(plan));

@@ -185,7 +185,7 @@ static void add_requirements_json(lsf_string *out, const lsf_requirements *r)
 static void describe_json(lsf_string *out, const lsf_scene *scene)
 {
     const lsf_requirements *r = &scene->requirements;
-    lsf_string_add(out, "{\n  \"path\": ");
+    lsf_string_add(out, "{\n  \"scene\": ");
     lsf_string_add_json(out, scene->path);
     lsf_string_add(out,
                    ",\n  \"nodes\": %u, \"meshes\": %u, \"primitives\": %u, \"instances\": %u,\n"

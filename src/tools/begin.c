@@ -1,5 +1,7 @@
 #include "tools/begin.h"
 
+#include <lightsheaf/lightsheaf.h>
+
 #include "base/base.h"
 #include "tools/help.h"
 #include "tools/report.h"
@@ -44,10 +46,17 @@ int lsf_tool_begin(lsf_settings *settings, lsf_command_bit command, int argc, ch
     return status;
 }
 
+void lsf_tool_begin_json(lsf_json *json, const lsf_settings *settings)
+{
+    lsf_json_begin(json, NULL, '{');
+    lsf_json_string(json, "lightsheaf", lsf_version());
+    lsf_json_string(json, "command", settings->command->name);
+}
+
 bool lsf_tool_print(const lsf_settings *settings, uint32_t index, char *text, lsf_error *error)
 {
     bool good = text || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
-    if (good && !lsf_settings_print_json(settings))
+    if (good && !settings->quiet && !lsf_settings_print_json(settings))
         good = (index == 0 || lsf_file_write("-", "\n", 1, error)) &&
                lsf_file_write("-", text, strlen(text), error);
     free(text);

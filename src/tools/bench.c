@@ -61,9 +61,7 @@ static bool start(lsf_bench *bench, lsf_error *error)
 static void begin_json(lsf_bench *bench, const char *measurement)
 {
     lsf_json *json = &bench->json;
-    lsf_json_begin(json, NULL, '{');
-    lsf_json_string(json, "lightsheaf", lsf_version());
-    lsf_json_string(json, "command", bench->settings.command->name);
+    lsf_tool_begin_json(json, &bench->settings);
     lsf_json_string(json, "measurement", measurement);
     lsf_json_string(json, "scene", bench->scene_path);
     lsf_json_integer(json, "seed", bench->settings.seed);

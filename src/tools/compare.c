@@ -173,13 +173,13 @@ static void add_json(lsf_json *json, const session *s, const lsf_settings *setti
 {
     const lsf_compare_result *r = &s->result;
     const lsf_list_setting *operands = &settings->operands;
-    lsf_json_begin(json, NULL, '{');
+    lsf_tool_begin_json(json, settings);
     lsf_json_string(json, "test", operands->items[0]);
     lsf_json_string(json, "reference", operands->items[1]);
     lsf_json_string(json, "reference_b", operands->count > 2 ? operands->items[2] : NULL);
     lsf_json_string(json, "mask", settings->mask);
-    lsf_json_integer(json, "width", s->test->width);
-    lsf_json_integer(json, "height", s->test->height);
+    lsf_json_vector(json, "resolution", (float[]){(float)s->test->width, (float)s->test->height},
+                    2);
     lsf_json_integer(json, "pixels", r->pixels);
     lsf_json_integer(json, "non_finite_test", r->non_finite_test);
     lsf_json_integer(json, "non_finite_reference", r->non_finite_reference);

@@ -4,13 +4,20 @@
 #include "tools/scenes.h"
 #include "tools/tools.h"
 
+static void add_json(const lsf_settings *settings, char *description, lsf_json *json)
+{
+    lsf_tool_begin_json(json, settings);
+    lsf_json_members(json, description);
+    lsf_json_end(json, '}');
+}
+
 static bool print_picture(const lsf_settings *settings, uint32_t index, const char *path,
                           lsf_json *json, lsf_error *error)
 {
     char *text = lsf_image_describe(path, false, error);
     bool good = text && lsf_tool_print(settings, index, text, error);
     if (good)
-        lsf_json_text(json, NULL, lsf_image_describe(path, true, error));
+        add_json(settings, lsf_image_describe(path, true, error), json);
     return good;
 }
 
@@ -26,7 +33,7 @@ static bool print_file(void *user, uint32_t index, const char *path, lsf_json *j
         return false;
     bool good = lsf_tool_print(settings, index, lsf_scene_describe(scene, false), error);
     if (good)
-        lsf_json_text(json, NULL, lsf_scene_describe(scene, true));
+        add_json(settings, lsf_scene_describe(scene, true), json);
     lsf_scene_destroy(scene);
     return good;
 }

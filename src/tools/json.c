@@ -75,15 +75,19 @@ void lsf_json_vector(lsf_json *json, const char *name, const float *values, uint
     lsf_string_add_bytes(&json->text, "]", 1);
 }
 
-void lsf_json_text(lsf_json *json, const char *name, char *text)
+void lsf_json_members(lsf_json *json, char *object)
 {
-    size_t length = text ? strlen(text) : 0;
-    start_value(json, name);
-    if (json->depth > 0 && length > 0 && text[length - 1] == '\n')
-        length--;
-    lsf_string_add_bytes(&json->text, text ? text : "", length);
-    json->text.failed |= !text;
-    free(text);
+    char *first = object ? strchr(object, '{') : NULL, *last = first ? strrchr(first, '}') : NULL;
+    json->text.failed |= !object;
+    if (last) {
+        do
+            *last = '\0'; /* and the blanks before it */
+        while (last > first + 1 && strchr(" \n", *--last));
+        start_value(json, NULL);
+        first += 1 + strspn(first + 1, " \n");
+        lsf_string_add_bytes(&json->text, first, strlen(first));
+    }
+    free(object);
 }
 
 bool lsf_json_write(const lsf_json *json, const char *path, lsf_error *error)

@@ -17,8 +17,9 @@ void lsf_json_string(lsf_json *json, const char *name, const char *value); /* NU
 void lsf_json_number(lsf_json *json, const char *name, double value);      /* not finite: null */
 void lsf_json_integer(lsf_json *json, const char *name, uint64_t value);
 void lsf_json_bool(lsf_json *json, const char *name, bool value);
-/* A malloc'ed JSON text, which it frees; NULL: there was no memory for it. */
-void lsf_json_text(lsf_json *json, const char *name, char *text);
+/* The members of a malloc'ed JSON text that is an object, which it frees; NULL: there was no memory
+ * for it. */
+void lsf_json_members(lsf_json *json, char *object);
 /* The whole text to a file, or to standard output by "-"; nothing without a path. */
 bool lsf_json_write(const lsf_json *json, const char *path, lsf_error *error);
 /* A short array on one line; `values` NULL: null. */

@@ -18,7 +18,7 @@ static bool print_prices(const lsf_settings *settings, uint32_t index, const cha
         good = lsf_tool_print(settings, index, text.text, error);
     }
     if (good) {
-        lsf_json_begin(json, NULL, '{');
+        lsf_tool_begin_json(json, settings);
         lsf_json_string(json, "scene", path);
         lsf_prices_add_json(json, "prices", &prices);
         lsf_json_end(json, '}');
@@ -28,15 +28,19 @@ static bool print_prices(const lsf_settings *settings, uint32_t index, const cha
 }
 
 /* NULL: it could not be made. Destroys the plan. */
-static bool print_whole(const lsf_settings *settings, uint32_t index, lsf_plan *plan,
-                        lsf_json *json, lsf_error *error)
+static bool print_whole(const lsf_settings *settings, uint32_t index, const char *path,
+                        lsf_plan *plan, lsf_json *json, lsf_error *error)
 {
     bool good =
         plan &&
         lsf_tool_print(settings, index,
                        settings->dot ? lsf_plan_dot(plan) : lsf_plan_describe(plan, false), error);
-    if (good)
-        lsf_json_text(json, NULL, lsf_plan_describe(plan, true));
+    if (good) {
+        lsf_tool_begin_json(json, settings);
+        lsf_json_string(json, "scene", path);
+        lsf_json_members(json, lsf_plan_describe(plan, true));
+        lsf_json_end(json, '}');
+    }
     lsf_plan_destroy(plan);
     return good;
 }
@@ -52,7 +56,8 @@ static bool print_plan(void *user, uint32_t index, const char *path, lsf_json *j
     if (good && settings->prices)
         good = print_prices(settings, index, path, scene, json, error);
     else if (good)
-        good = print_whole(settings, index, lsf_plan_create(scene, &params, error), json, error);
+        good =
+            print_whole(settings, index, path, lsf_plan_create(scene, &params, error), json, error);
     lsf_scene_destroy(scene);
     return good;
 }
@@ -67,7 +72,7 @@ static bool print_sandbox(void *user, uint32_t index, const char *path, lsf_json
     double seconds;
     lsf_scene *scene = named ? lsf_tool_load_scene(settings, path, &seconds, error) : NULL;
     lsf_plan *plan = scene || !named ? lsf_sandbox_plan(scene, &params, error) : NULL;
-    bool good = print_whole(settings, index, plan, json, error);
+    bool good = print_whole(settings, index, named ? path : NULL, plan, json, error);
     lsf_scene_destroy(scene);
     return good;
 }

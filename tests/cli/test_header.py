@@ -63,8 +63,8 @@ class Headers(CommandTest):
         self.run_command("render", self.scene(), "-o", "a.exr", "-s", "1", "--aov", "normal", *SMALL)
         self.run_command("render", "scene.gltf", "-o", "a.hdr", "-s", "1", *SMALL)
         report = json.loads(self.run_command("info", "a.exr", "--json", "-").stdout)
-        self.assertEqual([report[key] for key in ("path", "format", "width", "height", "type")],
-                         ["a.exr", "exr", 8, 8, "f32"])
+        self.assertEqual([report[key] for key in ("picture", "format", "resolution", "type")],
+                         ["a.exr", "exr", [8, 8], "f32"])
         self.assertEqual(sorted(report["channels"]), ["B", "G", "R", "normal.X", "normal.Y", "normal.Z"])
         done = self.run_command("info", "a.exr", "a.hdr", "scene.gltf")
         parts = done.stdout.decode().split("\n\n")
