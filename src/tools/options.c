@@ -205,7 +205,8 @@ static const lsf_command_option options[] = {
      "1024x768 and "
      "1920x1080"},
     {"resolution", 'r', "W,H", LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_RESOLUTION, AT(resolution),
-     1, 65535, NULL, "640,360", "width and height in pixels; 640x360 will do too"},
+     1, 65535, NULL, "640,360",
+     "width and height in pixels; 640x360 will do too; a window is 1024,576 without it"},
     {"samples", 's', "N", LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_COUNT, AT(samples), 1, 1000000,
      NULL, "1", "iterations of lsf_picture in each frame"},
     {"samples", 's', "N", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_COUNT, AT(samples), 1, 64,

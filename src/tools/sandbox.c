@@ -170,6 +170,9 @@ static int work(void *user)
 
 /* --- in a window --- */
 
+/* Where nobody says it: room for the panel beside a picture. */
+enum { WINDOW_WIDTH = 1024, WINDOW_HEIGHT = 576 };
+
 static lsf_easel_start easel_start(const lsf_settings *settings)
 {
     lsf_easel_start start = {.sandbox = lsf_settings_sandbox_params(settings),
@@ -182,8 +185,9 @@ static lsf_easel_start easel_start(const lsf_settings *settings)
     if (settings->operands.count > 1)
         start.scene_path = settings->operands.items[1];
     start.window.title = start.sandbox.path;
-    start.window.width = settings->resolution[0];
-    start.window.height = settings->resolution[1];
+    bool sized = lsf_settings_given(settings, "resolution");
+    start.window.width = sized ? settings->resolution[0] : WINDOW_WIDTH;
+    start.window.height = sized ? settings->resolution[1] : WINDOW_HEIGHT;
     start.window.full_screen = settings->full_screen;
     start.window.shader_dir = settings->shader_dir;
     start.window.record = settings->record;
