@@ -98,15 +98,19 @@ static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
     lsf_scene_gpu_lobe_switches(plan, gloss);
 }
 
-void lsf_sparse_plan(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
+/* Which of the textures there are. */
+static uint32_t given(const lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
 {
     bool sparse = lsf_sparse_grid_is_sparse(plan), split = sparse || interleave > 1;
-    bool gather = split || params->outliers;
-    uint32_t size[2];
-    lsf_sparse_grid_places(plan, size);
-    if (!gather)
+    return (split ? SPLIT : 0) | (split || params->outliers ? GATHER : 0) | (sparse ? SPARSE : 0);
+}
+
+void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
+{
+    uint32_t there = given(plan, params, interleave);
+    if (there == 0)
         lsf_plan_omit(plan, "sparse", "light is gathered at every pixel, all by the same samples");
-    if (sparse) {
+    if (there & SPARSE) {
         lsf_plan_pass_add(plan, "sparse_fit", "pixels whose surface every %u-th of them shows",
                           plan->stride);
         lsf_plan_remark(plan,
@@ -117,22 +121,35 @@ void lsf_sparse_plan(lsf_plan *plan, const lsf_sparse_params *params, uint32_t i
         lsf_plan_reads(plan, "view gbuffer");
         plan_switches(plan, 1, false);
     }
-    if (split) {
+    if (there & SPLIT) {
         lsf_plan_pass_add(plan, "sparse_split", "what points see%s",
                           interleave > 1 ? ", those side by side that take the same samples" : "");
         lsf_plan_fills(plan, "points");
-        lsf_plan_reads(plan, sparse ? "view gbuffer sparse.source" : "gbuffer");
+        lsf_plan_reads(plan, there & SPARSE ? "view gbuffer sparse.source" : "gbuffer");
         plan_switches(plan, interleave, false);
     }
-    if (gather) {
+}
+
+void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
+{
+    uint32_t there = given(plan, params, interleave), size[2];
+    bool tint = there & SPARSE || params->outliers;
+    if (there & GATHER) {
         lsf_plan_pass_add(plan, "sparse_gather", "light back into the order of points");
         lsf_plan_reads(plan, "bidirectional_shade|cone_trace|voxel_path");
-        if (sparse || params->outliers)
+        if (tint)
             lsf_plan_reads(plan, "view gbuffer points.pixels");
-        plan_switches(plan, interleave, sparse || params->outliers);
+        plan_switches(plan, interleave, tint);
         lsf_plan_switch_add(plan, "LSF_OUTLIERS", params->outliers, "sparse.outliers");
     }
-    if (sparse) {
+    lsf_sparse_grid_places(plan, size);
+    lsf_plan_textures_add(plan, places, LSF_COUNT(places), there, size[0], size[1]);
+}
+
+void lsf_sparse_plan_upsample(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
+{
+    uint32_t there = given(plan, params, interleave);
+    if (there & SPARSE) {
         lsf_plan_pass_add(plan, "sparse_upsample", "light of points for every pixel");
         lsf_plan_fills(plan, "upsampled");
         lsf_plan_reads(plan, "view gbuffer points.pixels sparse blur");
@@ -140,9 +157,7 @@ void lsf_sparse_plan(lsf_plan *plan, const lsf_sparse_params *params, uint32_t i
         lsf_plan_buffer_add(plan, "sparse.counts", LSF_SPARSE_COUNTS * sizeof(GLuint),
                             "pixels that no point fits");
     }
-    uint32_t given = (split ? SPLIT : 0) | (gather ? GATHER : 0) | (sparse ? SPARSE : 0);
-    lsf_plan_textures_add(plan, places, LSF_COUNT(places), given, size[0], size[1]);
-    lsf_plan_textures_add(plan, pixels, LSF_COUNT(pixels), given, plan->width, plan->height);
+    lsf_plan_textures_add(plan, pixels, LSF_COUNT(pixels), there, plan->width, plan->height);
 }
 
 /* A stage: its framebuffer, program and timer. */

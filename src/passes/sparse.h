@@ -54,10 +54,12 @@ typedef struct lsf_sparse {
  * y / size). A region is empty when there are fewer points than tiles. */
 lsf_region lsf_sparse_region(const lsf_sparse_grid *grid, uint32_t size, uint32_t index);
 
-/* Lists "sparse_fit", "sparse_split", "sparse_gather" and "sparse_upsample", or what of them the
- * plan's strides, a pattern of so many tiles along a side and the options take. Needs the
+/* Lists "sparse_fit" and "sparse_split", then "sparse_gather", then "sparse_upsample", or what of
+ * them the plan's strides, a pattern of so many tiles along a side and the options take. Need the
  * G-buffer's plan. */
-void lsf_sparse_plan(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave);
+void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave);
+void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave);
+void lsf_sparse_plan_upsample(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave);
 /* Creates what is listed. */
 bool lsf_sparse_create(lsf_sparse *pass, lsf_context *context, const lsf_plan *plan,
                        const lsf_sparse_params *params, lsf_error *error);

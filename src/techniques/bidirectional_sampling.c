@@ -140,7 +140,10 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_vpl_params vpl = lsf_bidirectional_vpl_params(params, &s);
     plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
     plan->tiles = s.tiles;
+    bool indirect = s.vpl_light || s.vpl_emitter || s.segments > 0;
     lsf_direct_chain_plan(plan, params, state, NULL);
+    if (indirect)
+        lsf_sparse_chain_plan_split(plan, params, s.interleave);
     if (s.vpl_light || s.bundle_light)
         lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, state);
     else
@@ -168,7 +171,6 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
                       s.vpl_light || s.vpl_emitter ? "VPLs alone light visible points"
                                                    : "no light bounces");
     }
-    bool indirect = s.vpl_light || s.vpl_emitter || s.segments > 0;
     if (indirect) {
         lsf_bidirectional_shade_use use = {
             .segments = s.segments,
@@ -181,7 +183,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
             .split_direct = s.split_direct,
             .interleave = s.interleave};
         lsf_bidirectional_shade_plan(plan, &params->bidirectional_shade, &use);
-        lsf_sparse_chain_plan(plan, params, s.interleave);
+        lsf_sparse_chain_plan_finish(plan, params, s.interleave);
     } else {
         lsf_plan_omit(plan, "bidirectional_shade", "no light bounces");
     }

@@ -79,8 +79,9 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
             lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
+        lsf_sparse_chain_plan_split(plan, params, 1);
         lsf_cone_trace_plan(plan, &params->cone);
-        lsf_sparse_chain_plan(plan, params, 1);
+        lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
         lsf_plan_omit(plan, "cone_trace", "no light bounces");

@@ -7,11 +7,18 @@ bool lsf_sparse_chain_is_plain(const lsf_plan *plan, const lsf_pass_params *para
            !lsf_blur_wanted(&params->blur);
 }
 
-void lsf_sparse_chain_plan(lsf_plan *plan, const lsf_pass_params *params, uint32_t interleave)
+void lsf_sparse_chain_plan_split(lsf_plan *plan, const lsf_pass_params *params, uint32_t interleave)
 {
-    lsf_sparse_plan(plan, &params->sparse, interleave);
+    lsf_sparse_plan_split(plan, &params->sparse, interleave);
+}
+
+void lsf_sparse_chain_plan_finish(lsf_plan *plan, const lsf_pass_params *params,
+                                  uint32_t interleave)
+{
+    lsf_sparse_plan_gather(plan, &params->sparse, interleave);
     lsf_blur_plan(plan, &params->blur);
     lsf_blur_remark(plan, &params->blur);
+    lsf_sparse_plan_upsample(plan, &params->sparse, interleave);
 }
 
 bool lsf_sparse_chain_create(lsf_sparse_chain *chain, lsf_context *context, const lsf_plan *plan,

@@ -15,9 +15,12 @@ typedef struct lsf_sparse_chain {
 /* Whether each pixel's light is its own and stays as it is found. */
 bool lsf_sparse_chain_is_plain(const lsf_plan *plan, const lsf_pass_params *params,
                                uint32_t interleave);
-/* `interleave`: side of the pattern in which points take different samples, 1: none. Needs the
+/* `interleave`: side of the pattern in which points take different samples, 1: none. Need the
  * G-buffer's plan; the passes that gather light are planned between both. */
-void lsf_sparse_chain_plan(lsf_plan *plan, const lsf_pass_params *params, uint32_t interleave);
+void lsf_sparse_chain_plan_split(lsf_plan *plan, const lsf_pass_params *params,
+                                 uint32_t interleave);
+void lsf_sparse_chain_plan_finish(lsf_plan *plan, const lsf_pass_params *params,
+                                  uint32_t interleave);
 bool lsf_sparse_chain_create(lsf_sparse_chain *chain, lsf_context *context, const lsf_plan *plan,
                              const lsf_pass_params *params, lsf_error *error);
 /* What the iteration's points see, of what the picture's pixels see; valid until the next call. */

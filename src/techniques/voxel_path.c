@@ -59,8 +59,9 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_voxel_chain_use chain = chain_use(params);
     lsf_voxel_chain_plan(plan, params, state, &chain);
     if (use.segments > 0) {
+        lsf_sparse_chain_plan_split(plan, params, 1);
         lsf_voxel_path_plan(plan, &params->voxel_path, &use);
-        lsf_sparse_chain_plan(plan, params, 1);
+        lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_plan_omit(plan, "voxel_path",
                       lsf_voxel_chain_has_voxels(plan) ? "no light bounces"

@@ -31,7 +31,9 @@ static void rig_begin_view(rig *r, uint32_t width, uint32_t height, uint32_t str
     lsf_plan *plan = r->s.setup.plan;
     plan->stride = stride;
     plan->finest_stride = lsf_sparse_grid_finest(stride, 2 * stride * stride);
-    lsf_sparse_plan(plan, &r->params, interleave);
+    lsf_sparse_plan_split(plan, &r->params, interleave);
+    lsf_sparse_plan_gather(plan, &r->params, interleave);
+    lsf_sparse_plan_upsample(plan, &r->params, interleave);
     surface_rig_start(&r->s);
     if (!lsf_sparse_create(&r->pass, r->s.context, plan, &r->params, &error))
         fail_msg("%s", error.message);
@@ -440,7 +442,9 @@ static void every_pixel_has_no_pass(void **unused)
     surface_rig_begin(&r.s, 16, 8, false);
     lsf_plan *plan = r.s.setup.plan;
     uint64_t passes = plan->pass_count, resources = plan->resource_count;
-    lsf_sparse_plan(plan, &r.params, 1);
+    lsf_sparse_plan_split(plan, &r.params, 1);
+    lsf_sparse_plan_gather(plan, &r.params, 1);
+    lsf_sparse_plan_upsample(plan, &r.params, 1);
     assert_int_equal(plan->pass_count, passes);
     assert_int_equal(plan->resource_count, resources);
     bool omitted = false;
