@@ -99,6 +99,11 @@ bool lsf_image_can_save(uint32_t width, uint32_t height, const char *path,
 bool lsf_image_save_rgb8(const uint8_t *rgb, uint32_t width, uint32_t height, const char *path,
                          const lsf_image_save_params *params, lsf_error *error);
 
+/* R, G, B of the image as a .png of it shows them: `width` * `height` * 3 bytes of sRGB, rows from
+ * the top. LSF_ERROR_FILE where it has no R, G and B. */
+bool lsf_image_to_rgb8(const lsf_image *image, float exposure, lsf_tone_curve curve, uint8_t *rgb,
+                       lsf_error *error);
+
 /* Whether there is a file that begins as the pictures do that lsf_image_load reads. */
 bool lsf_image_recognise(const char *path);
 

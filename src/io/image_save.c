@@ -134,6 +134,23 @@ static void encode_pixel(const float *rgb, float alpha, float scale, lsf_tone_cu
     }
 }
 
+bool lsf_image_to_rgb8(const lsf_image *image, float exposure, lsf_tone_curve curve, uint8_t *rgb,
+                       lsf_error *error)
+{
+    if (!lsf_given(image, "image", error) || !lsf_given(rgb, "rgb", error))
+        return false;
+    const int channels[3] = {lsf_image_channel(image, "R"), lsf_image_channel(image, "G"),
+                             lsf_image_channel(image, "B")};
+    if (channels[0] < 0 || channels[1] < 0 || channels[2] < 0)
+        return lsf_error_set(error, LSF_ERROR_FILE, "the image lacks R, G or B");
+    for (uint64_t i = 0; i < (uint64_t)image->width * image->height; i++) {
+        const float *pixel = image->pixels + i * image->channel_count;
+        const float light[3] = {pixel[channels[0]], pixel[channels[1]], pixel[channels[2]]};
+        encode_pixel(light, 1.0f, exp2f(exposure), curve, rgb + 3 * i);
+    }
+    return true;
+}
+
 /* `alpha`: one for each pixel, or NULL. */
 static bool save_png(const float *rgb, const float *alpha, uint32_t width, uint32_t height,
                      const lsf_image_save_params *params, const char *path, lsf_error *error)

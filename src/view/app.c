@@ -84,13 +84,14 @@ static bool frame(void *user, lsf_window *window, const lsf_input *input, lsf_er
     lsf_viewer *viewer = user;
     (void)error;
     viewer->input = input;
+    lsf_viewer_take_dropped(viewer);
+    lsf_viewer_watch(viewer);
     lsf_viewer_handle(viewer);
     advance_time(viewer);
     lsf_viewer_show_panels(viewer);
     follow_plan(viewer);
     follow_captures(viewer);
-    bool noticed = viewer->notice[0] && input->time < viewer->notice_until;
-    lsf_window_rest(window, !lsf_viewer_finished(viewer) || viewer->capture, noticed ? 0.5 : 2.0);
+    lsf_window_rest(window, !lsf_viewer_finished(viewer) || viewer->capture, 0.5);
     return true;
 }
 
@@ -102,6 +103,8 @@ static bool view(const lsf_viewer_start *start, lsf_error *error)
     viewer->start = start;
     viewer->scene_params = start->scene;
     viewer->panels = true;
+    viewer->compare.split = 0.5f;
+    viewer->compare.gain = 4.0f;
     viewer->expose_wanted = start->auto_exposure;
     lsf_viewer_settings_start(&viewer->settings, start);
     bool good = true;

@@ -64,6 +64,28 @@ typedef struct lsf_viewer_picture {
     lsf_error error;  /* code LSF_OK: none */
 } lsf_viewer_picture;
 
+/* What the picture is held against. */
+typedef enum lsf_viewer_rival {
+    LSF_VIEWER_ALONE,
+    LSF_VIEWER_REFERENCE, /* the path tracer; higher: a technique */
+    LSF_VIEWER_TECHNIQUE
+} lsf_viewer_rival;
+
+typedef struct lsf_viewer_compare {
+    int rival;                  /* LSF_VIEWER_TECHNIQUE + n: technique n */
+    bool difference;            /* shown in place of the rival */
+    float gain;                 /* of the difference */
+    float split;                /* where the bar is, 0..1 of the picture's width */
+    bool dragging;              /* the bar */
+    lsf_viewer_picture picture; /* of a rival technique; of the path tracer without renderer */
+    lsf_canvas apart;           /* the difference */
+    lsf_image *image;           /* of the finished rival */
+    lsf_compare_result result;
+    bool measured;
+    struct lsf_viewer_tracer *tracer; /* on its way; NULL: none */
+    uint32_t traced;                  /* samples of the path tracer's picture */
+} lsf_viewer_compare;
+
 /* Milliseconds of the last frames, by passes. */
 typedef struct lsf_viewer_times {
     char names[LSF_VIEWER_PASSES][40];
@@ -100,6 +122,7 @@ typedef struct lsf_viewer {
     uint32_t node, light, material;             /* that are chosen; LSF_NONE: none */
     double anchor[3];                           /* where the chosen node's handles are */
     int dragged;                                /* axis of the handle in hand; -1: none */
+    char environment[4096];                     /* the path that was let fall on the window */
     float turn, strength;                       /* of the environment, as the sliders have them */
     double press_x, press_y;                    /* where the left button went down */
     bool placing;                               /* the next click puts a light there */
@@ -115,6 +138,7 @@ typedef struct lsf_viewer {
 
     lsf_rect area; /* of the picture, in the window */
     lsf_viewer_picture lively, still;
+    lsf_viewer_compare compare;
     lsf_viewer_times times;
     lsf_budget budget;
     lsf_viewer_assignments assignments;
@@ -133,7 +157,10 @@ typedef struct lsf_viewer {
     char notice[256]; /* in the status bar, for a while */
     lsf_ui_color notice_color;
     double notice_until;
-    char *capture; /* the picture goes there as soon as it is finished */
+    double slice_end; /* of a rival's iterations, lsf_now */
+    double looked_at; /* when files were looked at for changes, seconds on the input's clock */
+    int64_t scene_changed, shaders_changed; /* when they were, nanoseconds */
+    char *capture;                          /* the picture goes there as soon as it is finished */
 } lsf_viewer;
 
 /* Something of the picture is otherwise from now on. */
@@ -150,6 +177,26 @@ bool lsf_viewer_add_path(lsf_viewer *viewer, const char *path);
 /* Shows the file of that index; what fails is shown, too. */
 void lsf_viewer_show_file(lsf_viewer *viewer, uint32_t index);
 void lsf_viewer_close_scene(lsf_viewer *viewer);
+
+/* What was let fall on the window. */
+void lsf_viewer_take_dropped(lsf_viewer *viewer);
+/* Follows changes of the scene's file, and of --shader-dir. */
+void lsf_viewer_watch(lsf_viewer *viewer);
+void lsf_viewer_start_page(lsf_viewer *viewer);
+
+/* --- compare.c --- */
+
+/* The rival a frame further; begins anew where the picture has. */
+void lsf_viewer_refine_rival(lsf_viewer *viewer);
+/* Before the scene changes: the path tracer, which reads it, is stopped. */
+void lsf_viewer_stop_rival(lsf_viewer *viewer);
+void lsf_viewer_drop_rival(lsf_viewer *viewer);
+bool lsf_viewer_rival_finished(const lsf_viewer *viewer);
+/* The split picture's other half, over it, and its bar. */
+void lsf_viewer_draw_rival(const lsf_viewer *viewer);
+/* True where the bar takes the drag. */
+bool lsf_viewer_drag_bar(lsf_viewer *viewer);
+void lsf_viewer_compare_tab(lsf_viewer *viewer);
 
 /* --- edits.c --- */
 
@@ -180,6 +227,9 @@ bool lsf_viewer_pick(const lsf_viewer *viewer, lsf_hit *hit);
 
 /* Parameters of a picture of that size, of everything as it is; they borrow from the viewer. */
 lsf_render_params lsf_viewer_params(lsf_viewer *viewer, uint32_t width, uint32_t height);
+/* Goes over to these parameters; makes a renderer where there is none. */
+bool lsf_viewer_adopt(lsf_viewer *viewer, lsf_viewer_picture *picture,
+                      const lsf_render_params *params);
 /* Brings the picture that is shown a frame further. */
 void lsf_viewer_refine(lsf_viewer *viewer);
 /* The picture that is to be looked at: of the two. */

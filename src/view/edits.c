@@ -155,6 +155,7 @@ static void finish(lsf_viewer *viewer, bool good, lsf_kind kind, uint32_t index,
 void lsf_viewer_set_light(lsf_viewer *viewer, uint32_t light, const lsf_light_desc *desc)
 {
     lsf_error error;
+    lsf_viewer_stop_rival(viewer);
     finish(viewer, lsf_scene_set_light(viewer->scene, light, desc, &error), LSF_KIND_LIGHT, light,
            &error);
 }
@@ -162,6 +163,7 @@ void lsf_viewer_set_light(lsf_viewer *viewer, uint32_t light, const lsf_light_de
 void lsf_viewer_set_material(lsf_viewer *viewer, uint32_t material, const lsf_material_desc *desc)
 {
     lsf_error error;
+    lsf_viewer_stop_rival(viewer);
     finish(viewer, lsf_scene_set_material(viewer->scene, material, desc, &error), LSF_KIND_MATERIAL,
            material, &error);
 }
@@ -193,6 +195,7 @@ void lsf_viewer_move_node(lsf_viewer *viewer, uint32_t node, const double by[3])
     lsf_error error;
     lsf_node_info info;
     double matrix[16], world[16], local[3] = {by[0], by[1], by[2]};
+    lsf_viewer_stop_rival(viewer);
     bool good = lsf_scene_get_node(viewer->scene, node, matrix, &error) &&
                 lsf_scene_get_node_info(viewer->scene, node, &info, &error) &&
                 (info.parent == LSF_NONE ||

@@ -354,7 +354,7 @@ void lsf_viewer_handle(lsf_viewer *viewer)
     }
     if (!viewer->scene)
         return;
-    if (!lsf_viewer_point(viewer))
+    if (!lsf_viewer_drag_bar(viewer) && !lsf_viewer_point(viewer))
         drag(viewer);
     if (flying)
         fly(viewer);

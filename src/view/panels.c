@@ -91,7 +91,7 @@ static void side_panel(lsf_viewer *viewer, lsf_rect rect)
     } tabs[LSF_VIEWER_TAB_COUNT] = {
         [LSF_VIEWER_TAB_PICTURE] = {"Picture", lsf_viewer_picture_tab},
         [LSF_VIEWER_TAB_SCENE] = {"Scene", lsf_viewer_scene_tab},
-        [LSF_VIEWER_TAB_COMPARE] = {"Compare", NULL},
+        [LSF_VIEWER_TAB_COMPARE] = {"Compare", lsf_viewer_compare_tab},
         [LSF_VIEWER_TAB_PASSES] = {"Passes", lsf_viewer_passes_tab},
     };
     lsf_ui_panel_begin("side", rect, true);
@@ -195,6 +195,8 @@ static void overlays(lsf_viewer *viewer)
         error_box("This scene cannot be shown", &viewer->scene_error);
     else if (viewer->scene && drawing->code != LSF_OK)
         error_box("This picture cannot be made", drawing);
+    else if (viewer->path_count == 0 && !viewer->cheat_sheet)
+        lsf_viewer_start_page(viewer);
     if (viewer->cheat_sheet)
         cheat_sheet(viewer);
 }
@@ -213,8 +215,12 @@ static void draw_picture(const lsf_viewer *viewer)
         return;
     lsf_ui_draw_begin(LSF_UNDER_PANELS, &viewer->area);
     lsf_ui_draw_picture(shown->canvas.texture, viewer->area);
-    if (viewer->panels)
-        lsf_viewer_draw_handles(viewer);
+    lsf_ui_draw_end();
+    lsf_viewer_draw_rival(viewer);
+    if (!viewer->panels || viewer->node == LSF_NONE)
+        return;
+    lsf_ui_draw_begin(LSF_UNDER_PANELS, &viewer->area);
+    lsf_viewer_draw_handles(viewer);
     lsf_ui_draw_end();
 }
 
@@ -241,5 +247,6 @@ void lsf_viewer_show_panels(lsf_viewer *viewer)
     viewer->area = (lsf_rect){0, top, fmaxf(right, 0.0f), fmaxf(bottom - top, 0.0f)};
     overlays(viewer);
     lsf_viewer_refine(viewer);
+    lsf_viewer_refine_rival(viewer);
     draw_picture(viewer);
 }

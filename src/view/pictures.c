@@ -63,6 +63,7 @@ void lsf_viewer_drop_pictures(lsf_viewer *viewer)
 {
     drop(&viewer->lively);
     drop(&viewer->still);
+    lsf_viewer_drop_rival(viewer);
     viewer->stale = true;
 }
 
@@ -96,8 +97,8 @@ static void take_times(lsf_viewer *viewer, lsf_renderer *renderer)
 
 /* --- both pictures --- */
 
-/* Goes over to these parameters; makes a renderer where there is none. */
-static bool adopt(lsf_viewer *viewer, lsf_viewer_picture *picture, const lsf_render_params *params)
+bool lsf_viewer_adopt(lsf_viewer *viewer, lsf_viewer_picture *picture,
+                      const lsf_render_params *params)
 {
     bool good;
     picture->error = (lsf_error){LSF_OK, ""};
@@ -173,7 +174,7 @@ static void make_lively(lsf_viewer *viewer, uint32_t width, uint32_t height)
     lsf_view view = lsf_viewer_camera_view(&viewer->camera);
     const lsf_frame frame = {
         .time = viewer->time, .view = viewer->camera.own ? &view : NULL, .cut = viewer->cut};
-    bool good = other ? adopt(viewer, picture, &params)
+    bool good = other ? lsf_viewer_adopt(viewer, picture, &params)
                       : lsf_renderer_begin_frame(picture->renderer, &frame, &picture->error);
     good = good && lsf_renderer_iterate(picture->renderer, &picture->error) &&
            present(viewer, picture);
@@ -209,7 +210,7 @@ static void begin_still(lsf_viewer *viewer, uint32_t width, uint32_t height, sli
     lsf_render_params params = lsf_viewer_params(viewer, width, height);
     params.progress = goes_on;
     params.progress_user = s;
-    adopt(viewer, &viewer->still, &params);
+    lsf_viewer_adopt(viewer, &viewer->still, &params);
 }
 
 static void make_still(lsf_viewer *viewer, uint32_t width, uint32_t height)
@@ -256,7 +257,8 @@ bool lsf_viewer_finished(const lsf_viewer *viewer)
 {
     const lsf_viewer_picture *still = &viewer->still;
     return !viewer->scene || still->error.code != LSF_OK ||
-           (!viewer->moving && !viewer->stale && still->begun && still->done >= still->samples);
+           (!viewer->moving && !viewer->stale && still->begun && still->done >= still->samples &&
+            lsf_viewer_rival_finished(viewer));
 }
 
 void lsf_viewer_refine(lsf_viewer *viewer)

@@ -145,7 +145,16 @@ static void test_png_is_tone_mapped(void **state)
             assert_int_equal(codes[3 * i + (uint64_t)c],
                              (int)(lsf_tonemap_display(rgb[c], smallest, largest) * 255 + 0.5f));
     }
+    uint8_t rgb8[40 * 30 * 3];
+    assert_true(lsf_image_to_rgb8(image, -2.0f, LSF_TONE_CURVE_NEUTRAL, rgb8, NULL));
+    assert_memory_equal(rgb8, codes, sizeof rgb8);
     free(texture.texels);
+    lsf_image_destroy(image);
+    static const char *const grey[] = {"Y"};
+    lsf_error error = {0};
+    image = lsf_image_create(1, 1, 1, grey, &error);
+    assert_false(lsf_image_to_rgb8(image, 0.0f, LSF_TONE_CURVE_NEUTRAL, rgb8, &error));
+    assert_int_equal(error.code, LSF_ERROR_FILE);
     lsf_image_destroy(image);
 }
 

@@ -1,6 +1,10 @@
 """The viewer under a display without a screen: what it shows is what `lightsheaf render` makes."""
+import json
 import os
 import shlex
+import shutil
+import subprocess
+import time
 
 from display import WindowTest, main, read_png
 
@@ -63,6 +67,42 @@ class View(WindowTest):
         for part in ("--light ", "--edit light/1/intensity=0.5,0.5,0.5", "/roughness=0.25",
                      "/base_color=0.25,0.5,0.75,1", "--edit node/9/matrix=1,0,0,0,0,1,0,0,0,0,1,0,0.25"):
             self.assertIn(part, command)
+
+    def test_split_against_itself_and_the_path_tracer(self):
+        """The same technique makes the same picture in the other half; the path tracer nearly so."""
+        self.view("2 press Compare", "3 set Beside = direct", "4 settle", "5 key Tab", "6 key-up Tab", "7 settle",
+                  "8 key F12", "9 key Shift", "9 key F12", "11 key-up Shift", "12 key Tab",
+                  "13 key-up Tab", "14 set Beside = the path tracer", "15 settle", "16 key Tab",
+                  "17 settle", "18 key Shift", "18 key F12", "22 close", words=["-t", "direct", "-b", "0", "-r", "300,200"])
+        picture = read_png(self.path("lightsheaf-0001.png"))[2]
+        same = read_png(self.path("lightsheaf-0001-window.png"))[2]
+        traced = read_png(self.path("lightsheaf-0002-window.png"))[2]
+        self.assertEqual(same[100][160:], picture[100][160:], "right of the bar")
+        self.assertEqual(traced[100][:140], picture[100][:140], "left of the bar")
+        self.assertNotEqual(traced[100][160:], picture[100][160:])
+        means = [sum(sum(pixel) for row in rows[120:190] for pixel in row[160:]) for rows in (picture, traced)]
+        self.assertLess(abs(means[0] / means[1] - 1), 0.1)
+
+    def test_a_scene_that_is_let_fall_and_one_that_changes(self):
+        with open(os.path.join(SCENES, "cornell_point.gltf"), encoding="utf-8") as file:
+            text = file.read()
+        shutil.copy(os.path.join(SCENES, "cornell_point.bin"), self.folder)
+        self.write("room.gltf", text)
+        script = self.write("script", "\n".join([
+            "2 key Tab", "3 key-up Tab", f"4 drop {self.path('room.gltf')}", "5 settle", "6 key F12", "8 settle",
+            "400 settle", "410 key F12", "411 settle", "412 close"]) + "\n")
+        program = subprocess.Popen([COMMAND, "view", "-r", SIZE, "-s", "1", "-t", "direct", "--replay", script],
+                                   cwd=self.folder, env=self.environment(), stderr=subprocess.PIPE, text=True)
+        for _ in range(600):
+            if os.path.exists(self.path("lightsheaf-0001.png")) or program.poll() is not None:
+                break
+            time.sleep(0.05)
+        document = json.loads(text)
+        document["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] *= 0.5
+        self.write("room.gltf", json.dumps(document))
+        self.assertEqual((program.communicate()[1], program.returncode), ("", 0))
+        bright, dim = (read_png(self.path(f"lightsheaf-000{i}.png"))[2][36][48] for i in (1, 2))
+        self.assertGreater(sum(bright), sum(dim) + 30)
 
     def test_the_page_lists_the_keys(self):
         """LSF_UPDATE=1 in the environment brings docs/window.md up to date instead."""
