@@ -30,10 +30,19 @@ function pointName(point) {
 }
 
 /* Distinguishable with the common kinds of colour blindness: after Okabe and Ito, "Color universal
- * design", 2008; then the same darker. */
-const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f", "#7a5195",
-  "#5f6b73", "#a63a50", "#3f8f29", "#31688e"];
-const colourOf = (index) => palette[index % palette.length];
+ * design", 2008, and more like them; brighter before a dark page. */
+const darkPage = matchMedia("(prefers-color-scheme: dark)");
+const palettes = {
+  light: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f", "#7a5195", "#5f6b73", "#a63a50",
+    "#3f8f29", "#31688e"],
+  dark: ["#4aa3df", "#ff8a4c", "#3fc79a", "#e39ac8", "#f2bd4b", "#9bd7f7", "#c7a24f", "#b58fd6", "#a3b1bb", "#e67f92",
+    "#82d06e", "#6fa8d6"],
+};
+
+function colourOf(index) {
+  const palette = darkPage.matches ? palettes.dark : palettes.light;
+  return palette[index % palette.length];
+}
 
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);

@@ -55,17 +55,18 @@ const plots = {
   convergence: new Plot(get("convergence-plot"), convergenceFigure(), (point) => choose(point, true)),
 };
 
+const swatches = configurations.map(() => element("span", { class: "swatch" }));
+
 function redraw() {
+  swatches.forEach((swatch, index) => { swatch.style.background = colourOf(index); });
   plots.error.set(errorFigure(chosenMetric()));
   plots.convergence.set(convergenceFigure());
 }
 
 get("metric").addEventListener("change", redraw);
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+darkPage.addEventListener("change", redraw);
 configurations.forEach((configuration, index) => {
-  const swatch = element("span", { class: "swatch" });
-  swatch.style.background = colourOf(index);
-  const button = element("button", { type: "button", "aria-pressed": "true" }, swatch, nameOf(configuration));
+  const button = element("button", { type: "button", "aria-pressed": "true" }, swatches[index], nameOf(configuration));
   button.addEventListener("click", () => {
     const hide = !hiddenConfigurations.has(index);
     hiddenConfigurations[hide ? "add" : "delete"](index);
@@ -74,6 +75,7 @@ configurations.forEach((configuration, index) => {
   });
   get("legend").append(button);
 });
+redraw();
 
 get("passes").hidden = !passBars(get("pass-bars"), (said) => { get("pass-readout").textContent = said; });
 if (data.prices && data.prices.features.length) {

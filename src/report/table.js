@@ -68,7 +68,15 @@ function pointColumns() {
     figure("FLIP", value("flip")),
     figure("HDR-FLIP", value("flip_hdr")),
     figure("Gain %/ms", (point) => point.ssim_gain),
+    ...pathColumns(),
   ];
+}
+
+/* Of frames that follow each other, where they were measured. */
+function pathColumns() {
+  if (!points.some((point) => point.path)) return [];
+  const of = (key) => (point) => ((point.path || {})[key] || {}).value;
+  return [figure("Frames’ relMSE", of("relmse")), figure("Change", of("difference")), figure("Flicker", of("flicker"))];
 }
 
 /* What a scene without one of its features saves. */
