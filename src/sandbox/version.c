@@ -34,6 +34,21 @@ static const char *given_channel(const lsf_sandbox_params *params, uint32_t pass
     return source;
 }
 
+static bool check_given(const lsf_sandbox_params *params, lsf_error *error)
+{
+    for (uint32_t i = 0; i < params->channel_count; i++) {
+        const char *text = params->channels[i], *at = text;
+        if (at[0] >= 'a' && at[0] <= 'd' && at[1] == ':')
+            at += 2;
+        if (at[0] < '0' || at[0] > '3' || at[1] != '=' || at[2] == '\0')
+            return lsf_error_set(error, LSF_ERROR_USAGE,
+                                 "channel %s: write N=SOURCE, N from 0 to 3, or a:N=SOURCE for "
+                                 "that of buffer a",
+                                 text);
+    }
+    return true;
+}
+
 static bool parse_channel(lsf_sandbox_text *text, const lsf_sandbox_params *params, uint32_t p,
                           uint32_t c, lsf_sandbox_channel *channel, lsf_error *error)
 {
@@ -71,6 +86,8 @@ bool lsf_sandbox_channels_parse(lsf_sandbox_text *text, const lsf_sandbox_params
                                 lsf_sandbox_channel channels[][LSF_SANDBOX_CHANNELS],
                                 lsf_error *error)
 {
+    if (!check_given(params, error))
+        return false;
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++)
         for (uint32_t c = 0; c < LSF_SANDBOX_CHANNELS; c++)
             if (!parse_channel(text, params, p, c, &channels[p][c], error))

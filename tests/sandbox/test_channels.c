@@ -147,6 +147,12 @@ static void test_what_the_caller_says(void **state)
     lsf_image *image = sandbox_picture(NULL, &params, 3);
     assert_true(image->pixels[0] == 3);
     lsf_image_destroy(image);
+    static const char *const wrong[] = {"4=noise", "e:0=noise", "noise", "0=", "a:"};
+    for (size_t i = 0; i < LSF_COUNT(wrong); i++) {
+        params.channels = &wrong[i];
+        params.channel_count = 1;
+        sandbox_refuse(NULL, &params, "channel ");
+    }
 }
 
 /* A picture that is saved anew is read anew; one that is gone leaves the last one. */
