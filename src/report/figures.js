@@ -103,5 +103,13 @@ function passBars(container, readOut) {
       element("div", { class: "bar-label" }, element("span", {}, pointName(point)),
         element("span", {}, `${number(sum(point))} ms`)), bar));
   }
+  /* Colours of those that some frame spends a fortieth of its time on. */
+  const large = names.filter((name) => timed.some((point) => point.passes.some((pass) =>
+    pass.name === name && took(point, pass) > sum(point) / 40)));
+  container.append(element("p", { class: "keys" }, ...large.map((name) => {
+    const swatch = element("span", { class: "swatch" });
+    swatch.style.background = colourOf(names.indexOf(name));
+    return element("span", {}, swatch, name);
+  })));
   return timed.length > 0;
 }

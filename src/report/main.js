@@ -6,7 +6,8 @@ function describe() {
   document.title = get("title").textContent;
   const device = data.device || {}, machine = data.machine || {};
   get("facts").textContent = [`${width} × ${height}`, `${data.bounces} bounces`,
-    `${configurations.length} configurations`, `${points.length} points`, device.renderer,
+    `${configurations.length} configurations`, `${points.length} points${data.interrupted ? ", interrupted" : ""}`,
+    device.renderer,
     `Lightsheaf ${data.lightsheaf}`].filter(Boolean).join(" · ");
   get("command").textContent = data.command_line || "";
   const rows = {
