@@ -293,6 +293,7 @@ int lsf_tool_measure(int argc, char **argv)
     lsf_error error;
     int status = lsf_tool_begin(&job.settings, LSF_COMMAND_MEASURE, argc, argv);
     if (status == LSF_GO_ON) {
+        lsf_report_once();
         status = run(&job, &error) ? 0 : lsf_report_error(&error);
         lsf_kept_reference_finish(&job.reference);
         lsf_measure_end_path(&job);

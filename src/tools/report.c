@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <xxhash.h>
+
 /* The log may speak from any thread, over a bar that another one draws. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static lsf_verbosity verbosity = LSF_VERBOSITY_NORMAL;
@@ -20,6 +22,23 @@ static void clear_bar(void)
     if (bar_is_drawn)
         fputs("\r\033[K", stderr);
     bar_is_drawn = false;
+}
+
+/* Hashes of warnings, in the order in which they came; the oldest are forgotten. */
+static uint64_t printed[256];
+static size_t printed_count;
+static bool once;
+
+static bool was_printed(lsf_log_level level, const char *message)
+{
+    if (!once || level != LSF_LOG_WARNING)
+        return false;
+    uint64_t hash = XXH3_64bits(message, strlen(message));
+    for (size_t i = 0; i < printed_count && i < LSF_COUNT(printed); i++)
+        if (printed[i] == hash)
+            return true;
+    printed[printed_count++ % LSF_COUNT(printed)] = hash;
+    return false;
 }
 
 static void log_message(lsf_log_level level, const char *message, void *user)
@@ -37,6 +56,10 @@ static void log_message(lsf_log_level level, const char *message, void *user)
     if (level < least)
         return;
     pthread_mutex_lock(&lock);
+    if (was_printed(level, message)) {
+        pthread_mutex_unlock(&lock);
+        return;
+    }
     clear_bar();
     bool named = !subject || strstr(message, subject);
     fprintf(stderr, "lightsheaf: %s%s%s%s\n", titles[level], named ? "" : subject,
@@ -48,6 +71,11 @@ void lsf_report_start(lsf_verbosity level)
 {
     verbosity = level;
     lsf_log_set_handler(log_message, NULL);
+}
+
+void lsf_report_once(void)
+{
+    once = true;
 }
 
 void lsf_report_about(const char *path)

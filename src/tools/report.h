@@ -16,6 +16,10 @@ void lsf_report_start(lsf_verbosity verbosity);
 /* Messages of the log that do not name that file begin with it from here on; NULL: with none. */
 void lsf_report_about(const char *path);
 
+/* Warnings of the log that were printed are not printed again: many renderings have the same ones.
+ */
+void lsf_report_once(void);
+
 /* Prints the error; returns the exit status that goes with it. */
 int lsf_report_error(const lsf_error *error);
 

@@ -217,6 +217,11 @@ class Measure(CommandTest):
             self.refuse("measure", CORNELL, *SMALL, *words, says=[says])
         self.assertEqual(self.files(), [])
 
+    def test_warnings_are_said_once(self):
+        scene = os.path.join(SOURCE_ROOT, "data/scenes/cornell_emissive.gltf")
+        done = self.measure("-t", "direct", "-s", "2", scene=scene)
+        self.assertEqual(done.text.count("the direct technique leaves every surface black"), 1)
+
     def test_standard_output(self):
         words = ("-t", "direct", "-s", "1")
         report = json.loads(self.measure(*words, "--json", "-").stdout)
