@@ -142,6 +142,21 @@ static bool compile(build *b, lsf_error *error)
     return compiled;
 }
 
+/* By its place, if it names one, else by what it quotes. */
+static void map_foreign_link_line(const lsf_shader_source *source, const char *line,
+                                  lsf_string *mapped)
+{
+    lsf_string placed = {0};
+    size_t length = strlen(line);
+    lsf_shader_source_map_log(source, line, &placed);
+    bool unplaced = placed.text && strncmp(placed.text, line, length) == 0;
+    if (unplaced)
+        lsf_shader_source_map_name(source, line, mapped);
+    else if (placed.text)
+        lsf_string_add_bytes(mapped, placed.text, placed.length);
+    free(placed.text);
+}
+
 /* A linker's log names no stage in its places; NVIDIA's heads each part with "Fragment info". */
 static void map_link_log(const build *b, const char *log, lsf_string *mapped)
 {
@@ -168,7 +183,9 @@ static void map_link_log(const build *b, const char *log, lsf_string *mapped)
                     source = &b->sources[i];
         }
         char *text = strndup(line, length);
-        if (text)
+        if (text && b->foreign)
+            map_foreign_link_line(&b->sources[b->count - 1], text, mapped);
+        else if (text)
             lsf_shader_source_map_log(source, text, mapped);
         free(text);
         line += length + (line[length] == '\n');

@@ -463,6 +463,41 @@ static void add_line_of_text(const lsf_shader_source *source, uint64_t number, l
         lsf_string_add(mapped, "    %.*s\n", length, line);
 }
 
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+static bool holds_word(const char *line, size_t length, const char *word, size_t word_length)
+{
+    for (size_t i = 0; i + word_length <= length; i++)
+        if (memcmp(line + i, word, word_length) == 0 && (i == 0 || !is_word(line[i - 1])) &&
+            (i + word_length == length || !is_word(line[i + word_length])))
+            return true;
+    return false;
+}
+
+/* Mesa quotes `so'. */
+void lsf_shader_source_map_name(const lsf_shader_source *source, const char *message,
+                                lsf_string *mapped)
+{
+    const char *name = strchr(message, '`'), *line = source->text.text;
+    size_t length = 0;
+    while (name && is_word(name[1 + length]))
+        length++;
+    for (uint64_t i = 0; length > 0 && i < source->line_count; i++) {
+        size_t line_length = strcspn(line, "\n");
+        lsf_shader_place place = source->places[i];
+        if (place.foreign && holds_word(line, line_length, name + 1, length)) {
+            lsf_string_add(mapped, "%s:%u: %s\n", source->paths[place.file], place.line, message);
+            add_line_of_text(source, i + 1, mapped);
+            return;
+        }
+        line += line_length + 1;
+    }
+    lsf_string_add(mapped, "%s\n", message);
+}
+
 void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log, lsf_string *mapped)
 {
     uint64_t shown = 0; /* line of the text: several messages may be about one */

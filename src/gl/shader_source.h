@@ -36,6 +36,10 @@ bool lsf_shader_source_build_parts(const char *shader_dir, const lsf_define *def
                                    uint32_t part_count, lsf_shader_source *source,
                                    lsf_error *error);
 void lsf_shader_source_free(lsf_shader_source *source);
+/* A line of a linker's log, which names no place: begins it with where somebody else's text has the
+ * name first that it quotes. */
+void lsf_shader_source_map_name(const lsf_shader_source *source, const char *message,
+                                lsf_string *mapped);
 /* A driver's log with every place as path:line:, and below it the line itself if it is somebody
  * else's. */
 void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,

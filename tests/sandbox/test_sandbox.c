@@ -222,7 +222,9 @@ static void test_errors(void **state)
     } cases[] = {
         {"\n" IMAGE "{\n    c = vec4(x);\n}",
          "test.frag:4: error: `x' undeclared\n    c = vec4(x);"},
-        {"float f();\n" IMAGE "{ c = vec4(f()); }", "test.frag did not link:"},
+        {"\nfloat f();\n" IMAGE "{ c = vec4(f()); }",
+         "test.frag did not link:\ntest.frag:2: error: unresolved reference to function `f'\n    "
+         "float f();"},
         {"void mainimage() {}", "test.frag:1: there is neither void mainImage("},
         {"#include \"none.glsl\"\n" IMAGE "{}", "test.frag:1: #include: none.glsl: "},
         {"\n#include <lightsheaf/none.glsl>\n" IMAGE "{}",
