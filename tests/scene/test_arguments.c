@@ -74,6 +74,8 @@ static void no_scene(void **state)
     assert_int_equal(lsf_scene_note_count(NULL), 0);
     assert_null(lsf_scene_note(NULL, 0));
     assert_null(lsf_scene_describe(NULL, false));
+    assert_false(lsf_scene_has(NULL, LSF_FEATURE_EMISSION));
+    FAILS(lsf_scene_without(NULL, LSF_FEATURE_EMISSION, &error));
     lsf_scene_destroy(NULL);
 }
 
@@ -129,6 +131,9 @@ static void zeroed_params(void **state)
     assert_int_equal(lsf_plan_bytes(NULL), 0);
     assert_int_equal(lsf_plan_bounces(NULL), 0);
     assert_null(lsf_plan_describe(NULL, false));
+    assert_null(lsf_plan_dot(NULL));
+    FAILS(lsf_plan_price(NULL, NULL, NULL, &error));
+    lsf_price_finish(NULL);
     lsf_plan_destroy(NULL);
     assert_int_equal(lsf_aov_from_name(NULL), 0);
     assert_false(lsf_option_list(0, NULL));
