@@ -190,7 +190,7 @@ static const lsf_command_option options[] = {
      "where references are kept, by what the scene's files hold and how it is seen; without it, "
      "lightsheaf in XDG_CACHE_HOME or in ~/.cache"},
 
-    {"preset", 0, "FILE", PLANNING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TEXT, AT(preset), 0,
+    {"preset", 0, "FILE", SHOWING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TEXT, AT(preset), 0,
      0, NULL, NULL,
      "take options from a file, one a line as name=value, as measure --save-preset writes them; "
      "those on the command line count more"},
