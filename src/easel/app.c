@@ -200,7 +200,7 @@ static bool frame(void *user, lsf_window *window, const lsf_input *input, lsf_er
     easel->input = input;
     easel->dirty |= easel->request.width != picture_size(easel, input->width) ||
                     easel->request.height != picture_size(easel, input->height);
-    if (easel->playing)
+    if (easel->playing && easel->canvas_frames > 0) /* it begins with the first picture */
         easel->time += input->step;
     lsf_easel_handle(easel);
     follow_process(easel);
