@@ -20,9 +20,8 @@ static const char *const coarser[][LSF_BUDGET_COARSEST + 1] = {
     {"vpl.shadow_resolution", "128", "128", "64"},
     {"bundle.resolution", "192", "128", "64"},
     {"voxel.resolution", "96", "64", "32"},
-    {"cone.scale", "0.71", "0.5", "0.5"},
     {"cone.count", "6", "4", "4"},
-    {"voxel_path.scale", "0.71", "0.5", "0.5"},
+    {"sparse.grid", "1", "2", "2"},
     {"voxel_path.max_samples", "3", "2", "1"},
 };
 
