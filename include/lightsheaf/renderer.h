@@ -129,6 +129,8 @@ typedef struct lsf_option {
 
 /* All options of all passes; false past the end. */
 bool lsf_option_list(uint32_t index, lsf_option *option);
+/* What does the work of an option of former versions; NULL: there never was one of that key. */
+const char *lsf_option_replaced(const char *key);
 /* Whether an option of that key may change what the technique does. */
 bool lsf_technique_takes(const char *technique, const char *key);
 

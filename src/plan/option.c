@@ -95,16 +95,26 @@ static const struct {
     {"blur.", "sparse.blur is the one option of the blur"},
 };
 
+const char *lsf_option_replaced(const char *key)
+{
+    for (size_t i = 0; key && i < LSF_COUNT(gone); i++) {
+        size_t length = strlen(gone[i].key);
+        bool all = gone[i].key[length - 1] == '.';
+        if (all ? strncmp(gone[i].key, key, length) == 0 : strcmp(gone[i].key, key) == 0)
+            return gone[i].instead;
+    }
+    return NULL;
+}
+
 static bool refuse_unknown(const char *assignment, size_t length, lsf_error *error)
 {
-    for (size_t i = 0; i < LSF_COUNT(gone); i++) {
-        size_t known = strlen(gone[i].key);
-        bool whole = known == length || gone[i].key[known - 1] == '.';
-        if (whole && strncmp(gone[i].key, assignment, known) == 0)
-            return lsf_error_set(error, LSF_ERROR_USAGE,
-                                 "-D %s: there is no such option any more; instead: %s", assignment,
-                                 gone[i].instead);
-    }
+    char key[64];
+    snprintf(key, sizeof key, "%.*s", (int)length, assignment);
+    const char *instead = lsf_option_replaced(key);
+    if (instead)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "-D %s: there is no such option any more; instead: %s", assignment,
+                             instead);
     return lsf_error_set(error, LSF_ERROR_USAGE,
                          "%s: no such option of a pass; lsf_option_list has all (lightsheaf "
                          "render --list-options)",

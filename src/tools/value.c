@@ -179,6 +179,11 @@ static bool set_define(lsf_list_setting *place, const lsf_command_option *option
     bool found = false;
     for (uint32_t i = 0; !found && lsf_option_list(i, &known); i++)
         found = strcmp(known.key, key) == 0;
+    const char *instead = found ? NULL : lsf_option_replaced(key);
+    if (instead)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--%s %s: there is no such option any more; instead: %s", option->name,
+                             text, instead);
     if (!found)
         return bad_value(option, text, lsf_nearest(key, next_key, &known), error);
     return append_value(place, option, text, error);
