@@ -135,19 +135,15 @@ static size_t group_length(const char *key)
     return strcspn(key, ".");
 }
 
-/* The pass that a group of options is of, where the name differs. */
+/* How the passes begin that a group of options is of, where the name differs. */
 static const char *pass_of(const char *group)
 {
     static const char *const names[][2] = {
-        {"shadow", "shadow_map"},
-        {"rsm", "reflective_shadow_map"},
-        {"bundle", "ray_bundle"},
-        {"bidirectional", "bidirectional_shade"},
-        {"voxel", "voxelize"},
-        {"cone", "cone_trace"},
-        {"mis", "bidirectional_shade"},
-        {"environment", "sky_map"},
-        {"interleave", "interleave_split"},
+        {"shadow", "shadow_map"},       {"rsm", "reflective_shadow_map"},
+        {"bundle", "ray_bundle"},       {"bidirectional", "bidirectional_shade"},
+        {"voxel", "voxelize"},          {"cone", "cone_trace"},
+        {"mis", "bidirectional_shade"}, {"environment", "sky"},
+        {"interleave", "sparse"},
     };
     for (size_t i = 0; i < LSF_COUNT(names); i++)
         if (strcmp(names[i][0], group) == 0)
@@ -161,7 +157,7 @@ static bool runs(const lsf_viewer *viewer, const char *group)
     char line[64];
     const char *passes = viewer->plan_text ? strstr(viewer->plan_text, "\npasses") : NULL;
     const char *end = passes ? strstr(passes, "\nresources") : NULL;
-    lsf_print(line, sizeof line, "\n  %s ", pass_of(group));
+    lsf_print(line, sizeof line, "\n  %s", pass_of(group));
     const char *found = passes ? strstr(passes, line) : NULL;
     return !passes || (found && found < end) || strcmp(group, "tessellation") == 0;
 }
