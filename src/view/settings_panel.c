@@ -162,28 +162,47 @@ static bool runs(const lsf_viewer *viewer, const char *group)
     return !passes || (found && found < end) || strcmp(group, "tessellation") == 0;
 }
 
-static void option_groups(lsf_viewer *viewer, bool running)
+static bool same_group(const lsf_viewer_option *a, const lsf_viewer_option *b)
+{
+    size_t length = group_length(a->key) + 1;
+    return strncmp(a->key, b->key, length) == 0;
+}
+
+/* Whether options before that one are of its group, which may stand apart in the table. */
+static bool comes_later(const lsf_viewer_settings *settings, uint32_t index)
+{
+    for (uint32_t i = 0; i < index; i++)
+        if (same_group(&settings->options[index], &settings->options[i]))
+            return true;
+    return false;
+}
+
+static void option_group(lsf_viewer *viewer, uint32_t first, const char *group)
 {
     lsf_viewer_settings *settings = &viewer->settings;
-    for (uint32_t i = 0; i < settings->option_count;) {
+    char label[112];
+    bool changed = false;
+    for (uint32_t i = first; i < settings->option_count; i++)
+        changed = changed || (same_group(&settings->options[first], &settings->options[i]) &&
+                              lsf_viewer_option_changed(&settings->options[i]));
+    lsf_print(label, sizeof label, "%s%s###%s", group, changed ? "  (set)" : "", group);
+    if (!lsf_ui_section(label, false))
+        return;
+    for (uint32_t i = first; i < settings->option_count; i++)
+        if (same_group(&settings->options[first], &settings->options[i]) &&
+            show_option(&settings->options[i]))
+            lsf_viewer_touch_settings(viewer);
+}
+
+static void option_groups(lsf_viewer *viewer, bool running)
+{
+    const lsf_viewer_settings *settings = &viewer->settings;
+    for (uint32_t i = 0; i < settings->option_count; i++) {
         const char *key = settings->options[i].key;
-        size_t length = group_length(key);
         char group[48];
-        uint32_t end = i;
-        bool changed = false;
-        lsf_print(group, sizeof group, "%.*s", (int)length, key);
-        while (end < settings->option_count &&
-               strncmp(settings->options[end].key, key, length + 1) == 0)
-            changed = lsf_viewer_option_changed(&settings->options[end++]) || changed;
-        if (runs(viewer, group) == running) {
-            char label[64];
-            lsf_print(label, sizeof label, "%s%s###%s", group, changed ? "  (set)" : "", group);
-            if (lsf_ui_section(label, false))
-                for (uint32_t k = i; k < end; k++)
-                    if (show_option(&settings->options[k]))
-                        lsf_viewer_touch_settings(viewer);
-        }
-        i = end;
+        lsf_print(group, sizeof group, "%.*s", (int)group_length(key), key);
+        if (!comes_later(settings, i) && runs(viewer, group) == running)
+            option_group(viewer, i, group);
     }
 }
 
