@@ -103,6 +103,7 @@ static bool view(const lsf_viewer_start *start, lsf_error *error)
     viewer->start = start;
     viewer->scene_params = start->scene;
     viewer->panels = true;
+    viewer->looked_at = -1.0; /* at once */
     viewer->compare.split = 0.5f;
     viewer->compare.gain = 4.0f;
     viewer->expose_wanted = start->auto_exposure;

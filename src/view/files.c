@@ -27,6 +27,15 @@ void lsf_viewer_close_scene(lsf_viewer *viewer)
     viewer->scene = NULL;
 }
 
+/* 0: it is not there. */
+static int64_t changed_at(const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return 0;
+    return (int64_t)status.st_mtim.tv_sec * 1000000000 + status.st_mtim.tv_nsec;
+}
+
 static const char *name_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -63,7 +72,7 @@ void lsf_viewer_show_file(lsf_viewer *viewer, uint32_t index)
     if (lights > 0)
         memcpy(viewer->lights, viewer->scene_params.lights,
                viewer->scene_params.light_count * sizeof viewer->lights[0]);
-    viewer->scene_changed = 0;
+    viewer->scene_changed = changed_at(viewer->paths[index]); /* before it is read */
     viewer->turn = viewer->scene_params.environment_rotation;
     viewer->strength = viewer->scene_params.environment_strength;
     if (!load(viewer, &viewer->scene_error)) {
@@ -114,15 +123,6 @@ void lsf_viewer_take_dropped(lsf_viewer *viewer)
 }
 
 /* --- files that change --- */
-
-/* 0: it is not there. */
-static int64_t changed_at(const char *path)
-{
-    struct stat status;
-    if (stat(path, &status) != 0)
-        return 0;
-    return (int64_t)status.st_mtim.tv_sec * 1000000000 + status.st_mtim.tv_nsec;
-}
 
 /* When the last of the shaders was written. */
 static int64_t shaders_changed_at(const char *folder)
