@@ -16,6 +16,7 @@ enum { ENOUGH = 4 };
 /* What is coarser while things move, step by step. Only what nobody has set. */
 static const char *const coarser[][LSF_BUDGET_COARSEST + 1] = {
     {"environment.directions", "4", "2", "1"},
+    {"interleave.size", "3", "2", "2"},
     {"rsm.resolution", "128", "128", "64"},
     {"vpl.shadow_resolution", "128", "128", "64"},
     {"bundle.resolution", "192", "128", "64"},
