@@ -54,4 +54,14 @@ void window_gather(light_guide g, ivec2 pixel, int stride, out vec4 means[1 + LS
         means[part] = window_mean(sums[part], own[part]);
 }
 
+/* The first of the two steps. */
+void window_begin(ivec2 pixel, out vec4 means[1 + LSF_LOBE])
+{
+    light_guide g = light_guide_at(pixel);
+    for (int part = 0; part <= LSF_LOBE; part++)
+        means[part] = vec4(0.0);
+    if (g.depth != 0.0)
+        window_gather(g, pixel, 1, means);
+}
+
 #endif

@@ -13,10 +13,5 @@ vec4 window_value(ivec2 at, int part)
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    light_guide g = light_guide_at(pixel);
-    for (int part = 0; part <= LSF_LOBE; part++)
-        window_out[part] = vec4(0.0);
-    if (g.depth != 0.0)
-        window_gather(g, pixel, 1, window_out);
+    window_begin(ivec2(gl_FragCoord.xy), window_out);
 }
