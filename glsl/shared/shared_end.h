@@ -2,6 +2,7 @@
 #ifndef GL_core_profile
 #undef uint
 #undef vec2
+#undef vec3
 #undef vec4
 #undef mat4
 #undef max
