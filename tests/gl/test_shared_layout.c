@@ -5,6 +5,7 @@
 #include "shared/bundle_data.h"
 #include "shared/emitter_data.h"
 #include "shared/light_data.h"
+#include "shared/light_tree_data.h"
 #include "shared/scene_data.h"
 #include "shared/sky_map_data.h"
 #include "shared/view.h"
@@ -110,6 +111,22 @@ static const shared_struct structs[] = {
       MEMBER(lsf_sky_map_data, towards), MEMBER(lsf_sky_map_data, to_sky),
       MEMBER(lsf_sky_map_data, irradiance), MEMBER(lsf_sky_map_data, texel),
       MEMBER(lsf_sky_map_data, error), MEMBER(lsf_sky_map_data, unused)}},
+    {"shared/light_tree_data.h",
+     "lsf_light_tree_data",
+     sizeof(struct lsf_light_tree_data),
+     {MEMBER(lsf_light_tree_data, live), MEMBER(lsf_light_tree_data, root),
+      MEMBER(lsf_light_tree_data, low_x), MEMBER(lsf_light_tree_data, low_y),
+      MEMBER(lsf_light_tree_data, low_z), MEMBER(lsf_light_tree_data, high_x),
+      MEMBER(lsf_light_tree_data, high_y), MEMBER(lsf_light_tree_data, high_z)}},
+    {"shared/light_tree_data.h",
+     "lsf_light_tree_node",
+     sizeof(struct lsf_light_tree_node),
+     {MEMBER(lsf_light_tree_node, position), MEMBER(lsf_light_tree_node, similarity),
+      MEMBER(lsf_light_tree_node, intensity), MEMBER(lsf_light_tree_node, normal),
+      MEMBER(lsf_light_tree_node, low), MEMBER(lsf_light_tree_node, left),
+      MEMBER(lsf_light_tree_node, high), MEMBER(lsf_light_tree_node, right),
+      MEMBER(lsf_light_tree_node, variance), MEMBER(lsf_light_tree_node, count),
+      MEMBER(lsf_light_tree_node, covariance), MEMBER(lsf_light_tree_node, usable)}},
     {"shared/vpl_data.h",
      "lsf_vpl_data",
      sizeof(struct lsf_vpl_data),

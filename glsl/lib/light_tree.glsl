@@ -1,0 +1,99 @@
+/* The tree over a cloud of VPLs: its buffers, and what a link leads to. Switch LSF_LIGHT_TREE_COVARIANCE. Who builds
+ * the tree defines LIGHT_TREE_ACCESS as coherent: work groups go on with nodes that others have written. */
+#ifndef LSF_LIB_LIGHT_TREE
+#define LSF_LIB_LIGHT_TREE
+
+#include "lib/luminance.glsl"
+#include "lib/octahedral.glsl"
+#include "shared/light_tree_data.h"
+#include "shared/vpl_record.h"
+
+#ifndef LIGHT_TREE_ACCESS
+#define LIGHT_TREE_ACCESS readonly
+#endif
+
+layout(std430, binding = LSF_BINDING_CLOUD) readonly buffer lsf_cloud_block
+{
+    lsf_vpl_record cloud[];
+};
+layout(std430, binding = LSF_BINDING_LIGHT_TREE) LIGHT_TREE_ACCESS buffer lsf_light_tree_block
+{
+    lsf_light_tree_data tree;
+};
+layout(std430, binding = LSF_BINDING_LIGHT_TREE_NODES) LIGHT_TREE_ACCESS buffer lsf_light_tree_node_block
+{
+    lsf_light_tree_node nodes[];
+};
+
+bool light_is_leaf(uint link)
+{
+    return (link & LSF_LIGHT_TREE_LEAF) != 0u;
+}
+
+uint light_record(uint link)
+{
+    return link & ~LSF_LIGHT_TREE_LEAF;
+}
+
+/* A VPL as a node of its own. */
+lsf_light_tree_node light_leaf(uint record)
+{
+    lsf_light_tree_node leaf;
+    leaf.position = leaf.low = leaf.high = cloud[record].position;
+    leaf.intensity = cloud[record].intensity;
+    leaf.normal = cloud[record].normal;
+    leaf.similarity = 1.0;
+    leaf.variance = leaf.covariance = vec3(0.0);
+    leaf.left = leaf.right = LSF_LIGHT_TREE_NONE;
+    leaf.count = leaf.usable = 1u;
+    return leaf;
+}
+
+lsf_light_tree_node light_node(uint link)
+{
+    if (light_is_leaf(link))
+        return light_leaf(light_record(link));
+    return nodes[link];
+}
+
+#if LSF_LIGHT_TREE_COVARIANCE
+mat3 light_covariance(lsf_light_tree_node node)
+{
+    vec3 v = node.variance, c = node.covariance;
+    return mat3(v.x, c.x, c.y, c.x, v.y, c.z, c.y, c.z, v.z);
+}
+#endif
+
+/* Axes of a node: z is the normal, x and y are in its plane. */
+mat3 light_tree_frame(vec3 normal)
+{
+    vec3 t, b;
+    orthonormal_basis(normal, t, b);
+    return mat3(t, b, normal);
+}
+
+/* Variance along the normal. */
+float light_variance_across(lsf_light_tree_node node, mat3 frame)
+{
+#if LSF_LIGHT_TREE_COVARIANCE
+    return max(dot(frame[2], light_covariance(node) * frame[2]), 0.0);
+#else
+    return node.variance.z;
+#endif
+}
+
+/* Squared radius of the disc of the area that each VPL of the node stands for: they are on a disc of radius
+ * 2 sigma if they are evenly on any, in either direction. */
+float light_disc2(lsf_light_tree_node node, mat3 frame)
+{
+#if LSF_LIGHT_TREE_COVARIANCE
+    mat3 world = light_covariance(node);
+    float xy = dot(frame[0], world * frame[1]);
+    float square = dot(frame[0], world * frame[0]) * dot(frame[1], world * frame[1]) - xy * xy;
+#else
+    float square = node.variance.x * node.variance.y;
+#endif
+    return 4.0 * sqrt(max(square, 0.0)) / float(node.count);
+}
+
+#endif

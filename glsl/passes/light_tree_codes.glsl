@@ -1,0 +1,31 @@
+/* Codes of the VPLs, in the order of which the tree is built: from the highest bit on, 1 for one that is dead,
+ * 30 bits of a Morton code of its position, 9 of its normal, and its number in the cloud, which no two share. */
+#ifndef LSF_PASSES_LIGHT_TREE_CODES
+#define LSF_PASSES_LIGHT_TREE_CODES
+
+#define LIGHT_TREE_ACCESS coherent
+#include "lib/light_tree.glsl"
+
+#define CODE_DEAD 0x80000000u
+#define CODE_ID_MASK ((1u << LSF_LIGHT_TREE_ID_BITS) - 1u)
+
+layout(std430, binding = LSF_BINDING_LIGHT_TREE_CODES) buffer lsf_light_tree_code_block
+{
+    uvec2 codes[]; /* high and low words */
+};
+
+/* Whether |x| is far from overflowing; by its bits, for compilers take it that nothing is no number. */
+bool is_small(float x)
+{
+    return (floatBitsToUint(x) & 0x7fffffffu) < floatBitsToUint(1e30);
+}
+
+/* Without light, or with numbers that are none. */
+bool light_is_dead(lsf_vpl_record record)
+{
+    float light = luminance(record.intensity);
+    vec3 p = record.position;
+    return !is_small(light) || light <= 0.0 || !is_small(p.x) || !is_small(p.y) || !is_small(p.z);
+}
+
+#endif

@@ -1,0 +1,18 @@
+/* How many codes of each tile have each digit. */
+#include "passes/light_tree_sort.glsl"
+
+shared uint tile_counts[LSF_LIGHT_TREE_DIGITS];
+
+void main()
+{
+    uint lane = gl_LocalInvocationID.x, count = uint(codes.length());
+    tile_counts[lane] = 0u;
+    barrier();
+    for (uint row = 0u; row < LSF_LIGHT_TREE_ROWS; row++) {
+        uint i = code_place(row);
+        if (i < count)
+            atomicAdd(tile_counts[code_digit(codes[i])], 1u);
+    }
+    barrier();
+    counts[gl_WorkGroupID.x * LSF_LIGHT_TREE_DIGITS + lane] = tile_counts[lane];
+}

@@ -1,0 +1,74 @@
+/* What inner nodes stand for, from the leaves up: of two children the one that is done last goes on, and merges them
+ * left with right, so that it does not matter which that is. */
+#include "passes/light_tree_links.glsl"
+
+layout(location = 0) uniform vec3 limits; /* least similarity, largest deviation along the normal, largest diagonal */
+
+/* Of equal normals exactly 1, however many. */
+float normal_similarity(uint a, uint b)
+{
+    return a == b ? 1.0 : clamp(dot(octahedral_decode(a), octahedral_decode(b)), 0.0, 1.0);
+}
+
+/* Variances along other axes than they are given for; what is not along either is lost. */
+vec3 turn_variance(vec3 variance, uint from, mat3 to)
+{
+    mat3 turn = transpose(to) * light_tree_frame(octahedral_decode(from));
+    return matrixCompMult(turn, turn) * variance;
+}
+
+/* With q the second child's share of the luminance and d the way from child to child:
+ * q (1 - q) d^2 is what the means' squared distances from their mean add. */
+void merge_spread(inout lsf_light_tree_node node, lsf_light_tree_node a, lsf_light_tree_node b, float q, mat3 frame)
+{
+    vec3 d = b.position - a.position;
+#if LSF_LIGHT_TREE_COVARIANCE
+    node.variance = mix(a.variance, b.variance, q) + q * (1.0 - q) * d * d;
+    node.covariance = mix(a.covariance, b.covariance, q) + q * (1.0 - q) * d.xxy * d.yzz;
+#else
+    vec3 along = d * frame;
+    node.variance = mix(turn_variance(a.variance, a.normal, frame), turn_variance(b.variance, b.normal, frame), q) +
+                    q * (1.0 - q) * along * along;
+    node.covariance = vec3(0.0);
+#endif
+}
+
+void merge(uint index)
+{
+    lsf_light_tree_node node = nodes[index], a = light_node(node.left), b = light_node(node.right);
+    float light = luminance(a.intensity), q = luminance(b.intensity);
+    q /= light + q;
+    vec3 normal = mix(octahedral_decode(a.normal), octahedral_decode(b.normal), q);
+    node.position = mix(a.position, b.position, q);
+    node.intensity = a.intensity + b.intensity;
+    node.low = min(a.low, b.low);
+    node.high = max(a.high, b.high);
+    /* Of opposite normals neither is the mean. */
+    float size = length(normal);
+    node.normal = a.normal == b.normal || size < 1e-6 ? a.normal : octahedral_encode(normal / size);
+    node.similarity = a.similarity * b.similarity * normal_similarity(a.normal, b.normal);
+    mat3 frame = light_tree_frame(octahedral_decode(node.normal));
+    merge_spread(node, a, b, q, frame);
+    float across = light_variance_across(node, frame);
+    node.usable = node.similarity >= limits.x && across <= limits.y * limits.y &&
+                          distance(node.low, node.high) <= limits.z ? 1u : 0u;
+    nodes[index] = node;
+}
+
+void main()
+{
+    uint place = gl_GlobalInvocationID.x;
+    if (tree.live < 2u || place >= tree.live)
+        return;
+    uint node = parent_of_leaf(place);
+    for (int i = 0; i < LIGHT_TREE_DEPTH; i++) {
+        memoryBarrierBuffer();
+        if (atomicAdd(visits[node], 1u) == 0u)
+            return;
+        memoryBarrierBuffer();
+        merge(node);
+        if (node == 0u)
+            return;
+        node = parents[node];
+    }
+}

@@ -1,0 +1,21 @@
+/* The tree over a cloud of VPLs, from the pass that builds it to those that go by it. */
+#ifndef LSF_FRAME_LIGHT_TREE_BUFFERS_H
+#define LSF_FRAME_LIGHT_TREE_BUFFERS_H
+
+#include "gl/gl.h"
+#include "shared/light_tree_data.h"
+#include "shared/vpl_record.h"
+
+/* Names are borrowed. */
+typedef struct lsf_light_tree_buffers {
+    GLuint cloud; /* struct lsf_vpl_record each */
+    GLuint tree;  /* struct lsf_light_tree_data */
+    GLuint nodes; /* struct lsf_light_tree_node each */
+    GLuint areas; /* float each: squared radius of the disc of the area that a VPL stands for; of
+                   * those in the tree */
+} lsf_light_tree_buffers;
+
+/* For lib/light_tree.glsl. */
+void lsf_light_tree_bind(const lsf_light_tree_buffers *buffers);
+
+#endif

@@ -1,0 +1,212 @@
+#include "passes/light_tree.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+
+/* Bits of a code that the sort looks at: all but the records' numbers, which are in order. */
+#define FIRST_BIT LSF_LIGHT_TREE_ID_BITS
+#define LAST_BIT 64
+
+#define LOCATION_SHIFT 0  /* light_tree_sort.glsl */
+#define LOCATION_LIMITS 0 /* light_tree_merge */
+
+const lsf_option_row lsf_light_tree_options[LSF_LIGHT_TREE_OPTION_COUNT] = {
+    {"light_tree.similarity", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, similarity), 0.0,
+     1.0, NULL, "",
+     "nodes of the tree stand for what is below them where the product of the cosines between "
+     "merged normals is at least this"},
+    {"light_tree.spread", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, spread), 0.0, 1e6, NULL,
+     "of the scene's longest side",
+     "... and the standard deviation of positions from a node's plane at most this"},
+    {"light_tree.diagonal", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, diagonal), 0.0, 1e6,
+     NULL, "of the scene's longest side", "... and a node's box no larger than this; 0: any size"},
+    {"light_tree.covariance", LSF_OPTION_BOOL, offsetof(lsf_light_tree_params, covariance), 0, 0,
+     NULL, "",
+     "nodes keep how positions vary along all directions, and not along three axes alone"},
+};
+
+static const struct {
+    const char *pass, *file;
+} programs[LSF_LIGHT_TREE_PROGRAMS] = {
+    [LSF_LIGHT_TREE_BOUNDS] = {"light_tree_sort", "passes/light_tree_bounds.comp.glsl"},
+    [LSF_LIGHT_TREE_CODE] = {"light_tree_sort", "passes/light_tree_code.comp.glsl"},
+    [LSF_LIGHT_TREE_COUNT] = {"light_tree_sort", "passes/light_tree_count.comp.glsl"},
+    [LSF_LIGHT_TREE_SCAN] = {"light_tree_sort", "passes/light_tree_scan.comp.glsl"},
+    [LSF_LIGHT_TREE_SCATTER] = {"light_tree_sort", "passes/light_tree_scatter.comp.glsl"},
+    [LSF_LIGHT_TREE_LINK] = {"light_tree", "passes/light_tree_link.comp.glsl"},
+    [LSF_LIGHT_TREE_MERGE] = {"light_tree", "passes/light_tree_merge.comp.glsl"},
+    [LSF_LIGHT_TREE_AREA] = {"light_tree", "passes/light_tree_area.comp.glsl"},
+};
+
+static uint32_t tiles_of(uint32_t capacity)
+{
+    return (capacity + LSF_LIGHT_TREE_TILE - 1) / LSF_LIGHT_TREE_TILE;
+}
+
+static void covariance_switch(lsf_plan *plan, const lsf_light_tree_params *params)
+{
+    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_COVARIANCE", params->covariance,
+                        "light_tree.covariance");
+}
+
+void lsf_light_tree_plan(lsf_plan *plan, const lsf_light_tree_params *params, uint32_t capacity,
+                         const char *cloud)
+{
+    uint64_t n = capacity;
+    lsf_plan_pass_add(plan, "light_tree_sort", "%u virtual point lights by place and normal",
+                      capacity);
+    lsf_plan_reads(plan, cloud);
+    covariance_switch(plan, params);
+    lsf_plan_pass_add(plan, "light_tree", "a tree over virtual point lights");
+    lsf_plan_reads(plan, cloud);
+    covariance_switch(plan, params);
+    lsf_plan_buffer_add(plan, "light_tree.tree", sizeof(struct lsf_light_tree_data),
+                        "how many shine, and where");
+    lsf_plan_buffer_add(plan, "light_tree.codes_0", n * 2 * sizeof(uint32_t),
+                        "the order of the virtual point lights");
+    lsf_plan_buffer_add(plan, "light_tree.codes_1", n * 2 * sizeof(uint32_t),
+                        "the same from pass to pass of the sort");
+    lsf_plan_buffer_add(plan, "light_tree.counts",
+                        tiles_of(capacity) * LSF_LIGHT_TREE_DIGITS * sizeof(uint32_t),
+                        "digits of each %d codes", LSF_LIGHT_TREE_TILE);
+    lsf_plan_buffer_add(plan, "light_tree.nodes", n * sizeof(struct lsf_light_tree_node),
+                        "inner nodes");
+    lsf_plan_buffer_add(plan, "light_tree.areas", n * sizeof(float),
+                        "what area each virtual point light stands for");
+    lsf_plan_buffer_add(plan, "light_tree.parents", 2 * n * sizeof(uint32_t), "the way up");
+    lsf_plan_buffer_add(plan, "light_tree.visits", n * sizeof(uint32_t),
+                        "children of each node that are merged");
+}
+
+bool lsf_light_tree_create(lsf_light_tree *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_light_tree_params *params, uint32_t capacity, lsf_error *error)
+{
+    *pass = (lsf_light_tree){.context = context, .params = *params, .capacity = capacity};
+    lsf_light_tree_buffers *out = &pass->outputs;
+    if (!lsf_plan_create_buffer(plan, context, "light_tree.tree", NULL, 0, &out->tree, error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree.codes_0", NULL, 0, &pass->codes[0],
+                                error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree.codes_1", NULL, 0, &pass->codes[1],
+                                error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree.counts", NULL, 0, &pass->counts,
+                                error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree.nodes", NULL, 0, &out->nodes, error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree.areas", NULL, 0, &out->areas, error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree.parents", NULL, 0, &pass->parents,
+                                error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree.visits", NULL, 0, &pass->visits, error))
+        return false;
+    for (size_t i = 0; i < LSF_LIGHT_TREE_PROGRAMS; i++) {
+        const char *const files[5] = {programs[i].file};
+        pass->programs[i] = lsf_plan_program(plan, context, programs[i].pass, files, error);
+        if (!pass->programs[i])
+            return false;
+    }
+    pass->sort_timer = lsf_timer_create(context, "light_tree_sort", error);
+    pass->timer = pass->sort_timer ? lsf_timer_create(context, "light_tree", error) : NULL;
+    return pass->timer != NULL;
+}
+
+static void bind(GLuint binding, GLuint buffer)
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
+}
+
+static void dispatch(GLuint program, uint32_t groups)
+{
+    glUseProgram(program);
+    glDispatchCompute(groups, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+static uint32_t groups_of(uint32_t invocations)
+{
+    return (invocations + LSF_LIGHT_TREE_GROUP - 1) / LSF_LIGHT_TREE_GROUP;
+}
+
+/* As of no VPL: bounds whose least is above their most. */
+static void clear_tree(const lsf_light_tree *pass)
+{
+    const struct lsf_light_tree_data none = {
+        .root = LSF_LIGHT_TREE_NONE, .low_x = UINT32_MAX, .low_y = UINT32_MAX, .low_z = UINT32_MAX};
+    const uint32_t *words = (const uint32_t *)&none;
+    for (size_t at = 0; at < sizeof none; at += 4 * sizeof *words)
+        glClearNamedBufferSubData(pass->outputs.tree, GL_RGBA32UI, (GLintptr)at, 4 * sizeof *words,
+                                  GL_RGBA_INTEGER, GL_UNSIGNED_INT, words + at / sizeof *words);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+/* Returns the buffer that holds the codes in order. */
+static GLuint sort(const lsf_light_tree *pass)
+{
+    uint32_t tiles = tiles_of(pass->capacity);
+    int from = 0;
+    bind(LSF_BINDING_LIGHT_TREE_COUNTS, pass->counts);
+    for (GLuint shift = FIRST_BIT; shift < LAST_BIT; shift += LSF_LIGHT_TREE_DIGIT_BITS) {
+        bind(LSF_BINDING_LIGHT_TREE_CODES, pass->codes[from]);
+        bind(LSF_BINDING_LIGHT_TREE_CODES + 1, pass->codes[1 - from]);
+        const GLuint *p = pass->programs;
+        glProgramUniform1ui(p[LSF_LIGHT_TREE_COUNT], LOCATION_SHIFT, shift);
+        glProgramUniform1ui(p[LSF_LIGHT_TREE_SCATTER], LOCATION_SHIFT, shift);
+        dispatch(p[LSF_LIGHT_TREE_COUNT], tiles);
+        dispatch(p[LSF_LIGHT_TREE_SCAN], 1);
+        dispatch(p[LSF_LIGHT_TREE_SCATTER], tiles);
+        from = 1 - from;
+    }
+    return pass->codes[from];
+}
+
+static float longest_side(const lsf_state *state)
+{
+    float side = 0.0f;
+    for (int axis = 0; axis < 3; axis++)
+        side = fmaxf(side, state->bounds_max[axis] - state->bounds_min[axis]);
+    return side;
+}
+
+void lsf_light_tree_run(lsf_light_tree *pass, const lsf_iteration *iteration, GLuint cloud)
+{
+    const lsf_light_tree_params *params = &pass->params;
+    pass->outputs.cloud = cloud;
+    lsf_timer_begin(pass->sort_timer);
+    clear_tree(pass);
+    lsf_light_tree_bind(&pass->outputs);
+    bind(LSF_BINDING_LIGHT_TREE_CODES, pass->codes[0]);
+    dispatch(pass->programs[LSF_LIGHT_TREE_BOUNDS], tiles_of(pass->capacity));
+    dispatch(pass->programs[LSF_LIGHT_TREE_CODE], groups_of(pass->capacity));
+    GLuint codes = sort(pass);
+    lsf_timer_end(pass->sort_timer);
+
+    lsf_timer_begin(pass->timer);
+    bind(LSF_BINDING_LIGHT_TREE_CODES, codes);
+    bind(LSF_BINDING_LIGHT_TREE_PARENTS, pass->parents);
+    bind(LSF_BINDING_LIGHT_TREE_VISITS, pass->visits);
+    dispatch(pass->programs[LSF_LIGHT_TREE_LINK], groups_of(pass->capacity));
+    float side = longest_side(iteration->state);
+    glProgramUniform3f(pass->programs[LSF_LIGHT_TREE_MERGE], LOCATION_LIMITS, params->similarity,
+                       params->spread * side,
+                       params->diagonal > 0.0f ? params->diagonal * side : INFINITY);
+    dispatch(pass->programs[LSF_LIGHT_TREE_MERGE], groups_of(pass->capacity));
+    dispatch(pass->programs[LSF_LIGHT_TREE_AREA], groups_of(pass->capacity));
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_light_tree_destroy(lsf_light_tree *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_light_tree_buffers *out = &pass->outputs;
+    lsf_buffer_destroy(pass->context, &out->tree);
+    lsf_buffer_destroy(pass->context, &out->nodes);
+    lsf_buffer_destroy(pass->context, &out->areas);
+    lsf_buffer_destroy(pass->context, &pass->codes[0]);
+    lsf_buffer_destroy(pass->context, &pass->codes[1]);
+    lsf_buffer_destroy(pass->context, &pass->counts);
+    lsf_buffer_destroy(pass->context, &pass->parents);
+    lsf_buffer_destroy(pass->context, &pass->visits);
+    lsf_timer_destroy(pass->sort_timer);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}
