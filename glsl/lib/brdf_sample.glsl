@@ -7,6 +7,7 @@
 #define LSF_LIB_BRDF_SAMPLE
 
 #include "lib/brdf.glsl"
+#include "lib/cosine.glsl"
 
 /* Neither lobe is drawn more rarely than that where both count: either carries what the other cannot. */
 #define LOBE_LEAST 0.1
@@ -102,22 +103,6 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     return p;
 }
 
-/* From the square to the disc: P. Shirley, K. Chiu, JGT 2(3), 1997. */
-vec2 brdf_disc(vec2 u)
-{
-    vec2 a = 2.0 * u - 1.0;
-    if (a == vec2(0.0))
-        return a;
-    bool wide = abs(a.x) > abs(a.y);
-    float phi = wide ? LSF_PI / 4.0 * (a.y / a.x) : LSF_PI / 2.0 - LSF_PI / 4.0 * (a.x / a.y);
-    return (wide ? a.x : a.y) * vec2(cos(phi), sin(phi));
-}
-
-vec3 brdf_hemisphere(vec2 disc)
-{
-    return vec3(disc, sqrt(max(0.0, 1.0 - dot(disc, disc))));
-}
-
 #if LSF_SPECULAR
 /* E. Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018. */
 vec3 visible_normal(vec3 view, float alpha_t, float alpha, vec2 disc)
@@ -128,7 +113,7 @@ vec3 visible_normal(vec3 view, float alpha_t, float alpha, vec2 disc)
     vec3 across = side > 1e-7 ? vec3(-stretched.y, stretched.x, 0.0) / side : vec3(1.0, 0.0, 0.0);
     float share = 0.5 * (1.0 + stretched.z);
     disc.y = mix(sqrt(max(0.0, 1.0 - disc.x * disc.x)), disc.y, share);
-    vec3 q = brdf_hemisphere(disc);
+    vec3 q = cosine_direction(disc);
     vec3 n = q.x * across + q.y * cross(stretched, across) + q.z * stretched;
     return normalize(vec3(alpha_t * n.x, alpha * n.y, max(n.z, 1e-7)));
 }
@@ -156,7 +141,7 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
 #endif
     if (u.z >= p.specular)
         return false;
-    vec3 h = brdf_visible_normal(p, brdf_disc(u.xy));
+    vec3 h = brdf_visible_normal(p, disc_draw(u.xy));
     float vh = min(dot(p.view, h), 1.0);
     float share = brdf_reflected_share(p, vh);
     if (u.z < p.specular * share)
@@ -190,8 +175,8 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
 /* A unit vector; `u`: three numbers in [0, 1). It may lie below the horizon. */
 vec3 brdf_draw(brdf_sampler p, vec3 u)
 {
-    vec2 disc = brdf_disc(u.xy);
-    vec3 local = brdf_hemisphere(disc);
+    vec2 disc = disc_draw(u.xy);
+    vec3 local = cosine_direction(disc);
 #if LSF_COAT
     if (u.z < p.coat) {
         vec3 h = visible_normal(p.coat_view, p.coat_alpha, p.coat_alpha, disc);

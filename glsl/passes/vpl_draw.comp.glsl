@@ -1,27 +1,8 @@
-/* Draws virtual point lights from a light's reflective shadow map: a direction is drawn exactly, the
- * texel that holds it says which plane the ray meets. */
-#include "lib/emission_pdf.glsl"
-#include "lib/straight.glsl"
+/* Draws virtual point lights from a light's reflective shadow map. */
+#include "lib/light_ray.glsl"
 #include "lib/vpl_write.glsl"
 
 layout(local_size_x = 64) in;
-
-layout(binding = 0) uniform sampler2DArray depth_texture;
-layout(binding = 1) uniform usampler2DArray surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2DArray gloss_texture;
-#endif
-
-#if LSF_SHADOW_TINT
-layout(binding = 3) uniform sampler2DArray tint_texture;
-#endif
-
-#if LSF_EMISSION_ADAPTIVE
-layout(std430, binding = 4) readonly buffer sum_block
-{
-    float sums[]; /* of importance: rows of running sums, then running sums of the rows */
-};
-#endif
 
 layout(location = 0) uniform uvec2 range; /* the first VPL, and how many */
 layout(location = 1) uniform vec2 map_shape; /* as in vpl_map_write */
@@ -38,233 +19,25 @@ layout(std430, binding = 3) readonly buffer random_block
 #define NORMAL_ERROR 1e-4
 #define DISTANCE_ERROR 2.4e-7
 
-struct ray {
-    vec3 origin, direction; /* unit */
-    int face;
-    vec2 texel; /* continuous texel coordinates where it goes through the map */
-};
-
-struct met_plane {
-    vec3 point, normal;
-    bool exists;
-};
-
-ray ray_through(vec3 origin, vec3 direction)
-{
-    ray r;
-    r.origin = origin;
-    r.direction = direction;
-    r.face = light_map_perspective() ? light_map_face(origin + direction) : 0;
-    vec3 q = light_map_coordinates(r.face, origin + direction);
-    r.texel = (light_map_place(r.face, q) * 0.5 + 0.5) * light.map_shape.z;
-    return r;
-}
-
-/* A ray from the light with density emission_pdf_uniform. */
-ray emit_ray_uniform(vec2 u)
-{
-#if LSF_DIRECTIONAL_LIGHT
-    if (light.attenuation.w == LSF_LIGHT_TYPE_DIRECTIONAL)
-        return ray_through(light_map_position(0, 2.0 * u - 1.0, 1.0), light.direction.xyz);
-#endif
-    float cosine = 1.0 - 2.0 * u.x;
-    vec3 axis = vec3(0.0, 0.0, 1.0);
-#if LSF_SPOT_LIGHT
-    if (light.attenuation.w == LSF_LIGHT_TYPE_SPOT) {
-        cosine = lsf_spot_cosine(u.x, light.attenuation.y, light.attenuation.z);
-        axis = light.direction.xyz;
-    }
-#endif
-    vec3 t, b;
-    orthonormal_basis(axis, t, b);
-    float angle = 2.0 * LSF_PI * u.y;
-    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    vec3 direction = sine * (cos(angle) * t + sin(angle) * b) + cosine * axis;
-    return ray_through(light.position.xyz, normalize(direction));
-}
-
-ray ray_of_place(int face, vec2 place)
-{
-    vec3 point = light_map_position(face, place, 1.0);
-    return light_map_perspective()
-               ? ray_through(light.map_origin.xyz, normalize(point - light.map_origin.xyz))
-               : ray_through(point, light.direction.xyz);
-}
-
-ray ray_of_center(int face, ivec2 at)
-{
-    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
-    return ray_of_place(face, place);
-}
-
-#if LSF_EMISSION_ADAPTIVE
-
-/* The entry of an increasing run of sums that u of its last falls in, never one that adds nothing;
- * u becomes the place in it, 0..1. */
-int find_entry(int start, int count, inout float u)
-{
-    float wanted = u * sums[start + count - 1];
-    int low = 0, high = count - 1;
-    for (int i = 0; i < 32 && low < high; i++) {
-        int middle = (low + high) / 2;
-        if (sums[start + middle] > wanted)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    float before = low > 0 ? sums[start + low - 1] : 0.0;
-    float width = sums[start + low] - before;
-    u = width > 0.0 ? clamp((wanted - before) / width, 0.0, 1.0) : 0.5;
-    return low;
-}
-
-/* A ray from the light with density emission_pdf. */
-ray emit_ray(vec2 u)
-{
-    if (u.x < EMISSION_DEFENSIVE || light.position.w == 0.0) {
-        if (light.position.w != 0.0)
-            u.x /= EMISSION_DEFENSIVE;
-        return emit_ray_uniform(u);
-    }
-    u.x = (u.x - EMISSION_DEFENSIVE) / (1.0 - EMISSION_DEFENSIVE);
-    int texels = int(light.map_shape.z);
-    int rows = texels * int(light.map_origin.w);
-    int row = find_entry(rows * texels, rows, u.x);
-    int column = find_entry(row * texels, texels, u.y);
-    int face = row / texels;
-    vec2 texel = vec2(column, row - face * texels) + u.yx;
-    return ray_of_place(face, texel * (2.0 * light.map_shape.w) - 1.0);
-}
-
-#else
-
-ray emit_ray(vec2 u)
-{
-    return emit_ray_uniform(u);
-}
-
-#endif
-
-met_plane plane_at(int face, ivec2 at)
-{
-    met_plane p;
-    p.exists = false;
-    p.point = p.normal = vec3(0.0);
-    ivec2 last = ivec2(int(light.map_shape.z) - 1);
-    if (clamp(at, ivec2(0), last) != at)
-        return p;
-    float depth = texelFetch(depth_texture, ivec3(at, face), 0).r;
-    if (depth == 0.0)
-        return p;
-    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
-    p.exists = true;
-    p.point = light_map_position(face, place, depth);
-    p.normal = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0)).geometric_normal;
-    return p;
-}
-
-/* Distance along the ray to the plane. A surface so steep that its depth doubles within a texel is
- * not resolved by the map: the plane is left where it would lead out of the texel's surroundings. */
-float distance_to(ray r, met_plane p)
-{
-    float along = dot(p.point - r.origin, r.direction);
-    float bound = 0.5 * (light_map_perspective() ? along : light.map_shape.y);
-    float towards = dot(p.normal, r.direction);
-    if (towards >= 0.0)
-        return along + bound;
-    return clamp(dot(p.normal, p.point - r.origin) / towards, along - bound, along + bound);
-}
-
-/* The texel whose plane the ray meets: the one that holds it, or, where the surface beside it bends
- * towards the light within the texel (an inner corner), the neighbour. The planes then cross
- * between the texel's centre and the ray, which the neighbour's plane meets first. */
-ivec2 find_texel(ray r, out met_plane met)
-{
-    ivec2 last = ivec2(int(light.map_shape.z) - 1);
-    ivec2 own = clamp(ivec2(floor(r.texel)), ivec2(0), last);
-    ivec2 step_to = ivec2(r.texel.x - float(own.x) >= 0.5 ? 1 : -1,
-                          r.texel.y - float(own.y) >= 0.5 ? 1 : -1);
-    met_plane own_plane = plane_at(r.face, own);
-    met = own_plane;
-    if (!met.exists)
-        return own;
-    ray center = ray_of_center(r.face, own);
-    float own_at_center = dot(own_plane.point - center.origin, center.direction);
-    float nearest = distance_to(r, own_plane) * (1.0 - 2e-5); /* closer is the same plane */
-    ivec2 found = own;
-    for (int i = 1; i < 4; i++) {
-        ivec2 at = own + step_to * ivec2(i & 1, i >> 1);
-        met_plane p = plane_at(r.face, at);
-        float here = distance_to(r, p);
-        if (!p.exists || here >= nearest || distance_to(center, p) <= own_at_center)
-            continue;
-        nearest = here;
-        met = p;
-        found = at;
-    }
-    return found;
-}
-
-surface surface_at(int face, ivec2 at)
-{
-    surface s = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0));
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, ivec3(at, face), 0), s);
-#endif
-    return s;
-}
-
-bool reflects(surface s)
-{
-#if LSF_SPECULAR
-    bool specular = s.f0 > 0.0;
-#else
-    const bool specular = false;
-#endif
-    return !s.unlit && (specular || max(s.base_color.r, max(s.base_color.g, s.base_color.b)) > 0.0);
-}
-
 void main()
 {
     if (gl_GlobalInvocationID.x >= range.y)
         return;
     uint index = range.x + gl_GlobalInvocationID.x;
     vec4 drawn = random[index];
-    ray r = emit_ray(drawn.xy);
-    met_plane met;
-    ivec2 at = find_texel(r, met);
-    surface s = surface_at(r.face, at);
+    light_hit h = light_ray_draw(drawn.xy);
+    surface s = h.s;
     bool directional = !light_map_perspective();
-    float distance = distance_to(r, met);
-    vec3 position = r.origin + distance * r.direction;
-    float distance2 = directional ? 1.0 : max(distance * distance, LSF_LIGHT_DISTANCE2_MIN);
-    vec3 intensity = light.intensity.rgb;
-    if (!directional) {
-        intensity *= lsf_distance_attenuation(distance2, light.attenuation.x) * distance2;
-#if LSF_SPOT_LIGHT
-        if (light.attenuation.w == LSF_LIGHT_TYPE_SPOT)
-            intensity *= lsf_spot_attenuation(dot(r.direction, light.direction.xyz),
-                                              light.attenuation.y, light.attenuation.z);
-#endif
-    }
+    float distance2 = directional ? 1.0 : max(h.distance * h.distance, LSF_LIGHT_DISTANCE2_MIN);
     float transmission = 0.0;
 #if LSF_TRANSMISSION
     transmission = s.transmission;
-#if LSF_SHADOW_TINT
-    intensity *= texelFetch(tint_texture, ivec3(at, r.face), 0).rgb;
-    if (!s.volume || light.intensity.w > 0.0)
-        intensity *= straight_weight(s, -r.direction);
 #endif
-#endif
-    float pdf = emission_pdf(directional ? r.origin : position);
-    bool lit = met.exists && reflects(s) && pdf > 0.0 &&
-               max(intensity.r, max(intensity.g, intensity.b)) > 0.0 &&
-               dot(s.geometric_normal, r.direction) < 0.0 && dot(s.normal, r.direction) < 0.0;
     vpls[index] = lsf_vpl_data(
-        vec4(position, lit ? LSF_VPL_REFLECTS : LSF_VPL_DARK), vec4(s.geometric_normal, pdf * drawn.w),
+        vec4(h.position, h.lit ? LSF_VPL_REFLECTS : LSF_VPL_DARK), vec4(s.geometric_normal, h.pdf * drawn.w),
         vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
-        vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_turn), vec4(-r.direction, distance2),
-        vec4(intensity, transmission));
-    float error = NORMAL_ERROR * length(position - met.point) + DISTANCE_ERROR * distance;
-    vpl_map_write(index, position, s.geometric_normal, error, drawn.z, map_shape);
+        vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_turn), vec4(-h.direction, distance2),
+        vec4(h.intensity, transmission));
+    float error = NORMAL_ERROR * length(h.apart) + DISTANCE_ERROR * h.distance;
+    vpl_map_write(index, h.position, s.geometric_normal, error, drawn.z, map_shape);
 }

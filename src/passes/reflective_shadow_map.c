@@ -100,17 +100,18 @@ static void plan_pdf(lsf_plan *plan, uint32_t faces, uint32_t side)
 }
 
 void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
-                                    const lsf_state *state)
+                                    const lsf_state *state, bool sky)
 {
-    const lsf_requirements *r = &plan->requirements;
     bool needed[LSF_LIGHT_MAP_KINDS];
     lsf_light_map_kinds(plan, state, needed);
+    if (sky)
+        needed[LSF_LIGHT_MAP_WINDOWS] = true;
     bool gloss = lsf_plan_surfaces_differ(plan);
     uint32_t most_faces = 1;
-    lsf_plan_pass_add(
-        plan, "reflective_shadow_map", "the surfaces that %u punctual light%s%s light",
-        state->light_count, lsf_plural(state->light_count),
-        plan->sky_lights > 0 && r->environment_map ? " and directions of the environment" : "");
+    lsf_plan_pass_add(plan, "reflective_shadow_map",
+                      "the surfaces that %u punctual light%s%s light", state->light_count,
+                      lsf_plural(state->light_count),
+                      sky ? " and directions of the environment" : "");
     lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_material_switches(plan, gloss, false);
     lsf_scene_gpu_fold_lobes(plan);

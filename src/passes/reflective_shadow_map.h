@@ -53,9 +53,10 @@ typedef struct lsf_reflective_shadow_map {
 } lsf_reflective_shadow_map;
 
 /* Lists the pass, with adaptive emission also "reflective_shadow_map_pdf", and the textures of the
- * kinds of map that the lights in `state` need. */
+ * kinds of map that the lights in `state` need; with `sky`, those that stand for the environment,
+ * too. */
 void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
-                                    const lsf_state *state);
+                                    const lsf_state *state, bool sky);
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error);
 /* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration.

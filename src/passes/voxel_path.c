@@ -39,12 +39,24 @@ static const lsf_texture_row textures[] = {
      "direct light, apart"},
 };
 
+static const char emitter_name[] = "voxel_path.emitters";
+
 uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual)
 {
     const lsf_requirements *r = &plan->requirements;
     if (r->emissive || r->unlit || r->environment)
         return plan->bounces + 1;
     return punctual ? plan->bounces : 0;
+}
+
+/* Points on emissive surfaces that vertices of paths are joined to. */
+static void plan_emitters(lsf_plan *plan, const lsf_voxel_path_params *params)
+{
+    bool wanted = plan->requirements.emissive && params->emitters > 0;
+    lsf_plan_switch_add(plan, "LSF_EMITTERS", wanted,
+                        "some material emits, and voxel_path.emitters is not 0");
+    if (wanted)
+        lsf_emitter_points_plan(plan, emitter_name);
 }
 
 void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
@@ -72,7 +84,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
                         "some material is the surface of a medium");
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
-    lsf_voxel_path_emitters_plan(plan, params);
+    plan_emitters(plan, params);
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
@@ -114,7 +126,9 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
     const lsf_voxel_path_outputs *out = &pass->outputs;
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         !create_random(pass, plan, error) ||
-        !lsf_voxel_path_emitters_create(&pass->emitters, context, plan, scene, state, error))
+        (lsf_plan_find(plan, emitter_name) &&
+         !lsf_emitter_points_create(&pass->emitters, context, plan, emitter_name, scene, state,
+                                    error)))
         return false;
     lsf_framebuffer_desc desc = {.label = "voxel_path", .layer = -1};
     const GLuint targets[] = {out->light.irradiance, out->direct.irradiance, out->light.specular,
@@ -158,7 +172,11 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
                 p->max_samples);
     glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_PATH));
-    lsf_voxel_path_emitters_draw(&pass->emitters, iteration, p->emitters);
+    if (pass->emitters.buffer) {
+        bool drawn = lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
+        glUniform2f(2, lsf_emitters_weight(&pass->emitters.list),
+                    drawn ? (float)p->emitters : 0.0f);
+    }
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }
@@ -170,7 +188,7 @@ void lsf_voxel_path_destroy(lsf_voxel_path *pass)
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     lsf_texture_destroy(pass->context, &pass->random);
-    lsf_voxel_path_emitters_destroy(&pass->emitters, pass->context);
+    lsf_emitter_points_destroy(&pass->emitters, pass->context);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

@@ -2,12 +2,11 @@
 #ifndef LSF_PASSES_VOXEL_PATH_H
 #define LSF_PASSES_VOXEL_PATH_H
 
+#include "frame/emitter_points.h"
 #include "frame/iteration.h"
 #include "frame/maps.h"
 #include "frame/voxel_grid.h"
 #include "plan/option.h"
-#include "scene/emitters.h"
-#include "shared/emitter_data.h"
 
 typedef enum lsf_voxel_path_sequence {
     LSF_VOXEL_PATH_SOBOL,   /* low discrepancy over a pixel's samples of all iterations */
@@ -51,21 +50,13 @@ typedef struct lsf_voxel_path_outputs {
     lsf_split_light direct; /* 0 unless split_direct */
 } lsf_voxel_path_outputs;
 
-/* The points on emissive surfaces that an iteration's vertices share: one for each cell of a
- * square, so that whoever reads it by stratified numbers takes stratified points. */
-typedef struct lsf_voxel_path_emitters {
-    lsf_emitters list;
-    struct lsf_emitter_point_data *points;
-    GLuint buffer; /* 0: none are drawn */
-} lsf_voxel_path_emitters;
-
 typedef struct lsf_voxel_path {
     lsf_context *context;
     lsf_voxel_path_params params;
     lsf_voxel_path_outputs outputs;
     uint32_t segments;
-    lsf_voxel_path_emitters emitters;
-    GLuint random; /* 0 with Sobol points */
+    lsf_emitter_points emitters; /* that its vertices are joined to */
+    GLuint random;               /* 0 with Sobol points */
     GLuint framebuffer, program;
     lsf_timer *timer;
 } lsf_voxel_path;
@@ -81,15 +72,5 @@ bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited);
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs);
 void lsf_voxel_path_destroy(lsf_voxel_path *pass);
-
-/* Of voxel_path alone. Create does nothing where the plan has no such points. */
-void lsf_voxel_path_emitters_plan(lsf_plan *plan, const lsf_voxel_path_params *params);
-bool lsf_voxel_path_emitters_create(lsf_voxel_path_emitters *emitters, lsf_context *context,
-                                    const lsf_plan *plan, const lsf_scene *scene,
-                                    const lsf_state *state, lsf_error *error);
-/* Draws this iteration's points, and sets them for the program in use; `count` to a vertex. */
-void lsf_voxel_path_emitters_draw(lsf_voxel_path_emitters *emitters, const lsf_iteration *iteration,
-                                  int32_t count);
-void lsf_voxel_path_emitters_destroy(lsf_voxel_path_emitters *emitters, lsf_context *context);
 
 #endif

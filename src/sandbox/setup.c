@@ -70,7 +70,8 @@ static void plan_maps(lsf_sandbox_setup *setup)
     else
         lsf_plan_omit(plan, "shadow_map", "the shader names no shadow");
     if (reflective)
-        lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, &setup->setup.state);
+        lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, &setup->setup.state,
+                                       plan->sky_lights > 0 && plan->requirements.environment_map);
     else
         lsf_plan_omit(plan, "reflective_shadow_map", "the shader does not name it");
 }

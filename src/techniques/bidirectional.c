@@ -6,7 +6,6 @@
 
 #include "base/base.h"
 #include "frame/purpose.h"
-#include "math/distribution.h"
 #include "math/sampling.h"
 #include "passes/bidirectional_shade.h"
 #include "passes/compose.h"
@@ -19,6 +18,7 @@
 #include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
+#include "techniques/light_picks.h"
 #include "techniques/sparse_chain.h"
 
 typedef struct bidirectional {
@@ -35,10 +35,8 @@ typedef struct bidirectional {
     lsf_sparse_chain sparse;
     lsf_compose compose;
     lsf_emitters emitters; /* empty unless they shine as VPLs */
-    lsf_distribution light_picks;
-    float *light_weights;  /* of which it was made */
-    float sky_probability; /* that a light picked stands for the environment */
-    uint32_t *lights;      /* that each sample of the iteration takes */
+    lsf_light_picks light_picks;
+    uint32_t *lights; /* that each sample of the iteration takes */
     lsf_bidirectional_shade_params shade_params;
 } bidirectional;
 
@@ -47,52 +45,6 @@ static uint32_t sample_count(const lsf_bidirectional_sampling *s)
 {
     uint32_t count = s->vpl_count > s->bundle_count ? s->vpl_count : s->bundle_count;
     return count > s->emitter_count ? count : s->emitter_count;
-}
-
-/* Half of the samples by power, half evenly among the lights that shine, the environment one of
- * them: one with much power may do little in view, as a sun outside does, and must not take all
- * from those that do. */
-static void weigh_lights(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
-                         const lsf_state *state)
-{
-    bool sky_bounces = plan->sky_lights > 0 && plan->requirements.environment_map;
-    uint32_t count = state->light_count + plan->sky_lights, shining = sky_bounces;
-    float *weights = b->light_weights, sum = 0.0f;
-    float sky =
-        sky_bounces ? (float)lsf_sky_fluence(&scene->environment) / (float)plan->sky_lights : 0.0f;
-    const lsf_light_state sky_light = {.type = LSF_LIGHT_DIRECTIONAL, .intensity = {sky, sky, sky}};
-    for (uint32_t i = 0; i < count; i++) {
-        bool punctual = i < state->light_count;
-        weights[i] = lsf_light_power(punctual ? &state->lights[i] : &sky_light);
-        sum += weights[i];
-        shining += punctual && weights[i] > 0.0f;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        float parts = i < state->light_count ? 1.0f : (float)plan->sky_lights;
-        if (weights[i] > 0.0f)
-            weights[i] = weights[i] / sum + 1.0f / ((float)shining * parts);
-    }
-}
-
-static void set_light_picks(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
-                            const lsf_state *state)
-{
-    weigh_lights(b, plan, scene, state);
-    lsf_distribution_set(&b->light_picks, b->light_weights);
-    b->sky_probability = 0.0f;
-    for (uint64_t i = state->light_count; i < b->light_picks.count; i++)
-        b->sky_probability += (float)lsf_distribution_probability(&b->light_picks, i);
-}
-
-static bool create_light_picks(bidirectional *b, const lsf_plan *plan, const lsf_scene *scene,
-                               const lsf_state *state, lsf_error *error)
-{
-    uint32_t count = state->light_count + plan->sky_lights;
-    b->light_weights = lsf_alloc(count, sizeof *b->light_weights);
-    if (!b->light_weights || !lsf_distribution_init(&b->light_picks, b->light_weights, count))
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights", count);
-    set_light_picks(b, plan, scene, state);
-    return true;
 }
 
 static bool create_emitters(bidirectional *b, const lsf_scene *scene, const lsf_state *state,
@@ -139,7 +91,9 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u samples", draws);
     return lsf_direct_chain_create(&b->chain, context, plan, params, scene, NULL, error) &&
            ((!s.vpl_light && !s.bundle_light) ||
-            (create_light_picks(b, plan, scene->scene, state, error) &&
+            (lsf_light_picks_init(&b->light_picks, plan, scene->scene, state,
+                                  plan->sky_lights > 0 && plan->requirements.environment_map,
+                                  error) &&
              lsf_reflective_shadow_map_create(&b->rsm, context, plan, error))) &&
            (!s.vpl_emitter || create_emitters(b, scene->scene, state, error)) &&
            (vpl.count == 0 || lsf_vpl_create(&b->vpl, context, plan, &vpl, error)) &&
@@ -156,8 +110,9 @@ static lsf_update update_bidirectional(void *self, const lsf_pass_params *params
 {
     (void)params;
     bidirectional *b = self;
-    if (changes->lights && b->light_weights)
-        set_light_picks(b, iteration->plan, iteration->scene->scene, iteration->state);
+    if (changes->lights && b->light_picks.weights)
+        lsf_light_picks_update(&b->light_picks, iteration->plan, iteration->scene->scene,
+                               iteration->state);
     bool emitters = b->sampling.vpl_emitter && (changes->moved || changes->materials);
     return !emitters || lsf_emitters_update(&b->emitters, changes->materials) ? LSF_UPDATE_DONE
                                                                               : LSF_UPDATE_FAILED;
@@ -171,10 +126,10 @@ static void pick_lights(bidirectional *b, const lsf_iteration *iteration, uint32
     for (uint32_t i = 0; i < count; i++) {
         uint32_t bits[2];
         lsf_iteration_sample(iteration, iteration->index * picked + i, LSF_PURPOSE_VPL_LIGHT, bits);
-        b->lights[i] =
-            i < picked
-                ? (uint32_t)lsf_distribution_sample(&b->light_picks, lsf_unit_double(bits[0]), NULL)
-                : b->lights[i % picked];
+        b->lights[i] = i < picked
+                           ? (uint32_t)lsf_distribution_sample(&b->light_picks.distribution,
+                                                               lsf_unit_double(bits[0]), NULL)
+                           : b->lights[i % picked];
     }
 }
 
@@ -211,7 +166,7 @@ static float suppressed_angle(const bidirectional *b, const lsf_iteration *itera
 
 static float light_probability(const bidirectional *b, uint32_t light)
 {
-    return (float)lsf_distribution_probability(&b->light_picks, light);
+    return (float)lsf_distribution_probability(&b->light_picks.distribution, light);
 }
 
 /* Bundles at a visible point that may find the environment, and at a vertex beyond it. */
@@ -233,7 +188,8 @@ static void share_sky(bidirectional *b, const lsf_iteration *iteration)
         lsf_float3 direction = lsf_f3_scale(lsf_f3_load(iteration->lights[i].direction), -1.0f);
         float p_r = lsf_bundle_directions_pdf(&b->directions, direction);
         float straight = share->density + sky_bundles(s, false) * p_r;
-        float bounced = b->sky_probability * share->density / (float)iteration->plan->sky_lights;
+        float bounced =
+            b->light_picks.sky_probability * share->density / (float)iteration->plan->sky_lights;
         if (straight > 0.0f)
             share->shares[LSF_LIGHT_STRAIGHT] = share->density / straight;
         if (bounced > 0.0f)
@@ -255,8 +211,8 @@ static void share_bundle(const bidirectional *b, const lsf_iteration *iteration,
             lsf_f3_scale(lsf_f3_load(b->aims[bundle].direction), side ? -1.0f : 1.0f);
         float drawn = lsf_sky_density(
             &iteration->sky, lsf_environment_radiance(iteration->sky.environment, direction));
-        sample->sky_pdf[side] =
-            deep ? b->sky_probability * drawn : (float)iteration->plan->sky_lights * drawn / count;
+        sample->sky_pdf[side] = deep ? b->light_picks.sky_probability * drawn
+                                     : (float)iteration->plan->sky_lights * drawn / count;
     }
 }
 
@@ -519,8 +475,7 @@ static void destroy_bidirectional(void *self)
     lsf_vpl_destroy(&b->vpl);
     lsf_reflective_shadow_map_destroy(&b->rsm);
     lsf_direct_chain_destroy(&b->chain);
-    lsf_distribution_finish(&b->light_picks);
-    free(b->light_weights);
+    lsf_light_picks_finish(&b->light_picks);
     lsf_emitters_finish(&b->emitters);
     free(b->lights);
     free(b->aims);
