@@ -1,0 +1,101 @@
+/* Light paths go on through the voxels, from the first vertex that vpl_cloud_light has found or from a point on an
+ * emitter. A diffuse virtual point light of intensity I sends out the flux pi I, in directions whose density is
+ * cos / pi: a path that is drawn by it carries pi I whatever the direction. Each vertex is a virtual point light of
+ * what it reflects; the path goes on from it with the probability that keeps its largest channel as bright as before
+ * (Russian roulette), and ends there otherwise. Switches LSF_EMISSION, LSF_TRANSMISSION and those of the libraries. */
+#include "lib/cosine.glsl"
+#include "lib/voxel_shading.glsl"
+#include "lib/voxel_sight.glsl"
+#include "lib/vpl_cloud.glsl"
+
+layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
+#if LSF_VOXEL_GLOSS
+layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D voxel_gloss;
+#endif
+#if LSF_TRANSMISSION
+layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D voxel_transmission_bits;
+#endif
+
+layout(location = 2) uniform uint vertices; /* that a path may have */
+layout(location = 3) uniform float offset;  /* 0..1, of paths from their points on emitters */
+
+float largest_of(vec3 v)
+{
+    return max(v.r, max(v.g, v.b));
+}
+
+/* Where the path begins; paths from emitters follow those from lights. As many of them leave from each point on
+ * average, which shares its light among them. */
+lsf_vpl_record path_start(uint path, out uint vertex)
+{
+    bool of_light = path < cloud_shape.z;
+    vertex = of_light ? 1u : 0u;
+    if (of_light)
+        return cloud[cloud_slot(path, 0u)];
+    float points = float(cloud_shape.x), paths = float(cloud_shape.w);
+    float place = (float(path - cloud_shape.z) + offset) / paths;
+    lsf_vpl_record start = cloud[min(uint(place * points), cloud_shape.x - 1u)];
+    start.intensity *= points / paths;
+    return start;
+}
+
+voxel_material material_of(ivec3 cell)
+{
+    uint gloss = 0u;
+    float transmission = 0.0;
+#if LSF_VOXEL_GLOSS
+    gloss = texelFetch(voxel_gloss, cell, 0).r;
+#endif
+#if LSF_TRANSMISSION
+    transmission = voxel_transmission(texelFetch(voxel_transmission_bits, cell, 0).r);
+#endif
+    return voxel_material_unpack(texelFetch(voxel_albedo, cell, 0).r, gloss, transmission);
+}
+
+/* What the voxel that the ray has met reflects of light of this intensity. */
+lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint depth)
+{
+    uint normal = texelFetch(voxel_normal, cell, 0).r, point = texelFetch(voxel_point, cell, 0).r;
+    vec3 n = voxel_normal_unpack(normal), shading = voxel_normal_unpack(voxel_shading_bits(cell, normal));
+    float meets = dot(n, ray.direction);
+    vec3 side = meets <= 0.0 ? n : -n;
+    float cosine = max((meets <= 0.0 ? -1.0 : 1.0) * dot(shading, ray.direction), 0.0);
+    vec3 place = vec3(cell) + voxel_point_unpack(point);
+    if (meets != 0.0) {
+        vec3 there = ray.origin + ray.direction * (dot(n, place - ray.origin) / meets);
+        place = clamp(there, vec3(cell), vec3(cell + 1));
+    }
+    vec3 reflected = intensity * voxel_reflectance(material_of(cell), cosine);
+#if LSF_EMISSION
+    if (voxel_unlit(point))
+        reflected = vec3(0.0);
+#endif
+    return lsf_vpl_record(voxel_to_position(place), octahedral_encode(side), reflected, depth);
+}
+
+void main()
+{
+    uint path = gl_GlobalInvocationID.x, vertex;
+    if (path >= cloud_shape.y)
+        return;
+    lsf_vpl_record v = path_start(path, vertex);
+    for (; vertex < vertices && largest_of(v.intensity) > 0.0; vertex++) {
+        vec3 u = cloud_random(path, vertex);
+        vec3 n = octahedral_decode(v.normal), t, b;
+        orthonormal_basis(n, t, b);
+        vec3 local = cosine_direction(disc_draw(u.xy));
+        vec3 direction = normalize(local.x * t + local.y * b + local.z * n);
+        voxel_ray ray;
+        ivec3 cell;
+        if (!voxel_ray_begin(voxel_from_position(v.position) + voxel_lift(n), direction, ray) ||
+            !voxel_leave_start(ray) || !voxel_ray_meet(ray, VOXEL_FAR, true, cell))
+            return;
+        float carried = largest_of(v.intensity);
+        v = reflect_from(cell, ray, v.intensity, v.depth + 1u);
+        cloud[cloud_slot(path, vertex)] = v;
+        float goes_on = min(largest_of(v.intensity) / carried, 1.0);
+        if (u.z >= goes_on)
+            return;
+        v.intensity /= goes_on;
+    }
+}

@@ -1,0 +1,261 @@
+#include "passes/vpl_cloud.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "frame/light_walls.h"
+#include "frame/purpose.h"
+#include "math/sampling.h"
+#include "shared/scene_data.h"
+#include "shared/vpl_record.h"
+
+#define GROUP_SIZE 64
+
+/* Storage buffers. */
+#define BINDING_CLOUD 2
+#define BINDING_SUMS 4
+
+/* Random numbers of vertices beyond the first go by the path alone; lights count from 0. */
+#define NO_LIGHT UINT32_MAX
+
+_Static_assert(sizeof(struct lsf_vpl_record) == 32, "as shaders see it");
+
+static const char emitter_name[] = "vpl_cloud.emitters";
+
+const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT] = {
+    {"cloud.count", LSF_OPTION_INT, offsetof(lsf_vpl_cloud_params, count), 8192, 1048576, NULL,
+     "VPLs",
+     "of the substitute tree in an iteration, at most: 4096 of them on emissive surfaces, where "
+     "there are any, the others where light was reflected"},
+};
+
+lsf_vpl_cloud_shape lsf_vpl_cloud_shape_of(const lsf_vpl_cloud_params *params,
+                                           const lsf_vpl_cloud_use *use)
+{
+    bool bounces = use->bounces > 0 && (use->lights || use->emitters);
+    lsf_vpl_cloud_shape shape = {.points = use->emitters ? LSF_EMITTER_POINTS : 0,
+                                 .vertices = bounces ? use->bounces : 0};
+    if (bounces)
+        shape.paths = ((uint32_t)params->count - shape.points) / use->bounces;
+    return shape;
+}
+
+uint32_t lsf_vpl_cloud_records(const lsf_vpl_cloud_shape *shape)
+{
+    return shape->points + shape->paths * shape->vertices;
+}
+
+/* Whether paths go on from their first points. */
+static bool goes_on(const lsf_vpl_cloud_use *use)
+{
+    return use->bounces > (use->emitters ? 0u : 1u);
+}
+
+static void plan_materials(lsf_plan *plan)
+{
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
+                        "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
+                        "light passes materials that transmit");
+}
+
+static void plan_light(lsf_plan *plan)
+{
+    lsf_plan_pass_add(plan, "vpl_cloud_light", "what lights fall on");
+    lsf_plan_reads(plan, "reflective_shadow_map");
+    lsf_plan_fills(plan, "vpl_cloud");
+    plan_materials(plan);
+    lsf_light_switches(plan);
+    lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE", lsf_light_emission_is_adaptive(plan),
+                        "rsm.pdf is adaptive");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", lsf_plan_surfaces_differ(plan),
+                        "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
+                        "light passes thin walls");
+}
+
+static void plan_bounce(lsf_plan *plan, const lsf_vpl_cloud_use *use)
+{
+    lsf_plan_pass_add(plan, "vpl_cloud_bounce", "paths through the voxels, of %u bounce%s at most",
+                      use->bounces, lsf_plural(use->bounces));
+    lsf_plan_reads(plan, "voxelize");
+    lsf_plan_fills(plan, "vpl_cloud");
+    plan_materials(plan);
+    lsf_voxel_gloss_switch(plan);
+    lsf_voxel_bend_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
+                        "some material emits or is unlit");
+}
+
+void lsf_vpl_cloud_plan(lsf_plan *plan, const lsf_vpl_cloud_params *params,
+                        const lsf_vpl_cloud_use *use)
+{
+    lsf_vpl_cloud_shape shape = lsf_vpl_cloud_shape_of(params, use);
+    uint32_t records = lsf_vpl_cloud_records(&shape);
+    if (use->emitters) {
+        lsf_plan_pass_add(plan, "vpl_cloud_emitter", "surfaces emit light");
+        lsf_plan_fills(plan, "vpl_cloud");
+        lsf_emitter_points_plan(plan, emitter_name);
+    } else {
+        lsf_plan_omit(plan, "vpl_cloud_emitter", "no surface emits light");
+    }
+    if (use->lights)
+        plan_light(plan);
+    else
+        lsf_plan_omit(plan, "vpl_cloud_light", "no light but what surfaces emit bounces");
+    if (goes_on(use))
+        plan_bounce(plan, use);
+    else
+        lsf_plan_omit(plan, "vpl_cloud_bounce", "light does not go on from where it fell");
+    lsf_plan_buffer_add(plan, "vpl_cloud.records",
+                        records * (uint64_t)sizeof(struct lsf_vpl_record),
+                        "%u paths of %u vertices, %u points on emitters", shape.paths,
+                        shape.vertices, shape.points);
+}
+
+/* Program and timer of a pass; both stay 0, with success, when the plan does not list it. */
+static bool create_pass(lsf_vpl_cloud *pass, const lsf_plan *plan, const char *name,
+                        const char *file, GLuint *program, lsf_timer **timer, lsf_error *error)
+{
+    const char *const files[5] = {file};
+    if (!lsf_plan_find_pass(plan, name))
+        return true;
+    *program = lsf_plan_program(plan, pass->context, name, files, error);
+    *timer = *program ? lsf_timer_create(pass->context, name, error) : NULL;
+    return *timer != NULL;
+}
+
+bool lsf_vpl_cloud_create(lsf_vpl_cloud *pass, lsf_context *context, const lsf_plan *plan,
+                          const lsf_vpl_cloud_params *params, const lsf_vpl_cloud_use *use,
+                          const lsf_scene *scene, const lsf_state *state, lsf_error *error)
+{
+    *pass = (lsf_vpl_cloud){
+        .context = context, .use = *use, .shape = lsf_vpl_cloud_shape_of(params, use)};
+    return lsf_plan_create_buffer(plan, context, "vpl_cloud.records", NULL, 0, &pass->records,
+                                  error) &&
+           (!use->emitters || lsf_emitter_points_create(&pass->emitters, context, plan,
+                                                        emitter_name, scene, state, error)) &&
+           create_pass(pass, plan, "vpl_cloud_light", "passes/vpl_cloud_light.comp.glsl",
+                       &pass->light_program, &pass->light_timer, error) &&
+           create_pass(pass, plan, "vpl_cloud_emitter", "passes/vpl_cloud_emitter.comp.glsl",
+                       &pass->emitter_program, &pass->emitter_timer, error) &&
+           create_pass(pass, plan, "vpl_cloud_bounce", "passes/vpl_cloud_bounce.comp.glsl",
+                       &pass->bounce_program, &pass->bounce_timer, error);
+}
+
+bool lsf_vpl_cloud_follow(lsf_vpl_cloud *pass, bool materials_edited)
+{
+    return !pass->use.emitters || lsf_emitters_update(&pass->emitters.list, materials_edited);
+}
+
+/* Paths at lights, of all: half by power, and half evenly, as among lights themselves. */
+static uint32_t paths_at_lights(const lsf_vpl_cloud *pass, float light_power)
+{
+    float emitter_power = pass->use.emitters ? lsf_emitters_power(&pass->emitters.list) : 0.0f;
+    if (!pass->use.lights || light_power <= 0.0f)
+        return 0;
+    if (emitter_power <= 0.0f)
+        return pass->shape.paths;
+    float share = 0.25f + 0.5f * light_power / (light_power + emitter_power);
+    return (uint32_t)(share * (float)pass->shape.paths);
+}
+
+/* Of the program in use. */
+static void set_shape(const lsf_vpl_cloud *pass, const lsf_iteration *iteration, uint32_t light,
+                      uint32_t first, uint32_t count)
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_CLOUD, pass->records);
+    glUniform4ui(0, pass->shape.points, pass->shape.paths, first, count);
+    glUniform3ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_CLOUD), light);
+}
+
+static void dispatch(uint32_t count)
+{
+    glDispatchCompute((count + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+static void emit(lsf_vpl_cloud *pass, const lsf_iteration *iteration)
+{
+    lsf_timer_begin(pass->emitter_timer);
+    if (lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VPL_CLOUD_EMITTER)) {
+        glUseProgram(pass->emitter_program);
+        set_shape(pass, iteration, NO_LIGHT, 0, 0);
+        dispatch(pass->shape.points);
+    }
+    lsf_timer_end(pass->emitter_timer);
+}
+
+void lsf_vpl_cloud_begin(lsf_vpl_cloud *pass, const lsf_iteration *iteration, float light_power)
+{
+    static const GLuint dead = 0;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glClearNamedBufferData(pass->records, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &dead);
+    pass->light_paths = paths_at_lights(pass, light_power);
+    if (pass->emitter_program)
+        emit(pass, iteration);
+}
+
+/* Systematic sampling: with one random offset, a light of probability p has p n paths rounded up or
+ * down, and p n on average. */
+lsf_vpl_cloud_run lsf_vpl_cloud_deal(const lsf_vpl_cloud *pass, const lsf_iteration *iteration,
+                                     const lsf_distribution *picks, uint32_t light)
+{
+    lsf_vpl_cloud_run run = {.light = light};
+    if (pass->light_paths == 0)
+        return run;
+    double offset = (double)lsf_random_float(
+        lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_CLOUD_DEAL), iteration->index);
+    double paths = (double)pass->light_paths;
+    run.first = (uint32_t)floor(picks->cumulative[light] * paths + offset);
+    run.count = (uint32_t)floor(picks->cumulative[light + 1] * paths + offset) - run.first;
+    run.share = (float)(1.0 / (paths * lsf_distribution_probability(picks, light)));
+    return run;
+}
+
+void lsf_vpl_cloud_light(lsf_vpl_cloud *pass, const lsf_iteration *iteration,
+                         const lsf_vpl_cloud_run *run, const lsf_vpl_cloud_inputs *inputs)
+{
+    lsf_timer_begin(pass->light_timer);
+    lsf_shadow_bind(inputs->shadow);
+    lsf_surface_maps_bind(inputs->seen);
+    lsf_bind_texture(3, inputs->shadow->tint);
+    lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
+    if (inputs->sums)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
+    glUseProgram(pass->light_program);
+    set_shape(pass, iteration, run->light, run->first, run->count);
+    glUniform1f(2, run->share);
+    dispatch(run->count);
+    lsf_timer_end(pass->light_timer);
+}
+
+void lsf_vpl_cloud_bounce(lsf_vpl_cloud *pass, const lsf_iteration *iteration,
+                          const lsf_voxels *voxels)
+{
+    if (!pass->bounce_program)
+        return;
+    uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_CLOUD_EMITTER);
+    lsf_timer_begin(pass->bounce_timer);
+    lsf_voxels_bind(voxels);
+    glUseProgram(pass->bounce_program);
+    set_shape(pass, iteration, NO_LIGHT, pass->light_paths, pass->shape.paths - pass->light_paths);
+    glUniform1ui(2, pass->shape.vertices);
+    glUniform1f(3, lsf_random_float(seed, iteration->index));
+    dispatch(pass->shape.paths);
+    lsf_timer_end(pass->bounce_timer);
+}
+
+void lsf_vpl_cloud_destroy(lsf_vpl_cloud *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_buffer_destroy(pass->context, &pass->records);
+    lsf_emitter_points_destroy(&pass->emitters, pass->context);
+    lsf_timer_destroy(pass->light_timer);
+    lsf_timer_destroy(pass->emitter_timer);
+    lsf_timer_destroy(pass->bounce_timer);
+    memset(pass, 0, sizeof *pass);
+}
