@@ -284,9 +284,10 @@ static const lsf_command_option options[] = {
      "the scene; repeatable"},
     {"edit", 0, "KIND/WHICH/VALUE=NUMBERS", SHOWING, "Scene", LSF_VALUE_TEXTS, AT(edits), 0, 0,
      NULL, NULL,
-     "change a node, a light or a material of the scene, by name or by index from 0: "
-     "light/0/intensity=3,3,2.5, material/wall/base_color=0.8,0.2,0.2 or node/lamp/matrix= and 16 "
-     "numbers; also range, inner_cone, outer_cone, and metallic, roughness, emission, ior, "
+     "change a node, a light or a material of the scene, by name or by index from 0, or its "
+     "environment: light/0/intensity=3,3,2.5, material/wall/base_color=0.8,0.2,0.2, "
+     "environment/rotation=90, environment/strength=2 or node/lamp/matrix= and 16 numbers; also "
+     "range, inner_cone, outer_cone, and metallic, roughness, emission, ior, "
      "transmission, coat, coat_roughness; repeatable"},
     {"view", 0, "FILE", SHOWING, "Scene", LSF_VALUE_TEXT, AT(view_file), 0, 0, NULL, NULL,
      "take scene, camera and options from a view that `lightsheaf view` has saved; those on the "
@@ -369,6 +370,10 @@ static const lsf_command_option options[] = {
      AT(record), 0, 0, NULL, NULL, "write down what is done with mouse and keys, frame by frame"},
     {"replay", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT,
      AT(replay), 0, 0, NULL, NULL, "do what such a file says, then end"},
+    {"frame-times", 0, "FILE", LSF_COMMAND_VIEW, "Window", LSF_VALUE_TEXT, AT(frame_times), 0, 0,
+     NULL, NULL,
+     "write as CSV how long each frame was shown, what it showed, and what the frame budget made "
+     "of the picture"},
     {"list-keys", 0, NULL, LSF_COMMAND_VIEW, "General", LSF_VALUE_FLAG, AT(list_keys), 0, 0, NULL,
      NULL, "print keys and buttons"},
 

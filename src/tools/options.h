@@ -197,7 +197,7 @@ typedef struct lsf_settings {
     const char *preset, *saved_preset; /* NULL: not given */
 
     char *preset_text; /* values point into it */
-    const char *record, *replay;
+    const char *record, *replay, *frame_times; /* NULL: not given */
     double budget; /* milliseconds; 0: by the device */
     bool full_screen, list_keys;
 

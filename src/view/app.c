@@ -30,7 +30,7 @@ static bool open_viewer(void *user, lsf_window *window, lsf_error *error)
     double seconds = viewer->start->budget;
     if (seconds == 0.0)
         seconds = viewer->device.software ? BUDGET_SOFTWARE : BUDGET_GPU;
-    lsf_budget_start(&viewer->budget, seconds);
+    viewer->budget.seconds = seconds;
     if (!viewer->scene && viewer->path_count > 0)
         lsf_viewer_show_file(viewer, viewer->shown);
     lsf_viewer_touch_settings(viewer);
@@ -79,11 +79,23 @@ static void follow_captures(lsf_viewer *viewer)
     viewer->capture = NULL;
 }
 
+/* A frame lasts until the next one begins. */
+static void follow_clock(lsf_viewer *viewer)
+{
+    double now = lsf_now();
+    double seconds = now - viewer->frame_begun;
+    if (viewer->frame_begun > 0.0) {
+        lsf_viewer_log_frame(viewer, seconds);
+        lsf_viewer_spend(viewer, seconds);
+    }
+    viewer->frame_begun = now;
+}
+
 static bool frame(void *user, lsf_window *window, const lsf_input *input, lsf_error *error)
 {
     lsf_viewer *viewer = user;
-    (void)error;
     viewer->input = input;
+    follow_clock(viewer);
     lsf_viewer_take_dropped(viewer);
     lsf_viewer_watch(viewer);
     lsf_viewer_handle(viewer);
@@ -92,7 +104,7 @@ static bool frame(void *user, lsf_window *window, const lsf_input *input, lsf_er
     follow_plan(viewer);
     follow_captures(viewer);
     lsf_window_rest(window, !lsf_viewer_finished(viewer) || viewer->capture, 0.5);
-    return true;
+    return !input->snapshot || lsf_viewer_take_snapshot(viewer, input->snapshot, error);
 }
 
 static bool view(const lsf_viewer_start *start, lsf_error *error)
@@ -113,7 +125,10 @@ static bool view(const lsf_viewer_start *start, lsf_error *error)
         good = lsf_viewer_add_path(viewer, start->paths[i]) ||
                lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
     const lsf_window_client client = {viewer, open_viewer, close_viewer, frame};
-    good = good && lsf_window_run(&start->window, &client, error);
+    good = good && lsf_viewer_open_frame_log(viewer, error) &&
+           lsf_window_run(&start->window, &client, error);
+    if (viewer->frame_log)
+        good = lsf_viewer_close_frame_log(viewer, good ? error : NULL) && good;
     lsf_scene_destroy(viewer->scene);
     for (uint32_t i = 0; i < viewer->path_count; i++)
         free(viewer->paths[i]);

@@ -8,6 +8,8 @@
 #include "window/canvas.h"
 #include "window/ui.h"
 
+#include <stdio.h>
+
 enum {
     LSF_VIEWER_OPTIONS = 96,
     LSF_VIEWER_PASSES = 40,
@@ -141,6 +143,8 @@ typedef struct lsf_viewer {
     lsf_viewer_compare compare;
     lsf_viewer_times times;
     lsf_budget budget;
+    uint32_t budget_version; /* of the settings whose prices it has; 0: of none */
+    bool spent;              /* the frame's time counts for the budget */
     lsf_viewer_assignments assignments;
     bool stale;         /* something is otherwise than in the frame before */
     bool moving;        /* lively pictures are shown */
@@ -158,6 +162,8 @@ typedef struct lsf_viewer {
     lsf_ui_color notice_color;
     double notice_until;
     double slice_end; /* of a rival's iterations, lsf_now */
+    FILE *frame_log;  /* of --frame-times; NULL: none */
+    double frame_begun; /* lsf_now */
     double looked_at; /* when files were looked at for changes, seconds on the input's clock */
     int64_t scene_changed, shaders_changed; /* when they were, nanoseconds */
     char *capture;                          /* the picture goes there as soon as it is finished */
@@ -232,12 +238,24 @@ bool lsf_viewer_adopt(lsf_viewer *viewer, lsf_viewer_picture *picture,
                       const lsf_render_params *params);
 /* Brings the picture that is shown a frame further. */
 void lsf_viewer_refine(lsf_viewer *viewer);
+/* The frame before took so long. */
+void lsf_viewer_spend(lsf_viewer *viewer, double seconds);
 /* The picture that is to be looked at: of the two. */
 const lsf_viewer_picture *lsf_viewer_shown(const lsf_viewer *viewer);
 bool lsf_viewer_finished(const lsf_viewer *viewer);
 void lsf_viewer_drop_pictures(lsf_viewer *viewer);
 /* Saves the finished picture as PNG, with how it was made. */
 void lsf_viewer_save_picture(lsf_viewer *viewer, const char *path);
+
+/* --- frame_log.c --- */
+
+bool lsf_viewer_open_frame_log(lsf_viewer *viewer, lsf_error *error);
+/* How long the frame before was shown, and what it showed. */
+void lsf_viewer_log_frame(lsf_viewer *viewer, double seconds);
+bool lsf_viewer_close_frame_log(lsf_viewer *viewer, lsf_error *error);
+/* Writes NAME.exr, the radiance that is shown, as large as in the window, and NAME.view, from where
+ * it is seen. */
+bool lsf_viewer_take_snapshot(lsf_viewer *viewer, const char *name, lsf_error *error);
 
 /* --- layers.c --- */
 

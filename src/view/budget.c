@@ -2,61 +2,179 @@
 
 #include <math.h>
 
-#define SMALLEST 0.125
 /* Frames are counted among those of the mean for about as long. */
-#define MEMORY 4.0
-/* Between these times the budget nothing changes: a change costs a moment by itself. */
-#define TOO_SLOW 1.1
-#define TOO_FAST 0.55
+#define MEMORY 8.0
+/* A price that fits is below so much of the budget: one frame takes longer than another. A finer
+ * rung that was left for being dear has to be cheaper than that. */
+#define FITS 0.85
+#define FITS_AGAIN 0.75
+/* A frame that takes so many budgets is answered at once, others when there were ENOUGH. */
+#define FAR_TOO_SLOW 2.0
 /* The first frames after a change hold what it costs to make things anew. */
-enum { SETTLING = 2, PATIENCE = 8 };
+enum { SETTLING = 2, ENOUGH = 2 };
+/* Of the time on a rung, so much may go to the change to another whose price is known: it is known
+ * from other views, and changes are seen. */
+#define CHANGING 0.1
+/* Finer rungs that were dear are doubted after so many seconds, for a price may hold what happened
+ * but once; then after twice as many, and so on. */
+#define PATIENCE 8.0
 
-/* What the change should lead to, below the budget. */
-#define AIM 0.85
+/* What is not known of prices. A step to finer maps costs at most that much more, and to coarser
+ * ones saves at least that much; a larger picture takes at most so much longer as it has pixels,
+ * and half of a frame's time is not the pixels'. What is tried in vain is known from then on. */
+#define FINER 1.4
+#define COARSER 0.8
+#define FIXED 0.5
 
-void lsf_budget_start(lsf_budget *budget, double seconds)
+/* --- rungs --- */
+
+/* By a root of 2 of the pixels, down to half of the sides; below that detail of maps is what is
+ * seen least; then pixels again. */
+enum { LARGE = 4, SMALL = LARGE + (int)LSF_BUDGET_COARSEST };
+#define STEP 0.25 /* of a rung, in powers of 2 of the sides */
+
+static double scale_of(uint32_t rung)
 {
-    *budget = (lsf_budget){.seconds = seconds, .scale = 1.0};
+    uint32_t steps = rung <= LARGE ? rung : rung <= SMALL ? LARGE : rung - SMALL + LARGE;
+    return exp2(-STEP * steps);
 }
 
-/* Time is at most in proportion to pixels, and at least independent of them; half of it is taken
- * to be in proportion. */
-static bool slow_down(lsf_budget *budget, double ratio)
+static uint32_t coarse_of(uint32_t rung)
 {
-    if (budget->scale <= SMALLEST && budget->coarse == LSF_BUDGET_COARSEST)
-        return false;
-    /* Below a half of the sides, detail of maps is what is seen least. */
-    if (budget->scale <= 0.5 && budget->coarse < LSF_BUDGET_COARSEST)
-        budget->coarse++;
-    else
-        budget->scale = fmax(SMALLEST, budget->scale * fmax(0.5, sqrt(ratio)));
-    return true;
+    return rung <= LARGE ? 0u : rung <= SMALL ? rung - LARGE : LSF_BUDGET_COARSEST;
 }
 
-static bool speed_up(lsf_budget *budget, double ratio)
+double lsf_budget_scale(const lsf_budget *budget)
 {
-    if (budget->scale >= 1.0 && budget->coarse == 0)
-        return false;
-    if (budget->scale >= 0.5 && budget->coarse > 0)
-        budget->coarse--;
-    else
-        budget->scale = fmin(1.0, budget->scale * fmin(1.5, sqrt(ratio)));
-    return true;
+    return scale_of(budget->rung);
+}
+
+uint32_t lsf_budget_coarse(const lsf_budget *budget)
+{
+    return coarse_of(budget->rung);
+}
+
+/* A quarter of the sides, and all as coarse as it gets. */
+enum { SLOW_START = SMALL + 4 };
+
+void lsf_budget_start(lsf_budget *budget, double seconds, bool slow)
+{
+    *budget = (lsf_budget){.seconds = seconds, .rung = slow ? SLOW_START : 0, .patience = PATIENCE};
+}
+
+/* --- prices --- */
+
+static double pixels_of(uint32_t rung)
+{
+    return scale_of(rung) * scale_of(rung);
+}
+
+/* Another rung that was seen, as coarse as this one; LSF_BUDGET_RUNGS: none. */
+static uint32_t seen_beside(const lsf_budget *budget, uint32_t rung)
+{
+    for (uint32_t apart = 1; apart < LSF_BUDGET_RUNGS; apart++)
+        for (int side = -1; side <= 1; side += 2) {
+            uint32_t other = rung + (uint32_t)(side * (int)apart);
+            if (other < LSF_BUDGET_RUNGS && budget->price[other] > 0.0 &&
+                coarse_of(other) == coarse_of(rung))
+                return other;
+        }
+    return LSF_BUDGET_RUNGS;
+}
+
+/* Seconds for as many times the pixels, of a rung that was seen: by what another one of the same
+ * maps took, or else by what is assumed. */
+static double with_pixels(const lsf_budget *budget, uint32_t seen, double times)
+{
+    double price = budget->price[seen], fixed = times > 1.0 ? 0.0 : FIXED;
+    uint32_t other = seen_beside(budget, seen);
+    if (other < LSF_BUDGET_RUNGS) {
+        double ratio = pixels_of(other) / pixels_of(seen);
+        /* price (fixed + (1 - fixed) ratio) is the other one's. */
+        fixed = (budget->price[other] / price - ratio) / (1.0 - ratio);
+        fixed = fmin(1.0, fmax(0.0, fixed));
+    }
+    return price * (fixed + (1.0 - fixed) * times);
+}
+
+/* What a frame on a rung would take, by the one on which it is now; between what coarser and finer
+ * ones took. */
+static double price_of(const lsf_budget *budget, uint32_t rung)
+{
+    if (budget->price[rung] > 0.0)
+        return budget->price[rung];
+    double times = pixels_of(rung) / pixels_of(budget->rung);
+    double price = with_pixels(budget, budget->rung, times);
+    double steps = (double)coarse_of(rung) - (double)coarse_of(budget->rung);
+    price *= steps < 0.0 ? pow(FINER, -steps) : pow(COARSER, steps);
+    for (uint32_t i = 0; i < LSF_BUDGET_RUNGS; i++)
+        if (budget->price[i] > 0.0)
+            price = i < rung ? fmin(price, budget->price[i]) : fmax(price, budget->price[i]);
+    return price;
+}
+
+/* All that was seen follows what is seen now: another view is dearer on each rung. */
+static void see(lsf_budget *budget)
+{
+    double before = budget->price[budget->rung];
+    double times = before > 0.0 ? budget->mean / before : 1.0;
+    for (uint32_t i = 0; i < LSF_BUDGET_RUNGS; i++)
+        budget->price[i] *= times;
+    budget->price[budget->rung] = budget->mean;
+}
+
+/* --- choosing --- */
+
+/* The finest rung whose price fits. */
+static uint32_t choose(const lsf_budget *budget)
+{
+    uint32_t rung = 0;
+    for (; rung + 1 < LSF_BUDGET_RUNGS; rung++) {
+        bool again = rung < budget->rung && budget->price[rung] > 0.0;
+        if (price_of(budget, rung) <= (again ? FITS_AGAIN : FITS) * budget->seconds)
+            break;
+    }
+    return rung;
+}
+
+/* A finer rung is worth what it costs to go over, unless it was there before and a change is but a
+ * moment ago. */
+static bool worthwhile(const lsf_budget *budget, uint32_t rung)
+{
+    return budget->price[rung] == 0.0 || budget->change < CHANGING * budget->rested;
+}
+
+static void doubt(lsf_budget *budget)
+{
+    if (budget->rested < budget->patience)
+        return;
+    for (uint32_t i = 0; i < budget->rung; i++)
+        budget->price[i] = 0.0;
+    budget->rested = 0.0;
+    budget->patience *= 2.0;
 }
 
 bool lsf_budget_measure(lsf_budget *budget, double seconds)
 {
+    budget->rested += seconds;
+    budget->change = budget->frames == 0 ? seconds : budget->change;
     if (++budget->frames <= SETTLING)
         return false;
-    double weight = budget->mean > 0.0 ? 1.0 / MEMORY : 1.0;
+    uint32_t measured = budget->frames - SETTLING;
+    double weight = fmax(1.0 / measured, 1.0 / MEMORY);
     budget->mean += weight * (seconds - budget->mean);
-    double ratio = AIM * budget->seconds / budget->mean;
-    bool slow = budget->mean > TOO_SLOW * budget->seconds;
-    bool fast = budget->mean < TOO_FAST * budget->seconds && budget->frames > PATIENCE;
-    bool changed = (slow && slow_down(budget, ratio)) || (fast && speed_up(budget, ratio));
-    if (changed) {
-        budget->mean = 0.0;
-        budget->frames = 0;
-    }
-    return changed;
+    see(budget);
+    doubt(budget);
+    bool slow = budget->mean > budget->seconds;
+    if (measured < ENOUGH && budget->mean < FAR_TOO_SLOW * budget->seconds)
+        return false;
+    uint32_t rung = choose(budget);
+    bool finer = rung < budget->rung && worthwhile(budget, rung);
+    bool coarser = rung > budget->rung && slow;
+    if (!finer && !coarser)
+        return false;
+    budget->rung = rung;
+    budget->frames = 0;
+    budget->mean = budget->rested = 0.0;
+    return true;
 }

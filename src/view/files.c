@@ -25,6 +25,7 @@ void lsf_viewer_close_scene(lsf_viewer *viewer)
     lsf_viewer_drop_pictures(viewer);
     lsf_scene_destroy(viewer->scene);
     viewer->scene = NULL;
+    viewer->budget_version = 0;
 }
 
 /* 0: it is not there. */

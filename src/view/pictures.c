@@ -140,29 +140,35 @@ static void make_coarser(lsf_viewer *viewer, lsf_render_params *params)
 {
     lsf_viewer_assignments *storage = &viewer->assignments;
     const lsf_viewer_settings *settings = &viewer->settings;
-    for (size_t row = 0; viewer->budget.coarse > 0 && row < LSF_COUNT(coarser); row++)
+    uint32_t coarse = lsf_budget_coarse(&viewer->budget);
+    for (size_t row = 0; coarse > 0 && row < LSF_COUNT(coarser); row++)
         for (uint32_t i = 0; i < settings->option_count; i++) {
             const lsf_viewer_option *option = &settings->options[i];
             if (strcmp(option->key, coarser[row][0]) != 0 || lsf_viewer_option_changed(option))
                 continue;
             char *text = storage->text[storage->count];
-            lsf_print(text, sizeof storage->text[0], "%s=%s", option->key,
-                      coarser[row][viewer->budget.coarse]);
+            lsf_print(text, sizeof storage->text[0], "%s=%s", option->key, coarser[row][coarse]);
             storage->items[storage->count++] = text;
         }
     params->option_count = storage->count;
 }
 
+/* No power of two where another size will do: llvmpipe compiles shaders for textures of such sides
+ * and for others apart, which takes seconds when the budget comes by one. */
 static uint32_t scaled(uint32_t pixels, double scale)
 {
     double size = floor((double)pixels * scale + 0.5);
-    return size < 1.0 ? 1u : (uint32_t)size;
+    if (scale == 1.0 || size < 1.0)
+        return size < 1.0 ? 1u : pixels;
+    uint32_t whole = (uint32_t)size;
+    return whole > 2 && (whole & (whole - 1)) == 0 ? whole + 1 : whole;
 }
 
-static void make_lively(lsf_viewer *viewer, uint32_t width, uint32_t height)
+/* `goes_on`: the frame before was one, too. The first one after a pause takes longer. */
+static void make_lively(lsf_viewer *viewer, uint32_t width, uint32_t height, bool goes_on)
 {
     lsf_viewer_picture *picture = &viewer->lively;
-    double start = lsf_now(), scale = viewer->budget.scale;
+    double scale = lsf_budget_scale(&viewer->budget);
     lsf_render_params params =
         lsf_viewer_params(viewer, scaled(width, scale), scaled(height, scale));
     params.samples = 1;
@@ -180,11 +186,25 @@ static void make_lively(lsf_viewer *viewer, uint32_t width, uint32_t height)
            present(viewer, picture);
     viewer->cut = false;
     picture->done = good;
-    if (!good)
+    viewer->spent = good && goes_on;
+    if (good)
+        take_times(viewer, picture->renderer);
+}
+
+/* What is drawn otherwise, or is another scene, has other prices. */
+static void follow_settings(lsf_viewer *viewer)
+{
+    if (viewer->budget_version == viewer->settings_version)
         return;
-    take_times(viewer, picture->renderer);
-    if (lsf_budget_measure(&viewer->budget, lsf_now() - start))
-        picture->version = 0; /* its options follow */
+    viewer->budget_version = viewer->settings_version;
+    lsf_budget_start(&viewer->budget, viewer->budget.seconds, viewer->device.software);
+}
+
+void lsf_viewer_spend(lsf_viewer *viewer, double seconds)
+{
+    if (viewer->spent && lsf_budget_measure(&viewer->budget, seconds))
+        viewer->lively.version = 0; /* its options follow */
+    viewer->spent = false;
 }
 
 /* --- the still one --- */
@@ -274,9 +294,11 @@ void lsf_viewer_refine(lsf_viewer *viewer)
         still->error = (lsf_error){LSF_OK, ""};
         viewer->stale = false;
     }
+    bool moved = viewer->moving;
     viewer->moving = viewer->playing || viewer->input->time - viewer->quiet_since < QUIET;
+    follow_settings(viewer);
     if (viewer->moving)
-        make_lively(viewer, width, height);
+        make_lively(viewer, width, height, moved);
     else
         make_still(viewer, width, height);
     if (viewer->expose_wanted && !viewer->moving && still->begun && still->done >= ENOUGH)

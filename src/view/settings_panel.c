@@ -321,7 +321,8 @@ void lsf_viewer_passes_tab(lsf_viewer *viewer)
         viewer->budget.seconds = 1e-3 * (double)budget;
     lsf_ui_help("While things move, pictures are as large, and maps as fine, as this allows");
     lsf_ui_text(LSF_UI_DIM, "moving pictures at %.0f %% of the sides%s",
-                100.0 * viewer->budget.scale, viewer->budget.coarse > 0 ? ", coarser maps" : "");
+                100.0 * lsf_budget_scale(&viewer->budget),
+                lsf_budget_coarse(&viewer->budget) > 0 ? ", coarser maps" : "");
     lsf_ui_gap();
     lsf_ui_text(LSF_UI_ACCENT, "Milliseconds of passes");
     plot(&viewer->times);

@@ -28,6 +28,7 @@ static const struct {
     [LSF_EVENT_PRESS] = {"press", FORM_TEXT},
     [LSF_EVENT_SET] = {"set", FORM_TEXT},
     [LSF_EVENT_SETTLE] = {"settle", FORM_ALONE},
+    [LSF_EVENT_SNAPSHOT] = {"snapshot", FORM_TEXT},
     [LSF_EVENT_MINIMISE] = {"minimise", FORM_ALONE},
     [LSF_EVENT_LOSE] = {"lose-context", FORM_ALONE},
 };

@@ -21,9 +21,10 @@ typedef enum lsf_event_kind {
     LSF_EVENT_STEP,   /* x: seconds since the frame before */
     LSF_EVENT_CLOSE,
     /* Of a replay alone, written by hand. */
-    LSF_EVENT_PRESS,  /* text: the label of a button, a menu or the like, which is clicked */
-    LSF_EVENT_SET,    /* text: label = value, of a slider or a choice */
-    LSF_EVENT_SETTLE, /* what follows waits until the client rests */
+    LSF_EVENT_PRESS,    /* text: the label of a button, a menu or the like, which is clicked */
+    LSF_EVENT_SET,      /* text: label = value, of a slider or a choice */
+    LSF_EVENT_SETTLE,   /* what follows waits until the client rests */
+    LSF_EVENT_SNAPSHOT, /* text: a name, under which the client keeps what it shows */
     LSF_EVENT_MINIMISE,
     LSF_EVENT_LOSE, /* the context is treated as lost */
     LSF_EVENT_COUNT

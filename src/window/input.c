@@ -198,6 +198,9 @@ static void apply(lsf_window *window, const lsf_event *event)
     case LSF_EVENT_SET:
         lsf_ui_assign(event->text);
         break;
+    case LSF_EVENT_SNAPSHOT:
+        input->snapshot = event->text;
+        break;
     case LSF_EVENT_PRESS:
     case LSF_EVENT_SETTLE:
     case LSF_EVENT_COUNT:
@@ -297,6 +300,7 @@ static void forget_frame_before(lsf_window *window)
     lsf_input *input = &window->input;
     input->dx = input->dy = input->scroll = 0.0;
     input->key_count = input->dropped_count = 0;
+    input->snapshot = NULL;
     input->double_clicked = false;
     window->wheel = 0.0;
     window->character_count = 0;

@@ -65,6 +65,8 @@ typedef struct lsf_input {
     bool held[LSF_KEY_LIMIT]; /* keys that are down */
     uint32_t dropped_count;   /* files let fall on the window; valid during the frame */
     const char *const *dropped;
+    const char *snapshot; /* name under which a replay wants what this frame shows; NULL: it does
+                           * not */
 } lsf_input;
 
 /* Whether that key went down, with just these modifiers. */

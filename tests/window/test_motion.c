@@ -73,33 +73,103 @@ static void rays_and_places_agree(void **state)
     }
 }
 
-/* A machine on which a frame takes so much for itself, and so much for pixels and for maps. */
-static double frame(const lsf_budget *b, double fixed, double pixels, double maps)
+/* A machine on which a frame takes so much for itself, for pixels and for maps, and a change of
+ * either as much again as it says. */
+typedef struct machine {
+    double fixed, pixels, maps, change;
+} machine;
+
+static double frame(const machine *m, const lsf_budget *b)
 {
-    return fixed + pixels * b->scale * b->scale + maps / (1.0 + b->coarse);
+    double scale = lsf_budget_scale(b);
+    return m->fixed + m->pixels * scale * scale + m->maps / pow(1.0 + lsf_budget_coarse(b), 1.5);
 }
+
+typedef struct course {
+    double settled; /* seconds after which nothing changed any more */
+    uint32_t changes;
+} course;
+
+/* Frames for so many seconds, each up to a tenth longer or shorter. */
+static course run(const machine *m, lsf_budget *b, double seconds)
+{
+    course c = {0};
+    uint32_t noise = 1;
+    bool changed = b->frames == 0;
+    for (double time = 0.0; time < seconds;) {
+        noise = noise * 1664525u + 1013904223u;
+        double one = frame(m, b) * (0.9 + 0.2 * (double)noise / 4294967296.0);
+        one += changed ? m->change : 0.0;
+        time += one;
+        changed = lsf_budget_measure(b, one);
+        c.settled = changed ? time : c.settled;
+        c.changes += changed;
+    }
+    return c;
+}
+
+static const machine machines[] = {{0.01, 0.02, 0.01, 0.1}, {0.01, 0.4, 0.02, 0.1},
+                                   {0.02, 2.0, 0.1, 0.2},   {0.03, 0.05, 0.15, 0.1},
+                                   {0.0, 0.3, 0.0, 0.1},    {0.005, 0.02, 0.4, 0.3}};
 
 static void budgets_are_held(void **state)
 {
     (void)state;
-    static const double machines[][3] = {{0.01, 0.02, 0.01},
-                                         {0.01, 0.4, 0.02},
-                                         {0.02, 2.0, 0.1},
-                                         {0.03, 0.05, 0.15},
-                                         {0.0, 0.3, 0.0}};
-    for (size_t m = 0; m < sizeof machines / sizeof machines[0]; m++) {
-        const double *t = machines[m];
+    for (size_t i = 0; i < sizeof machines / sizeof machines[0]; i++)
+        for (int slow = 0; slow < 2; slow++) {
+            const machine *m = &machines[i];
+            lsf_budget b;
+            lsf_budget_start(&b, 0.1, slow);
+            course c = run(m, &b, 7.0);
+            assert_true(frame(m, &b) <= b.seconds);
+            assert_true(c.settled < (slow ? 2.0 : 2.5 + 3.0 * (m->pixels + m->maps)));
+            assert_int_equal(run(m, &b, 200.0).changes, 0); /* it stays there */
+        }
+}
+
+/* The next finer rung would have been too slow. */
+static void budgets_are_used(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof machines / sizeof machines[0]; i++) {
+        const machine *m = &machines[i];
         lsf_budget b;
-        lsf_budget_start(&b, 0.1);
-        int changes = 0;
-        for (int i = 0; i < 400; i++)
-            changes += lsf_budget_measure(&b, frame(&b, t[0], t[1], t[2])) && i >= 200;
-        assert_true(frame(&b, t[0], t[1], t[2]) <= 1.1 * b.seconds);
-        assert_int_equal(changes, 0); /* it comes to rest */
-        for (int i = 0; i < 400; i++) /* and back, on a faster machine */
-            lsf_budget_measure(&b, 0.02 * frame(&b, t[0], t[1], t[2]));
-        assert_true(b.scale == 1.0 && b.coarse == 0);
+        lsf_budget_start(&b, 0.1, true);
+        run(m, &b, 30.0);
+        b.rung -= b.rung > 0;
+        assert_true(b.rung == 0 || frame(m, &b) > 0.6 * b.seconds);
     }
+}
+
+static void budgets_follow_the_machine(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof machines / sizeof machines[0]; i++) {
+        const machine *m = &machines[i],
+                      fast = {m->fixed * 0.02, m->pixels * 0.02, m->maps * 0.02, 0.01};
+        lsf_budget b;
+        lsf_budget_start(&b, 0.1, false);
+        run(m, &b, 20.0);
+        run(&fast, &b, 5.0);
+        assert_int_equal(b.rung, 0);
+        run(m, &b, 20.0); /* and back */
+        assert_true(frame(m, &b) <= b.seconds);
+    }
+}
+
+/* A price that holds what happened but once is not held against a rung for good. */
+static void budgets_doubt_what_was_dear(void **state)
+{
+    (void)state;
+    lsf_budget b;
+    lsf_budget_start(&b, 0.1, false);
+    b.rung = 5;
+    for (uint32_t i = 0; i < b.rung; i++)
+        b.price[i] = 1.0;
+    run(&machines[0], &b, 7.0);
+    assert_int_equal(b.rung, 5);
+    run(&machines[0], &b, 7.0);
+    assert_int_equal(b.rung, 0);
 }
 
 int main(void)
@@ -109,6 +179,9 @@ int main(void)
         cmocka_unit_test(what_is_dragged_stays_under_the_cursor),
         cmocka_unit_test(rays_and_places_agree),
         cmocka_unit_test(budgets_are_held),
+        cmocka_unit_test(budgets_are_used),
+        cmocka_unit_test(budgets_follow_the_machine),
+        cmocka_unit_test(budgets_doubt_what_was_dear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

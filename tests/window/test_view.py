@@ -1,4 +1,5 @@
 """The viewer under a display without a screen: what it shows is what `lightsheaf render` makes."""
+import csv
 import json
 import os
 import shlex
@@ -105,6 +106,24 @@ class View(WindowTest):
         saved = sorted(name for name in os.listdir(self.folder) if name.startswith("lightsheaf-"))
         bright, dim = (read_png(self.path(name))[2][36][48] for name in (saved[0], saved[-1]))
         self.assertGreater(sum(bright), sum(dim) + 30)
+
+    def test_what_frames_take_and_show(self):
+        """A line for each frame; and what a moving picture is, beside the path tracer's from the same place."""
+        moves = [f"{5 + k} move {40 + k} {40 + k / 4}" for k in range(12)]
+        self.view("1 key Tab", "2 key-up Tab", "3 move 40 40", "4 button 0", *moves, "16 snapshot moved", "17 button-up 0",
+                  "18 settle", "19 snapshot still", "22 close", words=["-t", "direct", "--frame-times", "times.csv"])
+        with open(self.path("times.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([int(row["frame"]) for row in rows], list(range(len(rows))))
+        self.assertGreater(len(rows), 20)
+        for row in rows:
+            self.assertGreater(float(row["seconds"]), 0)
+            self.assertLessEqual((int(row["width"]), int(row["height"])), (96, 72))
+        self.assertEqual([row["picture"] for row in rows[6:17]], 11 * ["moving"])
+        self.assertIn("still", [row["picture"] for row in rows[18:]])
+        self.run_program(COMMAND, "reference", "--view", "moved.view", "-b", "0", "-s", "64", "-q", "-o", "traced.exr")
+        for name, error in (("moved", 0.4), ("still", 0.05)):
+            self.run_program(COMMAND, "compare", f"{name}.exr", "traced.exr", "--threshold", f"relmse={error}")
 
     def test_the_page_lists_the_keys(self):
         """LSF_UPDATE=1 in the environment brings docs/window.md up to date instead."""
