@@ -135,6 +135,13 @@ bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_pl
                                   &iteration->view_buffer, error);
 }
 
+bool lsf_iteration_update_sky(lsf_iteration *iteration)
+{
+    lsf_sky_finish(&iteration->sky);
+    return iteration->plan->sky_lights == 0 ||
+           lsf_sky_init(&iteration->sky, &iteration->scene->scene->environment);
+}
+
 void lsf_iteration_frame(lsf_iteration *iteration, const lsf_state *state,
                          const lsf_state *previous, uint32_t first_index)
 {

@@ -60,6 +60,9 @@ bool lsf_iteration_create(lsf_iteration *iteration, lsf_context *context, lsf_pl
                           uint64_t seed, lsf_error *error);
 void lsf_iteration_destroy(lsf_iteration *iteration);
 
+/* Follows an edit of the environment. False without memory. */
+bool lsf_iteration_update_sky(lsf_iteration *iteration);
+
 /* Goes over to a frame of that state, whose iterations take random numbers from `first_index` on.
  * It has as many lights as the one before. `previous` as for lsf_iteration_create. */
 void lsf_iteration_frame(lsf_iteration *iteration, const lsf_state *state,

@@ -6,6 +6,7 @@
 
 #include "base/base.h"
 #include "frame/lobes.h"
+#include "frame/texture_upload.h"
 #include "math/vector.h"
 
 typedef struct lsf_instance_data instance_data;
@@ -300,6 +301,7 @@ static bool materials_changed(lsf_scene_gpu *gpu, const lsf_animated *animated)
 void lsf_scene_gpu_update(lsf_scene_gpu *gpu, const lsf_state *state, const lsf_state *previous)
 {
     gpu->surfaces = state->animated.materials;
+    lsf_texture_upload_update(gpu);
     if (!gpu->positions)
         return;
     bool edited = materials_changed(gpu, &state->animated);

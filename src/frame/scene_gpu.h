@@ -39,6 +39,7 @@ typedef struct lsf_scene_gpu {
     float (*corners)[9];          /* of `triangles`, while something moves; else NULL */
     const lsf_material *surfaces; /* the materials of the state that was uploaded last */
     uint64_t material_edits;      /* of the scene, when materials were uploaded */
+    uint64_t radiance_edits;      /* ... when its environment was */
     double *material_values;      /* what was animated then */
     bool *drawn;                  /* which instances were, then */
     bool anew;                    /* nothing was uploaded yet */

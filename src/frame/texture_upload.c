@@ -207,16 +207,28 @@ static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index,
     return true;
 }
 
-static bool upload_environment(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+static void fill_environment(lsf_scene_gpu *gpu)
 {
     const lsf_environment *environment = &gpu->scene->environment;
+    glTextureSubImage2D(gpu->environment, 0, 0, 0, (GLsizei)environment->width,
+                        (GLsizei)environment->height, GL_RGB, GL_FLOAT, environment->texels);
+    gpu->radiance_edits = gpu->scene->edits.radiance;
+}
+
+void lsf_texture_upload_update(lsf_scene_gpu *gpu)
+{
+    if (gpu->environment && gpu->radiance_edits != gpu->scene->edits.radiance)
+        fill_environment(gpu);
+}
+
+static bool upload_environment(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
+{
     if (!lsf_plan_create_texture_if_planned(plan, gpu->context, "scene.environment",
                                             &gpu->environment, error))
         return false;
     if (!gpu->environment)
         return true;
-    glTextureSubImage2D(gpu->environment, 0, 0, 0, (GLsizei)environment->width,
-                        (GLsizei)environment->height, GL_RGB, GL_FLOAT, environment->texels);
+    fill_environment(gpu);
     glTextureParameteri(gpu->environment, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(gpu->environment, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(gpu->environment, GL_TEXTURE_WRAP_S, GL_REPEAT);

@@ -6,6 +6,8 @@
 
 void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene);
 bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error);
+/* Follows edits of the environment's radiance. */
+void lsf_texture_upload_update(lsf_scene_gpu *gpu);
 void lsf_texture_upload_destroy(lsf_scene_gpu *gpu);
 /* The sampler object for a scene texture's wrap modes and filter; `point`: the nearest texel of the
  * nearest level instead. */

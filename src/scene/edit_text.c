@@ -43,7 +43,8 @@ static bool bad(const char *edit, const char *why, lsf_error *error)
 {
     return lsf_error_set(error, LSF_ERROR_USAGE,
                          "%s: %s; write an edit as light/0/intensity=3,3,2.5, "
-                         "material/NAME/roughness=0.2 or node/NAME/matrix= and 16 numbers",
+                         "material/NAME/roughness=0.2, environment/rotation=90 or "
+                         "node/NAME/matrix= and 16 numbers",
                          edit, why);
 }
 
@@ -110,11 +111,32 @@ static bool apply(lsf_scene *scene, const char *edit, size_t row, const char *wh
     return set(scene, kind, index, &d, error);
 }
 
+/* environment/VALUE=NUMBER, which names no thing of several. */
+static bool edit_environment(lsf_scene *scene, const char *edit, lsf_error *error)
+{
+    static const struct {
+        const char *name;
+        bool (*set)(lsf_scene *scene, float value, lsf_error *error);
+    } values[] = {{"environment/rotation=", lsf_scene_set_environment_rotation},
+                  {"environment/strength=", lsf_scene_set_environment_strength}};
+    for (size_t i = 0; i < LSF_COUNT(values); i++) {
+        double numbers[MOST_NUMBERS];
+        if (strncmp(edit, values[i].name, strlen(values[i].name)) != 0)
+            continue;
+        if (read_numbers(edit + strlen(values[i].name), numbers) != 1)
+            return bad(edit, "not one number", error);
+        return values[i].set(scene, (float)numbers[0], error);
+    }
+    return bad(edit, "nothing that can be set", error);
+}
+
 bool lsf_scene_edit(lsf_scene *scene, const char *edit, lsf_error *error)
 {
     static const char *const kinds[] = {"node", "light", "material"};
     if (!lsf_scene_given(scene, error) || !lsf_given(edit, "edit", error))
         return false;
+    if (strncmp(edit, "environment/", strlen("environment/")) == 0)
+        return edit_environment(scene, edit, error);
     char *copy = strdup(edit);
     if (!copy)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for an edit");

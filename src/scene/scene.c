@@ -216,6 +216,7 @@ void lsf_scene_destroy(lsf_scene *scene)
     free(scene->deformers);
     free(scene->weights);
     free(scene->environment.texels);
+    free(scene->environment.given);
     free(scene->notes);
     free(scene->path);
     free(scene->draft);

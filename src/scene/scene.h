@@ -215,6 +215,7 @@ typedef struct lsf_environment {
     float turn; /* of the map about +y, anticlockwise seen from above, in full turns, 0..1 */
     uint32_t width, height;
     float *texels; /* 3 each, linear radiance */
+    float *given; /* texels, or radiance, as they were before an edit scaled them; NULL: none did */
 } lsf_environment;
 
 /* A directional light that no node carries (default_light.c). */
@@ -246,7 +247,9 @@ typedef struct lsf_extension {
  * it whether that is stale. */
 typedef struct lsf_edits {
     uint64_t nodes, lights, materials;
-    uint64_t movable; /* nodes that were set at all: that many may move */
+    uint64_t environment; /* turned or scaled */
+    uint64_t radiance;    /* ... scaled */
+    uint64_t movable;     /* nodes that were set at all: that many may move */
 } lsf_edits;
 
 /* Only what the chosen scene of the file uses: its nodes, the lights and cameras they carry, the

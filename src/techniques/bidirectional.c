@@ -55,6 +55,20 @@ static bool create_emitters(bidirectional *b, const lsf_scene *scene, const lsf_
                          (unsigned long long)scene->requirements.triangles);
 }
 
+/* By the environment as it now is. */
+static bool aim_bundles(bidirectional *b, const lsf_ray_bundle_params *params,
+                        const lsf_scene *scene, lsf_error *error)
+{
+    lsf_bundle_directions_finish(&b->directions);
+    if (!lsf_bundle_directions_init(&b->directions, &scene->environment, params->environment_offset,
+                                    error))
+        return false;
+    if (b->bundle_pdf)
+        glTextureSubImage2D(b->bundle_pdf, 0, 0, 0, (GLsizei)b->directions.width,
+                            (GLsizei)b->directions.height, GL_RED, GL_FLOAT, b->directions.pdf);
+    return true;
+}
+
 static bool create_bundles(bidirectional *b, lsf_context *context, const lsf_plan *plan,
                            const lsf_pass_params *params, const lsf_scene *scene, lsf_error *error)
 {
@@ -63,14 +77,9 @@ static bool create_bundles(bidirectional *b, lsf_context *context, const lsf_pla
     if (!b->aims)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
                              b->sampling.bundle_count);
-    if (!lsf_bundle_directions_init(&b->directions, &scene->environment,
-                                    params->ray_bundle.environment_offset, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "bundle.pdf", &b->bundle_pdf, error))
-        return false;
-    if (b->bundle_pdf)
-        glTextureSubImage2D(b->bundle_pdf, 0, 0, 0, (GLsizei)b->directions.width,
-                            (GLsizei)b->directions.height, GL_RED, GL_FLOAT, b->directions.pdf);
-    return lsf_ray_bundle_create(&b->bundle, context, plan, &params->ray_bundle, &use, error);
+    return lsf_plan_create_texture_if_planned(plan, context, "bundle.pdf", &b->bundle_pdf, error) &&
+           aim_bundles(b, &params->ray_bundle, scene, error) &&
+           lsf_ray_bundle_create(&b->bundle, context, plan, &params->ray_bundle, &use, error);
 }
 
 static bool create_bidirectional(void **self, lsf_context *context, const lsf_plan *plan,
@@ -108,8 +117,10 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
 static lsf_update update_bidirectional(void *self, const lsf_pass_params *params,
                                        const lsf_iteration *iteration, const lsf_changes *changes)
 {
-    (void)params;
     bidirectional *b = self;
+    if (changes->environment && b->aims &&
+        !aim_bundles(b, &params->ray_bundle, iteration->scene->scene, NULL))
+        return LSF_UPDATE_FAILED;
     if (changes->lights && b->light_picks.weights)
         lsf_light_picks_update(&b->light_picks, iteration->plan, iteration->scene->scene,
                                iteration->state);

@@ -250,6 +250,8 @@ static bool follow_state(lsf_renderer *renderer, uint32_t first_sample, lsf_erro
     if (renderer->technique && lsf_setup_fits(setup)) {
         lsf_scene_gpu_update(&renderer->scene, &setup->state, previous);
         lsf_iteration_frame(&renderer->iteration, &setup->state, previous, first_sample);
+        if (setup->changes.environment && !lsf_iteration_update_sky(&renderer->iteration))
+            return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the environment");
         update = technique->update ? technique->update(renderer->technique, &setup->pass_params,
                                                        &renderer->iteration, &setup->changes)
                                    : LSF_UPDATE_DONE;

@@ -359,6 +359,7 @@ static bool follow_edits(lsf_setup *setup, lsf_error *error)
     if (!copy || memcmp(&copy->edits, &setup->source->edits, sizeof copy->edits) == 0)
         return true;
     copy->edits = setup->source->edits;
+    copy->environment = setup->source->environment;
     return lsf_scene_update_requirements(copy) ||
            lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for an edit of the scene");
 }
@@ -393,14 +394,16 @@ bool lsf_setup_frame(lsf_setup *setup, const lsf_frame *frame, lsf_error *error)
     setup->state = *state;
     setup->previous = before;
     const lsf_edits *now = &setup->scene->edits;
+    bool environment = before.edits.environment != now->environment;
     bool animated = before.time != frame->time && setup->scene->channel_count > 0;
     setup->changes = (lsf_changes){.view = !same_camera(&before.camera, &setup->state.camera),
                                    .moved = animated || before.edits.nodes != now->nodes ||
                                             is_animated(setup, LSF_KIND_NODE, &before),
-                                   .lights = before.edits.lights != now->lights ||
+                                   .environment = environment,
+                                   .lights = environment || before.edits.lights != now->lights ||
                                              is_animated(setup, LSF_KIND_LIGHT, &before) ||
                                              is_animated(setup, LSF_KIND_NODE, &before),
-                                   .shining = !same_lights(&before, &setup->state),
+                                   .shining = environment || !same_lights(&before, &setup->state),
                                    .materials = before.edits.materials != now->materials ||
                                                 is_animated(setup, LSF_KIND_MATERIAL, &before)};
     if (setup->changes.moved && setup->plan && setup->plan->islands.count > 0)

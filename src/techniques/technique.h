@@ -84,6 +84,7 @@ typedef struct lsf_changes {
     bool lights;    /* were edited */
     bool shining;   /* lights are otherwise or elsewhere, for whatever reason */
     bool materials; /* ... likewise */
+    bool environment; /* was turned or scaled */
 } lsf_changes;
 
 /* What becomes of a technique that goes over to another frame. */

@@ -34,6 +34,15 @@ class ViewFile(CommandTest):
         self.assertIn("--technique direct --resolution 8,8 --samples 1", text)
         self.assertNotIn("--view", text)
 
+    def test_edits_of_the_environment(self):
+        """They do what the options do."""
+        self.run_command("render", self.scene(), "-q", "-t", "direct", "-r", "16,8", "-s", "1", "-o", "sky.exr")
+        scene = [self.scene(), "-e", "sky.exr", "-t", "bidirectional", "-r", "16,12", "-s", "1"]
+        plain = self.render(*scene)
+        options = self.render(*scene, "--environment-rotation", "80", "--environment-strength", "2")
+        self.assertNotEqual(options, plain)
+        self.assertEqual(options, self.render(*scene, "--edit", "environment/rotation=80", "--edit", "environment/strength=2"))
+
     def test_what_is_none(self):
         self.refuse("render", "--view", "no.view", "-o", "out.png", status=FILE, says=["no.view"])
         for text, status in (("no-such=1\n", USAGE), ("samples=x\n", USAGE), ("view=a.view\n", USAGE),

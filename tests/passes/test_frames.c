@@ -35,7 +35,26 @@ static uint32_t build_banner(lsf_scene *scene)
     return joint - 1;
 }
 
-static world build_world(bool animated, bool sky)
+typedef enum sky { NO_SKY, UNIFORM_SKY, SKY_MAP } sky;
+
+/* Bright in one part, so that it matters how it is turned. */
+static void build_sky(lsf_scene *scene, sky kind)
+{
+    enum { WIDTH = 8, HEIGHT = 4 };
+    lsf_environment *environment = &scene->environment;
+    if (kind != NO_SKY)
+        build_environment(scene, 0.3f);
+    if (kind != SKY_MAP)
+        return;
+    environment->width = WIDTH;
+    environment->height = HEIGHT;
+    environment->texels = lsf_alloc(WIDTH * HEIGHT, 3 * sizeof *environment->texels);
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        environment->texels[i] =
+            0.05f + 2.0f * (float)(i / 3 == WIDTH + 2) + 0.02f * (float)(i % 7);
+}
+
+static world build_world(bool animated, sky kind)
 {
     world w = {.scene = build_scene()};
     lsf_scene *scene = w.scene;
@@ -57,8 +76,7 @@ static world build_world(bool animated, bool sky)
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
     w.nodes[NODE_LIGHT] = scene->node_count - 1;
     build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(-0.4f, -0.8f, -0.5f), 1.0f);
-    if (sky)
-        build_environment(scene, 0.3f);
+    build_sky(scene, kind);
     if (animated) {
         static const float half_a_turn[] = {0, 0, 0, 1, 0, 1, 0, 0};
         build_channel(scene, w.nodes[NODE_SPINNING], LSF_PATH_ROTATION, half_a_turn,
@@ -100,6 +118,14 @@ static void set_light(const world *w, lsf_light_type type, float intensity)
                                  .range = INFINITY,
                                  .outer_cone = 0.6f};
     if (!lsf_scene_set_light(w->scene, 0, &desc, &error))
+        fail_msg("%s", error.message);
+}
+
+static void turn_environment(const world *w, float rotation, float strength)
+{
+    lsf_error error = {0};
+    if (!lsf_scene_set_environment_rotation(w->scene, rotation, &error) ||
+        !lsf_scene_set_environment_strength(w->scene, strength, &error))
         fail_msg("%s", error.message);
 }
 
@@ -153,6 +179,8 @@ static void edit_frame(const world *w, int k)
         translate(w, NODE_BOX, 2.5, 0.5, 0.0);
     if (k == 11)
         set_light(w, LSF_LIGHT_POINT, 0.0f);
+    if (w->scene->environment.present && (k == 1 || k == 4 || k == 6 || k == 9))
+        turn_environment(w, 50.0f * (float)k, k == 6 ? 0.0f : 0.5f * (float)k);
 }
 
 static lsf_render_params params_of(const char *technique, const char *const *options,
@@ -222,7 +250,7 @@ static void every_technique(void **unused)
     static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=64",
                                           "bundle.resolution=64", "vpl.shadow_resolution=64"};
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
-        world w = build_world(true, true);
+        world w = build_world(true, t % 2 ? SKY_MAP : UNIFORM_SKY);
         lsf_render_params params = params_of(techniques[t], options, LSF_COUNT(options));
         assert_frames_are_those_of_new_renderers(&w, &params);
         lsf_scene_destroy(w.scene);
@@ -234,7 +262,7 @@ static void voxels_that_are_kept(void **unused)
 {
     (void)unused;
     static const char *const options[] = {"voxel.jitter=off", "voxel.resolution=32"};
-    world w = build_world(true, false);
+    world w = build_world(true, NO_SKY);
     lsf_render_params params = params_of("voxel_path", options, LSF_COUNT(options));
     assert_frames_are_those_of_new_renderers(&w, &params);
     lsf_scene_destroy(w.scene);
@@ -245,7 +273,7 @@ static void voxels_that_are_kept(void **unused)
 static void times_of_passes(void **unused)
 {
     (void)unused;
-    world w = build_world(false, false);
+    world w = build_world(false, NO_SKY);
     lsf_render_params params = params_of("direct", NULL, 0);
     lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_renderer *renderer = create(context, w.scene, &params);

@@ -63,6 +63,8 @@ static void no_scene(void **state)
     FAILS(lsf_scene_set_node(NULL, 0, matrix, &error));
     FAILS(lsf_scene_get_light(NULL, 0, &light, &error));
     FAILS(lsf_scene_set_light(NULL, 0, &light, &error));
+    FAILS(lsf_scene_set_environment_rotation(NULL, 1.0f, &error));
+    FAILS(lsf_scene_set_environment_strength(NULL, 1.0f, &error));
     FAILS(lsf_scene_get_material(NULL, 0, &material, &error));
     FAILS(lsf_scene_set_material(NULL, 0, &material, &error));
     assert_int_equal(lsf_scene_count(NULL, LSF_KIND_NODE), 0);

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "base/base.h"
+#include "scene/scene.h"
 #include <lightsheaf/lightsheaf.h>
 
 /* A box of 2 x 2 x 2 with its front open, two blocks in it, a point light under its ceiling. */
@@ -150,6 +151,37 @@ static void edits(void **state)
     lsf_scene_destroy(scene);
 }
 
+/* The strength multiplies what was loaded, however often it is set. */
+static void edits_of_the_environment(void **state)
+{
+    (void)state;
+    const float radiance[] = {0.5f, 1.0f, 2.0f};
+    lsf_error error = {0};
+    lsf_scene *scene = box();
+    assert_false(lsf_scene_edit(scene, "environment/strength=1", &error));
+    lsf_scene_destroy(scene);
+    const lsf_scene_params params = {LSF_SCENE_PARAMS_DEFAULTS, .environment_radiance = radiance};
+    scene = load(&params, &error);
+    assert_non_null(scene);
+    assert_true(lsf_scene_edit(scene, "environment/strength=3", &error));
+    assert_true(lsf_scene_get_requirements(scene)->environment);
+    assert_true(lsf_scene_edit(scene, "environment/strength=0", &error));
+    assert_false(lsf_scene_get_requirements(scene)->environment);
+    assert_true(lsf_scene_edit(scene, "environment/strength=0.25", &error));
+    assert_true(scene->environment.radiance[0] == 0.125f && scene->environment.radiance[2] == 0.5f);
+    assert_true(lsf_scene_edit(scene, "environment/rotation=-90", &error));
+    assert_true(scene->environment.turn == 0.75f);
+    static const char *const wrong[] = {"environment/strength=-1", "environment/strength=1e25",
+                                        "environment/rotation=", "environment/rotation=1,2",
+                                        "environment/colour=1"};
+    for (size_t i = 0; i < LSF_COUNT(wrong); i++) {
+        error.code = LSF_OK;
+        assert_false(lsf_scene_edit(scene, wrong[i], &error));
+        assert_int_equal(error.code, LSF_ERROR_USAGE);
+    }
+    lsf_scene_destroy(scene);
+}
+
 static void lights(void **state)
 {
     (void)state;
@@ -187,9 +219,8 @@ static void lights(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays),
-        cmocka_unit_test(nodes),
-        cmocka_unit_test(edits),
+        cmocka_unit_test(rays),   cmocka_unit_test(nodes),
+        cmocka_unit_test(edits),  cmocka_unit_test(edits_of_the_environment),
         cmocka_unit_test(lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
