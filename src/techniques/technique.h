@@ -80,10 +80,10 @@ typedef struct lsf_pass_report {
 /* What is otherwise than in the frame before. */
 typedef struct lsf_changes {
     bool view;
-    bool moved;     /* instances or lights */
-    bool lights;    /* were edited */
-    bool shining;   /* lights are otherwise or elsewhere, for whatever reason */
-    bool materials; /* ... likewise */
+    bool moved;       /* instances or lights */
+    bool lights;      /* were edited */
+    bool shining;     /* lights are otherwise or elsewhere, for whatever reason */
+    bool materials;   /* ... likewise */
     bool environment; /* was turned or scaled */
 } lsf_changes;
 

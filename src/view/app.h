@@ -161,10 +161,10 @@ typedef struct lsf_viewer {
     char notice[256]; /* in the status bar, for a while */
     lsf_ui_color notice_color;
     double notice_until;
-    double slice_end; /* of a rival's iterations, lsf_now */
-    FILE *frame_log;  /* of --frame-times; NULL: none */
+    double slice_end;   /* of a rival's iterations, lsf_now */
+    FILE *frame_log;    /* of --frame-times; NULL: none */
     double frame_begun; /* lsf_now */
-    double looked_at; /* when files were looked at for changes, seconds on the input's clock */
+    double looked_at;   /* when files were looked at for changes, seconds on the input's clock */
     int64_t scene_changed, shaders_changed; /* when they were, nanoseconds */
     char *capture;                          /* the picture goes there as soon as it is finished */
 } lsf_viewer;

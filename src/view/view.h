@@ -18,7 +18,7 @@ typedef struct lsf_viewer_start {
     bool auto_exposure;
     float exposure; /* EV */
     lsf_tone_curve curve;
-    double budget; /* seconds of a frame while things move; 0: by the device */
+    double budget;           /* seconds of a frame while things move; 0: by the device */
     const char *frame_times; /* file that gets a line for each frame; NULL: none */
     lsf_window_params window;
 } lsf_viewer_start;
