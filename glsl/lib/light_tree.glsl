@@ -72,14 +72,21 @@ mat3 light_tree_frame(vec3 normal)
     return mat3(t, b, normal);
 }
 
-/* Variance along the normal. */
-float light_variance_across(lsf_light_tree_node node, mat3 frame)
+/* Variance of positions along a unit vector; `frame`: the node's. */
+float light_variance_along(lsf_light_tree_node node, vec3 axis, mat3 frame)
 {
 #if LSF_LIGHT_TREE_COVARIANCE
-    return max(dot(frame[2], light_covariance(node) * frame[2]), 0.0);
+    return max(dot(axis, light_covariance(node) * axis), 0.0);
 #else
-    return node.variance.z;
+    vec3 along = axis * frame;
+    return dot(along * along, node.variance);
 #endif
+}
+
+/* ... along all directions together. */
+float light_variance(lsf_light_tree_node node)
+{
+    return node.variance.x + node.variance.y + node.variance.z;
 }
 
 /* Squared radius of the disc of the area that each VPL of the node stands for: they are on a disc of radius

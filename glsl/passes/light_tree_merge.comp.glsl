@@ -49,7 +49,7 @@ void merge(uint index)
     node.similarity = a.similarity * b.similarity * normal_similarity(a.normal, b.normal);
     mat3 frame = light_tree_frame(octahedral_decode(node.normal));
     merge_spread(node, a, b, q, frame);
-    float across = light_variance_across(node, frame);
+    float across = light_variance_along(node, frame[2], frame);
     node.usable = node.similarity >= limits.x && across <= limits.y * limits.y &&
                           distance(node.low, node.high) <= limits.z ? 1u : 0u;
     nodes[index] = node;

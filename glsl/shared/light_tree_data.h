@@ -46,6 +46,13 @@ struct lsf_light_tree_node {
 #define LSF_LIGHT_TREE_DIGIT_BITS 8
 #define LSF_LIGHT_TREE_DIGITS (1 << LSF_LIGHT_TREE_DIGIT_BITS)
 
+/* What is counted of samples: all, those in branches that hold nothing for their point, and nodes
+ * that were left on the way down. */
+#define LSF_LIGHT_TREE_SAMPLE_ALL 0
+#define LSF_LIGHT_TREE_SAMPLE_DEAD 1
+#define LSF_LIGHT_TREE_SAMPLE_STEPS 2
+#define LSF_LIGHT_TREE_SAMPLE_COUNTS 3
+
 /* Storage buffers. */
 #define LSF_BINDING_CLOUD 1
 #define LSF_BINDING_LIGHT_TREE 2

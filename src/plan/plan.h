@@ -100,7 +100,8 @@ void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
  * the first that the plan lists is read. Names that the plan does not list count for nothing. */
 void lsf_plan_reads(lsf_plan *plan, const char *names);
 /* Light that bounced, in the picture's order: what the last pass of those that make it has left. */
-#define LSF_PLAN_INDIRECT "upsampled|blur|sparse|cone_trace|voxel_path|bidirectional_shade"
+#define LSF_PLAN_INDIRECT                                                                          \
+    "upsampled|blur|sparse|cone_trace|voxel_path|light_tree_sample|bidirectional_shade"
 /* The stem of what the last pass fills, where it is not the beginning of the pass's own name. */
 void lsf_plan_fills(lsf_plan *plan, const char *stem);
 /* `when` says what puts it on, whether or not it is. */

@@ -11,6 +11,8 @@
 #include "passes/light_filter.h"
 #include "passes/light_guide.h"
 #include "passes/light_mean.h"
+#include "passes/light_tree.h"
+#include "passes/light_tree_sample.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
@@ -38,6 +40,8 @@ typedef struct lsf_pass_params {
     lsf_voxelize_params voxelize;
     lsf_cone_params cone;
     lsf_voxel_path_params voxel_path;
+    lsf_light_tree_params light_tree;
+    lsf_light_tree_sample_params light_tree_sample;
     lsf_light_filter_params light_filter;
     lsf_temporal_params temporal;
 } lsf_pass_params;
@@ -52,6 +56,8 @@ typedef struct lsf_pass_params {
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
     .cone = {LSF_CONE_PARAMS_DEFAULTS}, .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
+    .light_tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS},                                                \
+    .light_tree_sample = {LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS},                                  \
     .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}, .temporal = {LSF_TEMPORAL_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];

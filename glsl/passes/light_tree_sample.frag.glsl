@@ -1,0 +1,114 @@
+/* Light that visible points get from a cloud of VPLs, by way of the tree over it; see
+ * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (what is between is looked at), LSF_GLOSS and those of the libraries. */
+#include "lib/brdf_sample.glsl"
+#include "lib/gbuffer_textures.glsl"
+#include "lib/sparse.glsl"
+#include "passes/light_tree_sample_walk.glsl"
+#if LSF_LIGHT_TREE_SIGHT
+#include "lib/voxel_sight.glsl"
+#endif
+
+layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_count_block
+{
+    uint counts[]; /* low and high words of LSF_LIGHT_TREE_SAMPLE_ */
+};
+
+layout(location = 1) uniform uvec3 turn; /* iteration, seed, samples of a point */
+
+layout(location = 0) out vec4 irradiance_out; /* alpha: luminance that a bound took away */
+#if LSF_SPECULAR
+layout(location = 1) out vec4 specular_out; /* the same */
+#endif
+
+void count(uint what, uint number)
+{
+    uint before = atomicAdd(counts[2u * what], number);
+    if (before + number < before)
+        atomicAdd(counts[2u * what + 1u], 1u);
+}
+
+bool seen(light_receiver r, light_point p)
+{
+#if LSF_LIGHT_TREE_SIGHT
+    return voxel_sees(voxel_from_position(r.position), r.s.geometric_normal, voxel_from_position(p.position), p.normal);
+#else
+    return true;
+#endif
+}
+
+/* With which probability a sample is of the specular lobe. */
+float specular_chance(light_receiver r)
+{
+#if LSF_SPECULAR
+    brdf_sampler p = brdf_sampler_of(r.s, r.view, true);
+    float chance = p.specular;
+#if LSF_COAT
+    chance = mix(chance, 1.0, p.coat);
+#endif
+    return chance;
+#else
+    return 0.0;
+#endif
+}
+
+/* What the point sends to the receiver, over its probability; luminance that the bound takes in w of both parts. */
+void add_light(light_receiver r, light_point p, bool specular, float probability)
+{
+    vec3 way = p.position - r.position;
+    float distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
+    vec3 direction = way * inversesqrt(distance2);
+    float leaves = -dot(p.normal, direction), arrives = dot(r.s.normal, direction);
+    if (leaves <= 0.0 || arrives <= 0.0 || dot(r.s.geometric_normal, direction) <= 0.0 || !seen(r, p))
+        return;
+    brdf_value f = brdf_evaluate(r.s, r.view, direction, 0.0);
+    float geometry = leaves * arrives / probability;
+    float bounded = geometry / max(distance2, p.bound2), lost = geometry / distance2 - bounded;
+#if LSF_SPECULAR
+    if (specular) {
+        vec3 reflected = f.specular * p.intensity;
+        specular_out += vec4(bounded * reflected, lost * luminance(reflected));
+        return;
+    }
+#endif
+    vec3 reflected = f.diffuse * p.intensity;
+    irradiance_out += vec4(bounded * reflected, lost * luminance(reflected));
+}
+
+void main()
+{
+    irradiance_out = vec4(0.0);
+#if LSF_SPECULAR
+    specular_out = vec4(0.0);
+#endif
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depth_texture, texel, 0).r;
+    uvec4 surface_texel = texelFetch(surface_texture, texel, 0);
+    if (depth == 0.0 || surface_texel_unlit(surface_texel))
+        return;
+    surface s = surface_unpack(surface_texel);
+#if LSF_GLOSS
+    gloss_unpack(texelFetch(gloss_texture, texel, 0), s);
+#endif
+    vec2 ndc = place_ndc(texel);
+    light_receiver r = light_receiver_of(position_from_depth(ndc, depth), -normalize(view_ray_direction(ndc)), s);
+    float chance = specular_chance(r);
+    path_random_key key = path_random_key(uint(texel.x) | (uint(texel.y) << 16), turn.y, texel);
+    uint dead = 0u, steps = 0u;
+    for (uint i = 0u; i < turn.z; i++) {
+        uint index = turn.x * turn.z + i;
+        vec3 u = path_random(key, index, 0u);
+        bool specular = u.z < chance;
+        light_walk_end end = light_walk(r, specular, u.x, key, index);
+        steps += end.steps;
+        if (end.link == LSF_LIGHT_TREE_NONE) {
+            dead++;
+            continue;
+        }
+        light_point p = light_point_at(end.link, vec4(path_random(key, index, 1u), u.y));
+        add_light(r, p, specular, end.probability * (specular ? chance : 1.0 - chance) * float(turn.z));
+    }
+    count(LSF_LIGHT_TREE_SAMPLE_ALL, turn.z);
+    count(LSF_LIGHT_TREE_SAMPLE_STEPS, steps);
+    if (dead > 0u)
+        count(LSF_LIGHT_TREE_SAMPLE_DEAD, dead);
+}

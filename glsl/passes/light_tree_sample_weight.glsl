@@ -1,0 +1,118 @@
+/* What the VPLs below a node may contribute to a point, by which the way down is chosen: nothing where they do not, an
+ * estimate else. Visibility counts as given. Switches LSF_LIGHT_TREE_SITES, 0 where luminance alone decides, and those of
+ * lib/brdf.glsl. */
+#ifndef LSF_PASSES_LIGHT_TREE_SAMPLE_WEIGHT
+#define LSF_PASSES_LIGHT_TREE_SAMPLE_WEIGHT
+
+#include "lib/brdf.glsl"
+#include "lib/light_tree.glsl"
+#include "shared/light.h"
+
+layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) readonly buffer lsf_light_tree_area_block
+{
+    float discs2[]; /* by record */
+};
+
+/* Squared distances below which 1/d^2 is held, to those discs: VPLs are no nearer than that. */
+layout(location = 0) uniform float disc_bound;
+
+/* Where light arrives, and towards whom it is reflected. */
+struct light_receiver {
+    vec3 position, view;
+    surface s;
+    mat3 frame;    /* about the shading normal */
+    vec3 mirrored; /* the view's mirror image */
+};
+
+light_receiver light_receiver_of(vec3 position, vec3 view, surface s)
+{
+    light_receiver r;
+    r.position = position;
+    r.view = view;
+    r.s = s;
+    r.frame = light_tree_frame(s.normal);
+    r.mirrored = reflect(-lift_to_horizon(view, s.normal), s.normal);
+    return r;
+}
+
+/* Of all directions into a box the largest cosine to the frame's z; 0 where the box is below (B. Walter et al. 2005,
+ * "Lightcuts: A Scalable Approach to Illumination", section 4.1). `center` is where the box is from the point. */
+float cosine_bound(mat3 frame, vec3 center, vec3 extent)
+{
+    vec3 c = center * frame;
+    vec3 h = vec3(dot(abs(frame[0]), extent), dot(abs(frame[1]), extent), dot(abs(frame[2]), extent));
+    float top = c.z + h.z;
+    vec2 side = max(abs(c.xy) - h.xy, 0.0);
+    return top > 0.0 ? top * inversesqrt(dot(side, side) + top * top) : 0.0;
+}
+
+#if LSF_SPECULAR
+/* What the specular lobe reflects of light from within a ball that encloses the box: along the mirror image of the
+ * view where that meets the ball, else along the direction next to it. Never 0, as directions above the surface may be
+ * in the box even if this one is not. */
+float specular_bound(light_receiver r, vec3 center, vec3 extent)
+{
+    float distance2 = dot(center, center), radius2 = dot(extent, extent);
+    vec3 direction = r.mirrored;
+    if (radius2 < distance2) {
+        vec3 towards = center * inversesqrt(distance2);
+        float cosine = dot(towards, direction), reach = sqrt(1.0 - radius2 / distance2); /* cosine of the ball's own angle */
+        vec3 across = direction - cosine * towards;
+        float size = length(across);
+        if (cosine < reach && size > 1e-6)
+            direction = reach * towards + sqrt(radius2 / distance2) * (across / size);
+        else if (cosine < reach)
+            direction = towards;
+    }
+    direction = lift_to_horizon(direction, r.s.normal);
+    return luminance(brdf_evaluate(r.s, r.view, direction, 0.0).specular);
+}
+#endif
+
+float light_bound2(uint record)
+{
+    return max(disc_bound * discs2[record], LSF_LIGHT_DISTANCE2_MIN);
+}
+
+/* Cosines at both ends over the squared distance; of a VPL exact. 0 where nothing in the box is above the surface. */
+float light_geometry(light_receiver r, uint link, lsf_light_tree_node node, vec3 center, vec3 extent)
+{
+    float arrives = cosine_bound(r.frame, center, extent);
+    if (arrives <= 0.0)
+        return 0.0;
+    vec3 way = node.position - r.position;
+    mat3 frame = light_tree_frame(octahedral_decode(node.normal));
+    float distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
+    if (light_is_leaf(link)) {
+        float leaves = -dot(frame[2], way) * inversesqrt(distance2);
+        return arrives * max(leaves, 0.0) / max(distance2, light_bound2(light_record(link)));
+    }
+    /* The mean squared distance: that to the box says nothing where a box is large or the point is in it. */
+    distance2 += light_variance(node);
+    /* Of a box that is partly above the surface most may be below: two deviations above the mean count as its top, yet
+     * a hundredth of the box's, or what is above could be missed. */
+    float top = dot(r.s.normal, way) + 2.0 * sqrt(light_variance_along(node, r.s.normal, frame));
+    arrives = clamp(top * inversesqrt(distance2), 0.01 * arrives, arrives);
+    /* As far as normals are alike, a point sees the VPLs as they see it, all under one normal. */
+    frame[2] = -frame[2];
+    float leaves = mix(1.0, cosine_bound(frame, center, extent), node.similarity);
+    return arrives * leaves / distance2;
+}
+
+/* ... of all that is below a link, to the whole luminance `most`. */
+float light_weight(light_receiver r, uint link, float most, bool specular)
+{
+    lsf_light_tree_node node = light_node(link);
+    float weight = luminance(node.intensity) / most;
+#if LSF_LIGHT_TREE_SITES
+    vec3 center = 0.5 * (node.low + node.high) - r.position, extent = 0.5 * (node.high - node.low);
+    weight *= light_geometry(r, link, node, center, extent);
+#if LSF_SPECULAR
+    if (specular && weight > 0.0)
+        weight *= specular_bound(r, center, extent);
+#endif
+#endif
+    return weight;
+}
+
+#endif

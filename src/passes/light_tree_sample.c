@@ -1,0 +1,153 @@
+#include "passes/light_tree_sample.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+#include "frame/purpose.h"
+#include "shared/scene_data.h"
+
+/* Uniforms of light_tree_sample. */
+#define LOCATION_BOUND 0
+#define LOCATION_TURN 1
+#define LOCATION_SPREAD 2
+
+const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT] = {
+    {"light_tree.node", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, node), 0, 0,
+     "substitute|lightcut|vpl", "",
+     "where a sample ends: diffuse ones at a node that stands for many virtual point lights, or "
+     "all "
+     "at one of these, found by what it may contribute or by its brightness alone"},
+    {"light_tree.angle", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, angle), 0.0, 1e6,
+     NULL, "rad",
+     "nodes stand for what is below them where their standard deviation, seen from the point, is "
+     "at "
+     "most this; 0: from everywhere"},
+    {"light_tree.samples", LSF_OPTION_INT, offsetof(lsf_light_tree_sample_params, samples), 1,
+     LSF_LIGHT_TREE_SAMPLE_MOST, NULL, "samples", "of the cloud for each point in an iteration"},
+    {"light_tree.bound", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, bound), 0.0, 1e6,
+     NULL, "disc radii",
+     "virtual point lights count as no nearer than this, of the disc of the area that one stands "
+     "for; 0: exact, with spikes"},
+    {"light_tree.sight", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, sight), 0, 0,
+     "voxels|open", "", "what hides a sample: voxels; nothing, to measure by"},
+};
+
+const char *const lsf_light_tree_sample_count_names[LSF_LIGHT_TREE_SAMPLE_COUNTS] = {
+    [LSF_LIGHT_TREE_SAMPLE_ALL] = "samples",
+    [LSF_LIGHT_TREE_SAMPLE_DEAD] = "dead",
+    [LSF_LIGHT_TREE_SAMPLE_STEPS] = "steps"};
+
+#define AT(member) offsetof(lsf_light_tree_sample, light.member)
+
+static const lsf_texture_row textures[] = {
+    {"light_tree_sample.irradiance", GL_RGBA32F, AT(irradiance), 0,
+     "light for the diffuse lobe, without its albedo"},
+    {"light_tree_sample.specular", GL_RGBA32F, AT(specular), LSF_TEXTURE_SPECULAR,
+     "light of the specular lobe"},
+};
+
+void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_params *params,
+                                bool covariance)
+{
+    const lsf_requirements *r = &plan->requirements;
+    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    uint32_t places[2];
+    lsf_plan_pass_add(plan, "light_tree_sample", "%d sample%s of the cloud for each visible point",
+                      params->samples, lsf_plural((uint64_t)params->samples));
+    lsf_plan_reads(plan, "view points|gbuffer light_tree");
+    if (params->sight == LSF_LIGHT_TREE_VOXELS)
+        lsf_plan_reads(plan, "voxelize");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_sparse_grid_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SUBSTITUTE",
+                        params->node == LSF_LIGHT_TREE_SUBSTITUTE, "light_tree.node is substitute");
+    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SITES", params->node != LSF_LIGHT_TREE_VPL,
+                        "light_tree.node is not vpl");
+    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SIGHT", params->sight == LSF_LIGHT_TREE_VOXELS,
+                        "light_tree.sight is voxels");
+    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_COVARIANCE", covariance, "light_tree.covariance");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+                        "some material is anisotropic");
+    lsf_scene_gpu_lobe_switches(plan, gloss);
+    lsf_sparse_grid_places(plan, places);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, places[0], places[1]);
+    lsf_plan_buffer_add(plan, "light_tree_sample.counts",
+                        LSF_LIGHT_TREE_SAMPLE_COUNTS * 2 * sizeof(GLuint),
+                        "what became of samples");
+}
+
+bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *context,
+                                  const lsf_plan *plan, const lsf_light_tree_sample_params *params,
+                                  lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl",
+                                         "passes/light_tree_sample.frag.glsl"};
+    *pass = (lsf_light_tree_sample){.context = context, .params = *params};
+    const lsf_split_light *out = &pass->light;
+    if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
+        !lsf_plan_create_buffer(plan, context, "light_tree_sample.counts", NULL, 0,
+                                &pass->count_buffer, error))
+        return false;
+    glClearNamedBufferData(pass->count_buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    lsf_framebuffer_desc desc = {.label = "light_tree_sample",
+                                 .color_count = out->specular ? 2 : 1,
+                                 .colors = {out->irradiance, out->specular},
+                                 .layer = -1};
+    pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
+    pass->program = lsf_plan_program(plan, context, "light_tree_sample", files, error);
+    pass->timer = lsf_timer_create(context, "light_tree_sample", error);
+    return pass->framebuffer && pass->program && pass->timer;
+}
+
+/* Squared distances below which VPLs are held, to their discs: all the clouds of so many iterations
+ * are as one, each of whose VPLs stands for as much less. */
+static float bound_of(const lsf_light_tree_sample *pass, const lsf_iteration *iteration)
+{
+    return pass->params.bound * pass->params.bound / lsf_iteration_expected(iteration);
+}
+
+void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,
+                               const lsf_light_tree_sample_inputs *inputs)
+{
+    const lsf_sparse_grid *grid = &iteration->grid;
+    lsf_timer_begin(pass->timer);
+    lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
+                         pass->program);
+    lsf_surface_maps_bind(inputs->seen);
+    lsf_light_tree_bind(inputs->tree);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_COUNTS, pass->count_buffer);
+    if (pass->params.sight == LSF_LIGHT_TREE_VOXELS)
+        lsf_voxels_bind(inputs->voxels);
+    glUniform1f(LOCATION_BOUND, bound_of(pass, iteration));
+    float angle = pass->params.angle;
+    glUniform1f(LOCATION_SPREAD, angle > 0.0f ? angle * angle : INFINITY);
+    glUniform3ui(LOCATION_TURN, iteration->index,
+                 lsf_iteration_seed(iteration, LSF_PURPOSE_LIGHT_TREE),
+                 (GLuint)pass->params.samples);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+const uint64_t *lsf_light_tree_sample_counts(lsf_light_tree_sample *pass)
+{
+    GLuint words[2 * LSF_LIGHT_TREE_SAMPLE_COUNTS];
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(pass->count_buffer, 0, sizeof words, words);
+    for (size_t i = 0; i < LSF_LIGHT_TREE_SAMPLE_COUNTS; i++)
+        pass->counts[i] = words[2 * i] | (uint64_t)words[2 * i + 1] << 32;
+    return pass->counts;
+}
+
+void lsf_light_tree_sample_destroy(lsf_light_tree_sample *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
+    lsf_buffer_destroy(pass->context, &pass->count_buffer);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}
