@@ -15,9 +15,21 @@ struct brdf_value {
     vec3 specular; /* [1/sr] */
 };
 
+#if LSF_SCATTER
+/* What a wall lets through, but for what its surface reflects. */
+vec3 wall_tint(surface s)
+{
+    return s.base_color * (s.transmission * (1.0 - s.metallic));
+}
+#endif
+
 /* What the diffuse lobe reflects: k_d. */
 vec3 surface_diffuse(surface s)
 {
+#if LSF_SCATTER
+    if (s.through)
+        return vec3(0.0);
+#endif
 #if LSF_TRANSMISSION
     return (1.0 - s.transmission) * (1.0 - s.metallic) * s.base_color;
 #elif LSF_SPECULAR
@@ -53,15 +65,48 @@ float surface_dielectric_fresnel(surface s, float vh)
     return surface_fresnel(s, largest(surface_f0(s)), surface_f90(s), vh);
 }
 
-/* What microfacets reflect of light from the front, and from the side. */
+/* What microfacets reflect of light from the front, and from the side; of a wall that is seen through, what they
+ * let through, at grazing angles in the brightest channel's measure. */
 vec3 surface_specular_f0(surface s)
 {
+#if LSF_SCATTER
+    if (s.through)
+        return wall_tint(s) * (1.0 - largest(surface_f0(s)));
+#endif
     return mix(surface_f0(s), s.base_color, s.metallic);
 }
 
 float surface_specular_f90(surface s)
 {
+#if LSF_SCATTER
+    if (s.through)
+        return largest(wall_tint(s)) * (1.0 - surface_f90(s));
+#endif
     return 1.0 - (1.0 - surface_f90(s)) * (1.0 - s.metallic);
+}
+
+/* ... and of light under the cosine vh. */
+vec3 surface_specular_fresnel(surface s, float vh)
+{
+#if LSF_SCATTER
+    if (s.through)
+        return wall_tint(s) * (1.0 - surface_dielectric_fresnel(s, vh));
+#endif
+    vec3 f0 = surface_specular_f0(s);
+    float f90 = surface_specular_f90(s);
+    return vec3(surface_fresnel(s, f0.r, f90, vh), surface_fresnel(s, f0.g, f90, vh),
+                surface_fresnel(s, f0.b, f90, vh));
+}
+
+/* The view as the lobes want it: a thin wall lets light through as it reflects it, mirrored at its plane
+ * (KHR_materials_transmission). */
+vec3 surface_view(surface s, vec3 to_viewer)
+{
+#if LSF_SCATTER
+    if (s.through)
+        return to_viewer - 2.0 * dot(to_viewer, s.normal) * s.normal;
+#endif
+    return to_viewer;
 }
 
 vec3 brdf_sum(surface s, brdf_value f)
@@ -92,6 +137,10 @@ float sheen_leaves(surface s, float nv, float nl)
 vec3 sheen_reflects(surface s, vec3 view, vec3 light)
 {
     float nv = clamp(dot(s.normal, view), LSF_COSINE_MIN, 1.0), nl = clamp(dot(s.normal, light), LSF_COSINE_MIN, 1.0);
+#if LSF_SCATTER
+    if (s.through)
+        return vec3(0.0);
+#endif
     vec3 nxh = cross(s.normal, normalize(view + light));
     float most = max(lsf_sheen_albedo(nv, s.sheen.a), lsf_sheen_albedo(nl, s.sheen.a));
     return s.sheen.rgb * (lsf_sheen_lobe(nv, nl, dot(nxh, nxh), s.sheen.a) / max(most, 1.0));
@@ -125,6 +174,10 @@ float coat_reflects(surface s, vec3 view_direction, vec3 light, float nl, float 
     float coat_nl = dot(n, light);
     if (s.coat == 0.0 || coat_nl <= 0.0 || nl <= 0.0)
         return 0.0;
+#if LSF_SCATTER
+    if (s.through)
+        return 0.0;
+#endif
     float nv = max(dot(n, view), LSF_COSINE_MIN), alpha = lsf_alpha_from_roughness(s.coat_roughness);
     vec3 h = normalize(view + light);
     float reflects = s.coat * lsf_fresnel_schlick(LSF_COAT_F0, clamp(dot(view, h), 0.0, 1.0));
@@ -190,8 +243,8 @@ vec3 lobe_albedo(vec3 f0, float f90, float nv, float alpha2)
 }
 #endif
 
-/* Both directions are unit vectors that point away from the surface; the specular lobe is zero
- * where light comes from behind the normal.
+/* Both directions are unit vectors that point away from the surface, the view as by surface_view; the specular lobe
+ * is zero where light comes from behind the normal.
  *
  * `kernel` is m'/d [sr]: light comes in samples of density d, and the distribution D, taken as a
  * density kernel over m = m' F V nl of them, must not exceed d / m (Tokuyoshi and Ogaki 2012,
@@ -226,16 +279,14 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
 #endif
         vec3 f0 = surface_specular_f0(s);
         float f90 = surface_specular_f90(s);
-        vec3 fresnel = vec3(surface_fresnel(s, f0.r, f90, vh), surface_fresnel(s, f0.g, f90, vh),
-                            surface_fresnel(s, f0.b, f90, vh));
+        vec3 fresnel = surface_specular_fresnel(s, vh);
         float v = lobe_visibility(l, alpha_t, alpha);
 #if defined(LSF_CLAMP_RADIANCE) && LSF_CLAMP_RADIANCE
         float sharpest = kernel * largest(fresnel) * v * l.nl / LSF_PI;
         float d = lobe_distribution(l, alpha_t, alpha);
         d = sharpest > 0.0 ? min(d, 1.0 / (LSF_PI * sharpest)) : d;
 #else
-        vec3 mirrored = vec3(surface_fresnel(s, f0.r, f90, l.nv), surface_fresnel(s, f0.g, f90, l.nv),
-                             surface_fresnel(s, f0.b, f90, l.nv));
+        vec3 mirrored = surface_specular_fresnel(s, l.nv);
         float wide = kernel_alpha(kernel, largest(mirrored), mirror_spread(l, alpha_t, alpha));
         if (wide > min(alpha, alpha_t)) {
             vec3 narrow_albedo = lobe_albedo(f0, f90, l.nv, alpha * alpha_t);

@@ -81,7 +81,9 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
 #if LSF_TRANSMISSION
     p.dielectric = vec2(largest(surface_f0(s)), surface_f90(s));
     p.reflecting = vec2(f0, f90);
-    p.passing = s.transmission * (1.0 - s.metallic) * dot(s.base_color, luminance);
+    /* Where light goes straight on, chance has decided before whether it does. */
+    p.passing =
+        LSF_STRAIGHT != 0 ? 0.0 : s.transmission * (1.0 - s.metallic) * dot(s.base_color, luminance);
     p.eta = s.eta;
     specular += p.passing * through;
 #endif

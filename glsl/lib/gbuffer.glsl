@@ -9,7 +9,8 @@
  *   x  roughness unorm16 | f0 of the dielectric unorm16 << 16
  *   y  anisotropy strength unorm16 | angle of its tangent in the shading normal's
  *      orthonormal_basis, unorm16 of a full turn << 16
- *   z  transmission unorm8 | seen from the front << 8 | surface of a medium << 9 | material << 10
+ *   z  transmission unorm8 | seen from the front << 8 | surface of a medium << 9 | seen through << 10 |
+ *   material << 11
  *   w  tint of f0, weight of the dielectric's reflection, 4 x unorm8 (KHR_materials_specular)
  *   the first of y, z, w that is free holds a clear coat: factor unorm5 | roughness unorm9 << 5 |
  *   normal, octahedral 2 x unorm9 << 14 (KHR_materials_clearcoat)
@@ -17,8 +18,8 @@
  * gbuffer.tint RGBA16F, only where light goes straight through surfaces: what is left of the light on its way to
  *   the eye, over the probability of seeing this surface (lib/straight.glsl)
  * gbuffer.absorption RGBA32F, only with media: optical depth on that way
- * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SPECULAR_TINT, LSF_COAT and LSF_SHEEN (the
- * words of these). */
+ * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SCATTER (rough thin walls scatter), LSF_SPECULAR_TINT, LSF_COAT and
+ * LSF_SHEEN (the words of these). */
 #ifndef LSF_LIB_GBUFFER
 #define LSF_LIB_GBUFFER
 
@@ -39,6 +40,9 @@
 #endif
 #ifndef LSF_STRAIGHT
 #define LSF_STRAIGHT 0
+#endif
+#ifndef LSF_SCATTER
+#define LSF_SCATTER 0
 #endif
 
 struct surface {
@@ -64,6 +68,10 @@ struct surface {
     float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
     bool front, volume; /* seen from the front; surface of a medium, which lies behind the front */
     uint material;
+#if LSF_SCATTER
+    bool through; /* what is seen is light that comes through it, scattered: normals point to where that comes
+                   * from */
+#endif
 #endif
 };
 
@@ -126,11 +134,15 @@ float largest(vec3 v)
 }
 
 #if LSF_TRANSMISSION
-/* Of 2^22 materials. */
+/* Of 2^21 materials. */
 uint transmission_pack(surface s)
 {
-    return uint(clamp(s.transmission, 0.0, 1.0) * 255.0 + 0.5) | (s.front ? 1u << 8 : 0u) |
-           (s.volume ? 1u << 9 : 0u) | (s.material << 10);
+    uint bits = uint(clamp(s.transmission, 0.0, 1.0) * 255.0 + 0.5) | (s.front ? 1u << 8 : 0u) |
+                (s.volume ? 1u << 9 : 0u) | (s.material << 11);
+#if LSF_SCATTER
+    bits |= s.through ? 1u << 10 : 0u;
+#endif
+    return bits;
 }
 
 /* As it is seen from the front, or from the back. Needs s.f0, which holds the index of refraction n:
@@ -156,13 +168,19 @@ void transmission_none(inout surface s)
     s.front = true;
     s.volume = false;
     s.material = 0u;
+#if LSF_SCATTER
+    s.through = false;
+#endif
 }
 
 void transmission_unpack(uint bits, inout surface s)
 {
     s.transmission = float(bits & 0xffu) / 255.0;
     s.volume = (bits & (1u << 9)) != 0u;
-    s.material = bits >> 10;
+    s.material = bits >> 11;
+#if LSF_SCATTER
+    s.through = (bits & (1u << 10)) != 0u;
+#endif
     transmission_turn(s, (bits & (1u << 8)) != 0u);
 }
 #endif

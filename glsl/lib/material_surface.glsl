@@ -269,6 +269,9 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     s.volume = material.flags.z != 0.0;
     s.material = uint(material.flags.w);
     s.eta = 1.0;
+#if LSF_SCATTER
+    s.through = false;
+#endif
 #endif
 #if LSF_EMISSION
     emission = material.emission.rgb;

@@ -55,6 +55,11 @@ float normal_step(vec3 normal, ivec2 texel, ivec2 along)
     ivec2 last = textureSize(surface_texture, 0) - 1;
     vec3 after = octahedral_decode(texelFetch(surface_texture, min(texel + along, last), 0).y);
     vec3 before = octahedral_decode(texelFetch(surface_texture, max(texel - along, ivec2(0)), 0).y);
+#if LSF_SCATTER
+    /* Of walls that are seen through the other side's counts as well. */
+    after *= sign(dot(after, normal));
+    before *= sign(dot(before, normal));
+#endif
     return min(length(after - normal), length(before - normal));
 }
 #endif
@@ -93,6 +98,8 @@ bool vertex_load(out shading_vertex v)
 #if LSF_DEEP
     /* The normal looks back to where the ray came from. */
     v.view = dot(v.s.geometric_normal, arrival) > 0.0 ? arrival : -arrival;
+#else
+    v.view = surface_view(v.s, v.view);
 #endif
 #if LSF_POOLED
     /* Neighbours in split order are a pattern apart. */
@@ -112,7 +119,7 @@ light_parts vertex_reflect(shading_vertex v, vec3 direction, float kernel)
         return r;
     }
 #if LSF_POOLED
-    vec3 f0 = mix(surface_f0(v.s), v.s.base_color, v.s.metallic);
+    vec3 f0 = surface_specular_f0(v.s);
     kernel *= pooling_spread(kernel, largest(f0), pow(v.s.roughness, 4.0), v.turn, float(LSF_INTERLEAVE));
 #endif
     brdf_value f = brdf_evaluate(v.s, v.view, direction, kernel);

@@ -55,6 +55,9 @@ layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2DArray shadow_tint_textur
 #define LSF_SHADOW_DEPTH_ERROR 4.8e-7
 #define LSF_SHADOW_SLOPE_ERROR 0.02
 
+/* Of a map's tint: 10 bits. */
+#define LSF_SHADOW_TINT_STEP (1.0 / 1023.0)
+
 /* A place on the map and the receiver's plane there. */
 struct shadow_receiver {
     vec2 texel;    /* continuous texel coordinates */
@@ -157,7 +160,7 @@ int shadow_texels(shadow_receiver r)
 
 /* Percentage-closer filter over as many texels' squares about the receiver along each axis as
  * LSF_SHADOW_PCF says, an even number; each is compared with the receiver's plane. Reeves et al. 1987. */
-float shadow_visibility(vec3 position, vec3 normal)
+float shadow_visibility(vec3 position, vec3 normal, bool transmits)
 {
     const int squares = LSF_SHADOW_PCF / 2; /* of 2 x 2 texels, which are read at once */
     shadow_receiver r = shadow_project(position, normal);
@@ -216,13 +219,14 @@ int shadow_order(shadow_receiver r, ivec2 at)
 /* A texel that shows something behind the receiver knows nothing about it: its centre is past an edge,
  * of the receiver's own surface, which is lit, or of one that hides it, as at the edges of a closed
  * room lit from outside. The texels on the receiver's other sides tell: any of them that shows the
- * receiver's surface proves the first, else any that shows one in front proves the second. */
-float shadow_visibility(vec3 position, vec3 normal)
+ * receiver's surface proves the first, else any that shows one in front proves the second. A receiver that light
+ * passes is there by chance in each texel, and others are: they prove nothing. */
+float shadow_visibility(vec3 position, vec3 normal, bool transmits)
 {
     shadow_receiver r = shadow_project(position, normal);
     int order = shadow_order(r, r.at);
 #if !LSF_SHADOW_HEMISPHERE
-    if (order < 0) {
+    if (order < 0 && !transmits) {
         ivec2 last = ivec2(shadow_texels(r) - 1);
         ivec2 step_to = ivec2(r.texel.x - float(r.at.x) >= 0.5 ? 1 : -1,
                               r.texel.y - float(r.at.y) >= 0.5 ? 1 : -1);
@@ -240,10 +244,15 @@ float shadow_visibility(vec3 position, vec3 normal)
 
 #endif
 
-/* What thin walls leave of the light that comes to the receiver, where it is seen. `transmits`: the receiver lets
- * light through itself. Where its map does not show it, it has let light pass there, which has not passed it
- * on the way to it. */
-vec3 shadow_tint(vec3 position, vec3 normal, bool transmits)
+float shadow_visibility(vec3 position, vec3 normal)
+{
+    return shadow_visibility(position, normal, false);
+}
+
+/* What surfaces leave of the light that comes to the receiver, where it is seen. `own`: the receiver's tint of light
+ * that passes it, 1 where none does. Where its map does not show it, it has let light pass there, and its tint is in
+ * the map's. */
+vec3 shadow_tint(vec3 position, vec3 normal, vec3 own)
 {
 #if LSF_SHADOW_TINT
     shadow_receiver r = shadow_project(position, normal);
@@ -258,7 +267,7 @@ vec3 shadow_tint(vec3 position, vec3 normal, bool transmits)
     vec3 tint = texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;
 #endif
     float here = r.depth + dot(r.gradient, vec2(r.at) + 0.5 - r.texel);
-    return transmits && shown < here - r.error ? vec3(1.0) : tint;
+    return shown < here - r.error ? min(tint / max(own, LSF_SHADOW_TINT_STEP), 1.0) : tint;
 #else
     return vec3(1.0);
 #endif

@@ -35,6 +35,11 @@ void main()
     if (texelFetch(depth_texture, pixel, 0).r != 0.0) {
         surface s = surface_unpack(texelFetch(source, pixel, 0));
         x.rgb = LSF_SOURCE == SOURCE_ALBEDO ? s.base_color : s.normal;
+#if LSF_SCATTER && LSF_SOURCE == SOURCE_NORMAL
+        /* That of a wall that is seen through looks to the other side. */
+        if (dot(s.geometric_normal, view_ray_direction(sample_ndc(gl_FragCoord.xy))) > 0.0)
+            x.rgb = -x.rgb;
+#endif
     }
 #endif
     vec4 mean = weight == 1.0 ? vec4(0.0) : imageLoad(mean_image, pixel);

@@ -58,12 +58,16 @@ light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3,
     float cosine_0 = dot(x2.geometric_normal, to_light);
     float cosine_3 = -dot(x2.geometric_normal, direction);
     float shading_cosine_0 = dot(x2.normal, to_light);
+    bool transmits = false;
+#if LSF_SHADOW_TINT
+    transmits = x2.transmission > 0.0 && (!x2.volume || light.intensity.w > 0.0);
+#endif
     if (x2.unlit || cosine_0 <= 0.0 || shading_cosine_0 <= 0.0 ||
         max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0 ||
-        shadow_visibility(position, x2.geometric_normal) == 0.0)
+        shadow_visibility(position, x2.geometric_normal, transmits) == 0.0)
         return r;
 #if LSF_SHADOW_TINT
-    irradiance *= shadow_tint(position, x2.geometric_normal, x2.transmission > 0.0);
+    irradiance *= shadow_tint(position, x2.geometric_normal, straight_tint_or_one(x2, to_light));
 #endif
     path_density p =
         path_density_at(cosine_0, max(distance2_0, LSF_LIGHT_DISTANCE2_MIN), cosine_3, distance2_3,

@@ -6,6 +6,7 @@
 #include "lib/mis.glsl"
 #include "lib/shading_vertex.glsl"
 #include "lib/shadow.glsl"
+#include "lib/straight.glsl"
 #include "shared/light.h"
 #include "shared/vpl_data.h"
 
@@ -122,7 +123,7 @@ void main()
     light_parts f_3 = vertex_reflect(v, direction, l.kernel_3 + suppression.z);
     vec3 power = l.power * strategy.w;
 #if LSF_SHADOW_TINT
-    power *= shadow_tint(v.position, v.s.geometric_normal, v.s.transmission > 0.0);
+    power *= shadow_tint(v.position, v.s.geometric_normal, straight_tint_or_one(v.s, direction));
 #endif
     float geometry = cosine_3 / distance2;
     float bounded = cosine_3 / max(distance2, suppression.y / max(l.density, 1e-30));

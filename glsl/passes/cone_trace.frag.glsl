@@ -106,7 +106,7 @@ void main()
 #endif
     vec2 ndc = place_ndc(pixel);
     vec3 point = voxel_from_position(position_from_depth(ndc, depth));
-    vec3 to_viewer = -normalize(view_ray_direction(ndc));
+    vec3 to_viewer = surface_view(s, -normalize(view_ray_direction(ndc)));
     vec3 tangent, bitangent;
     orthonormal_basis(s.normal, tangent, bitangent);
     vec2 shift = pixel_shift();

@@ -11,6 +11,7 @@
 #if !LSF_SHADOW_SKY
 #include "lib/light.glsl"
 #endif
+#include "lib/straight.glsl"
 #include "lib/view.glsl"
 
 #if LSF_SKY_PATTERN
@@ -78,11 +79,18 @@ light_parts reflected(surface s, vec3 position, vec3 view_direction, vec3 direct
     if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
         max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0)
         return light_parts(vec3(0.0), vec3(0.0));
-    float visibility = shadow_visibility(position, s.geometric_normal);
+    bool transmits = false;
+#if LSF_SHADOW_TINT
+    transmits = s.transmission > 0.0;
+#if !LSF_SHADOW_SKY
+    transmits = transmits && !s.volume;
+#endif
+#endif
+    float visibility = shadow_visibility(position, s.geometric_normal, transmits);
     if (visibility == 0.0)
         return light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_TINT
-    irradiance *= shadow_tint(position, s.geometric_normal, s.transmission > 0.0);
+    irradiance *= shadow_tint(position, s.geometric_normal, straight_tint_or_one(s, direction));
 #endif
 #if LSF_SKY_CHANCE
     brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
@@ -117,7 +125,7 @@ void main()
 #endif
     vec2 ndc = sample_ndc(gl_FragCoord.xy);
     vec3 position = position_from_depth(ndc, depth);
-    vec3 view_direction = -normalize(view_ray_direction(ndc));
+    vec3 view_direction = surface_view(s, -normalize(view_ray_direction(ndc)));
     light_parts sum = light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_SKY
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
@@ -138,6 +146,16 @@ void main()
     vec3 irradiance;
     float distance2;
     vec3 direction = light_direction(position, irradiance, distance2);
+#if LSF_SCATTER
+    if (s.through) {
+        /* What the lobe leaves to light that goes straight on, nothing brings of a lamp's. */
+        irradiance /= scattered_share(s);
+    } else if (LSF_STRAIGHT == 0 && s.transmission > 0.0 && dot(s.normal, direction) < 0.0 &&
+               scattered_share(s) > 0.0) {
+        surface_look_through(s); /* other light from there, paths find */
+        view_direction = surface_view(s, view_direction);
+    }
+#endif
     sum = reflected(s, position, view_direction, direction, irradiance, 0.0, 0.0);
 #endif
 #if LSF_SKY_PATTERN

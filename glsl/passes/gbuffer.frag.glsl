@@ -39,9 +39,23 @@ void main()
     float passes = straight_chance(straight_transmittance(s, to_viewer));
     /* By another number than that which decides whether what is blended is there. */
     uint layer = ~layer_key(vertex_layer.x, vertex_layer.y, front);
-    if (chance_even_number(uvec3(layer, uvec2(gl_FragCoord.xy))) < passes)
-        discard;
+    float number = chance_even_number(uvec3(layer, uvec2(gl_FragCoord.xy)));
+#if LSF_SCATTER
+    float share = scattered_share(s), scattered = scattered_chance(share);
+    passes = look_through_chance(passes, share);
+#endif
     tint_out = vec4(vec3(1.0 / (1.0 - passes)), 1.0);
+#if LSF_SCATTER
+    if (number >= passes * (1.0 - scattered) && number < passes) {
+        surface_look_through(s);
+        emission = vec3(0.0); /* the surface itself is seen by other numbers */
+        tint_out.rgb = vec3(share / (passes * scattered));
+    } else if (number < passes)
+        discard;
+#else
+    if (number < passes)
+        discard;
+#endif
 #endif
 #if LSF_GLOSS
     gloss_out = gloss_pack(s);

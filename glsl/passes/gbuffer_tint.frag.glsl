@@ -25,7 +25,14 @@ void main()
     float seen = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     if (!present || gl_FragCoord.z <= seen)
         discard;
-    tint_out = vec4(straight_tint(s, to_viewer), 0.0);
+    vec3 transmittance = straight_transmittance(s, to_viewer);
+    float passes = straight_chance(transmittance);
+#if LSF_SCATTER
+    float share = scattered_share(s);
+    transmittance *= (1.0 - share) / max(1.0 - scattered_chance(share), 1e-6);
+    passes = look_through_chance(passes, share);
+#endif
+    tint_out = vec4(transmittance / max(passes, 1e-6), 0.0);
 #if LSF_ABSORPTION
     /* From the front on the way is in the medium, from the back on out of it again. Behind all surfaces, no
      * matter where: media are closed. */

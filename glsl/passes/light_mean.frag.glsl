@@ -61,6 +61,10 @@ void main()
         gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
 #endif
         guide = vec4(s.normal, depth);
+#if LSF_SCATTER
+        if (s.through)
+            guide.xyz = -guide.xyz;
+#endif
         vec3 irradiance = vec3(0.0);
 #if LSF_INDIRECT
         irradiance += texelFetch(irradiance_texture, pixel, 0).rgb;
@@ -88,7 +92,7 @@ void main()
         roughness = s.roughness;
         if (!s.unlit) {
             vec3 view = -normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy)));
-            specular_factor = left * specular_albedo(s, view);
+            specular_factor = left * specular_albedo(s, surface_view(s, view));
         }
 #endif
     }

@@ -14,7 +14,7 @@ vec3 specular_tint(ivec2 pixel)
     gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
 #endif
     vec3 view = -normalize(view_ray_direction(sample_ndc(vec2(pixel) + 0.5)));
-    return max(specular_albedo(s, view), LEAST_TINT);
+    return max(specular_albedo(s, surface_view(s, view)), LEAST_TINT);
 }
 
 #endif

@@ -65,7 +65,7 @@ vec3 reflected(ivec3 cell, vec3 n, vec3 shading, out bool front)
 #endif
     float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
 #if LSF_SHADOW_TINT
-    irradiance *= shadow_tint(position + LIFT * grid.origin.w * side, side, false);
+    irradiance *= shadow_tint(position + LIFT * grid.origin.w * side, side, vec3(1.0));
 #endif
 #if LSF_EMISSION
     if (voxel_unlit(point))

@@ -117,6 +117,8 @@ struct lsf_lobe_data {
  * passes/voxel_light.comp.glsl; and of how a bundle shares it, in
  * passes/bidirectional_shade_hit.frag.glsl. */
 #define LSF_LOCATION_SKY_CHANCE (LSF_LOCATION_SKY + 1)
+/* Location of what glossy lobes are spread over; see lib/straight.glsl. */
+#define LSF_LOCATION_LOBE_ANGLE (LSF_LOCATION_SKY_CHANCE + 1)
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

@@ -91,6 +91,7 @@ typedef struct lsf_requirements {
     bool transmissive;    /* KHR_materials_transmission with factor > 0 */
     bool refractive;      /* ... on the surface of a medium: KHR_materials_volume */
     bool thin_walls;      /* ... on one that does not bound a medium */
+    bool rough_walls;     /* ... and is rough: it scatters what it transmits */
     uint32_t bounces;     /* of light that show the scene as people expect it: 3, and 4 more where
                            * materials transmit, for a hollow vessel's walls: two, of two sides */
     bool variable_ior;    /* some dielectric reflects other than one of index 1.5 */

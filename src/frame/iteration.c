@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "math/sampling.h"
+#include "shared/brdf.h"
 #include "shared/scene_data.h"
 
 void lsf_region_set(const lsf_region *region)
@@ -185,6 +186,12 @@ static void draw_sky_lights(lsf_iteration *iteration)
         if (share->density > 0.0f)
             share->kernel = KERNEL_SAMPLES / (lsf_iteration_expected(iteration) * share->density);
     }
+}
+
+float lsf_iteration_sky_angle(const lsf_iteration *iteration)
+{
+    float directions = (float)iteration->plan->sky_lights * lsf_iteration_expected(iteration);
+    return directions > 0.0f ? 4.0f * LSF_PI * KERNEL_SAMPLES / directions : 0.0f;
 }
 
 void lsf_iteration_sample(const lsf_iteration *iteration, uint32_t index, uint32_t purpose,

@@ -80,6 +80,10 @@ void lsf_iteration_bind_view(const lsf_iteration *iteration);
  * so far when that is open. */
 float lsf_iteration_expected(const lsf_iteration *iteration);
 
+/* Solid angle over which directions of the environment spread a lobe, were they uniform over the
+ * sphere [sr]; 0: there are none. */
+float lsf_iteration_sky_angle(const lsf_iteration *iteration);
+
 /* For lib/sky.glsl in the program in use. */
 void lsf_iteration_bind_sky(const lsf_iteration *iteration);
 

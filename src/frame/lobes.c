@@ -48,6 +48,12 @@ void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss)
     lsf_scene_gpu_word_switches(plan, gloss);
 }
 
+void lsf_scene_gpu_scatter_switch(lsf_plan *plan)
+{
+    if (plan->scattered)
+        lsf_plan_switch_add(plan, "LSF_SCATTER", true, "rough walls scatter what they transmit");
+}
+
 static struct lsf_lobe_data lobe_data(const lsf_material *m)
 {
     const float *tint = m->specular_color;

@@ -125,6 +125,7 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
     };
     for (size_t i = 0; i < LSF_COUNT(switches); i++)
         lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
+    lsf_scene_gpu_scatter_switch(plan);
     lsf_scene_gpu_word_switches(plan, gloss);
 }
 

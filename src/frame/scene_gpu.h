@@ -58,6 +58,8 @@ void lsf_scene_gpu_fold_lobes(lsf_plan *plan);
 
 /* Adds to a pass that reads the G-buffer's gloss which lobes it holds. */
 void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss);
+/* That of rough walls, where there are any that are seen by what they scatter. */
+void lsf_scene_gpu_scatter_switch(lsf_plan *plan);
 
 /* The word of a texel of the G-buffer's gloss that holds the clear coat, 1 to 3; 0 where nothing is
  * coated, or anisotropy, transmission and tints leave no word: coats are then folded, there too. */

@@ -10,6 +10,8 @@ void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const
     if (plan->aovs & (LSF_AOV_ALBEDO | LSF_AOV_NORMAL | LSF_AOV_DEPTH | LSF_AOV_MOTION))
         lsf_plan_reads(plan, "gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    if ((plan->aovs & LSF_AOV_NORMAL) && plan->straight)
+        lsf_scene_gpu_scatter_switch(plan);
     for (uint32_t i = 0; i < layer_count; i++) {
         char name[64];
         snprintf(name, sizeof name, "accumulate.%s", layer_names[i]);
@@ -32,12 +34,14 @@ static bool create_program(lsf_accumulate *pass, const lsf_plan *plan, lsf_accum
 {
     if (pass->programs[source])
         return true;
-    const lsf_define defines[] = {{"LSF_SOURCE", (int)source},
-                                  {"LSF_ORTHOGRAPHIC", plan->orthographic}};
+    const lsf_define defines[] = {
+        {"LSF_SOURCE", (int)source},
+        {"LSF_ORTHOGRAPHIC", plan->orthographic},
+        {"LSF_SCATTER", lsf_plan_switch_value(plan, "accumulate", "LSF_SCATTER")}};
     lsf_program_desc desc = {.label = "accumulate",
                              .files = {"lib/fullscreen.vert.glsl", "passes/accumulate.frag.glsl"},
                              .defines = defines,
-                             .define_count = 2};
+                             .define_count = defines[2].value ? 3 : 2};
     pass->programs[source] = lsf_program_get(pass->context, &desc, error);
     return pass->programs[source] != 0;
 }

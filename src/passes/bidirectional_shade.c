@@ -80,6 +80,7 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_scene_gpu_scatter_switch(plan);
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_CLAMP_RADIANCE",
                         params->suppression == LSF_GLOSSY_SUPPRESSION_CLAMP,

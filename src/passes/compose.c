@@ -51,6 +51,8 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION",
                         (use->indirect || plan->sky_pattern > 0) && plan->transmission,
                         "light passes materials that transmit");
+    if (use->indirect || plan->sky_pattern > 0)
+        lsf_scene_gpu_scatter_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight,

@@ -20,6 +20,7 @@ static void plan_switches(lsf_plan *plan, const lsf_direct_light_use *use)
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_scene_gpu_scatter_switch(plan);
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->shadow_pcf ? 4 : 0, "shadow.filter");
 }
@@ -134,6 +135,8 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_shadow_bind(inputs->shadow);
     if (sky)
         glUniform1i(0, (GLint)inputs->directions);
+    else if (iteration->plan->scattered)
+        glUniform1f(LSF_LOCATION_LOBE_ANGLE, inputs->lobe_angle);
     if (split)
         glUniform2i(2, (GLint)inputs->first, pattern_turn(iteration));
     if (sky && pass->use.chance != LSF_SKY_CHANCE_NONE)

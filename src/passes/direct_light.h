@@ -10,6 +10,7 @@ typedef struct lsf_direct_light_inputs {
     const lsf_shadow *shadow;
     uint32_t first;      /* of the directions, among those of the iteration */
     uint32_t directions; /* of the environment that the shadow is of; 0: it is of a light */
+    float lobe_angle;    /* as the G-buffer has it */
 } lsf_direct_light_inputs;
 
 /* What else finds the environment from a visible point, by chance: its light is shared with that.

@@ -151,11 +151,18 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
     return pass->framebuffer && pass->program && pass->timer;
 }
 
+static void set_lobe_angle(const lsf_gbuffer *pass, const lsf_iteration *iteration)
+{
+    if (pass->outputs.tint && iteration->plan->scattered)
+        glUniform1f(LSF_LOCATION_LOBE_ANGLE, pass->lobe_angle);
+}
+
 /* What transmits and what is blended is there by chance: for both programs alike. */
 static void set_chance(const lsf_gbuffer *pass, const lsf_iteration *iteration)
 {
     if (pass->outputs.tint || iteration->plan->requirements.blended)
         lsf_iteration_set_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
+    set_lobe_angle(pass, iteration);
 }
 
 /* Draws once more what transmits: all that lies before the seen surface has let light pass. */
@@ -165,6 +172,7 @@ static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_dr
     glBindFramebuffer(GL_FRAMEBUFFER, pass->tint_framebuffer);
     lsf_begin_surfaces(iteration->plan->width, iteration->plan->height, pass->tint_program);
     lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
+    set_lobe_angle(pass, iteration);
     glDisable(GL_DEPTH_TEST);
     if (pass->outputs.absorption)
         glClearNamedFramebufferfv(pass->tint_framebuffer, GL_COLOR, 1, zero);

@@ -21,6 +21,8 @@ typedef struct lsf_gbuffer {
     lsf_gbuffer_maps outputs; /* of the plan's size, valid until the next run */
     GLuint framebuffer, program;
     GLuint tint_framebuffer, tint_program; /* 0: nothing transmits */
+    float lobe_angle; /* that the technique spreads a lobe over [sr]; 0: none is spread. It says how
+                         much rough walls scatter (lib/straight.glsl) */
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;
 } lsf_gbuffer;

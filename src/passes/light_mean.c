@@ -34,6 +34,7 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_scene_gpu_scatter_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light bounces, or comes by chance");

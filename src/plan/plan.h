@@ -63,6 +63,7 @@ struct lsf_plan {
     lsf_seen_background background;
     bool transmission; /* there are materials that transmit light */
     bool straight;     /* ... and it goes straight through them, for the technique cannot refract */
+    bool scattered; /* rough thin walls that are seen scatter the light that comes through them */
     bool random_samples;  /* plain random numbers pick light samples, not low-discrepancy ones */
     uint32_t pattern;     /* side of that in which pixels take different samples, and pool them by a
                            * filter; 1: none */

@@ -47,7 +47,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 37 };
+enum { FLAG_COUNT = 38 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -63,6 +63,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"transmissive", r->transmissive},
         {"refractive", r->refractive},
         {"thin_walls", r->thin_walls},
+        {"rough_walls", r->rough_walls},
         {"variable_ior", r->variable_ior},
         {"specular_varied", r->specular_varied},
         {"coated", r->coated},

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "scene/scene.h"
+#include "shared/brdf.h"
 
 bool lsf_material_hides_back(const lsf_scene *scene, const lsf_material *material)
 {
@@ -11,6 +12,13 @@ bool lsf_material_hides_back(const lsf_scene *scene, const lsf_material *materia
 bool lsf_material_is_thin_wall(const lsf_material *material)
 {
     return material->transmission > 0.0f && !material->volume;
+}
+
+bool lsf_material_is_rough_wall(const lsf_material *material)
+{
+    return lsf_material_is_thin_wall(material) &&
+           (material->roughness * material->roughness > LSF_ALPHA_MIN ||
+            material->anisotropy_strength > 0.0f);
 }
 
 void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material, float absorption[3])

@@ -78,6 +78,7 @@ static void add_material(lsf_requirements *r, const lsf_material *material, bool
         r->transmissive = true;
         r->refractive |= material->volume;
         r->thin_walls |= lsf_material_is_thin_wall(material);
+        r->rough_walls |= lsf_material_is_rough_wall(material);
         r->transmission_textured |= in_use(r, &material->transmission_texture);
     }
 }

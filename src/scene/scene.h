@@ -322,6 +322,8 @@ bool lsf_material_hides_back(const lsf_scene *scene, const lsf_material *materia
 
 /* Whether light passes it and no medium lies behind it. */
 bool lsf_material_is_thin_wall(const lsf_material *material);
+/* ... and it scatters: it is rougher than what lets light straight through. */
+bool lsf_material_is_rough_wall(const lsf_material *material);
 
 /* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a
  * d) of the light is left after the distance d (KHR_materials_volume, "Attenuation"). */

@@ -443,6 +443,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     const lsf_gbuffer_maps *gbuffer = &b->chain.gbuffer.outputs;
     const lsf_split_light *light = &b->shade.outputs.light;
     share_sky(b, iteration);
+    b->chain.gbuffer.lobe_angle = suppressed_angle(b, iteration);
     lsf_direct_chain_run(&b->chain, iteration);
     lsf_light_parts parts = lsf_direct_chain_parts(&b->chain);
     if (light->irradiance) {

@@ -184,6 +184,9 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
 {
     cone *c = self;
     lsf_split_light light = {0};
+    /* A lobe narrower than a voxel seen over half the scene's extent shows no more than that. */
+    float voxel = c->way.traced ? 2.0f / (float)c->chain.grid.resolution : 0.0f;
+    c->chain.direct.gbuffer.lobe_angle = voxel * voxel;
     if (c->way.traced)
         light = trace(c, iteration);
     else

@@ -61,6 +61,7 @@ static void run_direct(void *self, const lsf_iteration *iteration, lsf_technique
 {
     direct *d = self;
     const lsf_light_parts parts = lsf_direct_chain_parts(&d->chain);
+    d->chain.gbuffer.lobe_angle = lsf_iteration_sky_angle(iteration);
     lsf_direct_chain_run(&d->chain, iteration);
     if (d->composed)
         lsf_compose_run(&d->compose, iteration, &parts);

@@ -62,6 +62,7 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
     lsf_direct_light_inputs inputs = {
         .seen = &chain->gbuffer.outputs.seen,
         .shadow = &chain->shadow_map.outputs.shadow,
+        .lobe_angle = chain->gbuffer.lobe_angle,
     };
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
 }

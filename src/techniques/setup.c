@@ -145,6 +145,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->requirements = setup->scene->requirements;
     plan->transmission = plan->requirements.transmissive;
     plan->straight = plan->transmission && technique && !technique->refracts;
+    plan->scattered = plan->transmission && technique && plan->requirements.rough_walls;
     plan->width = params->width;
     plan->height = params->height;
     plan->samples = params->samples;
@@ -272,8 +273,9 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
     set_layers(setup, params->aovs);
     setup->technique->plan(plan, &setup->pass_params, &setup->state);
     if (plan->straight)
-        lsf_plan_remark(plan, "light goes straight through materials that transmit, neither "
-                              "scattered nor refracted; voxel_path and the reference do that");
+        lsf_plan_remark(plan, "light goes straight through materials that transmit, not refracted, "
+                              "and scattered by rough thin walls alone, where one looks at them; "
+                              "voxel_path and the reference do that");
     lsf_accumulate_plan(plan, setup->layer_count, setup->layer_names);
     const lsf_light_mean_use light = {
         .indirect = lsf_plan_switch_value(plan, "compose", "LSF_INDIRECT"),
