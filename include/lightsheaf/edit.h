@@ -133,8 +133,12 @@ bool lsf_scene_get_material(const lsf_scene *scene, uint32_t material, lsf_mater
 bool lsf_scene_set_material(lsf_scene *scene, uint32_t material, const lsf_material_desc *desc,
                             lsf_error *error);
 
+/* How the environment is turned, in degrees, and what an edit multiplied its radiance by.
+ * LSF_ERROR_USAGE where the scene has none. */
+bool lsf_scene_get_environment(const lsf_scene *scene, float *rotation, float *strength,
+                               lsf_error *error);
 /* Turns the environment about +y, in degrees, anticlockwise seen from above: in place of
- * lsf_scene_params.environment_rotation. LSF_ERROR_USAGE where the scene has none. */
+ * lsf_scene_params.environment_rotation. */
 bool lsf_scene_set_environment_rotation(lsf_scene *scene, float degrees, lsf_error *error);
 /* Multiplies the radiance that the environment was loaded with, environment_strength in it: 1 until
  * it is set. The radiance from before is kept as a copy. */
@@ -142,7 +146,8 @@ bool lsf_scene_set_environment_strength(lsf_scene *scene, float strength, lsf_er
 
 /* An edit as text, as the command line takes it: KIND/WHICH/VALUE=NUMBERS, with a kind "node",
  * "light" or "material", an index or a name, and a value of the descriptions above. "node" has
- * matrix; "light" has intensity, range, inner_cone and outer_cone; "material" has base_color (three
+ * matrix; "light" has intensity, range, inner_cone, outer_cone and type, which is one of the words
+ * point, spot and directional; "material" has base_color (three
  * numbers, or four), metallic, roughness, emission, ior, transmission, coat and coat_roughness.
  * "light/0/intensity=3,3,2.5". The environment is but one: "environment/rotation=90" and
  * "environment/strength=2". LSF_ERROR_USAGE says what is wrong with it. */

@@ -29,7 +29,7 @@ static bool adjust_environment(lsf_environment *environment, const lsf_scene_par
                              "environment: rotation %g must be finite, strength %g finite and at "
                              "least 0",
                              (double)rotation, (double)strength);
-    environment->turn = lsf_environment_turn(rotation);
+    lsf_environment_rotate(environment, rotation);
     for (int c = 0; c < 3; c++)
         environment->radiance[c] *= strength;
     uint64_t values = (uint64_t)3 * environment->width * environment->height;

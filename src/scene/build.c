@@ -329,7 +329,8 @@ bool lsf_scene_set_environment(lsf_scene *scene, const lsf_environment_desc *des
                              (double)desc->rotation);
     if (!check_radiance(desc->radiance, 3, error) || !check_radiance(desc->texels, values, error))
         return false;
-    lsf_environment environment = {.present = true, .turn = lsf_environment_turn(desc->rotation)};
+    lsf_environment environment = {.present = true};
+    lsf_environment_rotate(&environment, desc->rotation);
     memcpy(environment.radiance, desc->radiance, sizeof environment.radiance);
     if (desc->texels) {
         environment.width = desc->width;

@@ -17,6 +17,17 @@ static bool has_environment(const lsf_scene *scene, lsf_error *error)
                           "environment: the scene has none that could be turned or scaled"));
 }
 
+bool lsf_scene_get_environment(const lsf_scene *scene, float *rotation, float *strength,
+                               lsf_error *error)
+{
+    if (!has_environment(scene, error) || !lsf_given(rotation, "rotation", error) ||
+        !lsf_given(strength, "strength", error))
+        return false;
+    *rotation = scene->environment.rotation;
+    *strength = scene->environment.given ? scene->environment.strength : 1.0f;
+    return true;
+}
+
 bool lsf_scene_set_environment_rotation(lsf_scene *scene, float degrees, lsf_error *error)
 {
     if (!has_environment(scene, error))
@@ -24,7 +35,7 @@ bool lsf_scene_set_environment_rotation(lsf_scene *scene, float degrees, lsf_err
     if (!isfinite(degrees))
         return lsf_error_set(error, LSF_ERROR_USAGE, "environment: rotation %g must be finite",
                              (double)degrees);
-    scene->environment.turn = lsf_environment_turn(degrees);
+    lsf_environment_rotate(&scene->environment, degrees);
     scene->edits.environment++;
     return true;
 }
@@ -76,6 +87,7 @@ bool lsf_scene_set_environment_strength(lsf_scene *scene, float strength, lsf_er
     bool none = environment->width == 0 && brightest < LSF_LIGHT_DIMMEST;
     for (uint64_t i = 0; i < count; i++)
         values[i] = none ? 0.0f : environment->given[i] * strength;
+    environment->strength = strength;
     scene->edits.environment++;
     scene->edits.radiance++;
     return lsf_scene_update_requirements(scene) ||

@@ -24,7 +24,8 @@ static const struct {
     size_t offset;
     int least, most; /* numbers; those that are not given stay */
 } rows[] = {
-    {LSF_KIND_NODE, "matrix", 0, 16, 16}, /* doubles */
+    {LSF_KIND_NODE, "matrix", 0, 16, 16},                           /* doubles */
+    {LSF_KIND_LIGHT, "type", offsetof(lsf_light_desc, type), 1, 1}, /* a word */
     {LSF_KIND_LIGHT, "intensity", offsetof(lsf_light_desc, intensity), 3, 3},
     {LSF_KIND_LIGHT, "range", offsetof(lsf_light_desc, range), 1, 1},
     {LSF_KIND_LIGHT, "inner_cone", offsetof(lsf_light_desc, inner_cone), 1, 1},
@@ -63,6 +64,18 @@ static int read_numbers(const char *text, double numbers[MOST_NUMBERS])
     return -1;
 }
 
+/* -1: none of these words. */
+static int type_of(const char *word)
+{
+    static const char *const words[] = {[LSF_LIGHT_POINT] = "point",
+                                        [LSF_LIGHT_SPOT] = "spot",
+                                        [LSF_LIGHT_DIRECTIONAL] = "directional"};
+    for (size_t i = 0; i < LSF_COUNT(words); i++)
+        if (strcmp(words[i], word) == 0)
+            return (int)i;
+    return -1;
+}
+
 static uint32_t find(const lsf_scene *scene, lsf_kind kind, const char *which)
 {
     char *end;
@@ -93,7 +106,11 @@ static bool apply(lsf_scene *scene, const char *edit, size_t row, const char *wh
 {
     double numbers[MOST_NUMBERS];
     lsf_kind kind = rows[row].kind;
-    int count = read_numbers(text, numbers);
+    bool word = kind == LSF_KIND_LIGHT && rows[row].offset == offsetof(lsf_light_desc, type);
+    int type = word ? type_of(text) : 0;
+    if (type < 0)
+        return bad(edit, "a light's type is point, spot or directional", error);
+    int count = word ? 1 : read_numbers(text, numbers);
     if (count < rows[row].least || count > rows[row].most)
         return bad(edit, count < 0 ? "no list of numbers" : "too few numbers, or too many", error);
     uint32_t index = find(scene, kind, which);
@@ -103,7 +120,9 @@ static bool apply(lsf_scene *scene, const char *edit, size_t row, const char *wh
     if (!get(scene, kind, index, &d, error))
         return false;
     float *values = (float *)((char *)&d + rows[row].offset);
-    for (int i = 0; i < count; i++)
+    if (word)
+        d.light.type = (lsf_light_type)type;
+    for (int i = 0; !word && i < count; i++)
         if (kind == LSF_KIND_NODE)
             d.matrix[i] = numbers[i];
         else

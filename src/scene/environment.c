@@ -9,10 +9,11 @@ static lsf_float3 texel(const lsf_environment *map, int64_t x, int64_t y)
     return lsf_f3_load(map->texels + 3 * ((uint64_t)y * map->width + (uint64_t)x));
 }
 
-float lsf_environment_turn(float rotation)
+void lsf_environment_rotate(lsf_environment *environment, float rotation)
 {
     double turn = (double)rotation / 360.0;
-    return (float)(turn - floor(turn));
+    environment->rotation = rotation;
+    environment->turn = (float)(turn - floor(turn));
 }
 
 /* The angle from the zenith comes from atan2, for acos loses half of its digits there. */

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* What lsf_environment keeps of a rotation in degrees. */
-float lsf_environment_turn(float rotation);
+/* Sets what lsf_environment keeps of a rotation in degrees. */
+void lsf_environment_rotate(lsf_environment *environment, float rotation);
 
 /* Place of a unit direction on the map, u in [0, 1) around the horizon, v in [0, 1] from the
  * zenith. */

@@ -212,10 +212,12 @@ typedef struct lsf_environment {
     bool present;
     bool by_default; /* nobody gave it: the sky of default_light.c */
     float radiance[3];
-    float turn; /* of the map about +y, anticlockwise seen from above, in full turns, 0..1 */
+    float rotation; /* of the map about +y, anticlockwise seen from above, in degrees */
+    float turn;     /* the same in full turns, 0..1 */
     uint32_t width, height;
-    float *texels; /* 3 each, linear radiance */
-    float *given; /* texels, or radiance, as they were before an edit scaled them; NULL: none did */
+    float *texels;  /* 3 each, linear radiance */
+    float *given;   /* texels, or radiance, as they were before an edit scaled them; NULL: none */
+    float strength; /* by which it did */
 } lsf_environment;
 
 /* A directional light that no node carries (default_light.c). */

@@ -287,7 +287,8 @@ static const lsf_command_option options[] = {
      "change a node, a light or a material of the scene, by name or by index from 0, or its "
      "environment: light/0/intensity=3,3,2.5, material/wall/base_color=0.8,0.2,0.2, "
      "environment/rotation=90, environment/strength=2 or node/lamp/matrix= and 16 numbers; also "
-     "range, inner_cone, outer_cone, and metallic, roughness, emission, ior, "
+     "type (point, spot or directional), range, inner_cone, outer_cone, and metallic, roughness, "
+     "emission, ior, "
      "transmission, coat, coat_roughness; repeatable"},
     {"view", 0, "FILE", SHOWING, "Scene", LSF_VALUE_TEXT, AT(view_file), 0, 0, NULL, NULL,
      "take scene, camera and options from a view that `lightsheaf view` has saved; those on the "

@@ -123,9 +123,10 @@ typedef struct lsf_viewer {
     bool *edited[LSF_KIND_CAMERA];              /* of each node, light, material: its user did it */
     uint32_t node, light, material;             /* that are chosen; LSF_NONE: none */
     double anchor[3];                           /* where the chosen node's handles are */
-    int dragged;                                /* axis of the handle in hand; -1: none */
+    int dragged;                                /* the handle in hand; -1: none */
+    double ring_angle;                          /* where it is held, of a ring */
     char environment[4096];                     /* the path that was let fall on the window */
-    float turn, strength;                       /* of the environment, as the sliders have them */
+    bool environment_edited;                    /* turned or scaled by its user */
     double press_x, press_y;                    /* where the left button went down */
     bool placing;                               /* the next click puts a light there */
     lsf_error scene_error;
@@ -214,20 +215,32 @@ bool lsf_viewer_begin_edits(lsf_viewer *viewer);
 /* Loads the file again, as scene_params now are, and edits it as before. */
 void lsf_viewer_reload(lsf_viewer *viewer);
 void lsf_viewer_set_light(lsf_viewer *viewer, uint32_t light, const lsf_light_desc *desc);
+extern const char *const lsf_viewer_light_types[];
+void lsf_viewer_set_environment(lsf_viewer *viewer, float rotation, float strength);
 void lsf_viewer_set_material(lsf_viewer *viewer, uint32_t material, const lsf_material_desc *desc);
+/* Turns, scales or shears the node about its anchor, in the scene: `linear` has rows of 3. */
+void lsf_viewer_transform_node(lsf_viewer *viewer, uint32_t node, const double linear[9]);
 /* Moves the node by that much, in the scene. */
 void lsf_viewer_move_node(lsf_viewer *viewer, uint32_t node, const double by[3]);
 void lsf_viewer_add_light(lsf_viewer *viewer, const double position[3]);
 
-/* --- handles.c --- */
+/* --- click.c --- */
 
-/* Clicks on the picture: choosing, turning about a point, placing lights; and the handles of what
- * is chosen. True where they take the drag. */
+/* Clicks on the picture: choosing, turning about a point, placing lights. True where handles take
+ * the drag. */
 bool lsf_viewer_point(lsf_viewer *viewer);
 void lsf_viewer_choose_node(lsf_viewer *viewer, uint32_t node);
-void lsf_viewer_draw_handles(const lsf_viewer *viewer);
 /* What is under the cursor. False: nothing, or it is not over the picture. */
 bool lsf_viewer_pick(const lsf_viewer *viewer, lsf_hit *hit);
+
+/* --- handles.c --- */
+
+/* Of what is chosen; -1: none is there. `angle`: where a ring is met. */
+int lsf_viewer_handle_under_cursor(const lsf_viewer *viewer, double *angle);
+/* The one in hand, as far as the cursor went in this frame. */
+void lsf_viewer_drag_handle(lsf_viewer *viewer);
+void lsf_viewer_draw_handles(const lsf_viewer *viewer);
+double lsf_viewer_aspect(const lsf_viewer *viewer); /* of the picture */
 
 /* --- pictures.c --- */
 

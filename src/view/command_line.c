@@ -127,6 +127,8 @@ static void add_picture(writer *w, const lsf_viewer *viewer)
         add_vector(w, "background", settings->background_radiance);
     if (settings->background == LSF_BACKGROUND_ENVIRONMENT)
         add(w, "background", "environment");
+    if (settings->background == LSF_BACKGROUND_TRANSPARENT)
+        add(w, "background", "transparent");
     if (settings->exposure != 0.0f)
         add_format(w, "exposure", "%.9g", (double)settings->exposure);
     if (settings->curve != LSF_TONE_CURVE_NEUTRAL)

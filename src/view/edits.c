@@ -20,12 +20,17 @@ bool lsf_viewer_begin_edits(lsf_viewer *viewer)
         viewer->edited[kind] = lsf_alloc((uint64_t)count + 1, sizeof(bool));
         good = good && viewer->edited[kind];
     }
+    viewer->environment_edited = false;
     viewer->node = viewer->light = viewer->material = LSF_NONE;
     viewer->dragged = -1;
     return good;
 }
 
 /* --- as text --- */
+
+const char *const lsf_viewer_light_types[] = {[LSF_LIGHT_POINT] = "point",
+                                              [LSF_LIGHT_SPOT] = "spot",
+                                              [LSF_LIGHT_DIRECTIONAL] = "directional"};
 
 static void add_numbers(lsf_string *text, const char *kind, uint32_t index, const char *value,
                         const float *numbers, int count)
@@ -57,6 +62,7 @@ static void add_light(lsf_string *text, const lsf_scene *scene, uint32_t light)
         add_numbers(text, "light", light, "inner_cone", &desc.inner_cone, 1);
         add_numbers(text, "light", light, "outer_cone", &desc.outer_cone, 1);
     }
+    lsf_string_add(text, "light/%u/type=%s\n", light, lsf_viewer_light_types[desc.type]);
 }
 
 static void add_material(lsf_string *text, const lsf_scene *scene, uint32_t material)
@@ -68,6 +74,17 @@ static void add_material(lsf_string *text, const lsf_scene *scene, uint32_t mate
     add_numbers(text, "material", material, "metallic", &desc.metallic, 1);
     add_numbers(text, "material", material, "roughness", &desc.roughness, 1);
     add_numbers(text, "material", material, "emission", desc.emission, 3);
+}
+
+static void add_environment(lsf_string *text, const lsf_viewer *viewer)
+{
+    float rotation, strength;
+    if (!viewer->environment_edited ||
+        !lsf_scene_get_environment(viewer->scene, &rotation, &strength, NULL))
+        return;
+    lsf_string_add(text, "environment/rotation=%.9g\n", (double)rotation);
+    if (strength != 1.0f)
+        lsf_string_add(text, "environment/strength=%.9g\n", (double)strength);
 }
 
 char *lsf_viewer_edits(const lsf_viewer *viewer)
@@ -84,6 +101,7 @@ char *lsf_viewer_edits(const lsf_viewer *viewer)
         for (uint32_t i = 0; i < lsf_scene_count(viewer->scene, (lsf_kind)kind); i++)
             if (viewer->edited[kind] && viewer->edited[kind][i])
                 adders[kind](&text, viewer->scene, i);
+    add_environment(&text, viewer);
     if (text.failed) {
         free(text.text);
         return NULL;
@@ -128,8 +146,12 @@ void lsf_viewer_reload(lsf_viewer *viewer)
         if (*line == '\0')
             continue;
         bool good = lsf_scene_edit(scene, line, &error); /* the file may hold less by now */
-        if (i >= start_edits && good && parse(line, &kind, &index))
+        if (i < start_edits || !good)
+            continue;
+        if (parse(line, &kind, &index))
             viewer->edited[kind][index] = true;
+        else
+            viewer->environment_edited = true;
     }
     free(edits);
     viewer->node = node < lsf_scene_count(scene, LSF_KIND_NODE) ? node : LSF_NONE;
@@ -168,6 +190,22 @@ void lsf_viewer_set_material(lsf_viewer *viewer, uint32_t material, const lsf_ma
            material, &error);
 }
 
+void lsf_viewer_set_environment(lsf_viewer *viewer, float rotation, float strength)
+{
+    lsf_error error;
+    float before[2];
+    lsf_viewer_stop_rival(viewer);
+    bool good = lsf_scene_get_environment(viewer->scene, &before[0], &before[1], &error) &&
+                (rotation == before[0] ||
+                 lsf_scene_set_environment_rotation(viewer->scene, rotation, &error)) &&
+                (strength == before[1] ||
+                 lsf_scene_set_environment_strength(viewer->scene, strength, &error));
+    if (!good)
+        lsf_viewer_say(viewer, LSF_UI_ERROR, "%s", error.message);
+    viewer->environment_edited = viewer->environment_edited || good;
+    lsf_viewer_touch(viewer);
+}
+
 /* x with A x = b, by Cramer's rule; A of the columns of a node's transform. */
 static void solve(const double a[16], const double b[3], double x[3])
 {
@@ -190,19 +228,57 @@ static void solve(const double a[16], const double b[3], double x[3])
     }
 }
 
+/* A node's matrix, and its parent's to the scene; the identity where it has none. */
+static bool get_matrices(const lsf_viewer *viewer, uint32_t node, double matrix[16],
+                         double parent[16], lsf_error *error)
+{
+    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    lsf_node_info info;
+    memcpy(parent, identity, sizeof identity);
+    return lsf_scene_get_node(viewer->scene, node, matrix, error) &&
+           lsf_scene_get_node_info(viewer->scene, node, &info, error) &&
+           (info.parent == LSF_NONE ||
+            lsf_scene_get_node_world(viewer->scene, info.parent, viewer->time, parent, error));
+}
+
+static void apply(const double linear[9], const double v[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = linear[3 * i] * v[0] + linear[3 * i + 1] * v[1] + linear[3 * i + 2] * v[2];
+}
+
+void lsf_viewer_transform_node(lsf_viewer *viewer, uint32_t node, const double linear[9])
+{
+    lsf_error error;
+    double matrix[16], parent[16];
+    const double *anchor = viewer->anchor;
+    lsf_viewer_stop_rival(viewer);
+    bool good = get_matrices(viewer, node, matrix, parent, &error);
+    for (int column = 0; good && column < 4; column++) {
+        double *local = matrix + 4 * column, world[3], turned[3];
+        for (int i = 0; i < 3; i++) {
+            world[i] = parent[i] * local[0] + parent[4 + i] * local[1] + parent[8 + i] * local[2];
+            if (column == 3)
+                world[i] += parent[12 + i] - anchor[i];
+        }
+        apply(linear, world, turned);
+        for (int i = 0; column == 3 && i < 3; i++)
+            turned[i] += anchor[i] - parent[12 + i];
+        solve(parent, turned, local);
+    }
+    good = good && lsf_scene_set_node(viewer->scene, node, matrix, &error);
+    finish(viewer, good, LSF_KIND_NODE, node, &error);
+}
+
 void lsf_viewer_move_node(lsf_viewer *viewer, uint32_t node, const double by[3])
 {
     lsf_error error;
-    lsf_node_info info;
-    double matrix[16], world[16], local[3] = {by[0], by[1], by[2]};
+    double matrix[16], parent[16], local[3];
     lsf_viewer_stop_rival(viewer);
-    bool good = lsf_scene_get_node(viewer->scene, node, matrix, &error) &&
-                lsf_scene_get_node_info(viewer->scene, node, &info, &error) &&
-                (info.parent == LSF_NONE ||
-                 lsf_scene_get_node_world(viewer->scene, info.parent, viewer->time, world, &error));
-    if (good && info.parent != LSF_NONE)
-        solve(world, by, local);
-    for (int i = 0; i < 3; i++) {
+    bool good = get_matrices(viewer, node, matrix, parent, &error);
+    if (good)
+        solve(parent, by, local);
+    for (int i = 0; good && i < 3; i++) {
         matrix[12 + i] += local[i];
         viewer->anchor[i] += by[i];
     }

@@ -74,8 +74,6 @@ void lsf_viewer_show_file(lsf_viewer *viewer, uint32_t index)
         memcpy(viewer->lights, viewer->scene_params.lights,
                viewer->scene_params.light_count * sizeof viewer->lights[0]);
     viewer->scene_changed = changed_at(viewer->paths[index]); /* before it is read */
-    viewer->turn = viewer->scene_params.environment_rotation;
-    viewer->strength = viewer->scene_params.environment_strength;
     if (!load(viewer, &viewer->scene_error)) {
         lsf_scene_destroy(viewer->scene);
         viewer->scene = NULL;

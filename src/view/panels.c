@@ -217,7 +217,7 @@ static void draw_picture(const lsf_viewer *viewer)
     lsf_ui_draw_picture(shown->canvas.texture, viewer->area);
     lsf_ui_draw_end();
     lsf_viewer_draw_rival(viewer);
-    if (!viewer->panels || viewer->node == LSF_NONE)
+    if (!viewer->panels || viewer->node == LSF_NONE || viewer->placing)
         return;
     lsf_ui_draw_begin(LSF_UNDER_PANELS, &viewer->area);
     lsf_viewer_draw_handles(viewer);

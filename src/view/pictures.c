@@ -311,25 +311,44 @@ void lsf_viewer_refine(lsf_viewer *viewer)
     viewer->tones_changed = false;
 }
 
+static bool save_rgb8(const lsf_canvas *canvas, const char *path,
+                      const lsf_image_save_params *params, lsf_error *error)
+{
+    uint8_t *rgb = lsf_alloc((uint64_t)canvas->width * canvas->height, 3);
+    if (rgb)
+        lsf_canvas_read(canvas, rgb);
+    bool good = rgb ? lsf_image_save_rgb8(rgb, canvas->width, canvas->height, path, params, error)
+                    : lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
+    free(rgb);
+    return good;
+}
+
+/* With alpha, which a canvas has not. */
+static bool save_transparent(const lsf_viewer *viewer, const char *path,
+                             const lsf_image_save_params *params, lsf_error *error)
+{
+    lsf_image *image = lsf_renderer_read(viewer->still.renderer, error);
+    bool good = image && lsf_image_save(image, path, params, error);
+    lsf_image_destroy(image);
+    return good;
+}
+
 void lsf_viewer_save_picture(lsf_viewer *viewer, const char *path)
 {
-    const lsf_canvas *canvas = &viewer->still.canvas;
-    uint8_t *rgb = lsf_alloc((uint64_t)canvas->width * canvas->height, 3);
+    const lsf_viewer_settings *settings = &viewer->settings;
     char *command = lsf_viewer_command(viewer);
     lsf_error error = {LSF_ERROR_RENDER, "no memory left"};
     const lsf_image_text texts[] = {{"lightsheaf.version", lsf_version()},
                                     {"lightsheaf.command", command ? command : ""}};
-    const lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS, .texts = texts,
-                                          .text_count = LSF_COUNT(texts)};
-    bool good = rgb && command;
-    if (good) {
-        lsf_canvas_read(canvas, rgb);
-        good = lsf_image_save_rgb8(rgb, canvas->width, canvas->height, path, &params, &error);
-    }
+    const lsf_image_save_params params = {
+        LSF_IMAGE_SAVE_PARAMS_DEFAULTS, .exposure = settings->exposure,
+        .curve = (lsf_tone_curve)settings->curve, .texts = texts, .text_count = LSF_COUNT(texts)};
+    bool transparent = settings->background == LSF_BACKGROUND_TRANSPARENT && settings->layer == 0;
+    bool good = command && (transparent ? save_transparent(viewer, path, &params, &error)
+                                        : save_rgb8(&viewer->still.canvas, path, &params, &error));
     if (good)
         lsf_viewer_say(viewer, LSF_UI_TEXT, "Saved %s", path);
     else
         lsf_viewer_say(viewer, LSF_UI_ERROR, "%s", error.message);
     free(command);
-    free(rgb);
 }

@@ -81,16 +81,38 @@ static void node_values(lsf_viewer *viewer)
     lsf_ui_help("In the scene; or drag the arrows in the picture");
 }
 
+/* W/sr become W/m^2, and the other way, as from one extent of the scene away. */
+static void change_type(const lsf_viewer *viewer, lsf_light_desc *desc, lsf_light_type type)
+{
+    float area = viewer->camera.extent * viewer->camera.extent, times = 1.0f;
+    if (type == LSF_LIGHT_DIRECTIONAL && desc->type != LSF_LIGHT_DIRECTIONAL)
+        times = 1.0f / area;
+    if (type != LSF_LIGHT_DIRECTIONAL && desc->type == LSF_LIGHT_DIRECTIONAL)
+        times = area;
+    for (int i = 0; i < 3; i++)
+        desc->intensity[i] *= times;
+    if (type == LSF_LIGHT_SPOT && !(desc->outer_cone > 0.0f)) {
+        desc->outer_cone = (float)M_PI / 6.0f;
+        desc->inner_cone = 0.5f * desc->outer_cone;
+    }
+    desc->type = type;
+}
+
 static void light_values(lsf_viewer *viewer)
 {
     lsf_light_desc desc;
     if (!lsf_scene_get_light(viewer->scene, viewer->light, &desc, NULL))
         return;
+    int type = (int)desc.type;
+    bool changed = lsf_ui_choice("Kind", &type, lsf_viewer_light_types, 3);
+    lsf_ui_help("Spot and directional lights shine along their node, which the rings turn");
+    if (changed)
+        change_type(viewer, &desc, (lsf_light_type)type);
     float most = fmaxf(desc.intensity[0], fmaxf(desc.intensity[1], desc.intensity[2]));
     float color[3] = {1.0f, 1.0f, 1.0f};
     for (int i = 0; i < 3 && most > 0.0f; i++)
         color[i] = desc.intensity[i] / most;
-    bool changed = lsf_ui_color3("Colour", color);
+    changed = lsf_ui_color3("Colour", color) || changed;
     float top = desc.type == LSF_LIGHT_DIRECTIONAL
                     ? 100.0f
                     : 100.0f * viewer->camera.extent * viewer->camera.extent;
@@ -137,23 +159,14 @@ static void material_values(lsf_viewer *viewer)
         lsf_viewer_set_material(viewer, viewer->material, &desc);
 }
 
-static void environment_values(lsf_viewer *viewer)
+static void environment_values(lsf_viewer *viewer, float rotation, float strength)
 {
-    lsf_scene_params *params = &viewer->scene_params;
-    bool reload = lsf_ui_slider("Turn", &viewer->turn, -180.0f, 180.0f, "%.0f°", false) &&
-                  lsf_window_replays(viewer->window);
-    reload = lsf_ui_settled() || reload;
-    lsf_ui_help("About the vertical axis; the scene is loaded anew when you let go");
-    reload = (lsf_ui_slider("Strength", &viewer->strength, 0.0f, 16.0f, "%.2f", true) &&
-              lsf_window_replays(viewer->window)) ||
-             reload;
-    reload = lsf_ui_settled() || reload;
-    if (!reload || (viewer->turn == params->environment_rotation &&
-                    viewer->strength == params->environment_strength))
-        return;
-    params->environment_rotation = viewer->turn;
-    params->environment_strength = viewer->strength;
-    lsf_viewer_reload(viewer);
+    bool changed = lsf_ui_slider("Turn", &rotation, -180.0f, 180.0f, "%.0f°", false);
+    lsf_ui_help("About the vertical axis, anticlockwise seen from above");
+    changed = lsf_ui_slider("Strength", &strength, 0.0f, 16.0f, "%.2f", true) || changed;
+    lsf_ui_help("The environment's radiance is multiplied by it");
+    if (changed)
+        lsf_viewer_set_environment(viewer, rotation, fmaxf(strength, 0.0f));
 }
 
 void lsf_viewer_scene_tab(lsf_viewer *viewer)
@@ -185,9 +198,10 @@ void lsf_viewer_scene_tab(lsf_viewer *viewer)
         if (viewer->material != LSF_NONE)
             material_values(viewer);
     }
-    if (lsf_scene_get_requirements(viewer->scene)->environment &&
+    float rotation, strength;
+    if (lsf_scene_get_environment(viewer->scene, &rotation, &strength, NULL) &&
         lsf_ui_section("Environment", true))
-        environment_values(viewer);
+        environment_values(viewer, rotation, strength);
     uint32_t notes = lsf_scene_note_count(viewer->scene);
     if (notes > 0 && lsf_ui_section("Notes", false))
         for (uint32_t i = 0; i < notes; i++)

@@ -54,6 +54,24 @@ static void picture_section(lsf_viewer *viewer)
     lsf_ui_help("The mean of the iterations alone: no filter");
 }
 
+static void background_choice(lsf_viewer *viewer)
+{
+    static const char *const names[] = {[LSF_BACKGROUND_AUTO] = "auto",
+                                        [LSF_BACKGROUND_ENVIRONMENT] = "environment",
+                                        [LSF_BACKGROUND_UNIFORM] = "uniform",
+                                        [LSF_BACKGROUND_TRANSPARENT] = "transparent"};
+    lsf_viewer_settings *settings = &viewer->settings;
+    int background = (int)settings->background;
+    bool changed = lsf_ui_choice("Background", &background, names, (int)LSF_COUNT(names));
+    lsf_ui_help("What is seen where no surface is; transparent is black in the window, and gives "
+                "pictures that are saved an alpha");
+    settings->background = (lsf_background)background;
+    if (settings->background == LSF_BACKGROUND_UNIFORM)
+        changed = lsf_ui_color3("Its radiance", settings->background_radiance) || changed;
+    if (changed)
+        lsf_viewer_touch_settings(viewer);
+}
+
 static void layer_choice(lsf_viewer *viewer)
 {
     static const char *names[LSF_AOV_COUNT + 1];
@@ -231,6 +249,7 @@ void lsf_viewer_picture_tab(lsf_viewer *viewer)
     lsf_ui_gap();
     picture_section(viewer);
     layer_choice(viewer);
+    background_choice(viewer);
     lsf_ui_gap();
     display_section(viewer);
     lsf_ui_gap();

@@ -8,7 +8,15 @@
 #include <string.h>
 
 /* What follows an event's word. */
-typedef enum event_form { FORM_ALONE, FORM_KEY, FORM_CODE, FORM_X, FORM_XY, FORM_TEXT } event_form;
+typedef enum event_form {
+    FORM_ALONE,
+    FORM_KEY,
+    FORM_CODE,
+    FORM_X,
+    FORM_XY,
+    FORM_XY_TEXT,
+    FORM_TEXT
+} event_form;
 
 static const struct {
     const char *word;
@@ -26,6 +34,7 @@ static const struct {
     [LSF_EVENT_STEP] = {"step", FORM_X},
     [LSF_EVENT_CLOSE] = {"close", FORM_ALONE},
     [LSF_EVENT_PRESS] = {"press", FORM_TEXT},
+    [LSF_EVENT_DRAG] = {"drag", FORM_XY_TEXT},
     [LSF_EVENT_SET] = {"set", FORM_TEXT},
     [LSF_EVENT_SETTLE] = {"settle", FORM_ALONE},
     [LSF_EVENT_SNAPSHOT] = {"snapshot", FORM_TEXT},
@@ -109,6 +118,7 @@ void lsf_event_write(FILE *file, uint64_t frame, const lsf_event *event)
         lsf_print(numbers, sizeof numbers, "%.9g", event->x);
         break;
     case FORM_XY:
+    case FORM_XY_TEXT: /* of a replay alone */
         lsf_print(numbers, sizeof numbers, "%.9g %.9g", event->x, event->y);
         break;
     case FORM_TEXT:
@@ -138,12 +148,16 @@ static bool read_words(lsf_event *event, const char *words)
         event->x = lsf_read_number(words, &end);
         return end != words && *end == '\0';
     case FORM_XY:
+    case FORM_XY_TEXT:
         event->x = lsf_read_number(words, &end);
         if (end == words || *end != ' ')
             return false;
         words = end + 1;
         event->y = lsf_read_number(words, &end);
-        return end != words && *end == '\0';
+        if (end == words)
+            return false;
+        event->text = end + 1;
+        return forms[event->kind].form == FORM_XY ? *end == '\0' : *end == ' ' && end[1] != '\0';
     case FORM_TEXT:
         event->text = words;
         return *words != '\0';

@@ -22,6 +22,7 @@ typedef enum lsf_event_kind {
     LSF_EVENT_CLOSE,
     /* Of a replay alone, written by hand. */
     LSF_EVENT_PRESS,    /* text: the label of a button, a menu or the like, which is clicked */
+    LSF_EVENT_DRAG,     /* text: the label of what is dragged by x, y */
     LSF_EVENT_SET,      /* text: label = value, of a slider or a choice */
     LSF_EVENT_SETTLE,   /* what follows waits until the client rests */
     LSF_EVENT_SNAPSHOT, /* text: a name, under which the client keeps what it shows */

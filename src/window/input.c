@@ -202,6 +202,7 @@ static void apply(lsf_window *window, const lsf_event *event)
         input->snapshot = event->text;
         break;
     case LSF_EVENT_PRESS:
+    case LSF_EVENT_DRAG:
     case LSF_EVENT_SETTLE:
     case LSF_EVENT_COUNT:
         break;
@@ -219,13 +220,17 @@ static bool go_on_pressing(lsf_window *window, lsf_error *error)
     case LSF_PRESS_MOVE:
         if (!lsf_ui_find(label, &event.x, &event.y))
             return window->patience++ < PATIENCE ||
-                   lsf_error_set(error, LSF_ERROR_FILE,
-                                 "%s: press %s: nothing of that label is shown",
+                   lsf_error_set(error, LSF_ERROR_FILE, "%s: %s: nothing of that label is shown",
                                  window->params->replay, label);
         window->press = LSF_PRESS_DOWN;
         break;
     case LSF_PRESS_DOWN:
         event.kind = LSF_EVENT_BUTTON_DOWN;
+        window->press = window->pressed->kind == LSF_EVENT_DRAG ? LSF_PRESS_DRAG : LSF_PRESS_UP;
+        break;
+    case LSF_PRESS_DRAG:
+        event.x = window->input.x + window->pressed->x;
+        event.y = window->input.y + window->pressed->y;
         window->press = LSF_PRESS_UP;
         break;
     default:
@@ -257,7 +262,7 @@ static bool take_replayed(lsf_window *window, lsf_error *error)
         window->awake = 3;
         window->patience = 0;
         window->settling = event->kind == LSF_EVENT_SETTLE;
-        if (event->kind == LSF_EVENT_PRESS) {
+        if (event->kind == LSF_EVENT_PRESS || event->kind == LSF_EVENT_DRAG) {
             window->press = LSF_PRESS_MOVE;
             window->pressed = event;
             return go_on_pressing(window, error);

@@ -14,8 +14,14 @@
 #define LSF_DROPPED_A_FRAME 64
 #define LSF_CHARACTERS_A_FRAME 32
 
-/* Clicks on a labelled thing take three frames: there, down, up. */
-typedef enum lsf_press { LSF_PRESS_NONE, LSF_PRESS_MOVE, LSF_PRESS_DOWN, LSF_PRESS_UP } lsf_press;
+/* Clicks on a labelled thing take three frames: there, down, up; drags go on before they let go. */
+typedef enum lsf_press {
+    LSF_PRESS_NONE,
+    LSF_PRESS_MOVE,
+    LSF_PRESS_DOWN,
+    LSF_PRESS_DRAG,
+    LSF_PRESS_UP
+} lsf_press;
 
 struct lsf_window {
     const lsf_window_params *params;

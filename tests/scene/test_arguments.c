@@ -63,6 +63,7 @@ static void no_scene(void **state)
     FAILS(lsf_scene_set_node(NULL, 0, matrix, &error));
     FAILS(lsf_scene_get_light(NULL, 0, &light, &error));
     FAILS(lsf_scene_set_light(NULL, 0, &light, &error));
+    FAILS(lsf_scene_get_environment(NULL, &light.range, &light.range, &error));
     FAILS(lsf_scene_set_environment_rotation(NULL, 1.0f, &error));
     FAILS(lsf_scene_set_environment_strength(NULL, 1.0f, &error));
     FAILS(lsf_scene_get_material(NULL, 0, &material, &error));

@@ -113,6 +113,10 @@ static void edits(void **state)
     assert_true(lsf_scene_get_light(scene, 0, &light, &error));
     assert_true(light.intensity[0] == 3.0f && light.intensity[1] == 2.5f &&
                 light.intensity[2] == 0.1f);
+    assert_true(lsf_scene_edit(scene, "light/0/outer_cone=0.5", &error));
+    assert_true(lsf_scene_edit(scene, "light/0/type=spot", &error));
+    assert_true(lsf_scene_get_light(scene, 0, &light, &error));
+    assert_true(light.type == LSF_LIGHT_SPOT && light.outer_cone == 0.5f);
     char *text = lsf_format("material/%s/base_color=0.25,0.5,0.75",
                             lsf_scene_name(scene, LSF_KIND_MATERIAL, 0));
     assert_true(lsf_scene_edit(scene, text, &error));
@@ -136,6 +140,7 @@ static void edits(void **state)
                                         "light/0/intensity=1,2,x",
                                         "light/0/intensity=-1,2,3",
                                         "light/9/intensity=1,2,3",
+                                        "light/0/type=lamp",
                                         "light//intensity=1,2,3",
                                         "light/0/colour=1,2,3",
                                         "lamp/0/intensity=1,2,3",
@@ -171,6 +176,9 @@ static void edits_of_the_environment(void **state)
     assert_true(scene->environment.radiance[0] == 0.125f && scene->environment.radiance[2] == 0.5f);
     assert_true(lsf_scene_edit(scene, "environment/rotation=-90", &error));
     assert_true(scene->environment.turn == 0.75f);
+    float rotation, strength;
+    assert_true(lsf_scene_get_environment(scene, &rotation, &strength, &error));
+    assert_true(rotation == -90.0f && strength == 0.25f);
     static const char *const wrong[] = {"environment/strength=-1", "environment/strength=1e25",
                                         "environment/rotation=", "environment/rotation=1,2",
                                         "environment/colour=1"};

@@ -61,8 +61,8 @@ class WindowTest(unittest.TestCase):
         return done
 
 
-def read_png(path):
-    """Width, height and rows of (r, g, b) of an 8-bit PNG without interlacing."""
+def read_png(path, alpha=False):
+    """Width, height and rows of (r, g, b) of an 8-bit PNG without interlacing; with `alpha`, of all its channels."""
     with open(path, "rb") as file:
         data = file.read()
     at, packed = 8, b""
@@ -93,7 +93,7 @@ def read_png(path):
                 p = a + b - c
                 nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
                 row[i] = row[i] + nearest & 255
-        rows.append([tuple(row[x * step:x * step + 3]) for x in range(width)])
+        rows.append([tuple(row[x * step:x * step + (step if alpha else 3)]) for x in range(width)])
         before = row
     return width, height, rows
 

@@ -66,7 +66,7 @@ class Shell(WindowTest):
         for line, words in (("2 press Nothing", "nothing of that label"),
                             ("2 set Level2 = 1", "is not shown"),
                             ("x key A", "script:1"), ("2 key Nokey", "script:1"),
-                            ("2 move 1", "script:1"), ("2 dance", "script:1")):
+                            ("2 move 1", "script:1"), ("2 drag 1 2", "script:1"), ("2 dance", "script:1")):
             with self.subTest(line=line):
                 _, errors = self.replay(line, status=3)
                 self.assertIn(words, errors)

@@ -69,6 +69,36 @@ class View(WindowTest):
                      "/base_color=0.25,0.5,0.75,1", "--edit node/9/matrix=1,0,0,0,0,1,0,0,0,0,1,0,0.25"):
             self.assertIn(part, command)
 
+    def test_what_is_turned_and_scaled(self):
+        """A node by its rings and the square; a light, made a spot, by what it stands on; and the environment."""
+        self.run_program(COMMAND, "render", os.path.join(SCENES, "cornell_point.gltf"), "-q", "-t", "direct", "-r",
+                         "16,8", "-s", "1", "-o", "sky.exr")
+        command, _ = self.check("2 key-up Tab", "3 key Tab", "4 key-up Tab", "5 move 60 95", "6 button 0",
+                                "7 button-up 0", "8 drag 10 4 ring X", "9 drag -20 3 ring Y", "9 drag 4 9 ring Z",
+                                "9 drag -6 6 handle scale", "10 press Scene", "10 press Nodes", "11 press Lamp", "11 set Kind = spot",
+                                "12 set Cone = 60", "13 set Turn = 80", "13 set Strength = 2", "14 settle",
+                                "14 set Turn = 50", "20 key Tab", "21 key-up Tab",
+                                words=["-t", "direct", "-r", "400,240", "-s", "1", "-e", self.path("sky.exr")])
+        for part in ("/type=spot", "--edit environment/rotation=50", "--edit environment/strength=2"):
+            self.assertIn(part, command)
+        self.assertNotIn("--environment-", command)
+        matrix = [float(number) for number in command.split("/matrix=")[1].split()[0].split(",")]
+        lengths = [sum(value * value for value in matrix[i:i + 3]) ** 0.5 for i in (0, 4, 8)]
+        for length in lengths:
+            self.assertAlmostEqual(length, lengths[0], places=9)
+        self.assertLess(lengths[0], 0.95, "smaller")
+        for i, j in ((0, 1), (0, 2), (1, 2)):
+            self.assertAlmostEqual(sum(matrix[4 * i + k] * matrix[4 * j + k] for k in range(3)), 0, places=9)
+            self.assertGreater(abs(matrix[4 * i + j]), 0.01, "turned about each axis")
+
+    def test_a_transparent_background(self):
+        command = self.shot(words=["-t", "direct", "--background", "transparent"])
+        self.assertIn("--background transparent", command)
+        self.run_program(COMMAND, *shlex.split(command)[1:], "-q", "-o", "rendered.png")
+        self.assertEqual(read_png(self.path("lightsheaf-0001.png"), alpha=True),
+                         read_png(self.path("rendered.png"), alpha=True))
+        self.assertEqual(len(read_png(self.path("rendered.png"), alpha=True)[2][0][0]), 4)
+
     def test_split_against_itself_and_the_path_tracer(self):
         """The same technique makes the same picture in the other half; the path tracer nearly so."""
         self.view("2 press Compare", "3 set Beside = direct", "4 settle", "5 key Tab", "6 key-up Tab", "7 settle",
