@@ -60,9 +60,10 @@ void add_light(light_receiver r, light_point p, bool specular, float probability
     float leaves = -dot(p.normal, direction), arrives = dot(r.s.normal, direction);
     if (leaves <= 0.0 || arrives <= 0.0 || dot(r.s.geometric_normal, direction) <= 0.0 || !seen(r, p))
         return;
-    brdf_value f = brdf_evaluate(r.s, r.view, direction, 0.0);
+    float held2 = max(distance2, light_bound2(p.disc2));
+    brdf_value f = brdf_evaluate(r.s, r.view, direction, light_kernel(p.disc2, leaves / held2));
     float geometry = leaves * arrives / probability;
-    float bounded = geometry / max(distance2, p.bound2), lost = geometry / distance2 - bounded;
+    float bounded = geometry / held2, lost = geometry / distance2 - bounded;
 #if LSF_SPECULAR
     if (specular) {
         vec3 reflected = f.specular * p.intensity;

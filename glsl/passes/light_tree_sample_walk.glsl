@@ -50,7 +50,7 @@ light_walk_end light_walk(light_receiver r, bool specular, float u, path_random_
 /* A point that shines for all that is below a node. */
 struct light_point {
     vec3 position, normal, intensity;
-    float bound2; /* squared distance below which 1/d^2 is held */
+    float disc2; /* of a VPL there */
 };
 
 /* Three numbers of a normal distribution (G. E. P. Box, M. E. Muller 1958). */
@@ -82,12 +82,12 @@ light_point light_point_at(uint link, vec4 u)
     lsf_light_tree_node node = light_node(link);
     light_point p = light_point(node.position, octahedral_decode(node.normal), node.intensity, 0.0);
     if (light_is_leaf(link)) {
-        p.bound2 = light_bound2(light_record(link));
+        p.disc2 = discs2[light_record(link)];
         return p;
     }
     mat3 frame = light_tree_frame(p.normal);
     p.position = clamp(node.position + light_spread(node, frame, normal_numbers(u)), node.low, node.high);
-    p.bound2 = max(disc_bound * light_disc2(node, frame), LSF_LIGHT_DISTANCE2_MIN);
+    p.disc2 = light_disc2(node, frame);
     return p;
 }
 

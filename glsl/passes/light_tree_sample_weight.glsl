@@ -13,8 +13,21 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) readonly buffer lsf_light
     float discs2[]; /* by record */
 };
 
-/* Squared distances below which 1/d^2 is held, to those discs: VPLs are no nearer than that. */
-layout(location = 0) uniform float disc_bound;
+/* x: squared distances below which 1/d^2 is held, to those discs: VPLs are no nearer than that. y: suppression's
+ * m'/d [sr] at unit distance, to the same. */
+layout(location = 0) uniform vec2 disc_scale;
+
+float light_bound2(float disc2)
+{
+    return max(disc_scale.x * disc2, LSF_LIGHT_DISTANCE2_MIN);
+}
+
+/* As for brdf_evaluate, of a VPL that is seen under `geometry`, its cosine over the squared distance: the solid angle of its
+ * disc, m' times. */
+float light_kernel(float disc2, float geometry)
+{
+    return disc_scale.y * disc2 * geometry;
+}
 
 /* Where light arrives, and towards whom it is reflected. */
 struct light_receiver {
@@ -50,7 +63,7 @@ float cosine_bound(mat3 frame, vec3 center, vec3 extent)
 /* What the specular lobe reflects of light from within a ball that encloses the box: along the mirror image of the
  * view where that meets the ball, else along the direction next to it. Never 0, as directions above the surface may be
  * in the box even if this one is not. */
-float specular_bound(light_receiver r, vec3 center, vec3 extent)
+float specular_bound(light_receiver r, vec3 center, vec3 extent, float kernel)
 {
     float distance2 = dot(center, center), radius2 = dot(extent, extent);
     vec3 direction = r.mirrored;
@@ -65,51 +78,56 @@ float specular_bound(light_receiver r, vec3 center, vec3 extent)
             direction = towards;
     }
     direction = lift_to_horizon(direction, r.s.normal);
-    return luminance(brdf_evaluate(r.s, r.view, direction, 0.0).specular);
+    return luminance(brdf_evaluate(r.s, r.view, direction, kernel).specular);
 }
 #endif
 
-float light_bound2(uint record)
-{
-    return max(disc_bound * discs2[record], LSF_LIGHT_DISTANCE2_MIN);
-}
+/* What light comes to from a link to a receiver. */
+struct light_way {
+    float arrives, leaves, distance2; /* the cosines at both ends; the squared distance */
+    float disc2;                      /* of each of its VPLs */
+};
 
-/* Cosines at both ends over the squared distance; of a VPL exact. 0 where nothing in the box is above the surface. */
-float light_geometry(light_receiver r, uint link, lsf_light_tree_node node, vec3 center, vec3 extent)
+/* Of a VPL exact, of a node estimates; arrives is 0 where nothing in the box is above the surface. */
+light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, vec3 center, vec3 extent)
 {
-    float arrives = cosine_bound(r.frame, center, extent);
-    if (arrives <= 0.0)
-        return 0.0;
+    light_way w;
+    w.arrives = cosine_bound(r.frame, center, extent);
     vec3 way = node.position - r.position;
     mat3 frame = light_tree_frame(octahedral_decode(node.normal));
-    float distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
+    w.distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
     if (light_is_leaf(link)) {
-        float leaves = -dot(frame[2], way) * inversesqrt(distance2);
-        return arrives * max(leaves, 0.0) / max(distance2, light_bound2(light_record(link)));
+        w.leaves = max(-dot(frame[2], way) * inversesqrt(w.distance2), 0.0);
+        w.disc2 = discs2[light_record(link)];
+        w.distance2 = max(w.distance2, light_bound2(w.disc2));
+        return w;
     }
     /* The mean squared distance: that to the box says nothing where a box is large or the point is in it. */
-    distance2 += light_variance(node);
+    w.distance2 += light_variance(node);
     /* Of a box that is partly above the surface most may be below: two deviations above the mean count as its top, yet
      * a hundredth of the box's, or what is above could be missed. */
     float top = dot(r.s.normal, way) + 2.0 * sqrt(light_variance_along(node, r.s.normal, frame));
-    arrives = clamp(top * inversesqrt(distance2), 0.01 * arrives, arrives);
+    w.arrives = clamp(top * inversesqrt(w.distance2), 0.01 * w.arrives, w.arrives);
+    w.disc2 = light_disc2(node, frame);
     /* As far as normals are alike, a point sees the VPLs as they see it, all under one normal. */
     frame[2] = -frame[2];
-    float leaves = mix(1.0, cosine_bound(frame, center, extent), node.similarity);
-    return arrives * leaves / distance2;
+    w.leaves = mix(1.0, cosine_bound(frame, center, extent), node.similarity);
+    return w;
 }
 
-/* ... of all that is below a link, to the whole luminance `most`. */
+/* What is below a link may contribute, to the whole luminance `most`. */
 float light_weight(light_receiver r, uint link, float most, bool specular)
 {
     lsf_light_tree_node node = light_node(link);
     float weight = luminance(node.intensity) / most;
 #if LSF_LIGHT_TREE_SITES
     vec3 center = 0.5 * (node.low + node.high) - r.position, extent = 0.5 * (node.high - node.low);
-    weight *= light_geometry(r, link, node, center, extent);
+    light_way w = light_way_to(r, link, node, center, extent);
+    float geometry = w.leaves / w.distance2;
+    weight *= w.arrives * geometry;
 #if LSF_SPECULAR
     if (specular && weight > 0.0)
-        weight *= specular_bound(r, center, extent);
+        weight *= specular_bound(r, center, extent, light_kernel(w.disc2, geometry));
 #endif
 #endif
     return weight;

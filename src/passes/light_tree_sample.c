@@ -5,10 +5,11 @@
 
 #include "base/base.h"
 #include "frame/purpose.h"
+#include "shared/brdf.h"
 #include "shared/scene_data.h"
 
 /* Uniforms of light_tree_sample. */
-#define LOCATION_BOUND 0
+#define LOCATION_DISC 0
 #define LOCATION_TURN 1
 #define LOCATION_SPREAD 2
 
@@ -29,6 +30,10 @@ const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_
      NULL, "disc radii",
      "virtual point lights count as no nearer than this, of the disc of the area that one stands "
      "for; 0: exact, with spikes"},
+    {"light_tree.kernel_samples", LSF_OPTION_FLOAT,
+     offsetof(lsf_light_tree_sample_params, kernel_samples), 0.0, 1e6, NULL, "samples",
+     "virtual point lights over which a glossy lobe is spread; fewer: sharper and spikier, 0: "
+     "exact"},
     {"light_tree.sight", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, sight), 0, 0,
      "voxels|open", "", "what hides a sample: voxels; nothing, to measure by"},
 };
@@ -102,11 +107,13 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
     return pass->framebuffer && pass->program && pass->timer;
 }
 
-/* Squared distances below which VPLs are held, to their discs: all the clouds of so many iterations
- * are as one, each of whose VPLs stands for as much less. */
-static float bound_of(const lsf_light_tree_sample *pass, const lsf_iteration *iteration)
+/* Of discs: all the clouds of so many iterations are as one, each of whose VPLs stands for as much
+ * less. */
+static void set_disc_scale(const lsf_light_tree_sample *pass, const lsf_iteration *iteration)
 {
-    return pass->params.bound * pass->params.bound / lsf_iteration_expected(iteration);
+    float clouds = lsf_iteration_expected(iteration), bound = pass->params.bound;
+    glUniform2f(LOCATION_DISC, bound * bound / clouds,
+                pass->params.kernel_samples * LSF_PI / clouds);
 }
 
 void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,
@@ -121,7 +128,7 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_COUNTS, pass->count_buffer);
     if (pass->params.sight == LSF_LIGHT_TREE_VOXELS)
         lsf_voxels_bind(inputs->voxels);
-    glUniform1f(LOCATION_BOUND, bound_of(pass, iteration));
+    set_disc_scale(pass, iteration);
     float angle = pass->params.angle;
     glUniform1f(LOCATION_SPREAD, angle > 0.0f ? angle * angle : INFINITY);
     glUniform3ui(LOCATION_TURN, iteration->index,

@@ -24,8 +24,9 @@ typedef struct lsf_light_tree_sample_params {
     int32_t node;    /* lsf_light_tree_stop */
     float angle;     /* under which a node that stands for VPLs is seen, at most [rad]; 0: any */
     int32_t samples; /* of a point in an iteration */
-    float bound;   /* VPLs are no nearer than this [radii of their discs]; 0: as near as they are */
-    int32_t sight; /* lsf_light_tree_sight */
+    float bound; /* VPLs are no nearer than this [radii of their discs]; 0: as near as they are */
+    float kernel_samples; /* that a glossy lobe is spread over, at least; 0: it is not */
+    int32_t sight;        /* lsf_light_tree_sight */
 } lsf_light_tree_sample_params;
 
 /* Samples of a point, at most: software GL ends all loops of a shader together after 65535 turns,
@@ -34,9 +35,9 @@ typedef struct lsf_light_tree_sample_params {
 
 #define LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS                                                      \
     .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .samples = 1, .bound = 1.0f,                \
-    .sight = LSF_LIGHT_TREE_VOXELS
+    .kernel_samples = 16.0f, .sight = LSF_LIGHT_TREE_VOXELS
 
-#define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 5
+#define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 6
 extern const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT];
 
 extern const char *const lsf_light_tree_sample_count_names[LSF_LIGHT_TREE_SAMPLE_COUNTS];

@@ -108,7 +108,7 @@ static void draw_all(rig *r, bool substitute, bool sites, bool specular, const f
     glUseProgram(program);
     lsf_light_tree_bind(&r->tree.outputs);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, r->result);
-    glUniform1f(0, 1.0f);
+    glUniform2f(0, 1.0f, 0.0f);
     glUniform1f(2, 1e9f);
     glUniform1i(4, specular);
     glUniform3fv(3, 1, position);
