@@ -5,7 +5,6 @@
 
 #include "lib/octahedral.glsl"
 #include "lib/path_random.glsl"
-#include "lib/voxel_reflect.glsl"
 #include "shared/brdf.h"
 #include "shared/vpl_record.h"
 

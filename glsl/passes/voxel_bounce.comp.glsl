@@ -24,7 +24,7 @@ float cell_turn(ivec3 cell)
 }
 
 /* The mean radiance that a side sees, weighted by the cosine to its shading normal and by what it reflects. */
-vec3 gather(voxel_material material, vec3 place, vec3 n, vec3 shading, float turn)
+vec3 gather(reflector material, vec3 place, vec3 n, vec3 shading, float turn)
 {
     vec3 tangent, bitangent;
     orthonormal_basis(shading, tangent, bitangent);
@@ -41,7 +41,7 @@ vec3 gather(voxel_material material, vec3 place, vec3 n, vec3 shading, float tur
         seen += light.transmittance * grid.unit.y *
                 sky_left(environment_radiance(direction), cone_gather.z * local.z / LSF_PI);
 #endif
-        sum += voxel_reflectance(material, local.z) * seen;
+        sum += reflectance(material, local.z) * seen;
     }
     return sum / cone_gather.z;
 }
@@ -70,7 +70,7 @@ void light_side(ivec3 cell, bool back)
 #if LSF_VOXEL_GLOSS
         gloss = texelFetch(gloss_texture, cell, 0).r;
 #endif
-        voxel_material material =
+        reflector material =
             voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, gloss, 0.0);
         if (!voxel_unlit(point))
             reflected = gather(material, vec3(cell) + voxel_point_unpack(point), n, shading,

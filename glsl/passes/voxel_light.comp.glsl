@@ -34,7 +34,7 @@ layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 #endif
 
 #if LSF_REFLECT
-voxel_material material_at(ivec3 cell)
+reflector material_at(ivec3 cell)
 {
     uint gloss = 0u;
     float transmission = 0.0;
@@ -71,7 +71,7 @@ vec3 reflected(ivec3 cell, vec3 n, vec3 shading, out bool front)
     if (voxel_unlit(point))
         return vec3(0.0);
 #endif
-    return voxel_reflectance(material_at(cell), cosine) * irradiance *
+    return reflectance(material_at(cell), cosine) * irradiance *
            (visibility * cosine / LSF_PI * grid.unit.y);
 }
 #endif

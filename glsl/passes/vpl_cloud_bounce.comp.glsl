@@ -4,6 +4,7 @@
  * what it reflects; the path goes on from it with the probability that keeps its largest channel as bright as before
  * (Russian roulette), and ends there otherwise. Switches LSF_EMISSION, LSF_TRANSMISSION and those of the libraries. */
 #include "lib/cosine.glsl"
+#include "lib/voxel_reflect.glsl"
 #include "lib/voxel_shading.glsl"
 #include "lib/voxel_sight.glsl"
 #include "lib/vpl_cloud.glsl"
@@ -39,7 +40,7 @@ lsf_vpl_record path_start(uint path, out uint vertex)
     return start;
 }
 
-voxel_material material_of(ivec3 cell)
+reflector material_of(ivec3 cell)
 {
     uint gloss = 0u;
     float transmission = 0.0;
@@ -65,7 +66,7 @@ lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint dept
         vec3 there = ray.origin + ray.direction * (dot(n, place - ray.origin) / meets);
         place = clamp(there, vec3(cell), vec3(cell + 1));
     }
-    vec3 reflected = intensity * voxel_reflectance(material_of(cell), cosine);
+    vec3 reflected = intensity * reflectance(material_of(cell), cosine);
 #if LSF_EMISSION
     if (voxel_unlit(point))
         reflected = vec3(0.0);

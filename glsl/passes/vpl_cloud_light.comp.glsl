@@ -1,6 +1,7 @@
 /* The first vertices of light paths from the light in turn. A path that is one of n of its light and was drawn with
  * the density p carries the flux I / (n p). The surface that it meets sends the part that it reflects out again as a
  * diffuse one does: the intensity along its normal is that part over pi. */
+#include "lib/reflectance.glsl" /* whose table light_ray.glsl includes under a condition */
 #include "lib/light_ray.glsl"
 #include "lib/vpl_cloud.glsl"
 
@@ -19,8 +20,8 @@ void main()
 #if LSF_TRANSMISSION
     transmission = s.transmission;
 #endif
-    voxel_material m = voxel_material(s.base_color, transmission, s.roughness, s.f0, s.metallic);
-    vec3 flux = h.intensity * (share / h.pdf) * voxel_reflectance(m, -dot(s.normal, h.direction));
+    reflector m = reflector(s.base_color, transmission, s.roughness, s.f0, s.metallic);
+    vec3 flux = h.intensity * (share / h.pdf) * reflectance(m, -dot(s.normal, h.direction));
     cloud[cloud_slot(path, 0u)] =
         lsf_vpl_record(h.position, octahedral_encode(s.geometric_normal), flux / LSF_PI, 1u);
 }

@@ -51,7 +51,7 @@ void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params)
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
     lsf_plan_pass_add(plan, "blur", "removes the noise of few samples, the rougher the wider");
-    lsf_plan_reads(plan, "view sparse|cone_trace|voxel_path|bidirectional_shade");
+    lsf_plan_reads(plan, "view sparse|light_tree_sample|cone_trace|voxel_path|bidirectional_shade");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");

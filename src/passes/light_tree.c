@@ -180,6 +180,7 @@ void lsf_light_tree_run(lsf_light_tree *pass, const lsf_iteration *iteration, GL
     lsf_timer_end(pass->sort_timer);
 
     lsf_timer_begin(pass->timer);
+    lsf_light_tree_bind(&pass->outputs);
     bind(LSF_BINDING_LIGHT_TREE_CODES, codes);
     bind(LSF_BINDING_LIGHT_TREE_PARENTS, pass->parents);
     bind(LSF_BINDING_LIGHT_TREE_VISITS, pass->visits);

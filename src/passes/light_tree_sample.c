@@ -60,7 +60,7 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     uint32_t places[2];
     lsf_plan_pass_add(plan, "light_tree_sample", "%d sample%s of the cloud for each visible point",
                       params->samples, lsf_plural((uint64_t)params->samples));
-    lsf_plan_reads(plan, "view points|gbuffer light_tree");
+    lsf_plan_reads(plan, "view points|gbuffer vpl_cloud light_tree");
     if (params->sight == LSF_LIGHT_TREE_VOXELS)
         lsf_plan_reads(plan, "voxelize");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");

@@ -137,7 +137,7 @@ void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uin
     bool tint = there & SPARSE || params->outliers;
     if (there & GATHER) {
         lsf_plan_pass_add(plan, "sparse_gather", "light back into the order of points");
-        lsf_plan_reads(plan, "bidirectional_shade|cone_trace|voxel_path");
+        lsf_plan_reads(plan, "bidirectional_shade|cone_trace|light_tree_sample|voxel_path");
         if (tint)
             lsf_plan_reads(plan, "view gbuffer points.pixels");
         plan_switches(plan, interleave, tint);

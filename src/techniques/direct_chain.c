@@ -82,13 +82,18 @@ void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteratio
     }
 }
 
-void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
+void lsf_direct_chain_lights(lsf_direct_chain *chain, const lsf_iteration *iteration)
 {
-    lsf_direct_chain_begin(chain, iteration);
     uint32_t lights = iteration->state->light_count;
     for (uint32_t i = 0; i < lights && lsf_iteration_goes_on(iteration); i++)
         lsf_direct_chain_light(chain, iteration, i);
     lsf_direct_chain_sky(chain, iteration);
+}
+
+void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)
+{
+    lsf_direct_chain_begin(chain, iteration);
+    lsf_direct_chain_lights(chain, iteration);
 }
 
 lsf_light_parts lsf_direct_chain_parts(const lsf_direct_chain *chain)

@@ -35,6 +35,8 @@ void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iterat
 void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration,
                             uint32_t light);
 void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteration);
+/* All of them after each other, and the environment. */
+void lsf_direct_chain_lights(lsf_direct_chain *chain, const lsf_iteration *iteration);
 /* What it found, for others to add to. */
 lsf_light_parts lsf_direct_chain_parts(const lsf_direct_chain *chain);
 void lsf_direct_chain_destroy(lsf_direct_chain *chain);

@@ -3,8 +3,9 @@
 #include "base/base.h"
 #include "techniques/technique.h"
 
-static const lsf_technique *const techniques[] = {&lsf_technique_bidirectional, &lsf_technique_cone,
-                                                  &lsf_technique_direct, &lsf_technique_voxel_path};
+static const lsf_technique *const techniques[] = {
+    &lsf_technique_bidirectional, &lsf_technique_cone, &lsf_technique_direct,
+    &lsf_technique_substitute_tree, &lsf_technique_voxel_path};
 
 static const lsf_pass_params defaults = {LSF_PASS_PARAMS_DEFAULTS};
 
@@ -28,6 +29,9 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(voxelize, LSF_VOXELIZE_OPTION_COUNT),
     TABLE(cone, LSF_CONE_OPTION_COUNT),
     TABLE(voxel_path, LSF_VOXEL_PATH_OPTION_COUNT),
+    TABLE(vpl_cloud, LSF_VPL_CLOUD_OPTION_COUNT),
+    TABLE(light_tree, LSF_LIGHT_TREE_OPTION_COUNT),
+    TABLE(light_tree_sample, LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT),
     TABLE(light_filter, LSF_LIGHT_FILTER_OPTION_COUNT),
     TABLE(temporal, LSF_TEMPORAL_OPTION_COUNT),
 };

@@ -117,13 +117,19 @@ static void choose_points(lsf_pass_params *pass_params, const lsf_render_params 
         sparse->interleave = choose_interleave(params);
 }
 
+/* Pixels draw rays or samples of their own. */
+static bool draws_itself(const lsf_technique *technique)
+{
+    return !technique || technique->draws_lobes || technique->draws_alone;
+}
+
 /* A filter needs noise that differs between neighbours: not so where all pixels take the same
- * samples, unless they draw rays of their own. */
+ * samples. */
 static bool filters(const lsf_setup *setup, const lsf_technique *technique)
 {
     const lsf_pass_params *params = &setup->pass_params;
     return !setup->params.raw && params->light_filter.steps > 0 &&
-           (params->sparse.interleave > 1 || !technique || technique->draws_lobes);
+           (params->sparse.interleave > 1 || draws_itself(technique));
 }
 
 /* The largest pattern, up to that of interleaving, of whose places each gets as many directions. */
@@ -160,7 +166,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->aovs = params->aovs;
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
-    bool shared = !technique || !technique->draws_lobes;
+    bool shared = !technique || !draws_itself(technique);
     plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
     if (plan->filtered && plan->sky_lights > 0)
         plan->sky_pattern = sky_pattern(plan->sky_lights, setup->pass_params.sparse.interleave);

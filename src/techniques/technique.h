@@ -22,6 +22,7 @@
 #include "passes/voxel_view.h"
 #include "passes/voxelize.h"
 #include "passes/vpl.h"
+#include "passes/vpl_cloud.h"
 #include "plan/tessellation.h"
 
 /* The params of everything that takes options; lsf_pass_option_tables names them. */
@@ -40,6 +41,7 @@ typedef struct lsf_pass_params {
     lsf_voxelize_params voxelize;
     lsf_cone_params cone;
     lsf_voxel_path_params voxel_path;
+    lsf_vpl_cloud_params vpl_cloud;
     lsf_light_tree_params light_tree;
     lsf_light_tree_sample_params light_tree_sample;
     lsf_light_filter_params light_filter;
@@ -56,7 +58,7 @@ typedef struct lsf_pass_params {
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
     .cone = {LSF_CONE_PARAMS_DEFAULTS}, .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
-    .light_tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS},                                                \
+    .vpl_cloud = {LSF_VPL_CLOUD_PARAMS_DEFAULTS}, .light_tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS},  \
     .light_tree_sample = {LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS},                                  \
     .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}, .temporal = {LSF_TEMPORAL_PARAMS_DEFAULTS}
 
@@ -108,6 +110,8 @@ typedef struct lsf_technique {
     bool refracts; /* scatters and refracts light that surfaces transmit; else that goes straight */
     bool draws_lobes; /* finds the environment by rays drawn from the BRDF, which suit a uniform one
                        * better than directions drawn by its radiance */
+    bool draws_alone; /* each pixel draws samples of its own whatever interleave.size is, and
+                       * finds the environment by its directions */
     bool traces_pixels; /* most of an iteration's time goes with the pixels that it traces */
     bool maps_scene; /* draws maps that hold all of the scene: where it is empty matters to them */
     /* Lists passes and resources, and what is left out. */
@@ -134,7 +138,7 @@ typedef struct lsf_technique {
 } lsf_technique;
 
 extern const lsf_technique lsf_technique_bidirectional, lsf_technique_cone, lsf_technique_direct,
-    lsf_technique_voxel_path;
+    lsf_technique_substitute_tree, lsf_technique_voxel_path;
 
 /* NULL when unknown. */
 const lsf_technique *lsf_technique_find(const char *name);

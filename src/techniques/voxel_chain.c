@@ -32,23 +32,35 @@ lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params 
                                     const lsf_state *state, const lsf_voxel_chain_use *use)
 {
     const lsf_voxel_grid_use grid = {.bytes = bytes_per_voxel(plan, params, use),
-                                     .sides = use->sides};
+                                     .sides = use->sides > 0 ? use->sides : 1};
     return lsf_voxel_grid_fit(&params->voxel_grid, state, &grid);
+}
+
+static void plan_light(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
+                       const lsf_voxel_chain_use *use, const lsf_voxel_grid *grid)
+{
+    lsf_voxel_light_use light = light_use(params, use);
+    lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid->resolution);
+    lsf_voxelize_plan(plan, &params->voxelize, grid);
+    lsf_voxel_light_plan(plan, grid, &light);
+    if (lsf_voxel_view_needed(plan))
+        lsf_voxel_view_plan(plan, use->sides);
 }
 
 void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
                           const lsf_voxel_chain_use *use)
 {
+    bool lit = use->sides > 0;
     lsf_direct_chain_use direct = use->direct;
-    direct.voxels = lsf_voxel_chain_has_voxels(plan);
+    direct.voxels = lit && lsf_voxel_chain_has_voxels(plan);
     lsf_direct_chain_plan(plan, params, state, &direct);
     if (!lsf_voxel_chain_has_voxels(plan)) {
         lsf_plan_omit(plan, "voxelize", "the scene has no triangles");
-        lsf_plan_omit(plan, "voxel_light", "the scene has no triangles");
+        if (lit)
+            lsf_plan_omit(plan, "voxel_light", "the scene has no triangles");
         return;
     }
     lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, use);
-    lsf_voxel_light_use light = light_use(params, use);
     lsf_voxel_grid_remark(plan, &params->voxel_grid, &grid);
     if (plan->bounces > 0 || plan->requirements.emissive || plan->requirements.environment)
         plan->grain = (lsf_plan_grain){.width = grid.side,
@@ -56,11 +68,10 @@ void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const l
                                        .of = "grid",
                                        .option = "voxel.resolution",
                                        .instead = ", or take the bidirectional technique"};
-    lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid.resolution);
-    lsf_voxelize_plan(plan, &params->voxelize, &grid);
-    lsf_voxel_light_plan(plan, &grid, &light);
-    if (lsf_voxel_view_needed(plan))
-        lsf_voxel_view_plan(plan, use->sides);
+    if (lit)
+        plan_light(plan, params, state, use, &grid);
+    else
+        lsf_voxelize_plan(plan, &params->voxelize, &grid);
 }
 
 bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const lsf_plan *plan,
@@ -75,10 +86,11 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
     lsf_voxel_light_use light = light_use(params, use);
     chain->grid = lsf_voxel_chain_grid(plan, params, state, use);
     lsf_voxel_grid_set_unit(&chain->grid, scene->scene, state);
+    chain->lit = use->sides > 0;
     return lsf_voxelize_create(&chain->voxelize, context, plan, &params->voxelize, &chain->grid,
                                scene->scene, error) &&
-           lsf_voxel_light_create(&chain->light, context, plan, &light, error) &&
-           (!lsf_voxel_view_needed(plan) ||
+           (!chain->lit || lsf_voxel_light_create(&chain->light, context, plan, &light, error)) &&
+           (!lsf_plan_find_pass(plan, "voxel_view") ||
             lsf_voxel_view_create(&chain->view, context, plan, error));
 }
 
@@ -115,7 +127,8 @@ void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteratio
     if (!chain->voxelize)
         return;
     chain->voxels = lsf_voxelize_run(chain->voxelize, iteration);
-    lsf_voxel_light_begin(&chain->light, chain->voxels);
+    if (chain->lit)
+        lsf_voxel_light_begin(&chain->light, chain->voxels);
 }
 
 void lsf_voxel_chain_emit(lsf_voxel_chain *chain)
@@ -165,7 +178,8 @@ uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports
     reports[count++] =
         (lsf_pass_report){lsf_voxelize_timer(chain->voxelize), LSF_VOXELIZE_COUNTS,
                           lsf_voxelize_count_names, lsf_voxelize_counts(chain->voxelize)};
-    reports[count++] = (lsf_pass_report){.timer = chain->light.timer};
+    if (chain->lit)
+        reports[count++] = (lsf_pass_report){.timer = chain->light.timer};
     if (chain->view.timer)
         reports[count++] = (lsf_pass_report){.timer = chain->view.timer};
     return count;

@@ -1,5 +1,5 @@
 /* The passes that voxel techniques begin with: what is seen, the scene as voxels, and the light of
- * punctual lights on both. */
+ * punctual lights on both, or on what is seen alone. */
 #ifndef LSF_TECHNIQUES_VOXEL_CHAIN_H
 #define LSF_TECHNIQUES_VOXEL_CHAIN_H
 
@@ -9,7 +9,7 @@
 #include "techniques/direct_chain.h"
 
 typedef struct lsf_voxel_chain_use {
-    uint32_t sides, levels;   /* of the voxels' radiance */
+    uint32_t sides, levels;   /* of the voxels' radiance; 0 sides: voxels are not lit */
     uint32_t bytes_per_voxel; /* that the technique takes beside them */
     lsf_direct_chain_use direct;
     float voxel_rays; /* that find the environment from a voxel by chance, drawn by the cosine */
@@ -20,6 +20,7 @@ typedef struct lsf_voxel_chain {
     lsf_voxel_grid grid;
     lsf_voxelize *voxelize;   /* NULL: the scene has no triangles */
     const lsf_voxels *voxels; /* of the last run */
+    bool lit;                 /* voxels are */
     lsf_voxel_light light;
     lsf_voxel_view view; /* where layers of voxels are asked for */
 } lsf_voxel_chain;

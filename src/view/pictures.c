@@ -24,6 +24,7 @@ static const char *const coarser[][LSF_BUDGET_COARSEST + 1] = {
     {"cone.count", "6", "4", "4"},
     {"sparse.grid", "1", "2", "2"},
     {"voxel_path.max_samples", "3", "2", "1"},
+    {"cloud.count", "65536", "32768", "16384"},
 };
 
 void lsf_viewer_touch(lsf_viewer *viewer)

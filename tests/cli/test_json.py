@@ -106,7 +106,7 @@ class Json(CommandTest):
 
     def test_plan(self):
         self.scene(emissive=True)
-        for technique in ("direct", "bidirectional", "voxel_path", "cone"):
+        for technique in ("direct", "bidirectional", "voxel_path", "cone", "substitute_tree"):
             self.check("plan", "scene.gltf", "-t", technique, kind="plan")
         self.check("plan", "scene.gltf", "--time-limit", "1", kind="plan")
         self.check("plan", "scene.gltf", "--prices", kind="prices")

@@ -7,7 +7,7 @@ import subprocess
 
 from command import SOURCE_ROOT, CommandTest, main
 
-TECHNIQUES = ("bidirectional", "voxel_path", "cone", "direct")
+TECHNIQUES = ("bidirectional", "voxel_path", "cone", "direct", "substitute_tree")
 INTERIOR = os.path.join(SOURCE_ROOT, "data/scenes/interior.gltf")
 
 QUOTED = r'"(?:[^"\\]|\\.)*"'

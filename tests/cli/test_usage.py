@@ -54,7 +54,7 @@ class Words(CommandTest):
                             (["-s", "2", "-b", "0"], "2 iterations, no bounces\n")):
             text = self.run_command("plan", self.scene(), *words).stdout.decode()
             self.assertIn(says, text.splitlines(keepends=True)[0])
-        for technique in ("direct", "bidirectional", "cone", "voxel_path"):
+        for technique in ("direct", "bidirectional", "cone", "voxel_path", "substitute_tree"):
             text = self.run_command("plan", self.scene(), "-s", "1", "-t", technique).stdout.decode()
             self.assertNotRegex(text, r"(?<![\d.])1 [a-z]+s\b")
 

@@ -15,12 +15,13 @@ lsf_scene *rig_scene(float intensity)
 lsf_render_params rig_params(const char *technique)
 {
     static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=32",
-                                          "vpl.shadow_resolution=32", "bundle.resolution=32"};
+                                          "cloud.count=8192", "vpl.shadow_resolution=32",
+                                          "bundle.resolution=32"};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
     params.technique = technique;
     params.samples = 2;
     params.options = options;
-    params.option_count = 4;
+    params.option_count = 5;
     return corner_params(params, SIZE);
 }
 

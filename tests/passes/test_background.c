@@ -1,7 +1,8 @@
 /* What is seen where no surface is, and how much of a pixel surfaces cover, with each technique. */
 #include "render_gl.h"
 
-static const char *const techniques[] = {"bidirectional", "cone", "direct", "voxel_path"};
+static const char *const techniques[] = {"bidirectional", "cone", "direct", "substitute_tree",
+                                         "voxel_path"};
 
 static void assert_near(double value, double expected, double tolerance)
 {

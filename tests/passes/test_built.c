@@ -9,7 +9,8 @@ enum { SIZE = 16 };
 static lsf_image *render(const lsf_scene *scene, const char *technique)
 {
     static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=64",
-                                          "bundle.resolution=64", "vpl.shadow_resolution=64"};
+                                          "bundle.resolution=64", "vpl.shadow_resolution=64",
+                                          "cloud.count=8192"};
     const lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS,
                                       .technique = technique,
                                       .width = SIZE,
@@ -23,7 +24,8 @@ static lsf_image *render(const lsf_scene *scene, const char *technique)
 static void a_cornell_box(void **state)
 {
     (void)state;
-    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                             "substitute_tree"};
     lsf_scene *loaded = load_default_scene("cornell_point.gltf"), *built = rebuild(loaded);
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         lsf_image *image = render(built, techniques[t]);

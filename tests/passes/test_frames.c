@@ -8,7 +8,8 @@
 
 enum { SIZE = 16, SAMPLES = 2 };
 
-static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                         "substitute_tree"};
 
 /* --- a scene that moves -------------------------------------------------------------------------
  */
@@ -248,7 +249,8 @@ static void every_technique(void **unused)
 {
     (void)unused;
     static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=64",
-                                          "bundle.resolution=64", "vpl.shadow_resolution=64"};
+                                          "bundle.resolution=64", "vpl.shadow_resolution=64",
+                                          "cloud.count=8192"};
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         world w = build_world(true, t % 2 ? SKY_MAP : UNIFORM_SKY);
         lsf_render_params params = params_of(techniques[t], options, LSF_COUNT(options));

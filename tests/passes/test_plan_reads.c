@@ -257,6 +257,8 @@ static const struct plan_case {
     {"voxel_path", .raw = true, .options = {"voxel.method=raster", "environment.directions=0"}},
     {"cone", .options = {"sparse.grid=2", "sparse.blur=1"}},
     {"cone", .raw = true, .options = {"cone.sealed=off", "sparse.outliers=on"}},
+    {"substitute_tree", .options = {"sparse.grid=2", "cloud.count=8192"}},
+    {"substitute_tree", .raw = true, .options = {"rsm.pdf=adaptive", "cloud.count=8192"}},
 };
 
 static void check(const struct plan_case *c)

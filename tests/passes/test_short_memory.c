@@ -94,9 +94,9 @@ static lsf_image *render(lsf_context *context, const lsf_scene *scene,
 
 static void check(const char *technique)
 {
-    static const char *const options[] = {"voxel.resolution=16", "rsm.resolution=16",
+    static const char *const options[] = {"voxel.resolution=16",      "rsm.resolution=16",
                                           "vpl.shadow_resolution=16", "bundle.resolution=16",
-                                          "environment.directions=1"};
+                                          "environment.directions=1", "cloud.count=8192"};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
     params.technique = technique;
     params.samples = 1;
@@ -143,7 +143,8 @@ static void check(const char *technique)
 static void allocations_fail(void **unused)
 {
     (void)unused;
-    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                             "substitute_tree"};
     for (size_t i = 0; i < LSF_COUNT(techniques); i++)
         check(techniques[i]);
 }

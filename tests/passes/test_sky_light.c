@@ -62,7 +62,8 @@ static void render_plane(const lsf_scene *scene, const char *technique, uint32_t
                          float rgb[3])
 {
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
-    const char *const options[] = {"voxel.resolution=16", "environment.directions=16"};
+    const char *const options[] = {"voxel.resolution=16", "environment.directions=16",
+                                   "cloud.count=8192"};
     params.technique = technique;
     params.samples = samples;
     params.bounces = 0;
@@ -119,7 +120,8 @@ static void plane_under_a_constant(void **unused)
     lsf_scene *scene = plane_scene(&normal);
     build_environment(scene, 2.0f);
     finish_gl_scene(scene);
-    const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+    const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                      "substitute_tree"};
     for (size_t i = 0; i < LSF_COUNT(techniques); i++) {
         float rgb[3];
         render_plane(scene, techniques[i], 256, rgb);
@@ -273,7 +275,8 @@ static void seen_where_it_is(void **unused)
 static void black_map(void **unused)
 {
     (void)unused;
-    const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+    const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                      "substitute_tree"};
     lsf_float3 normal;
     lsf_scene *scene = plane_scene(&normal);
     add_sky(scene, 0.0f);

@@ -5,7 +5,8 @@
 
 enum { SIZE = 16 };
 
-static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                         "substitute_tree"};
 
 /* --- scenes -------------------------------------------------------------------------------------
  */
@@ -78,6 +79,7 @@ static lsf_render_params params_of(const char *technique, const char *const more
                                     "rsm.resolution=32",
                                     "vpl.shadow_resolution=32",
                                     "bundle.resolution=32",
+                                    "cloud.count=8192",
                                     NULL,
                                     NULL,
                                     NULL};
@@ -86,7 +88,7 @@ static lsf_render_params params_of(const char *technique, const char *const more
     params.samples = 2;
     params.aovs = LSF_AOV_ALBEDO | LSF_AOV_NORMAL;
     params.options = options;
-    params.option_count = 4;
+    params.option_count = 5;
     for (int i = 0; more && i < 3 && more[i]; i++)
         options[params.option_count++] = more[i];
     return params;

@@ -4,10 +4,12 @@
 
 enum { SIZE = 16, SAMPLES = 3 };
 
-static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                         "substitute_tree"};
 
 static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=32",
-                                      "vpl.shadow_resolution=32", "bundle.resolution=32"};
+                                      "vpl.shadow_resolution=32", "bundle.resolution=32",
+                                      "cloud.count=8192"};
 
 /* Every look at the clock takes a second: all is slow. */
 static double now;

@@ -38,7 +38,8 @@ static lsf_image *render(const lsf_scene *scene, const char *technique, const ch
     static const char *const small[][2] = {{"voxel.resolution", "voxel.resolution=16"},
                                            {"rsm.resolution", "rsm.resolution=32"},
                                            {"vpl.shadow_resolution", "vpl.shadow_resolution=32"},
-                                           {"bundle.resolution", "bundle.resolution=32"}};
+                                           {"bundle.resolution", "bundle.resolution=32"},
+                                           {"cloud.count", "cloud.count=8192"}};
     const char *all[MOST];
     for (uint32_t i = 0; i < count; i++)
         all[i] = options[i];

@@ -21,9 +21,9 @@ typedef struct world {
 
 static world begin_world(lsf_render_params params)
 {
-    static const char *const options[] = {"light_filter.steps=0", "voxel.resolution=32",
-                                          "rsm.resolution=64", "bundle.resolution=64",
-                                          "vpl.shadow_resolution=64"};
+    static const char *const options[] = {"light_filter.steps=0",     "voxel.resolution=32",
+                                          "rsm.resolution=64",        "bundle.resolution=64",
+                                          "vpl.shadow_resolution=64", "cloud.count=8192"};
     lsf_error error = {0};
     world w = {.scene = build_scene(), .context = gl_test_context(LSF_BACKEND_OSMESA, NULL)};
     build_corner(w.scene);
@@ -109,7 +109,8 @@ static double relative_error(const float *pixels, const float *truth)
 static void still_frames_are_one(void **unused)
 {
     (void)unused;
-    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                             "substitute_tree"};
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         float kept[VALUES], one[VALUES];
         lsf_render_params params = keeping(techniques[t]);
@@ -180,7 +181,8 @@ static void set_lamp(const world *w, float intensity)
 static void lamp_is_forgotten(void **unused)
 {
     (void)unused;
-    static const char *const techniques[] = {"bidirectional", "voxel_path", "cone"};
+    static const char *const techniques[] = {"bidirectional", "voxel_path", "cone",
+                                             "substitute_tree"};
     enum { OFF = 6, LAG = 8 };
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         float lit[VALUES], dark[VALUES];

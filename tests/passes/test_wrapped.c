@@ -3,7 +3,8 @@
 #include "base/base.h"
 #include "embedding_rig.h"
 
-static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone"};
+static const char *const techniques[] = {"direct", "bidirectional", "voxel_path", "cone",
+                                         "substitute_tree"};
 
 /* --- the application -------------------------------------------------------------------------- */
 

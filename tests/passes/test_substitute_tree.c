@@ -1,0 +1,251 @@
+/* The tree of lights as a technique, against closed forms and by its rules: furnaces, bounces of a
+ * point light, an environment, the same bits again, only what the scene requires, extremes. */
+#include <math.h>
+
+#include "base/base.h"
+#include "plan/plan.h"
+#include "render_gl.h"
+#include "shared/brdf.h"
+#include "techniques/setup.h"
+
+static const char *const options[] = {"cloud.count=16384", "voxel.resolution=64",
+                                      "rsm.resolution=64"};
+
+static lsf_render_params params_of(uint32_t samples, uint32_t bounces)
+{
+    return (lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS,
+                               .technique = "substitute_tree",
+                               .raw = true,
+                               .samples = samples,
+                               .bounces = bounces,
+                               .options = options,
+                               .option_count = LSF_COUNT(options)};
+}
+
+static void expect(const char *what, const lsf_image *image, double expected, double allowed)
+{
+    double rgb[3];
+    mean_rgb(image, 0, rgb);
+    print_message("%s: %.5f, expected %.5f\n", what, rgb[1], expected);
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs(rgb[c] / expected - 1.0) <= allowed);
+}
+
+/* A closed box seen from inside, every wall emitting 1 and reflecting rho: L = 1 + rho + ... +
+ * rho^(N + 1): emission seen, direct light of the walls, N bounces. VPLs close to the point that
+ * they light, in edges and corners, are bounded: some light is lost. */
+static void energy_in_a_furnace(void **unused)
+{
+    (void)unused;
+    static const uint32_t bounces[] = {0, 1, 3};
+    for (size_t i = 0; i < LSF_COUNT(bounces); i++) {
+        const float rho = 0.5f;
+        lsf_scene *scene = build_scene();
+        lsf_material *material = build_material(scene, rho, rho, rho);
+        for (int c = 0; c < 3; c++)
+            material->emission[c] = 1.0f;
+        build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
+        scene->diffuse_only = true;
+        finish_gl_scene(scene);
+        double expected = 1.0, power = 1.0;
+        for (uint32_t k = 0; k <= bounces[i]; k++)
+            expected += power *= (double)rho;
+        lsf_image *image = render_gl_from(scene, params_of(16, bounces[i]), 24,
+                                          lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
+        expect("furnace", image, expected, 0.03);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* A light I in the middle of a sphere of radius R: every point has the irradiance I / R^2, and the
+ * radiance rho / pi I / R^2 (1 + rho + ... + rho^N) after N bounces. */
+static void bounces_in_a_sphere(void **unused)
+{
+    (void)unused;
+    const double rho = 0.6;
+    for (uint32_t bounces = 0; bounces <= 4; bounces += 2) {
+        lsf_scene *scene = build_scene();
+        build_material(scene, (float)rho, (float)rho, (float)rho);
+        build_sphere(scene, 4, true);
+        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 0, 0), lsf_f3(0, -1, 0), 3.0f);
+        scene->diffuse_only = true;
+        finish_gl_scene(scene);
+        double expected = 0.0, power = rho / (double)LSF_PI * 3.0;
+        for (uint32_t k = 0; k <= bounces; k++, power *= rho)
+            expected += power;
+        lsf_image *image = render_gl_from(scene, params_of(16, bounces), 24, lsf_f3(0, 0, 0.5f),
+                                          lsf_f3(0.3f, 0.2f, -1));
+        expect("sphere", image, expected, 0.03);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* A white sphere under a constant environment cannot be seen: its light comes straight, none is
+ * counted twice. */
+static void white_furnace(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    build_material(scene, 1.0f, 1.0f, 1.0f);
+    build_sphere(scene, 4, false);
+    scene->diffuse_only = true;
+    build_environment(scene, 0.5f);
+    finish_gl_scene(scene);
+    lsf_image *image =
+        render_gl_from(scene, params_of(16, 3), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
+    expect("white furnace", image, 0.5, 0.02);
+    lsf_image_destroy(image);
+    lsf_scene_destroy(scene);
+}
+
+/* A room of two walls with a glossy box, a lamp and a light. */
+static lsf_scene *room(float intensity)
+{
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.7f, 0.6f, 0.5f);
+    build_floor(scene, 0.0f, 2.0f);
+    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
+    lsf_material *glossy = build_material(scene, 0.8f, 0.5f, 0.2f);
+    glossy->roughness = 0.3f;
+    glossy->metallic = 0.5f;
+    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
+    lsf_material *lamp = build_material(scene, 0.1f, 0.1f, 0.1f);
+    for (int c = 0; c < 3; c++)
+        lamp->emission[c] = 4.0f * intensity;
+    build_quad(scene, lsf_f3(-2, 0.5f, 1), lsf_f3(-2, 0.5f, -1), lsf_f3(-2, 2, -1),
+               lsf_f3(-2, 2, 1));
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.5f, 2, 0.5f), lsf_f3(0, -1, 0), 8.0f * intensity);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+static void same_bits_again(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = room(1.0f);
+    lsf_render_params params = corner_params(params_of(2, 2), 33);
+    assert_same_for_any_threads(scene, &params);
+    lsf_scene_destroy(scene);
+}
+
+/* Light times 2^k gives the picture times 2^k, to the bit. */
+static void light_scales(void **unused)
+{
+    (void)unused;
+    static const float scales[] = {0x1p-40f, 0x1p40f};
+    lsf_scene *scene = room(1.0f);
+    lsf_image *expected = render_corner(scene, params_of(2, 2), 33);
+    for (int i = 0; i < 2; i++) {
+        lsf_scene *scaled = room(scales[i]);
+        lsf_image *image = render_corner(scaled, params_of(2, 2), 33);
+        assert_scaled_pixels(image, expected, scales[i]);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scaled);
+    }
+    lsf_image_destroy(expected);
+    lsf_scene_destroy(scene);
+}
+
+static bool has_pass(const lsf_scene *scene, uint32_t bounces, const char *const *passes)
+{
+    lsf_error error = {0};
+    lsf_setup setup;
+    lsf_render_params params = corner_params(params_of(1, bounces), 16);
+    if (!lsf_setup_init(&setup, scene, &params, &error))
+        fail_msg("%s", error.message);
+    uint32_t found = 0, asked = 0;
+    for (; passes[asked]; asked++)
+        found += lsf_plan_find_pass(setup.plan, passes[asked]) != NULL;
+    lsf_setup_finish(&setup);
+    assert_true(found == 0 || found == asked);
+    return found > 0;
+}
+
+/* Paths begin where there is light, and go on where it bounces. */
+static void only_what_is_required(void **unused)
+{
+    (void)unused;
+    static const char *const tree[] = {"voxelize_clear", "light_tree", "light_tree_sample", NULL};
+    static const char *const lights[] = {"reflective_shadow_map", "vpl_cloud_light", NULL};
+    static const char *const emitters[] = {"vpl_cloud_emitter", NULL};
+    static const char *const on[] = {"vpl_cloud_bounce", NULL};
+    static const struct {
+        bool lamp, light;
+        uint32_t bounces;
+        bool tree, lights, emitters, on;
+    } cases[] = {
+        {false, true, 0, false, false, false, false},  {false, true, 1, true, true, false, false},
+        {false, true, 2, true, true, false, true},     {true, false, 0, true, false, true, false},
+        {true, false, 1, true, false, true, true},     {true, true, 0, true, false, true, false},
+        {false, false, 2, false, false, false, false},
+    };
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        lsf_scene *scene = build_scene();
+        lsf_material *material = build_material(scene, 0.5f, 0.5f, 0.5f);
+        material->emission[1] = cases[i].lamp ? 1.0f : 0.0f;
+        build_floor(scene, 0.0f, 1.0f);
+        if (cases[i].light)
+            build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 1, 0), lsf_f3(0, -1, 0), 1.0f);
+        finish_gl_scene(scene);
+        assert_int_equal(has_pass(scene, cases[i].bounces, tree), cases[i].tree);
+        assert_int_equal(has_pass(scene, cases[i].bounces, lights), cases[i].lights);
+        assert_int_equal(has_pass(scene, cases[i].bounces, emitters), cases[i].emitters);
+        assert_int_equal(has_pass(scene, cases[i].bounces, on), cases[i].on);
+        lsf_scene_destroy(scene);
+    }
+}
+
+/* Each GL allocation fails in turn: a clear error, and nothing is left behind. Then there is as
+ * much as the plan says. */
+static void every_allocation_may_fail(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = room(1.0f);
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_render_params params = params_of(1, 2);
+    params.width = params.height = 16;
+    uint32_t failures = 0;
+    for (bool created = false; !created; failures++) {
+        lsf_error error = {0};
+        lsf_context_fail_allocation(context, failures + 1);
+        lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
+        created = renderer != NULL;
+        if (created)
+            assert_int_equal(lsf_context_get_info(context).gl_bytes,
+                             lsf_plan_bytes(lsf_renderer_plan(renderer)));
+        else
+            assert_int_equal(error.code, LSF_ERROR_RENDER);
+        lsf_renderer_destroy(renderer);
+        assert_int_equal(lsf_context_get_info(context).gl_bytes, 0);
+    }
+    print_message("%u allocations failed in turn\n", failures - 1);
+    assert_true(failures > 40);
+    gl_test_check(context);
+    lsf_context_destroy(context);
+    lsf_scene_destroy(scene);
+}
+
+/* Pictures of 1 x 1 and 7 x 13, an empty scene, one flat triangle, a camera in a surface, a light
+ * in a surface. */
+static void extremes(void **unused)
+{
+    (void)unused;
+    assert_finite_extremes(params_of(1, 2), 0.1f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energy_in_a_furnace),
+        cmocka_unit_test(bounces_in_a_sphere),
+        cmocka_unit_test(white_furnace),
+        cmocka_unit_test(same_bits_again),
+        cmocka_unit_test(light_scales),
+        cmocka_unit_test(only_what_is_required),
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(extremes),
+    };
+    return cmocka_run_group_tests_name("substitute_tree", tests, NULL, NULL);
+}
