@@ -21,6 +21,7 @@ TECHNIQUES = {
     "bidirectional": (32, 7, 8, 0.02),
     "voxel_path": (8, 8, 16, 0.05),
     "cone": (6, 9, 16, 0.05),
+    "substitute_tree": (16, 9, 8, 0.05),
 }
 REFERENCE_SAMPLES = 64
 REFERENCE_SECONDS = 8
