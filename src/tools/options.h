@@ -196,9 +196,9 @@ typedef struct lsf_settings {
     double budget_ms, error;           /* NAN: not asked for */
     const char *preset, *saved_preset; /* NULL: not given */
 
-    char *preset_text;                         /* values point into it */
-    const char *record, *replay, *frame_times; /* NULL: not given */
-    double budget;                             /* milliseconds; 0: by the device */
+    char *preset_text;                                    /* values point into it */
+    const char *record, *replay, *frame_times, *coverage; /* NULL: not given */
+    double budget;                                        /* milliseconds; 0: by the device */
     bool full_screen, list_keys;
 
     const char *view_file;  /* NULL: not given */

@@ -49,6 +49,7 @@ static bool view(const lsf_window_module *module, const lsf_settings *settings, 
         .curve = (lsf_tone_curve)settings->tonemap,
         .budget = 1e-3 * settings->budget,
         .frame_times = settings->frame_times,
+        .coverage = settings->coverage,
         .window = {LSF_WINDOW_PARAMS_DEFAULTS},
     };
     start.window.full_screen = settings->full_screen;

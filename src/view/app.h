@@ -163,6 +163,7 @@ typedef struct lsf_viewer {
     lsf_ui_color notice_color;
     double notice_until;
     double slice_end;   /* of a rival's iterations, lsf_now */
+    uint64_t reached;   /* rows of the table of keys that were used */
     FILE *frame_log;    /* of --frame-times; NULL: none */
     double frame_begun; /* lsf_now */
     double looked_at;   /* when files were looked at for changes, seconds on the input's clock */
@@ -277,6 +278,21 @@ void lsf_viewer_show_layer(lsf_viewer *viewer, uint32_t texture, lsf_canvas *can
 const char *lsf_viewer_layer_name(int layer); /* "Picture", "Albedo", ...; NULL past the end */
 
 /* --- keys.c --- */
+
+/* Rows of the table of keys that are the mouse's. */
+typedef enum lsf_viewer_mouse {
+    LSF_VIEWER_ORBIT,
+    LSF_VIEWER_PAN,
+    LSF_VIEWER_WHEEL,
+    LSF_VIEWER_LOOK,
+    LSF_VIEWER_FLY,
+    LSF_VIEWER_CLICK,
+    LSF_VIEWER_DOUBLE_CLICK
+} lsf_viewer_mouse;
+
+/* A row was used. */
+void lsf_viewer_reach(lsf_viewer *viewer, uint32_t row);
+bool lsf_viewer_write_coverage(const lsf_viewer *viewer, lsf_error *error);
 
 void lsf_viewer_handle(lsf_viewer *viewer);
 bool lsf_viewer_key(uint32_t index, lsf_viewer_key_row *row);

@@ -38,7 +38,7 @@ void lsf_viewer_draw_rival(const lsf_viewer *viewer)
     lsf_ui_draw_begin(LSF_UNDER_PANELS, area);
     lsf_ui_draw_line(x, area->y, x, area->y + area->height, 0xffffffc0, 2.0f);
     lsf_ui_draw_circle(x, area->y + 0.5f * area->height, 0.5f * em, 0xffffffe0, true);
-    lsf_ui_mark("split bar", x, area->y + 0.5f * area->height);
+    lsf_ui_mark("split bar", x, area->y + 0.5f * area->height, viewer->compare.dragging);
     const char *name =
         viewer->compare.difference ? "difference"
         : viewer->compare.rival == LSF_VIEWER_REFERENCE

@@ -206,7 +206,8 @@ static void draw_arrow(const lsf_viewer *viewer, int axis, uint32_t color)
     if (!arrow(viewer, axis, a, b))
         return;
     double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot(dx, dy);
-    lsf_ui_mark(labels[axis], (float)(a[0] + 0.9 * dx), (float)(a[1] + 0.9 * dy));
+    lsf_ui_mark(labels[axis], (float)(a[0] + 0.9 * dx), (float)(a[1] + 0.9 * dy),
+                viewer->dragged == ARROWS + axis);
     lsf_ui_draw_line((float)a[0], (float)a[1], (float)b[0], (float)b[1], color,
                      3.0f * viewer->input->scale);
     double size = 9.0 * (double)viewer->input->scale;
@@ -230,7 +231,7 @@ static void draw_ring(const lsf_viewer *viewer, int axis, uint32_t color)
                              1.5f * viewer->input->scale);
     }
     if (on_ring(viewer, axis, 0.25 * M_PI, a)) /* where no other ring is */
-        lsf_ui_mark(labels[axis], (float)a[0], (float)a[1]);
+        lsf_ui_mark(labels[axis], (float)a[0], (float)a[1], viewer->dragged == RINGS + axis);
 }
 
 static void draw_square(const lsf_viewer *viewer, uint32_t color)
@@ -241,7 +242,7 @@ static void draw_square(const lsf_viewer *viewer, uint32_t color)
         return;
     const lsf_rect rect = {(float)xy[0] - 0.5f * side, (float)xy[1] - 0.5f * side, side, side};
     lsf_ui_draw_rect(rect, color, true, 2.0f);
-    lsf_ui_mark("handle scale", (float)xy[0], (float)xy[1]);
+    lsf_ui_mark("handle scale", (float)xy[0], (float)xy[1], viewer->dragged == SCALE);
 }
 
 void lsf_viewer_draw_handles(const lsf_viewer *viewer)

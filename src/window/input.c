@@ -216,6 +216,11 @@ static bool go_on_pressing(lsf_window *window, lsf_error *error)
 {
     lsf_event event = {.kind = LSF_EVENT_MOVE, .code = LSF_BUTTON_LEFT};
     const char *label = window->pressed->text;
+    double x, y;
+    /* Panels may have been laid out anew since the cursor went there. */
+    if (window->press == LSF_PRESS_DOWN && lsf_ui_find(label, &x, &y) &&
+        hypot(x - window->input.x, y - window->input.y) > 1.0 && window->patience++ < PATIENCE)
+        window->press = LSF_PRESS_MOVE;
     switch (window->press) {
     case LSF_PRESS_MOVE:
         if (!lsf_ui_find(label, &event.x, &event.y))
@@ -248,8 +253,8 @@ static bool take_replayed(lsf_window *window, lsf_error *error)
     if (!lsf_ui_assigned())
         return window->patience++ < PATIENCE ||
                lsf_error_set(error, LSF_ERROR_FILE,
-                             "%s: what it sets is not shown, or does not take that value",
-                             window->params->replay);
+                             "%s: set %s: it is not shown, or does not take that value",
+                             window->params->replay, window->pressed->text);
     if (window->press != LSF_PRESS_NONE)
         return go_on_pressing(window, error);
     window->settling = window->settling && (window->busy || window->awake > 0);
@@ -262,9 +267,9 @@ static bool take_replayed(lsf_window *window, lsf_error *error)
         window->awake = 3;
         window->patience = 0;
         window->settling = event->kind == LSF_EVENT_SETTLE;
+        window->pressed = event;
         if (event->kind == LSF_EVENT_PRESS || event->kind == LSF_EVENT_DRAG) {
             window->press = LSF_PRESS_MOVE;
-            window->pressed = event;
             return go_on_pressing(window, error);
         }
         apply(window, event);

@@ -1,4 +1,5 @@
 /* The look of panels, and a frame of them: Dear ImGui with what lsf_input says. */
+#include "window/reach.h"
 #include "window/ui_frame.h"
 #include "window/ui_parts.hpp"
 
@@ -54,6 +55,8 @@ size_t shown_length(const char *label)
 bool same(const char *label, const char *name)
 {
     size_t length = shown_length(label);
+    if (length == 0) /* nothing of it is shown */
+        return strcmp(label, name) == 0;
     return strlen(name) == length && strncmp(label, name, length) == 0;
 }
 
@@ -193,13 +196,33 @@ ImVec4 ui::color(lsf_ui_color color)
     return ImGui::ColorConvertU32ToFloat4(packed(colors[color]));
 }
 
+static void mark(const char *label, float x, float y)
+{
+    int &count = note_count[current];
+    if (count == MOST_NOTES)
+        return;
+    Note &note = notes[current][count++];
+    memcpy(note.label, label, shown_length(label));
+    note.label[shown_length(label)] = '\0';
+    note.x = x;
+    note.y = y;
+}
+
 void ui::note(const char *label)
 {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    if (ImGui::IsItemVisible())
-        lsf_ui_mark(label, 0.5f * (low.x + high.x), 0.5f * (low.y + high.y));
+    const ImVec2 middle(0.5f * (low.x + high.x), 0.5f * (low.y + high.y));
+    if (ImGui::IsRectVisible(middle, ImVec2(middle.x + 1.0f, middle.y + 1.0f)))
+        mark(label, middle.x, middle.y);
     else if (wanted[0] && same(label, wanted))
         ImGui::SetScrollHereY(0.5f);
+}
+
+bool ui::note_used(const char *kind, const char *label, bool used)
+{
+    note(label);
+    lsf_reach_note(kind, label, used);
+    return used;
 }
 
 const char *ui::assigned(const char *label)
@@ -215,16 +238,10 @@ uint32_t lsf_ui_rgba(lsf_ui_color color)
     return colors[color];
 }
 
-void lsf_ui_mark(const char *label, float x, float y)
+void lsf_ui_mark(const char *label, float x, float y, bool held)
 {
-    int &count = note_count[current];
-    if (count == MOST_NOTES)
-        return;
-    Note &note = notes[current][count++];
-    memcpy(note.label, label, shown_length(label));
-    note.label[shown_length(label)] = '\0';
-    note.x = x;
-    note.y = y;
+    mark(label, x, y);
+    lsf_reach_note("handle", label, held);
 }
 
 /* --- what window.c uses --- */

@@ -97,7 +97,6 @@ bool lsf_ui_row(const char *label, int depth, bool chosen, bool dim);
 /* A part of the panel that scrolls by itself; end it in any case. Height in lines; 0: the rest. */
 void lsf_ui_list_begin(const char *name, float lines);
 void lsf_ui_list_end(void);
-bool lsf_ui_text_field(const char *label, char *text, uint32_t size);
 /* Things within are shown dim and take nothing. */
 void lsf_ui_disable_begin(bool disabled);
 void lsf_ui_disable_end(void);
@@ -105,15 +104,13 @@ void lsf_ui_disable_end(void);
 void lsf_ui_scope_begin(int number);
 void lsf_ui_scope_end(void);
 
-/* Whether what came before was let go of, after a change. */
-bool lsf_ui_settled(void);
-
 /* --- drawing --- */
 
 /* The place of what comes next in the panel, so many lines high, which is left to be drawn in. */
 lsf_rect lsf_ui_place(float lines);
-/* Names a place that is drawn by hand, for a replay to press. */
-void lsf_ui_mark(const char *label, float x, float y);
+/* Names a place that is drawn by hand, for a replay to press or drag; `held`: it is being dragged.
+ */
+void lsf_ui_mark(const char *label, float x, float y, bool held);
 
 typedef enum lsf_layer_place {
     LSF_UNDER_PANELS, /* over the client's own drawing */

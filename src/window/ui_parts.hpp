@@ -13,6 +13,8 @@ extern ImFont *plain, *mono;
 /* Tells a replay where the item that was just drawn is; of one that it looks for and that is
  * scrolled out of sight, scrolls there. */
 void note(const char *label);
+/* The same, of something that its user may use, and has just `used`, which it returns. */
+bool note_used(const char *kind, const char *label, bool used);
 
 /* The value that a replay sets of this label, taken by the call; nullptr: none. */
 const char *assigned(const char *label);

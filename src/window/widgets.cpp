@@ -1,4 +1,5 @@
 /* The functions of ui.h, each a call or a few of Dear ImGui. */
+#include "window/reach.h"
 #include "window/ui.h"
 #include "window/ui_parts.hpp"
 
@@ -14,6 +15,7 @@ const ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_No
                                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
 float label_lines;
+const char *list_name = ""; /* of the list in progress */
 ImDrawList *list;
 
 float em()
@@ -142,6 +144,7 @@ bool lsf_ui_menu_begin(const char *label)
     /* Of an open menu the last item is one of its own. */
     if (!open)
         ui::note(label);
+    lsf_reach_note("menu", label, open);
     return open;
 }
 
@@ -152,8 +155,7 @@ void lsf_ui_menu_end(void)
 
 bool lsf_ui_menu_item(const char *label, const char *shortcut, bool checked, const char *help)
 {
-    bool chosen = ImGui::MenuItem(label, shortcut, checked);
-    ui::note(label);
+    bool chosen = ui::note_used("menu item", label, ImGui::MenuItem(label, shortcut, checked));
     lsf_ui_help(help);
     return chosen;
 }
@@ -170,9 +172,9 @@ void lsf_ui_tabs_end(void)
 
 bool lsf_ui_tab_begin(const char *label, bool choose)
 {
-    bool open = ImGui::BeginTabItem(label, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0);
-    ui::note(label);
-    return open;
+    return ui::note_used(
+        "tab", label,
+        ImGui::BeginTabItem(label, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0));
 }
 
 void lsf_ui_tab_end(void)
@@ -183,7 +185,7 @@ void lsf_ui_tab_end(void)
 bool lsf_ui_section(const char *label, bool open_at_first)
 {
     bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-    ui::note(label);
+    ui::note_used("section", label, ImGui::IsItemToggledOpen());
     return open;
 }
 
@@ -259,16 +261,12 @@ void lsf_ui_labels(float lines)
 
 bool lsf_ui_button(const char *label)
 {
-    bool pressed = ImGui::Button(label);
-    ui::note(label);
-    return pressed;
+    return ui::note_used("button", label, ImGui::Button(label));
 }
 
 bool lsf_ui_check(const char *label, bool *value)
 {
-    bool changed = ImGui::Checkbox(begin_value(label), value);
-    ui::note(label);
-    return changed;
+    return ui::note_used("check", label, ImGui::Checkbox(begin_value(label), value));
 }
 
 bool lsf_ui_slider(const char *label, float *value, float low, float high, const char *format,
@@ -276,8 +274,7 @@ bool lsf_ui_slider(const char *label, float *value, float low, float high, const
 {
     bool changed = ImGui::SliderFloat(begin_value(label), value, low, high, format,
                                       (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
-    ui::note(label);
-    return assign_numbers(label, value, 1) || changed;
+    return ui::note_used("slider", label, assign_numbers(label, value, 1) || changed);
 }
 
 bool lsf_ui_slider_int(const char *label, int *value, int low, int high, const char *format,
@@ -287,12 +284,11 @@ bool lsf_ui_slider_int(const char *label, int *value, int low, int high, const c
                                     (logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
                                         ImGuiSliderFlags_AlwaysClamp);
     float number;
-    ui::note(label);
     if (assign_numbers(label, &number, 1)) {
         *value = (int)number;
         changed = true;
     }
-    return changed;
+    return ui::note_used("slider", label, changed);
 }
 
 bool lsf_ui_drag(const char *label, float *values, int count, float speed, float low, float high,
@@ -300,19 +296,17 @@ bool lsf_ui_drag(const char *label, float *values, int count, float speed, float
 {
     bool changed = ImGui::DragScalarN(begin_value(label), ImGuiDataType_Float, values, count, speed,
                                       &low, &high, format, 0);
-    ui::note(label);
-    return assign_numbers(label, values, count) || changed;
+    return ui::note_used("numbers", label, assign_numbers(label, values, count) || changed);
 }
 
 bool lsf_ui_color3(const char *label, float rgb[3])
 {
     float shown[3] = {to_srgb(rgb[0]), to_srgb(rgb[1]), to_srgb(rgb[2])};
     bool changed = ImGui::ColorEdit3(begin_value(label), shown, ImGuiColorEditFlags_Uint8);
-    ui::note(label);
     if (changed)
         for (int i = 0; i < 3; i++)
             rgb[i] = from_srgb(shown[i]);
-    return assign_numbers(label, rgb, 3) || changed;
+    return ui::note_used("colour", label, assign_numbers(label, rgb, 3) || changed);
 }
 
 bool lsf_ui_choice(const char *label, int *value, const char *const *names, int count)
@@ -334,6 +328,7 @@ bool lsf_ui_choice(const char *label, int *value, const char *const *names, int 
     for (int i = 0; text && i < count; i++)
         if (strcmp(text, names[i]) == 0)
             *value = i;
+    lsf_reach_note("choice", label, *value != before);
     return *value != before;
 }
 
@@ -346,6 +341,7 @@ bool lsf_ui_row(const char *label, int depth, bool chosen, bool dim)
     bool clicked = ImGui::Selectable(label, chosen);
     ImGui::PopStyleColor();
     ui::note(label);
+    lsf_reach_note("row", list_name, clicked); /* one of a list stands for all */
     if (indent > 0.0f)
         ImGui::Unindent(indent);
     return clicked;
@@ -353,6 +349,7 @@ bool lsf_ui_row(const char *label, int depth, bool chosen, bool dim)
 
 void lsf_ui_list_begin(const char *name, float lines)
 {
+    list_name = name;
     ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0.0f, 0.0f, 0.0f, 0.18f));
     ImGui::BeginChild(name, ImVec2(0.0f, lines * em()), false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
@@ -362,17 +359,6 @@ void lsf_ui_list_begin(const char *name, float lines)
 void lsf_ui_list_end(void)
 {
     ImGui::EndChild();
-}
-
-bool lsf_ui_text_field(const char *label, char *text, uint32_t size)
-{
-    bool entered =
-        ImGui::InputText(begin_value(label), text, size, ImGuiInputTextFlags_EnterReturnsTrue);
-    ui::note(label);
-    const char *set = ui::assigned(label);
-    if (set)
-        snprintf(text, size, "%s", set);
-    return entered || set;
 }
 
 void lsf_ui_disable_begin(bool disabled)
@@ -393,11 +379,6 @@ void lsf_ui_scope_begin(int number)
 void lsf_ui_scope_end(void)
 {
     ImGui::PopID();
-}
-
-bool lsf_ui_settled(void)
-{
-    return ImGui::IsItemDeactivatedAfterEdit();
 }
 
 /* --- drawing --- */

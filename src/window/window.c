@@ -330,8 +330,3 @@ bool lsf_window_waits(lsf_window *window)
             return true;
     return false;
 }
-
-bool lsf_window_replays(const lsf_window *window)
-{
-    return window->replaying;
-}

@@ -127,9 +127,6 @@ void lsf_window_rest(lsf_window *window, bool busy, double seconds);
  * iteration, from lsf_progress as well. It makes no call of OpenGL. */
 bool lsf_window_waits(lsf_window *window);
 
-/* Whether a replay stands in for the user. */
-bool lsf_window_replays(const lsf_window *window);
-
 #ifdef __cplusplus
 }
 #endif

@@ -49,7 +49,7 @@ struct lsf_window {
     uint64_t
         script_frame; /* of the replay: it stands still while a click or the client takes time */
     lsf_press press;
-    const lsf_event *pressed;
+    const lsf_event *pressed; /* or set */
     bool settling;
     uint32_t patience; /* frames that a label has been looked for */
 

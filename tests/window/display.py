@@ -1,4 +1,6 @@
 """What the tests of windows share: a display without a screen, and pictures of it."""
+import ctypes
+import ctypes.util
 import os
 import shutil
 import struct
@@ -24,6 +26,20 @@ class Display:
         os.close(write_end)
         with os.fdopen(read_end) as file:
             self.name = ":" + file.readline().strip()
+
+    def set_density(self, density):
+        """What a desktop tells programs by the resource Xft.dpi, in dots an inch."""
+        x11 = ctypes.CDLL(ctypes.util.find_library("X11"))
+        x11.XOpenDisplay.restype = ctypes.c_void_p
+        x11.XDefaultRootWindow.restype = ctypes.c_ulong
+        x11.XDefaultRootWindow.argtypes = x11.XCloseDisplay.argtypes = [ctypes.c_void_p]
+        x11.XChangeProperty.argtypes = [ctypes.c_void_p, *(3 * [ctypes.c_ulong]), ctypes.c_int, ctypes.c_int,
+                                        ctypes.c_char_p, ctypes.c_int]
+        resource_manager, string, replace = 23, 31, 0  # atoms and a mode of the X protocol
+        display = x11.XOpenDisplay(self.name.encode())
+        text = f"Xft.dpi:\t{density}\n".encode()
+        x11.XChangeProperty(display, x11.XDefaultRootWindow(display), resource_manager, string, 8, replace, text, len(text))
+        x11.XCloseDisplay(display)
 
     def close(self):
         self.server.terminate()

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import time
 
-from display import WindowTest, main, read_png
+from display import Display, WindowTest, main, read_png
 
 COMMAND = os.environ["LSF_COMMAND"]
 SCENES = os.path.join(os.environ["LSF_SOURCE_ROOT"], "data/scenes")
@@ -154,6 +154,60 @@ class View(WindowTest):
         self.run_program(COMMAND, "reference", "--view", "moved.view", "-b", "0", "-s", "64", "-q", "-o", "traced.exr")
         for name, error in (("moved", 0.4), ("still", 0.05)):
             self.run_program(COMMAND, "compare", f"{name}.exr", "traced.exr", "--threshold", f"relmse={error}")
+
+    def test_shaders_that_change(self):
+        """They are read anew; a mistake is told in the window, which goes on with what is right again."""
+        folder = self.path("glsl")
+        shutil.copytree(os.path.join(os.environ["LSF_SOURCE_ROOT"], "glsl"), folder)
+        shader = os.path.join(folder, "passes/tonemap.frag.glsl")
+        with open(shader, encoding="utf-8") as file:
+            text = file.read()
+        red = text.replace("display_out =", "display_out = vec4(1.0, 0.0, 0.0, 1.0); vec4 before =")
+
+        def wait_for(number):
+            path = self.path(f"lightsheaf-{number:04}-window.png")
+            while not os.path.exists(path) and program.poll() is None:
+                time.sleep(0.01)
+            return path
+
+        # Looks at files every half a second of the replay's time.
+        shots = ["key Shift", "key F12", "key-up F12", "key-up Shift", *(12 * ["step 0.05"]), "settle"]
+        script = self.write("script", "".join(f"{10 + k} {line}\n" for k, line in enumerate(100 * shots)))
+        program = subprocess.Popen([COMMAND, "view", os.path.join(SCENES, "cornell_point.gltf"), "--shader-dir", folder,
+                                    "-r", "300,200", "-s", "1", "-t", "direct", "--replay", script],
+                                   cwd=self.folder, env=self.environment(), stderr=subprocess.PIPE, text=True)
+        seen = []
+        for number, content in ((1, "wrong"), (8, red), (16, text), (24, None)):
+            path = wait_for(number)
+            if content:
+                with open(shader, "w", encoding="utf-8") as file:
+                    file.write(content)
+            time.sleep(0.05)  # until it is written
+            seen.append(read_png(path)[2])
+        program.terminate()
+        self.assertEqual(program.communicate()[1], "")
+        self.assertNotEqual(seen[0][100][60], (255, 0, 0))
+        self.assertTrue(any(r > 200 and 80 < g < 150 for r, g, b in sum(seen[1], [])), "the red heading")
+        self.assertEqual(seen[2][100][60], (255, 0, 0))
+        self.assertEqual(seen[3][100][60], seen[0][100][60])
+
+    def test_a_dense_screen(self):
+        """Panels are twice as large on a screen of twice the density; the picture fills what they leave."""
+        sizes = {}
+        for density in (96, 192):
+            display = Display("1600x1000")
+            self.addCleanup(display.close)
+            display.set_density(density)
+            script = self.write("script", "6 snapshot shown\n8 close\n")
+            environment = {**self.environment(), "DISPLAY": display.name}
+            self.run_program(COMMAND, "view", os.path.join(SCENES, "cornell_point.gltf"), "-r", "1600,1000", "-s", "1", "-t",
+                             "direct", "--replay", script, environment=environment)
+            with open(self.path("shown.view"), encoding="utf-8") as file:
+                line = next(line for line in file if line.startswith("resolution="))
+            sizes[density] = [int(side) for side in line[11:].split(",")]
+        panels = {density: (1600 - width, 1000 - height) for density, (width, height) in sizes.items()}
+        for one, two in zip(panels[96], panels[192]):
+            self.assertAlmostEqual(two / one, 2, delta=0.1)
 
     def test_the_page_lists_the_keys(self):
         """LSF_UPDATE=1 in the environment brings docs/window.md up to date instead."""
