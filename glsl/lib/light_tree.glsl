@@ -1,5 +1,5 @@
 /* The tree over a cloud of VPLs: its buffers, and what a link leads to. Switch LSF_LIGHT_TREE_COVARIANCE. Who builds
- * the tree defines LIGHT_TREE_ACCESS as coherent: work groups go on with nodes that others have written. */
+ * the tree, and writes it, defines LIGHT_TREE_ACCESS as nothing. */
 #ifndef LSF_LIB_LIGHT_TREE
 #define LSF_LIB_LIGHT_TREE
 

@@ -17,7 +17,7 @@ void main()
     float disc2 = 0.0; /* of a single VPL nothing is known */
     if (tree.live > 1u) {
         uint node = parent_of_leaf(place);
-        for (int i = 0; i < LIGHT_TREE_DEPTH && node != 0u && nodes[node].count < ENOUGH; i++)
+        for (int i = 0; i < LSF_LIGHT_TREE_TURNS && node != 0u && nodes[node].count < ENOUGH; i++)
             node = parents[node];
         disc2 = light_disc2(nodes[node], light_tree_frame(octahedral_decode(nodes[node].normal)));
     }

@@ -16,7 +16,7 @@ uvec3 ordered(vec3 v)
 
 void main()
 {
-    uint lane = gl_LocalInvocationID.x, count = uint(cloud.length());
+    uint lane = gl_LocalInvocationID.x;
     if (lane < 3u) {
         group_low[lane] = 0xffffffffu;
         group_high[lane] = 0u;
@@ -28,7 +28,7 @@ void main()
     uvec3 low = uvec3(0xffffffffu), high = uvec3(0u);
     for (uint row = 0u; row < LSF_LIGHT_TREE_ROWS; row++) {
         uint i = gl_WorkGroupID.x * LSF_LIGHT_TREE_TILE + row * LSF_LIGHT_TREE_GROUP + lane;
-        if (i >= count || light_is_dead(cloud[i]))
+        if (i >= record_count || light_is_dead(cloud[i]))
             continue;
         uvec3 place = ordered(cloud[i].position);
         low = min(low, place);

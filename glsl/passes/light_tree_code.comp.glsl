@@ -63,7 +63,7 @@ uint normal_code(vec3 normal)
 void main()
 {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= uint(cloud.length()))
+    if (i >= record_count)
         return;
     lsf_vpl_record record = cloud[i];
     uvec2 code = uvec2(CODE_DEAD, i);

@@ -3,8 +3,10 @@
 #ifndef LSF_PASSES_LIGHT_TREE_CODES
 #define LSF_PASSES_LIGHT_TREE_CODES
 
-#define LIGHT_TREE_ACCESS coherent
+#define LIGHT_TREE_ACCESS
 #include "lib/light_tree.glsl"
+
+layout(location = LSF_LOCATION_LIGHT_TREE_RECORDS) uniform uint record_count;
 
 #define CODE_DEAD 0x80000000u
 #define CODE_ID_MASK ((1u << LSF_LIGHT_TREE_ID_BITS) - 1u)

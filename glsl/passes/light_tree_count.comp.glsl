@@ -5,12 +5,12 @@ shared uint tile_counts[LSF_LIGHT_TREE_DIGITS];
 
 void main()
 {
-    uint lane = gl_LocalInvocationID.x, count = uint(codes.length());
+    uint lane = gl_LocalInvocationID.x;
     tile_counts[lane] = 0u;
     barrier();
     for (uint row = 0u; row < LSF_LIGHT_TREE_ROWS; row++) {
         uint i = code_place(row);
-        if (i < count)
+        if (i < record_count)
             atomicAdd(tile_counts[code_digit(codes[i])], 1u);
     }
     barrier();

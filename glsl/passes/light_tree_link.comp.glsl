@@ -19,9 +19,9 @@ int other_end(int i, int direction)
     while (shared_bits(i, i + bound * direction) > least)
         bound *= 2;
     int length = 0;
-    for (int step = bound / 2; step > 0; step /= 2)
-        if (shared_bits(i, i + (length + step) * direction) > least)
-            length += step;
+    for (int reach = bound / 2; reach > 0; reach /= 2)
+        if (shared_bits(i, i + (length + reach) * direction) > least)
+            length += reach;
     return i + length * direction;
 }
 
@@ -43,7 +43,7 @@ int split(int first, int last)
 /* The link to what is over the codes from one place to another, `edge` the one at which it stands. */
 uint link_to(int edge, bool alone, uint parent)
 {
-    parents[alone ? uint(cloud.length()) + uint(edge) : uint(edge)] = parent;
+    parents[alone ? record_count + uint(edge) : uint(edge)] = parent;
     return alone ? LSF_LIGHT_TREE_LEAF | (codes[edge].y & CODE_ID_MASK) : uint(edge);
 }
 
@@ -63,5 +63,5 @@ void main()
     nodes[node].left = link_to(middle, middle == first, node);
     nodes[node].right = link_to(middle + 1, middle + 1 == last, node);
     nodes[node].count = uint(last - first + 1);
-    visits[node] = 0u;
+    parents[place_of_visits(node)] = 0u;
 }

@@ -8,20 +8,18 @@ layout(local_size_x = LSF_LIGHT_TREE_GROUP) in;
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_PARENTS) buffer lsf_light_tree_parent_block
 {
-    uint parents[]; /* of inner nodes, then of VPLs in the order of their codes */
+    uint parents[]; /* of inner nodes, then of VPLs in the order of their codes; then how many of the children of each
+                     * inner node are done */
 };
-/* Of inner nodes: how many of their children are done. */
-layout(std430, binding = LSF_BINDING_LIGHT_TREE_VISITS) coherent buffer lsf_light_tree_visit_block
-{
-    uint visits[];
-};
-
-/* Nodes above a leaf are fewer than the bits of a code. */
-#define LIGHT_TREE_DEPTH 64
 
 uint parent_of_leaf(uint place)
 {
-    return parents[uint(cloud.length()) + place];
+    return parents[record_count + place];
+}
+
+uint place_of_visits(uint node)
+{
+    return 2u * record_count + node;
 }
 
 #endif

@@ -1,8 +1,20 @@
-/* What inner nodes stand for, from the leaves up: of two children the one that is done last goes on, and merges them
- * left with right, so that it does not matter which that is. */
+/* What inner nodes stand for, from the leaves up. A dispatch merges the nodes whose children were done by those before
+ * it, left with right, and lists the parents that this makes ready for the next. The first one only lists. */
 #include "passes/light_tree_links.glsl"
 
+layout(std430, binding = LSF_BINDING_LIGHT_TREE_TURNS) buffer lsf_light_tree_turn_block
+{
+    uvec4 turns[LSF_LIGHT_TREE_TURNS]; /* work groups in x, y and z, and nodes, of each dispatch */
+    uint ready[];                      /* nodes of this dispatch, and of the next, by turns in either half */
+};
+
 layout(location = 0) uniform vec3 limits; /* least similarity, largest deviation along the normal, largest diagonal */
+layout(location = 2) uniform uint turn;
+
+uint place_of_ready(uint of_turn, uint i)
+{
+    return (of_turn & 1u) * ((record_count + 1u) / 2u) + i;
+}
 
 /* Of equal normals exactly 1, however many. */
 float normal_similarity(uint a, uint b)
@@ -13,8 +25,8 @@ float normal_similarity(uint a, uint b)
 /* Variances along other axes than they are given for; what is not along either is lost. */
 vec3 turn_variance(vec3 variance, uint from, mat3 to)
 {
-    mat3 turn = transpose(to) * light_tree_frame(octahedral_decode(from));
-    return matrixCompMult(turn, turn) * variance;
+    mat3 turned = transpose(to) * light_tree_frame(octahedral_decode(from));
+    return matrixCompMult(turned, turned) * variance;
 }
 
 /* With q the second child's share of the luminance and d the way from child to child:
@@ -57,18 +69,23 @@ void merge(uint index)
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
-    if (tree.live < 2u || place >= tree.live)
-        return;
-    uint node = parent_of_leaf(place);
-    for (int i = 0; i < LIGHT_TREE_DEPTH; i++) {
-        memoryBarrierBuffer();
-        if (atomicAdd(visits[node], 1u) == 0u)
+    uint i = gl_GlobalInvocationID.x, node;
+    if (turn == 0u) {
+        if (tree.live < 2u || i >= tree.live)
             return;
-        memoryBarrierBuffer();
-        merge(node);
-        if (node == 0u)
+        node = parent_of_leaf(i);
+    } else {
+        if (i >= turns[turn].w)
             return;
-        node = parents[node];
+        uint done = ready[place_of_ready(turn, i)];
+        merge(done);
+        if (done == 0u || turn + 1u == LSF_LIGHT_TREE_TURNS)
+            return;
+        node = parents[done];
     }
+    if (atomicAdd(parents[place_of_visits(node)], 1u) == 0u)
+        return;
+    uint place = atomicAdd(turns[turn + 1u].w, 1u);
+    atomicMax(turns[turn + 1u].x, place / LSF_LIGHT_TREE_GROUP + 1u);
+    ready[place_of_ready(turn + 1u, place)] = node;
 }

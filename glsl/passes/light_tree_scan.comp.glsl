@@ -6,14 +6,16 @@ shared uint sums[LSF_LIGHT_TREE_DIGITS];
 
 void main()
 {
-    uint digit = gl_LocalInvocationID.x, size = uint(counts.length());
+    uint digit = gl_LocalInvocationID.x;
+    uint tiles = (record_count + LSF_LIGHT_TREE_TILE - 1u) / LSF_LIGHT_TREE_TILE;
+    uint size = tiles * LSF_LIGHT_TREE_DIGITS;
     uint own = 0u;
     for (uint i = digit; i < size; i += LSF_LIGHT_TREE_DIGITS)
         own += counts[i];
     sums[digit] = own;
     barrier();
-    for (uint step = 1u; step < LSF_LIGHT_TREE_DIGITS; step *= 2u) {
-        uint before = digit >= step ? sums[digit - step] : 0u;
+    for (uint reach = 1u; reach < LSF_LIGHT_TREE_DIGITS; reach *= 2u) {
+        uint before = digit >= reach ? sums[digit - reach] : 0u;
         barrier();
         sums[digit] += before;
         barrier();

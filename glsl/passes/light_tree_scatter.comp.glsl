@@ -14,14 +14,14 @@ shared uint lanes[LSF_LIGHT_TREE_DIGITS * MASK_WORDS]; /* a bit for each that ha
 
 void main()
 {
-    uint lane = gl_LocalInvocationID.x, count = uint(codes.length());
+    uint lane = gl_LocalInvocationID.x;
     first[lane] = counts[gl_WorkGroupID.x * LSF_LIGHT_TREE_DIGITS + lane];
     for (uint word = 0u; word < MASK_WORDS; word++)
         lanes[word * LSF_LIGHT_TREE_DIGITS + lane] = 0u;
     uint own_word = lane / 32u, own_bit = 1u << (lane % 32u);
     for (uint row = 0u; row < LSF_LIGHT_TREE_ROWS; row++) {
         uint i = code_place(row);
-        bool there = i < count;
+        bool there = i < record_count;
         uvec2 code = there ? codes[i] : uvec2(0u);
         uint digit = code_digit(code);
         barrier();

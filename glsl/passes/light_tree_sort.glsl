@@ -19,6 +19,7 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_co
 };
 
 layout(location = 0) uniform uint shift; /* of the digit in turn, from the code's lowest bit */
+layout(location = LSF_LOCATION_LIGHT_TREE_RECORDS) uniform uint record_count;
 
 uint code_digit(uvec2 code)
 {

@@ -53,6 +53,13 @@ struct lsf_light_tree_node {
 #define LSF_LIGHT_TREE_SAMPLE_STEPS 2
 #define LSF_LIGHT_TREE_SAMPLE_COUNTS 3
 
+/* Location of the number of records in the cloud, in all that builds the tree. */
+#define LSF_LOCATION_LIGHT_TREE_RECORDS 1
+
+/* Nodes above a leaf are fewer than the bits of a code. They are merged in so many dispatches, from
+ * the leaves up. */
+#define LSF_LIGHT_TREE_TURNS 64
+
 /* Storage buffers. */
 #define LSF_BINDING_CLOUD 1
 #define LSF_BINDING_LIGHT_TREE 2
@@ -61,7 +68,7 @@ struct lsf_light_tree_node {
 #define LSF_BINDING_LIGHT_TREE_CODES 5 /* and, in the sort, the next: where they go */
 #define LSF_BINDING_LIGHT_TREE_COUNTS 7
 #define LSF_BINDING_LIGHT_TREE_PARENTS 6
-#define LSF_BINDING_LIGHT_TREE_VISITS 7
+#define LSF_BINDING_LIGHT_TREE_TURNS 7
 
 #include "shared/shared_end.h"
 #endif

@@ -11,6 +11,10 @@
 
 #define LOCATION_SHIFT 0  /* light_tree_sort.glsl */
 #define LOCATION_LIMITS 0 /* light_tree_merge */
+#define LOCATION_TURN 2   /* the same */
+
+/* A dispatch as GL reads it, and a number. */
+#define TURN_BYTES (4 * sizeof(uint32_t))
 
 const lsf_option_row lsf_light_tree_options[LSF_LIGHT_TREE_OPTION_COUNT] = {
     {"light_tree.similarity", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, similarity), 0.0,
@@ -75,9 +79,11 @@ void lsf_light_tree_plan(lsf_plan *plan, const lsf_light_tree_params *params, ui
                         "inner nodes");
     lsf_plan_buffer_add(plan, "light_tree.areas", n * sizeof(float),
                         "what area each virtual point light stands for");
-    lsf_plan_buffer_add(plan, "light_tree.parents", 2 * n * sizeof(uint32_t), "the way up");
-    lsf_plan_buffer_add(plan, "light_tree.visits", n * sizeof(uint32_t),
-                        "children of each node that are merged");
+    lsf_plan_buffer_add(plan, "light_tree.parents", 3 * n * sizeof(uint32_t),
+                        "the way up, and how many children are merged");
+    lsf_plan_buffer_add(plan, "light_tree.turns",
+                        LSF_LIGHT_TREE_TURNS * TURN_BYTES + (n + 1) / 2 * 2 * sizeof(uint32_t),
+                        "nodes that are merged together");
 }
 
 bool lsf_light_tree_create(lsf_light_tree *pass, lsf_context *context, const lsf_plan *plan,
@@ -96,7 +102,7 @@ bool lsf_light_tree_create(lsf_light_tree *pass, lsf_context *context, const lsf
         !lsf_plan_create_buffer(plan, context, "light_tree.areas", NULL, 0, &out->areas, error) ||
         !lsf_plan_create_buffer(plan, context, "light_tree.parents", NULL, 0, &pass->parents,
                                 error) ||
-        !lsf_plan_create_buffer(plan, context, "light_tree.visits", NULL, 0, &pass->visits, error))
+        !lsf_plan_create_buffer(plan, context, "light_tree.turns", NULL, 0, &pass->turns, error))
         return false;
     for (size_t i = 0; i < LSF_LIGHT_TREE_PROGRAMS; i++) {
         const char *const files[5] = {programs[i].file};
@@ -114,9 +120,12 @@ static void bind(GLuint binding, GLuint buffer)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
 
-static void dispatch(GLuint program, uint32_t groups)
+/* With the uniforms that the caller has set beside the number of records. (One driver has it that
+ * some storage blocks' arrays are empty, so that their length is not asked.) */
+static void dispatch(const lsf_light_tree *pass, int program, uint32_t groups)
 {
-    glUseProgram(program);
+    glUseProgram(pass->programs[program]);
+    glUniform1ui(LSF_LOCATION_LIGHT_TREE_RECORDS, pass->capacity);
     glDispatchCompute(groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -138,6 +147,11 @@ static void clear_tree(const lsf_light_tree *pass)
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+static void set_shift(const lsf_light_tree *pass, int program, GLuint shift)
+{
+    glProgramUniform1ui(pass->programs[program], LOCATION_SHIFT, shift);
+}
+
 /* Returns the buffer that holds the codes in order. */
 static GLuint sort(const lsf_light_tree *pass)
 {
@@ -147,12 +161,11 @@ static GLuint sort(const lsf_light_tree *pass)
     for (GLuint shift = FIRST_BIT; shift < LAST_BIT; shift += LSF_LIGHT_TREE_DIGIT_BITS) {
         bind(LSF_BINDING_LIGHT_TREE_CODES, pass->codes[from]);
         bind(LSF_BINDING_LIGHT_TREE_CODES + 1, pass->codes[1 - from]);
-        const GLuint *p = pass->programs;
-        glProgramUniform1ui(p[LSF_LIGHT_TREE_COUNT], LOCATION_SHIFT, shift);
-        glProgramUniform1ui(p[LSF_LIGHT_TREE_SCATTER], LOCATION_SHIFT, shift);
-        dispatch(p[LSF_LIGHT_TREE_COUNT], tiles);
-        dispatch(p[LSF_LIGHT_TREE_SCAN], 1);
-        dispatch(p[LSF_LIGHT_TREE_SCATTER], tiles);
+        set_shift(pass, LSF_LIGHT_TREE_COUNT, shift);
+        dispatch(pass, LSF_LIGHT_TREE_COUNT, tiles);
+        dispatch(pass, LSF_LIGHT_TREE_SCAN, 1);
+        set_shift(pass, LSF_LIGHT_TREE_SCATTER, shift);
+        dispatch(pass, LSF_LIGHT_TREE_SCATTER, tiles);
         from = 1 - from;
     }
     return pass->codes[from];
@@ -166,16 +179,39 @@ static float longest_side(const lsf_state *state)
     return side;
 }
 
-void lsf_light_tree_run(lsf_light_tree *pass, const lsf_iteration *iteration, GLuint cloud)
+/* From the leaves up, all nodes at once that are ready. */
+static void merge(const lsf_light_tree *pass, float side)
 {
     const lsf_light_tree_params *params = &pass->params;
+    const GLuint no_groups[4] = {0, 1, 1, 0};
+    glClearNamedBufferSubData(pass->turns, GL_RGBA32UI, 0, LSF_LIGHT_TREE_TURNS * TURN_BYTES,
+                              GL_RGBA_INTEGER, GL_UNSIGNED_INT, no_groups);
+    bind(LSF_BINDING_LIGHT_TREE_TURNS, pass->turns);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->turns);
+    glUseProgram(pass->programs[LSF_LIGHT_TREE_MERGE]);
+    glUniform1ui(LSF_LOCATION_LIGHT_TREE_RECORDS, pass->capacity);
+    glUniform3f(LOCATION_LIMITS, params->similarity, params->spread * side,
+                params->diagonal > 0.0f ? params->diagonal * side : INFINITY);
+    for (GLuint turn = 0; turn < LSF_LIGHT_TREE_TURNS; turn++) {
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+        glUniform1ui(LOCATION_TURN, turn);
+        if (turn == 0)
+            glDispatchCompute(groups_of(pass->capacity), 1, 1);
+        else
+            glDispatchComputeIndirect((GLintptr)(turn * TURN_BYTES));
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void lsf_light_tree_run(lsf_light_tree *pass, const lsf_iteration *iteration, GLuint cloud)
+{
     pass->outputs.cloud = cloud;
     lsf_timer_begin(pass->sort_timer);
     clear_tree(pass);
     lsf_light_tree_bind(&pass->outputs);
     bind(LSF_BINDING_LIGHT_TREE_CODES, pass->codes[0]);
-    dispatch(pass->programs[LSF_LIGHT_TREE_BOUNDS], tiles_of(pass->capacity));
-    dispatch(pass->programs[LSF_LIGHT_TREE_CODE], groups_of(pass->capacity));
+    dispatch(pass, LSF_LIGHT_TREE_BOUNDS, tiles_of(pass->capacity));
+    dispatch(pass, LSF_LIGHT_TREE_CODE, groups_of(pass->capacity));
     GLuint codes = sort(pass);
     lsf_timer_end(pass->sort_timer);
 
@@ -183,14 +219,9 @@ void lsf_light_tree_run(lsf_light_tree *pass, const lsf_iteration *iteration, GL
     lsf_light_tree_bind(&pass->outputs);
     bind(LSF_BINDING_LIGHT_TREE_CODES, codes);
     bind(LSF_BINDING_LIGHT_TREE_PARENTS, pass->parents);
-    bind(LSF_BINDING_LIGHT_TREE_VISITS, pass->visits);
-    dispatch(pass->programs[LSF_LIGHT_TREE_LINK], groups_of(pass->capacity));
-    float side = longest_side(iteration->state);
-    glProgramUniform3f(pass->programs[LSF_LIGHT_TREE_MERGE], LOCATION_LIMITS, params->similarity,
-                       params->spread * side,
-                       params->diagonal > 0.0f ? params->diagonal * side : INFINITY);
-    dispatch(pass->programs[LSF_LIGHT_TREE_MERGE], groups_of(pass->capacity));
-    dispatch(pass->programs[LSF_LIGHT_TREE_AREA], groups_of(pass->capacity));
+    dispatch(pass, LSF_LIGHT_TREE_LINK, groups_of(pass->capacity));
+    merge(pass, longest_side(iteration->state));
+    dispatch(pass, LSF_LIGHT_TREE_AREA, groups_of(pass->capacity));
     lsf_timer_end(pass->timer);
 }
 
@@ -206,7 +237,7 @@ void lsf_light_tree_destroy(lsf_light_tree *pass)
     lsf_buffer_destroy(pass->context, &pass->codes[1]);
     lsf_buffer_destroy(pass->context, &pass->counts);
     lsf_buffer_destroy(pass->context, &pass->parents);
-    lsf_buffer_destroy(pass->context, &pass->visits);
+    lsf_buffer_destroy(pass->context, &pass->turns);
     lsf_timer_destroy(pass->sort_timer);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
