@@ -39,6 +39,22 @@ bool voxel_leave_start(inout voxel_ray ray)
     return true;
 }
 
+/* The same for a ray that starts on the surface of the medium that it goes through: those that it starts in are left
+ * but for one through which it leaves the medium ahead, whose normal goes with it. */
+bool voxel_leave_inside(inout voxel_ray ray)
+{
+    int steps = voxel_ray_steps();
+    for (int i = 0; i < steps && voxel_occupied(ray.cell); i++) {
+        vec2 height = voxel_height(ray.cell, ray);
+        if (height.y > 0.0 && height.x < 0.0)
+            return true;
+        voxel_ray_step(ray, ray.cell, ivec3(1));
+        if (!voxel_inside(ray.cell))
+            return false;
+    }
+    return true;
+}
+
 /* Whether heights at two distances along a ray are on both sides of a plane, or on it. */
 bool voxel_crossed(vec2 height, float first, float last)
 {

@@ -80,7 +80,10 @@ bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
 #if LSF_TRANSMISSION
     /* Through the surface it starts on its way, where this leaves the plane's voxels soon. */
     float sinks = -dot(v.s.geometric_normal, direction);
-    if (sinks > 0.0) {
+    bool inside = v.s.volume && v.s.front == (sinks > 0.0);
+    if (inside) {
+        start = v.position;
+    } else if (sinks > 0.0) {
         float way = length(lift) * min(1.0 / sinks, 2.0);
         start = v.position + way * direction - lift + way * sinks * v.s.geometric_normal;
     }
@@ -91,6 +94,10 @@ bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
 #if LSF_EMISSION && !LSF_ENVIRONMENT
     if (last && !voxel_ray_passes(ray, shining_bricks))
         return false;
+#endif
+#if LSF_TRANSMISSION
+    if (inside)
+        return voxel_leave_inside(ray) && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
 #endif
     return voxel_leave_start(ray) && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
 }
