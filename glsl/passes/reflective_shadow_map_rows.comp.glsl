@@ -1,17 +1,72 @@
-/* Importance of a map's texels, by the flux that each reflects, and its running sums along a row. A
- * row an invocation. */
+/* Importance of a map's texels, by the flux that each reflects and how much of it visible points would
+ * get if nothing stood between, and its running sums along a row. A row an invocation. */
 #include "lib/emission_pdf.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/hash.glsl"
+#include "lib/luminance.glsl"
+#include "lib/view.glsl"
+
+/* A square of visible points, one in each cell of the picture. */
+#define POINTS_SIDE 4
+#define POINTS (POINTS_SIDE * POINTS_SIDE)
 
 layout(local_size_x = 64) in;
 
+layout(location = 0) uniform uvec2 viewed; /* whether there are visible points; their random seed */
+
 layout(binding = 0) uniform sampler2DArray depth_texture;
 layout(binding = 1) uniform usampler2DArray surface_texture;
+layout(binding = 2) uniform sampler2D seen_depth;
+layout(binding = 3) uniform usampler2D seen_surface;
 layout(binding = 0, r32f) writeonly uniform image2DArray importance_image;
 layout(std430, binding = 1) writeonly buffer sum_block
 {
     float sums[]; /* rows of running sums; then each row's total */
 };
+
+shared vec4 points[POINTS]; /* position; the least squared distance at which they are lit */
+shared vec3 normals[POINTS]; /* 0: the cell shows none */
+shared uint point_count;
+
+/* Takes the visible point of a cell, where there is one. A point stands for the area that its cell shows;
+ * no disc of that area gets more than pi times what arrives at it from straight above: the squared
+ * distance is at least the disc's radius squared. */
+void find_point(uint cell)
+{
+    vec3 random = hash_unit(hash(uvec3(cell, viewed.y, 0u)));
+    vec2 place = (vec2(cell % POINTS_SIDE, cell / POINTS_SIDE) + random.xy) / float(POINTS_SIDE);
+    ivec2 pixel = min(ivec2(place * view.size.xy), ivec2(view.size.xy) - 1);
+    float depth = texelFetch(seen_depth, pixel, 0).r;
+    normals[cell] = vec3(0.0);
+    if (depth == 0.0)
+        return;
+    vec2 ndc = sample_ndc(vec2(pixel) + 0.5);
+    float along = view_depth_from_start(depth);
+    vec3 ray = view_ray_direction(ndc);
+    vec3 normal = surface_unpack(texelFetch(seen_surface, pixel, 0)).geometric_normal;
+    vec3 across = cross(view.start_dx.xyz + along * view.forward_dx.xyz,
+                        view.start_dy.xyz + along * view.forward_dy.xyz);
+    float area = 4.0 / float(POINTS) * abs(dot(across, ray) / min(dot(normal, ray), -1e-6));
+    points[cell] = vec4(view_ray_start(ndc) + along * ray, area / LSF_PI);
+    normals[cell] = normal;
+    atomicAdd(point_count, 1u);
+}
+
+/* What visible points get from a Lambertian element at that place, on average. */
+float share_of_view(vec3 position, vec3 normal)
+{
+    if (point_count == 0u)
+        return 1.0;
+    float sum = 0.0;
+    for (int i = 0; i < POINTS; i++) {
+        vec3 to_point = points[i].xyz - position;
+        float distance2 = dot(to_point, to_point);
+        float cosines = max(dot(normal, to_point), 0.0) * max(-dot(normals[i], to_point), 0.0);
+        if (cosines > 0.0)
+            sum += cosines / (distance2 * max(distance2, points[i].w));
+    }
+    return sum / float(POINTS);
+}
 
 float importance(int face, ivec2 at)
 {
@@ -39,11 +94,18 @@ float importance(int face, ivec2 at)
                                          light.attenuation.y, light.attenuation.z);
 #endif
     }
-    return max(dot(flux, vec3(0.2126, 0.7152, 0.0722)), 0.0);
+    float power = max(luminance(flux), 0.0);
+    return power > 0.0 ? power * share_of_view(position, s.geometric_normal) : 0.0;
 }
 
 void main()
 {
+    if (gl_LocalInvocationIndex == 0u)
+        point_count = 0u;
+    barrier();
+    if (viewed.x != 0u && gl_LocalInvocationIndex < POINTS)
+        find_point(gl_LocalInvocationIndex);
+    barrier();
     int texels = int(light.map_shape.z);
     int rows = texels * int(light.map_origin.w);
     int row = int(gl_GlobalInvocationID.x);

@@ -29,6 +29,7 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_VPL_CLOUD,
     LSF_PURPOSE_VPL_CLOUD_EMITTER,
     LSF_PURPOSE_VPL_CLOUD_DEAL, /* how many light paths each light has */
+    LSF_PURPOSE_VPL_VIEW,       /* the visible points that VPLs are to light */
     LSF_PURPOSE_LIGHT_TREE,
     LSF_PURPOSE_STRAIGHT_SHADOW_MAP = 0x80000,            /* one for each light */
     LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP = 0xa0000, /* the same */

@@ -19,7 +19,9 @@ const lsf_option_row lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP
     {"rsm.resolution", LSF_OPTION_INT, offsetof(lsf_reflective_shadow_map_params, resolution), 16,
      4096, NULL, "texels", "side of each face of the maps that VPLs are drawn from"},
     {"rsm.pdf", LSF_OPTION_ENUM, offsetof(lsf_reflective_shadow_map_params, pdf), 0, 0,
-     "uniform|adaptive", "", "VPLs are drawn as the light shines, or as surfaces reflect it"},
+     "auto|uniform|adaptive", "",
+     "VPLs are drawn as the light shines, or where surfaces reflect it to what is seen; auto: the "
+     "latter with directional lights, most of whose light may go elsewhere"},
 };
 
 static const struct {
@@ -43,7 +45,7 @@ static const struct {
     [GRADIENT] = {"gradient", GL_RG16F, "the plane of each texel's surface"},
     [SURFACE] = {"surface", GL_RGBA32UI, "normals, base colour, metallic"},
     [GLOSS] = {"gloss", GL_R32UI, "roughness and f0"},
-    [IMPORTANCE] = {"importance", GL_R32F, "the flux that each texel reflects"},
+    [IMPORTANCE] = {"importance", GL_R32F, "the flux that each texel reflects to what is seen"},
     [TINT] = {"tint", LSF_LIGHT_TINT_FORMAT, "light passes thin walls"},
     [DEPTH] = {"depth", GL_DEPTH_COMPONENT32F, "rsm.resolution texels a side"},
 };
@@ -55,10 +57,12 @@ static void name_layer(char name[64], int kind, int layer)
 
 /* Densities that follow what a texel shows would, with surfaces that are there by chance, go along
  * with which of them is: the shares of both ways to find a path would no longer add up to one. */
-static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_params *params)
+static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
+                        int kind)
 {
-    return params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE && !plan->requirements.blended &&
-           !lsf_light_walls_needed(plan);
+    return !plan->requirements.blended && !lsf_light_walls_needed(plan) &&
+           (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE ||
+            (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO && kind == LSF_LIGHT_MAP_WINDOWS));
 }
 
 static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_params *params,
@@ -69,7 +73,7 @@ static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_p
         [GRADIENT] = true,
         [SURFACE] = true,
         [GLOSS] = gloss,
-        [IMPORTANCE] = is_adaptive(plan, params),
+        [IMPORTANCE] = is_adaptive(plan, params, kind),
         [TINT] = lsf_light_walls_needed(plan),
         [DEPTH] = true,
     };
@@ -92,11 +96,21 @@ static void plan_pdf(lsf_plan *plan, uint32_t faces, uint32_t side)
 {
     const lsf_requirements *r = &plan->requirements;
     uint64_t rows = (uint64_t)faces * side;
-    lsf_plan_pass_add(plan, "reflective_shadow_map_pdf", "rsm.pdf is adaptive");
+    lsf_plan_pass_add(plan, "reflective_shadow_map_pdf", "where VPLs light what is seen (rsm.pdf)");
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_buffer_add(plan, "reflective_shadow_map.sums", (rows * side + rows) * sizeof(float),
                         "running sums of importance");
+}
+
+static const char *why_uniform(const lsf_plan *plan, const lsf_reflective_shadow_map_params *params)
+{
+    if (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM)
+        return "rsm.pdf is uniform";
+    if (plan->requirements.blended || lsf_light_walls_needed(plan))
+        return "some material is blended, or transmits: VPLs are drawn uniformly";
+    return "rsm.pdf is auto, and no light is directional";
 }
 
 void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
@@ -107,7 +121,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     if (sky)
         needed[LSF_LIGHT_MAP_WINDOWS] = true;
     bool gloss = lsf_plan_surfaces_differ(plan);
-    uint32_t most_faces = 1;
+    uint32_t adaptive_faces = 0;
     lsf_plan_pass_add(plan, "reflective_shadow_map",
                       "the surfaces that %u punctual light%s%s light", state->light_count,
                       lsf_plural(state->light_count),
@@ -125,19 +139,16 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
             continue;
         }
         plan_map(plan, kind, params, gloss);
-        if (kinds[kind].faces > most_faces)
-            most_faces = kinds[kind].faces;
+        if (is_adaptive(plan, params, kind) && kinds[kind].faces > adaptive_faces)
+            adaptive_faces = kinds[kind].faces;
     }
     lsf_plan_buffer_add(plan, "reflective_shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
     lsf_light_walls_plan(plan, "reflective_shadow_map_walls", false);
-    if (is_adaptive(plan, params))
-        plan_pdf(plan, most_faces, (uint32_t)params->resolution);
+    if (adaptive_faces > 0)
+        plan_pdf(plan, adaptive_faces, (uint32_t)params->resolution);
     else
-        lsf_plan_omit(plan, "reflective_shadow_map_pdf",
-                      params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE
-                          ? "some material is blended, or transmits: VPLs are drawn uniformly"
-                          : "rsm.pdf is uniform");
+        lsf_plan_omit(plan, "reflective_shadow_map_pdf", "%s", why_uniform(plan, params));
 }
 
 static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context *context,
@@ -225,15 +236,19 @@ static GLenum front_winding(const struct lsf_light_data *light, uint32_t face)
 }
 
 /* Sums importance over the map. */
-static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_reflective_shadow_map_target *target)
+static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
+                    const lsf_reflective_shadow_map_target *target, const lsf_surface_maps *viewed)
 {
     const lsf_reflective_shadow_map_outputs *out = &pass->outputs;
     lsf_timer_begin(pass->pdf_timer);
     lsf_bind_texture(0, target->depth);
     lsf_bind_texture(1, target->surface);
+    lsf_bind_texture(2, viewed ? viewed->depth : 0);
+    lsf_bind_texture(3, viewed ? viewed->surface : 0);
     glBindImageTexture(0, target->importance, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, out->sums);
     glUseProgram(pass->rows_program);
+    glUniform2ui(0, viewed != NULL, lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_VIEW));
     glDispatchCompute((target->faces * target->resolution + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHT, out->shadow.light);
@@ -244,7 +259,7 @@ static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_reflective_shadow
 }
 
 void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
-                                   uint32_t light_index)
+                                   uint32_t light_index, const lsf_surface_maps *viewed)
 {
     static const GLfloat zero[4] = {0};
     const lsf_light_state *light = &iteration->lights[light_index];
@@ -285,8 +300,8 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
         .depth = target->depth, .surface = target->surface, .gloss = target->gloss};
     out->importance = target->importance;
     lsf_timer_end(pass->timer);
-    if (pass->pdf_timer)
-        run_pdf(pass, target);
+    if (target->importance)
+        run_pdf(pass, iteration, target, viewed);
 }
 
 static void destroy_target(lsf_context *context, lsf_reflective_shadow_map_target *target)

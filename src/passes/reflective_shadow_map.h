@@ -9,8 +9,9 @@
 #include "plan/option.h"
 
 typedef enum lsf_reflective_shadow_map_pdf {
+    LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO,     /* adaptive of directional lights */
     LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM,  /* as the light shines */
-    LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE, /* as what it meets reflects */
+    LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE, /* as what it meets reflects to visible points */
 } lsf_reflective_shadow_map_pdf;
 
 typedef struct lsf_reflective_shadow_map_params {
@@ -19,7 +20,7 @@ typedef struct lsf_reflective_shadow_map_params {
 } lsf_reflective_shadow_map_params;
 
 #define LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS                                                  \
-    .resolution = 256, .pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM
+    .resolution = 256, .pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO
 
 #define LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row
@@ -29,7 +30,7 @@ extern const lsf_option_row
 typedef struct lsf_reflective_shadow_map_outputs {
     lsf_shadow shadow;     /* as shadow_map's */
     lsf_surface_maps seen; /* by the light, normals towards it; depth is the shadow's */
-    GLuint importance;     /* R32F; with adaptive emission, see lib/emission_pdf.glsl */
+    GLuint importance;     /* R32F; see lib/emission_pdf.glsl. 0: the light's emission is uniform */
     GLuint sums;           /* buffer of floats: running sums of importance along each row, then over
                             * the rows; with adaptive emission */
     struct lsf_light_data light;
@@ -60,9 +61,9 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error);
 /* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration.
- */
+ * `viewed`: visible points, which adaptive emission is to light; NULL: any. */
 void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
-                                   uint32_t light_index);
+                                   uint32_t light_index, const lsf_surface_maps *viewed);
 void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass);
 
 #endif

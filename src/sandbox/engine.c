@@ -164,7 +164,7 @@ static void run_passes(lsf_sandbox_engine *engine)
     if (has(engine, LSF_NEED_VOXELS))
         run_voxels(engine);
     if (has(engine, LSF_NEED_REFLECTIVE))
-        lsf_reflective_shadow_map_run(&engine->reflective, iteration, engine->light);
+        lsf_reflective_shadow_map_run(&engine->reflective, iteration, engine->light, NULL);
     else if (has(engine, LSF_NEED_SHADOW)) /* last: lights take turns at the map */
         lsf_shadow_map_run(&engine->shadow_map, iteration, engine->light);
     if (has(engine, LSF_NEED_BUNDLE))

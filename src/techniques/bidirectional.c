@@ -390,7 +390,7 @@ static void run_light(sample_turn *turn, uint32_t light, uint32_t count)
         first++;
     if (first == count)
         return;
-    lsf_reflective_shadow_map_run(&b->rsm, turn->iteration, light);
+    lsf_reflective_shadow_map_run(&b->rsm, turn->iteration, light, &b->chain.gbuffer.outputs.seen);
     const lsf_vpl_inputs map = {.shadow = &b->rsm.outputs.shadow,
                                 .seen = &b->rsm.outputs.seen,
                                 .importance = b->rsm.outputs.importance,

@@ -155,7 +155,7 @@ static void begin_paths(substitute_tree *t, const lsf_iteration *iteration, uint
     lsf_vpl_cloud_run run = lsf_vpl_cloud_deal(&t->cloud, iteration, &t->picks.distribution, light);
     if (run.count == 0)
         return;
-    lsf_reflective_shadow_map_run(&t->rsm, iteration, light);
+    lsf_reflective_shadow_map_run(&t->rsm, iteration, light, &t->chain.direct.gbuffer.outputs.seen);
     const lsf_reflective_shadow_map_outputs *out = &t->rsm.outputs;
     const lsf_vpl_cloud_inputs inputs = {&out->shadow, &out->seen, out->importance, out->sums};
     lsf_vpl_cloud_light(&t->cloud, iteration, &run, &inputs);

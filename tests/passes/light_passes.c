@@ -120,7 +120,7 @@ void light_passes_finish(light_passes *p)
 void light_passes_run(light_passes *p, uint32_t iteration, uint32_t light)
 {
     lsf_iteration_begin(&p->iteration, iteration);
-    lsf_reflective_shadow_map_run(&p->rsm, &p->iteration, light);
+    lsf_reflective_shadow_map_run(&p->rsm, &p->iteration, light, NULL);
     const lsf_reflective_shadow_map_outputs *out = &p->rsm.outputs;
     const lsf_vpl_inputs inputs = {.shadow = &out->shadow,
                                    .seen = &out->seen,

@@ -15,6 +15,12 @@ static lsf_float3 xyz(lsf_vec4 v)
     return lsf_f3(v.x, v.y, v.z);
 }
 
+/* Each light, as it shines and by what is lit. */
+static int32_t case_pdf(int c)
+{
+    return c % 2 ? LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE : LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM;
+}
+
 static const char *pdf_name(int32_t pdf)
 {
     return pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE ? "adaptive" : "uniform";
@@ -60,10 +66,10 @@ static void positions_lie_on_surfaces(void **unused)
     for (int c = 0; c < 2 * LIGHT_CASES; c++) {
         lsf_scene *scene = light_case_scene(&light_cases[c / 2]);
         light_passes p;
-        light_passes_init(&p, scene, 256, c % 2, COUNT);
+        light_passes_init(&p, scene, 256, case_pdf(c), COUNT);
         light_passes_run(&p, 3, 0);
         struct lsf_vpl_data *vpls = light_passes_vpls(&p);
-        char *name = lsf_format("%s, %s", light_cases[c / 2].name, pdf_name(c % 2));
+        char *name = lsf_format("%s, %s", light_cases[c / 2].name, pdf_name(case_pdf(c)));
         check_positions(&p, vpls, name);
         free(name);
         free(vpls);
@@ -155,12 +161,14 @@ static void directions_follow_the_density(void **unused)
 {
     (void)unused;
     for (int c = 0; c < 2 * LIGHT_CASES; c++) {
+        const int32_t pdf =
+            c % 2 ? LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE : LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM;
         lsf_scene *scene = light_case_scene(&light_cases[c / 2]);
         light_passes p;
-        light_passes_init(&p, scene, 64, c % 2, COUNT);
+        light_passes_init(&p, scene, 64, pdf, COUNT);
         light_passes_run(&p, 2, 0);
         double expected[BINS_X * BINS_Y], counts[BINS_X * BINS_Y] = {0};
-        double integral = integrate_pdf(&p, c % 2, expected);
+        double integral = integrate_pdf(&p, pdf, expected);
         struct lsf_vpl_data *vpls = light_passes_vpls(&p);
         for (uint32_t i = 0; i < COUNT; i++)
             counts[domain_bin(&p, &vpls[i])]++;
@@ -168,7 +176,7 @@ static void directions_follow_the_density(void **unused)
             expected[i] *= COUNT;
         double z = chi_square_z(counts, expected, BINS_X * BINS_Y, 5.0);
         print_message("%s, %s: density integrates to %.5f, chi square %.2f deviations above\n",
-                      light_cases[c / 2].name, pdf_name(c % 2), integral, z);
+                      light_cases[c / 2].name, pdf_name(pdf), integral, z);
         assert_true(fabs(integral - 1.0) < 5e-3);
         assert_true(z < 4.0);
         free(vpls);
@@ -185,7 +193,7 @@ static void vpls_carry_the_flux(void **unused)
     for (int c = 0; c < 2 * LIGHT_CASES; c++) {
         lsf_scene *scene = light_case_scene(&light_cases[c / 2]);
         light_passes p;
-        light_passes_init(&p, scene, 256, c % 2, COUNT);
+        light_passes_init(&p, scene, 256, case_pdf(c), COUNT);
         light_passes_run(&p, 5, 0);
         const lsf_light_state *light = &p.state.lights[0];
         double flux = 0.0, outer = (double)light->cos_outer;
@@ -208,7 +216,7 @@ static void vpls_carry_the_flux(void **unused)
             expected = (double)light->intensity[0] * domain_size(&p) * hits / (64 * 64);
         }
         print_message("%s, %s: flux %.5f, expected %.5f\n", light_cases[c / 2].name,
-                      pdf_name(c % 2), flux, expected);
+                      pdf_name(case_pdf(c)), flux, expected);
         /* Uniform emission towards a closed room is exact. */
         bool exact = light->type != LSF_LIGHT_DIRECTIONAL && c % 2 == 0;
         assert_true(fabs(flux - expected) < (exact ? 1e-4 : 0.02) * expected);

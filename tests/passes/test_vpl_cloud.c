@@ -90,7 +90,7 @@ static void draw_light(cloud_rig *rig, uint32_t light)
         lsf_vpl_cloud_deal(&rig->cloud, &rig->iteration, &rig->picks.distribution, light);
     if (run.count == 0)
         return;
-    lsf_reflective_shadow_map_run(&rig->rsm, &rig->iteration, light);
+    lsf_reflective_shadow_map_run(&rig->rsm, &rig->iteration, light, NULL);
     const lsf_vpl_cloud_inputs inputs = {&out->shadow, &out->seen, out->importance, out->sums};
     lsf_vpl_cloud_light(&rig->cloud, &rig->iteration, &run, &inputs);
 }
