@@ -299,10 +299,13 @@ static void corner_in_each_technique(void **unused)
         const char *technique;
         uint32_t samples;
         double allowed;
-    } cases[] = {{"bidirectional", 128, 0.02}, {"voxel_path", 64, 0.03}, {"cone", 64, 0.03}};
+    } cases[] = {{"bidirectional", 128, 0.02},
+                 {"voxel_path", 64, 0.03},
+                 {"cone", 64, 0.03},
+                 {"substitute_tree", 40, 0.03}};
     const char *const options[] = {"environment.directions=16", "voxel.resolution=48",
-                                   "bundle.resolution=128", "rsm.resolution=64",
-                                   "vpl.shadow_resolution=64"};
+                                   "bundle.resolution=128",     "rsm.resolution=64",
+                                   "vpl.shadow_resolution=64",  "cloud.count=16384"};
     lsf_scene *scene = build_scene();
     build_corner(scene);
     add_sky(scene, 60.0f);

@@ -50,7 +50,7 @@ static void energy_in_a_furnace(void **unused)
         double expected = 1.0, power = 1.0;
         for (uint32_t k = 0; k <= bounces[i]; k++)
             expected += power *= (double)rho;
-        lsf_image *image = render_gl_from(scene, params_of(16, bounces[i]), 24,
+        lsf_image *image = render_gl_from(scene, params_of(8, bounces[i]), 24,
                                           lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
         expect("furnace", image, expected, 0.03);
         lsf_image_destroy(image);
@@ -74,7 +74,7 @@ static void bounces_in_a_sphere(void **unused)
         double expected = 0.0, power = rho / (double)LSF_PI * 3.0;
         for (uint32_t k = 0; k <= bounces; k++, power *= rho)
             expected += power;
-        lsf_image *image = render_gl_from(scene, params_of(16, bounces), 24, lsf_f3(0, 0, 0.5f),
+        lsf_image *image = render_gl_from(scene, params_of(8, bounces), 24, lsf_f3(0, 0, 0.5f),
                                           lsf_f3(0.3f, 0.2f, -1));
         expect("sphere", image, expected, 0.03);
         lsf_image_destroy(image);
