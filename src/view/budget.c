@@ -12,9 +12,12 @@
 #define FAR_TOO_SLOW 2.0
 /* The first frames after a change hold what it costs to make things anew. */
 enum { SETTLING = 2, ENOUGH = 2 };
-/* Of the time on a rung, so much may go to the change to another whose price is known: it is known
- * from other views, and changes are seen. */
+/* Of the time on a rung, so much may go to the change to a finer one whose price is known: changes
+ * are seen. And each time that one is left, which a machine does that is busy now and then, it is
+ * longer before one is taken again [s]. */
 #define CHANGING 0.1
+#define WAIT 0.5
+#define LONGEST_WAIT 32.0
 /* Finer rungs that were dear are doubted after so many seconds, for a price may hold what happened
  * but once; then after twice as many, and so on. */
 #define PATIENCE 8.0
@@ -59,7 +62,8 @@ enum { SLOW_START = SMALL + 4 };
 
 void lsf_budget_start(lsf_budget *budget, double seconds, bool slow)
 {
-    *budget = (lsf_budget){.seconds = seconds, .rung = slow ? SLOW_START : 0, .patience = PATIENCE};
+    *budget = (lsf_budget){
+        .seconds = seconds, .rung = slow ? SLOW_START : 0, .wait = WAIT, .patience = PATIENCE};
 }
 
 /* --- prices --- */
@@ -137,11 +141,11 @@ static uint32_t choose(const lsf_budget *budget)
     return rung;
 }
 
-/* A finer rung is worth what it costs to go over, unless it was there before and a change is but a
- * moment ago. */
+/* A finer rung is worth what it costs to go over, unless it was left before, a moment ago. */
 static bool worthwhile(const lsf_budget *budget, uint32_t rung)
 {
-    return budget->price[rung] == 0.0 || budget->change < CHANGING * budget->rested;
+    return budget->price[rung] == 0.0 ||
+           (budget->change < CHANGING * budget->rested && budget->wait < budget->rested);
 }
 
 static void doubt(lsf_budget *budget)
@@ -173,6 +177,7 @@ bool lsf_budget_measure(lsf_budget *budget, double seconds)
     bool coarser = rung > budget->rung && slow;
     if (!finer && !coarser)
         return false;
+    budget->wait = coarser ? fmin(2.0 * budget->wait, LONGEST_WAIT) : budget->wait;
     budget->rung = rung;
     budget->frames = 0;
     budget->mean = budget->rested = 0.0;

@@ -19,6 +19,7 @@ typedef struct lsf_budget {
     double mean;                    /* seconds of frames like this one; 0: none was measured yet */
     double change;                  /* seconds that going over to a rung took, the last time */
     double rested;                  /* seconds since then */
+    double wait;                    /* ... until a rung that was left is taken again */
     double patience;                /* seconds until what was tried in vain is tried again */
 } lsf_budget;
 

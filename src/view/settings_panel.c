@@ -161,7 +161,7 @@ static const char *pass_of(const char *group)
         {"bundle", "ray_bundle"},       {"bidirectional", "bidirectional_shade"},
         {"voxel", "voxelize"},          {"cone", "cone_trace"},
         {"mis", "bidirectional_shade"}, {"environment", "sky"},
-        {"interleave", "sparse"},
+        {"interleave", "sparse"},       {"cloud", "vpl_cloud"},
     };
     for (size_t i = 0; i < LSF_COUNT(names); i++)
         if (strcmp(names[i][0], group) == 0)

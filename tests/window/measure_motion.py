@@ -145,7 +145,7 @@ def main():
     parser.add_argument("--lightsheaf", default=f"{ROOT}/build/lightsheaf")
     parser.add_argument("--scenes", default=",".join(SCENES), help="names, separated by commas")
     parser.add_argument("--add", action="append", default=[], metavar="NAME=FILE OPTIONS", help="another scene; repeatable")
-    parser.add_argument("--techniques", default="direct,bidirectional,voxel_path,cone")
+    parser.add_argument("--techniques", help="names, separated by commas; all without it")
     parser.add_argument("--sizes", default="640x360,1280x720")
     parser.add_argument("--budget", default=100.0, type=float, help="milliseconds of a frame")
     parser.add_argument("--frames", default=240, type=int, help="of the drag")
@@ -159,6 +159,9 @@ def main():
     build = pathlib.Path(options.lightsheaf).resolve().parent
     os.environ.setdefault("LIGHTSHEAF_MODULE_DIR",
                           ":".join(f"{build}/src{part}" for part in ("", "/io", "/reference", "/window")))
+    if not options.techniques:
+        listed = run([options.lightsheaf, "render", "--list-techniques"], ".").splitlines()
+        options.techniques = ",".join(line.split()[0] for line in listed)
     results = {}
     for name in [*options.scenes.split(","), *added]:
         for technique in options.techniques.split(","):

@@ -157,6 +157,23 @@ static void budgets_follow_the_machine(void **state)
     }
 }
 
+/* A machine that does other work every other second is given what it holds then, ever longer. */
+static void budgets_bear_other_work(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof machines / sizeof machines[0]; i++) {
+        const machine *m = &machines[i],
+                      busy = {1.8 * m->fixed, 1.8 * m->pixels, 1.8 * m->maps, 1.8 * m->change};
+        uint32_t changes = 0;
+        lsf_budget b;
+        lsf_budget_start(&b, 0.1, true);
+        run(m, &b, 5.0);
+        for (int second = 0; second < 60; second++)
+            changes += run(second % 2 ? m : &busy, &b, 1.0).changes;
+        assert_in_range(changes, 0, 16);
+    }
+}
+
 /* A price that holds what happened but once is not held against a rung for good. */
 static void budgets_doubt_what_was_dear(void **state)
 {
@@ -181,6 +198,7 @@ int main(void)
         cmocka_unit_test(budgets_are_held),
         cmocka_unit_test(budgets_are_used),
         cmocka_unit_test(budgets_follow_the_machine),
+        cmocka_unit_test(budgets_bear_other_work),
         cmocka_unit_test(budgets_doubt_what_was_dear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

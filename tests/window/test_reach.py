@@ -89,9 +89,14 @@ class Reach(WindowTest):
             steps += lines
         return steps + ["press Reset options"]
 
+    def techniques(self):
+        """The quickest one last."""
+        lines = self.run_program(COMMAND, "render", "--list-techniques").stdout.splitlines()
+        return sorted((line.split()[0] for line in lines), key="direct".__eq__)
+
     def menus(self, layers, files):
         items = {"File": ["Save picture", "Save view", "Copy command line", *files],
-                 "Technique": ["bidirectional", "cone", "voxel_path", "direct"], "Layer": layers,
+                 "Technique": self.techniques(), "Layer": layers,
                  "Window": ["Panels", "Full screen", "Full screen", "Keys"]}
         steps = []
         for menu, names in items.items():
