@@ -182,6 +182,7 @@ static bool open_easel(void *user, lsf_window *window, lsf_error *error)
     (void)error;
     easel->window = window;
     easel->dirty = true;
+    lsf_easel_list_keys();
     if (easel->process.id == 0)
         start_process(easel);
     return true;

@@ -45,6 +45,7 @@ typedef struct lsf_easel {
 
 /* Keys, mouse and camera. */
 void lsf_easel_handle(lsf_easel *easel);
+void lsf_easel_list_keys(void); /* for what covers them (window/reach.h) */
 void lsf_easel_restart(lsf_easel *easel);
 void lsf_easel_show_panels(lsf_easel *easel);
 

@@ -2,6 +2,7 @@
 #include "easel/app.h"
 
 #include "base/base.h"
+#include "window/reach.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -114,21 +115,47 @@ static void take_shot(lsf_easel *easel)
     lsf_window_capture(easel->window, path);
 }
 
+static void toggle_panels(lsf_easel *easel)
+{
+    easel->panels = !easel->panels;
+}
+
+static void toggle_play(lsf_easel *easel)
+{
+    easel->playing = !easel->playing;
+}
+
+static void step(lsf_easel *easel)
+{
+    easel->step = true;
+}
+
+static void toggle_full_screen(lsf_easel *easel)
+{
+    lsf_window_toggle_full_screen(easel->window);
+}
+
+static const struct {
+    const char *name;
+    int key;
+    void (*act)(lsf_easel *easel);
+} keys[] = {{"Tab", LSF_KEY_TAB, toggle_panels},      {"F5", LSF_KEY_F5, lsf_easel_restart},
+            {"F6", LSF_KEY_F5 + 1, toggle_play},      {"F7", LSF_KEY_F5 + 2, step},
+            {"F11", LSF_KEY_F11, toggle_full_screen}, {"F12", LSF_KEY_F12, take_shot}};
+
+void lsf_easel_list_keys(void)
+{
+    for (size_t i = 0; i < LSF_COUNT(keys); i++)
+        lsf_reach_key(i, keys[i].name, false);
+}
+
 void lsf_easel_handle(lsf_easel *easel)
 {
-    const lsf_input *input = easel->input;
-    if (lsf_input_key(input, LSF_KEY_TAB, 0))
-        easel->panels = !easel->panels;
-    if (lsf_input_key(input, LSF_KEY_F5, 0))
-        lsf_easel_restart(easel);
-    if (lsf_input_key(input, LSF_KEY_F5 + 1, 0))
-        easel->playing = !easel->playing;
-    if (lsf_input_key(input, LSF_KEY_F5 + 2, 0))
-        easel->step = true;
-    if (lsf_input_key(input, LSF_KEY_F11, 0))
-        lsf_window_toggle_full_screen(easel->window);
-    if (lsf_input_key(input, LSF_KEY_F12, 0))
-        take_shot(easel);
+    for (size_t i = 0; i < LSF_COUNT(keys); i++)
+        if (lsf_input_key(easel->input, keys[i].key, 0)) {
+            keys[i].act(easel);
+            lsf_reach_key(i, keys[i].name, true);
+        }
     follow_keys(easel);
     follow_mouse(easel);
     follow_camera(easel);

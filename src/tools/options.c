@@ -375,8 +375,8 @@ static const lsf_command_option options[] = {
      NULL, NULL,
      "write as CSV how long each frame was shown, what it showed, and what the frame budget made "
      "of the picture"},
-    {"coverage", 0, "FILE", LSF_COMMAND_VIEW, "Window", LSF_VALUE_TEXT, AT(coverage), 0, 0, NULL,
-     NULL,
+    {"coverage", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT,
+     AT(coverage), 0, 0, NULL, NULL,
      "write which keys, menus and parts of panels were used, and which were there and not used"},
     {"list-keys", 0, NULL, LSF_COMMAND_VIEW, "General", LSF_VALUE_FLAG, AT(list_keys), 0, 0, NULL,
      NULL, "print keys and buttons"},

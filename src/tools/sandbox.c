@@ -192,6 +192,7 @@ static lsf_easel_start easel_start(const lsf_settings *settings)
     start.window.shader_dir = settings->shader_dir;
     start.window.record = settings->record;
     start.window.replay = settings->replay;
+    start.window.coverage = settings->coverage;
     return start;
 }
 

@@ -49,13 +49,13 @@ static bool view(const lsf_window_module *module, const lsf_settings *settings, 
         .curve = (lsf_tone_curve)settings->tonemap,
         .budget = 1e-3 * settings->budget,
         .frame_times = settings->frame_times,
-        .coverage = settings->coverage,
         .window = {LSF_WINDOW_PARAMS_DEFAULTS},
     };
     start.window.full_screen = settings->full_screen;
     start.window.shader_dir = settings->shader_dir;
     start.window.record = settings->record;
     start.window.replay = settings->replay;
+    start.window.coverage = settings->coverage;
     if (lsf_settings_given(settings, "resolution")) {
         start.window.width = settings->resolution[0];
         start.window.height = settings->resolution[1];

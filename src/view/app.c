@@ -2,7 +2,6 @@
 #include "view/app.h"
 
 #include "base/base.h"
-#include "window/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,6 +34,7 @@ static bool open_viewer(void *user, lsf_window *window, lsf_error *error)
     if (!viewer->scene && viewer->path_count > 0)
         lsf_viewer_show_file(viewer, viewer->shown);
     lsf_viewer_touch_settings(viewer);
+    lsf_viewer_list_keys();
     return true;
 }
 
@@ -121,8 +121,6 @@ static bool view(const lsf_viewer_start *start, lsf_error *error)
     viewer->compare.gain = 4.0f;
     viewer->expose_wanted = start->auto_exposure;
     lsf_viewer_settings_start(&viewer->settings, start);
-    if (start->coverage)
-        lsf_reach_start();
     bool good = true;
     for (uint32_t i = 0; good && i < start->path_count; i++)
         good = lsf_viewer_add_path(viewer, start->paths[i]) ||
@@ -130,8 +128,6 @@ static bool view(const lsf_viewer_start *start, lsf_error *error)
     const lsf_window_client client = {viewer, open_viewer, close_viewer, frame};
     good = good && lsf_viewer_open_frame_log(viewer, error) &&
            lsf_window_run(&start->window, &client, error);
-    if (good && start->coverage)
-        good = lsf_viewer_write_coverage(viewer, error);
     if (viewer->frame_log)
         good = lsf_viewer_close_frame_log(viewer, good ? error : NULL) && good;
     lsf_scene_destroy(viewer->scene);

@@ -163,7 +163,6 @@ typedef struct lsf_viewer {
     lsf_ui_color notice_color;
     double notice_until;
     double slice_end;   /* of a rival's iterations, lsf_now */
-    uint64_t reached;   /* rows of the table of keys that were used */
     FILE *frame_log;    /* of --frame-times; NULL: none */
     double frame_begun; /* lsf_now */
     double looked_at;   /* when files were looked at for changes, seconds on the input's clock */
@@ -290,9 +289,9 @@ typedef enum lsf_viewer_mouse {
     LSF_VIEWER_DOUBLE_CLICK
 } lsf_viewer_mouse;
 
-/* A row was used. */
-void lsf_viewer_reach(lsf_viewer *viewer, uint32_t row);
-bool lsf_viewer_write_coverage(const lsf_viewer *viewer, lsf_error *error);
+/* Tells what covers keys (window/reach.h) of a row that was used; and that there are all. */
+void lsf_viewer_reach(size_t row);
+void lsf_viewer_list_keys(void);
 
 void lsf_viewer_handle(lsf_viewer *viewer);
 bool lsf_viewer_key(uint32_t index, lsf_viewer_key_row *row);

@@ -58,7 +58,7 @@ static void click(lsf_viewer *viewer)
         lsf_viewer_add_light(viewer, position);
         return;
     }
-    lsf_viewer_reach(viewer, LSF_VIEWER_CLICK);
+    lsf_viewer_reach(LSF_VIEWER_CLICK);
     lsf_viewer_choose_node(viewer, hit.node);
     memcpy(viewer->anchor, hit.position, sizeof viewer->anchor);
     viewer->material = hit.material;
@@ -71,7 +71,7 @@ bool lsf_viewer_point(lsf_viewer *viewer)
     const lsf_input *input = viewer->input;
     if (input->double_clicked && lsf_viewer_pick(viewer, &hit)) {
         lsf_viewer_camera_focus(&viewer->camera, hit.position);
-        lsf_viewer_reach(viewer, LSF_VIEWER_DOUBLE_CLICK);
+        lsf_viewer_reach(LSF_VIEWER_DOUBLE_CLICK);
         lsf_viewer_touch(viewer);
         return true;
     }

@@ -4,7 +4,6 @@
 #include "base/base.h"
 #include "window/reach.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -291,32 +290,15 @@ static const struct {
     {"Escape", "choose nothing", LSF_KEY_ESCAPE, 0, true, escape},
 };
 
-_Static_assert(LSF_COUNT(rows) <= 64, "a bit of viewer->reached for each");
-
-void lsf_viewer_reach(lsf_viewer *viewer, uint32_t row)
+void lsf_viewer_reach(size_t row)
 {
-    viewer->reached |= UINT64_C(1) << row;
+    lsf_reach_key(row, rows[row].keys, true);
 }
 
-/* A row that continues the one before is told by its number. */
-static void write_keys(const lsf_viewer *viewer, FILE *file)
+void lsf_viewer_list_keys(void)
 {
     for (size_t i = 0; i < LSF_COUNT(rows); i++)
-        fprintf(file, "%s\tkey\t%zu %s\n", viewer->reached >> i & 1 ? "used" : "unused", i,
-                rows[i].keys ? rows[i].keys : "more");
-}
-
-bool lsf_viewer_write_coverage(const lsf_viewer *viewer, lsf_error *error)
-{
-    const char *path = viewer->start->coverage;
-    FILE *file = fopen(path, "w");
-    const lsf_reach_row *row;
-    if (file)
-        write_keys(viewer, file);
-    for (uint32_t i = 0; file && (row = lsf_reach_at(i)) != NULL; i++)
-        fprintf(file, "%s\t%s\t%s\n", row->used ? "used" : "unused", row->kind, row->name);
-    return (file && fclose(file) == 0) ||
-           lsf_error_set(error, LSF_ERROR_FILE, "%s: cannot be written: %s", path, strerror(errno));
+        lsf_reach_key(i, rows[i].keys, false);
 }
 
 bool lsf_viewer_key(uint32_t index, lsf_viewer_key_row *row)
@@ -350,7 +332,7 @@ static void fly(lsf_viewer *viewer)
     double forward = (double)held['W'] - (double)held['S'];
     if (right == 0.0 && up == 0.0 && forward == 0.0)
         return;
-    lsf_viewer_reach(viewer, LSF_VIEWER_FLY);
+    lsf_viewer_reach(LSF_VIEWER_FLY);
     lsf_viewer_camera_fly(&viewer->camera, speed * right, speed * up, speed * forward);
     lsf_viewer_touch(viewer);
 }
@@ -373,7 +355,7 @@ static void drag(lsf_viewer *viewer)
         lsf_viewer_camera_pan(&viewer->camera, dx, dy);
     else
         lsf_viewer_camera_orbit(&viewer->camera, dx, dy);
-    lsf_viewer_reach(viewer, look ? LSF_VIEWER_LOOK : pan ? LSF_VIEWER_PAN : LSF_VIEWER_ORBIT);
+    lsf_viewer_reach(look ? LSF_VIEWER_LOOK : pan ? LSF_VIEWER_PAN : LSF_VIEWER_ORBIT);
     lsf_viewer_touch(viewer);
 }
 
@@ -386,7 +368,7 @@ void lsf_viewer_handle(lsf_viewer *viewer)
         if (rows[i].act && (viewer->scene || rows[i].anywhere) && !(flying && letter) &&
             lsf_input_key(input, rows[i].key, rows[i].modifiers)) {
             rows[i].act(viewer);
-            lsf_viewer_reach(viewer, (uint32_t)i);
+            lsf_viewer_reach(i);
         }
     }
     if (!viewer->scene)
@@ -397,7 +379,7 @@ void lsf_viewer_handle(lsf_viewer *viewer)
         fly(viewer);
     if (input->scroll != 0.0 && inside(viewer)) {
         lsf_viewer_camera_zoom(&viewer->camera, input->scroll);
-        lsf_viewer_reach(viewer, LSF_VIEWER_WHEEL);
+        lsf_viewer_reach(LSF_VIEWER_WHEEL);
         lsf_viewer_touch(viewer);
     }
 }

@@ -19,7 +19,6 @@ typedef struct lsf_viewer_start {
     float exposure; /* EV */
     lsf_tone_curve curve;
     double budget;           /* seconds of a frame while things move; 0: by the device */
-    const char *coverage;    /* file that tells what of keys and panels was used; NULL: none */
     const char *frame_times; /* file that gets a line for each frame; NULL: none */
     lsf_window_params window;
 } lsf_viewer_start;

@@ -4,24 +4,25 @@
 #define LSF_WINDOW_REACH_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
+
+#include <lightsheaf/error.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef struct lsf_reach_row {
-    const char *kind; /* "button", "slider", ... */
-    char name[128];   /* of its label what a replay calls it, or what follows ### */
-    bool used;
-} lsf_reach_row;
-
 /* From now on; until then nothing is counted. */
 void lsf_reach_start(void);
-/* A thing is shown. `kind` is static. */
+/* A thing is there, and has just been used or has not. `kind` is static; of `label` what a replay
+ * calls it counts, or what follows ###. */
 void lsf_reach_note(const char *kind, const char *label, bool used);
-/* In the order in which things were first shown; NULL past the end. */
-const lsf_reach_row *lsf_reach_at(uint32_t index);
+/* A row of a client's table of keys: where one continues the one before, `keys` is NULL. */
+void lsf_reach_key(size_t row, const char *keys, bool used);
+/* A line for each thing, in the order in which they were first there: whether it was used, its kind
+ * and its name, with tabs between. */
+bool lsf_reach_write(const char *path, lsf_error *error);
 
 #ifdef __cplusplus
 }

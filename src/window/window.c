@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "window/canvas.h"
 #include "window/gl_calls.h"
+#include "window/reach.h"
 #include "window/ui_frame.h"
 
 #include <errno.h>
@@ -230,6 +231,8 @@ bool lsf_window_run(const lsf_window_params *params, const lsf_window_client *cl
     window->client = client;
     window->clicked_at = -1.0;
     window->awake = 3;
+    if (params->coverage)
+        lsf_reach_start();
     bool good = open_files(window, error);
     bool started = good && glfwInit();
     if (good && !started)
@@ -243,6 +246,7 @@ bool lsf_window_run(const lsf_window_params *params, const lsf_window_client *cl
     }
     if (started)
         close_context(window);
+    good = good && (!params->coverage || lsf_reach_write(params->coverage, error));
     if (window->record && fclose(window->record) != 0 && good)
         good = lsf_error_set(error, LSF_ERROR_FILE, "%s: cannot be written: %s", params->record,
                              strerror(errno));

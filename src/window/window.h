@@ -92,11 +92,12 @@ typedef struct lsf_window_params {
     const char *shader_dir; /* as lsf_context_params has it */
     const char *record;     /* file to write what the user does to; NULL: none */
     const char *replay;     /* file of such, in place of a user; the window closes after it */
+    const char *coverage;   /* file that tells what of keys and panels was used (reach.h) */
 } lsf_window_params;
 
 #define LSF_WINDOW_PARAMS_DEFAULTS                                                                 \
     .title = "Lightsheaf", .width = 1280, .height = 800, .full_screen = false, .shader_dir = NULL, \
-    .record = NULL, .replay = NULL
+    .record = NULL, .replay = NULL, .coverage = NULL
 
 /* Opens a window and runs it until it is closed. On the main thread. LSF_ERROR_NO_GL where there is
  * no display or no OpenGL 4.5. */

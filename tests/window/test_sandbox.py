@@ -25,7 +25,7 @@ class Sandbox(WindowTest):
         """Without panels, so that the picture fills the window."""
         self.write("my.frag", shader)
         script = self.write("script", "\n".join(["1 key Tab", "2 key-up Tab", *lines]) + "\n")
-        return self.run_program(COMMAND, "sandbox", "my.frag", *words, "-r", SIZE, "--replay", script, status=status)
+        return self.run_program(COMMAND, "sandbox", "my.frag", "-r", SIZE, *words, "--replay", script, status=status)
 
     def shot(self, number=1):
         return read_png(self.path(f"lightsheaf-{number:04}.png"))
@@ -61,6 +61,19 @@ class Sandbox(WindowTest):
         self.show(shader, "3 key F6", "4 key-up F6", "5 move 20 40", "6 button 0", "7 move 24 48", "8 key A", "9 key B",
                   "10 key-up B", "11 settle", "12 key F12", "13 key-up F12", "16 close")
         self.assertEqual(self.shot()[2][10][10], (255, 255, 255))
+
+    def test_every_key_and_part_of_its_panel(self):
+        steps = ["press Pause", "settle", "press Step", "press Restart", "set gain = 0.5", "set Size = 1/2",
+                 "set Exposure = 1", "press Uniforms", "press Picture", "press Passes", "press Keys", "press Play",
+                 *(f"{word} {key}" for key in ("F5", "F6", "F7", "F11", "F11", "F12", "Tab", "Tab")
+                   for word in ("key", "key-up")), "settle"]
+        lines = [f"{3 + k} {step}" for k, step in enumerate(steps)]
+        self.show(MOVES, "2 key Tab", "2 key-up Tab", *lines, f"{len(lines) + 4} close",
+                  words=["--coverage", "coverage", "-r", "320,400"])
+        with open(self.path("coverage"), encoding="utf-8") as file:
+            rows = [line.rstrip("\n").split("\t") for line in file]
+        self.assertEqual([row for row in rows if row[0] == "unused"], [])
+        self.assertGreater(len(rows), 15)
 
     def test_saving_the_shader(self):
         """A mistake is told, and the last good shader goes on; what comes after it is shown."""
