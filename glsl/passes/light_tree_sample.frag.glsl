@@ -91,7 +91,8 @@ void main()
     gloss_unpack(texelFetch(gloss_texture, texel, 0), s);
 #endif
     vec2 ndc = place_ndc(texel);
-    light_receiver r = light_receiver_of(position_from_depth(ndc, depth), -normalize(view_ray_direction(ndc)), s);
+    vec3 view = surface_view(s, -normalize(view_ray_direction(ndc)));
+    light_receiver r = light_receiver_of(position_from_depth(ndc, depth), view, s);
     float chance = specular_chance(r);
     path_random_key key = path_random_key(uint(texel.x) | (uint(texel.y) << 16), turn.y, texel);
     uint dead = 0u, steps = 0u;

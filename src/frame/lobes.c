@@ -54,6 +54,15 @@ void lsf_scene_gpu_scatter_switch(lsf_plan *plan)
         lsf_plan_switch_add(plan, "LSF_SCATTER", true, "rough walls scatter what they transmit");
 }
 
+void lsf_scene_gpu_scatter_switches(lsf_plan *plan)
+{
+    if (!plan->scattered)
+        return;
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "light passes materials that transmit");
+    lsf_plan_switch_add(plan, "LSF_STRAIGHT", true, "it goes straight on");
+    lsf_scene_gpu_scatter_switch(plan);
+}
+
 static struct lsf_lobe_data lobe_data(const lsf_material *m)
 {
     const float *tint = m->specular_color;

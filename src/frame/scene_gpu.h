@@ -60,6 +60,9 @@ void lsf_scene_gpu_fold_lobes(lsf_plan *plan);
 void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss);
 /* That of rough walls, where there are any that are seen by what they scatter. */
 void lsf_scene_gpu_scatter_switch(lsf_plan *plan);
+/* The same, and those that it needs, for a pass that is concerned by nothing else that transmits.
+ */
+void lsf_scene_gpu_scatter_switches(lsf_plan *plan);
 
 /* The word of a texel of the G-buffer's gloss that holds the clear coat, 1 to 3; 0 where nothing is
  * coated, or anisotropy, transmission and tints leave no word: coats are then folded, there too. */

@@ -46,11 +46,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params)
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic && params->sealed,
                         "rays of the lobe are drawn; cones are round");
-    if (plan->scattered) {
-        lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "light passes materials that transmit");
-        lsf_plan_switch_add(plan, "LSF_STRAIGHT", true, "it goes straight on");
-    }
-    lsf_scene_gpu_scatter_switch(plan);
+    lsf_scene_gpu_scatter_switches(plan);
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");

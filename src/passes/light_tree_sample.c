@@ -76,6 +76,7 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
+    lsf_scene_gpu_scatter_switches(plan);
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_sparse_grid_places(plan, places);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, places[0], places[1]);

@@ -188,6 +188,7 @@ static void run_substitute_tree(void *self, const lsf_iteration *iteration,
 {
     substitute_tree *t = self;
     lsf_split_light light = {0};
+    t->chain.direct.gbuffer.lobe_angle = lsf_iteration_sky_angle(iteration);
     if (is_traced(&t->use)) {
         lsf_voxel_chain_begin(&t->chain, iteration);
         lsf_direct_chain_lights(&t->chain.direct, iteration);

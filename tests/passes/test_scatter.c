@@ -16,7 +16,7 @@ static void look(const lsf_scene *scene, const char *technique, lsf_float3 eye, 
     params.aovs = LSF_AOV_NORMAL;
     params.fov_y = 0.1f;
     params.options = options;
-    params.option_count = strstr("cone voxel_path", technique) != NULL ? 2 : 1;
+    params.option_count = strstr("direct bidirectional", technique) == NULL ? 2 : 1;
     lsf_image *image = render_gl_from(scene, params, 16, eye, lsf_f3(0, 0, 0));
     mean_rgb(image, 0, rgb);
     /* Of nothing it is 0. */
@@ -113,7 +113,8 @@ static void panes_scatter_lamps(void **unused)
 static void white_world(void **unused)
 {
     (void)unused;
-    static const char *const techniques[] = {"direct", "bidirectional", "cone", "voxel_path"};
+    static const char *const techniques[] = {"direct", "bidirectional", "cone", "voxel_path",
+                                             "substitute_tree"};
     const lsf_float3 eye = {0.6f, 0.8f, 0};
     for (size_t k = 0; k < 2 * LSF_COUNT(techniques); k++) {
         bool smooth = k % 2 == 0;
