@@ -366,7 +366,7 @@ static const lsf_command_option options[] = {
     {"budget", 0, "MS", LSF_COMMAND_VIEW, "Window", LSF_VALUE_DOUBLE, AT(budget), 1, 10000, NULL,
      NULL,
      "milliseconds that a frame may take while things move: pictures are as large, and maps as "
-     "fine, as it allows; without it 100 in software, 33 on a GPU"},
+     "fine, as it allows; without it 100 in software, 34 on a GPU"},
     {"record", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT,
      AT(record), 0, 0, NULL, NULL, "write down what is done with mouse and keys, frame by frame"},
     {"replay", 0, "FILE", LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX, "Window", LSF_VALUE_TEXT,

@@ -8,7 +8,7 @@
 
 #define NOTICE_SECONDS 4.0
 #define BUDGET_SOFTWARE 0.1
-#define BUDGET_GPU 0.033
+#define BUDGET_GPU 0.034 /* two frames of a display of 60 Hz */
 
 void lsf_viewer_say(lsf_viewer *viewer, lsf_ui_color color, const char *format, ...)
 {

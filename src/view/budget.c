@@ -8,6 +8,11 @@
  * rung that was left for being dear has to be cheaper than that. */
 #define FITS 0.85
 #define FITS_AGAIN 0.75
+/* Where nothing fits, so much more than the cheapest may be taken for a better picture. */
+#define DEARER 1.15
+/* From one frame to the next the mean is so many times as long where a machine or a view is another
+ * one. */
+#define ANOTHER 3.0
 /* A frame that takes so many budgets is answered at once, others when there were ENOUGH. */
 #define FAR_TOO_SLOW 2.0
 /* The first frames after a change hold what it costs to make things anew. */
@@ -117,27 +122,34 @@ static double price_of(const lsf_budget *budget, uint32_t rung)
     return price;
 }
 
-/* All that was seen follows what is seen now: another view is dearer on each rung. */
+/* All that was seen follows what is seen now: another view is dearer on each rung. What is far
+ * dearer all at once is another thing, of which nothing is known. */
 static void see(lsf_budget *budget)
 {
     double before = budget->price[budget->rung];
     double times = before > 0.0 ? budget->mean / before : 1.0;
     for (uint32_t i = 0; i < LSF_BUDGET_RUNGS; i++)
-        budget->price[i] *= times;
+        budget->price[i] = times < ANOTHER ? budget->price[i] * times : 0.0;
     budget->price[budget->rung] = budget->mean;
 }
 
 /* --- choosing --- */
 
-/* The finest rung whose price fits. */
+/* The finest rung whose price fits; else the coarsest. If that was seen to be too dear as well, the
+ * finest that is not much dearer, for what makes no frame quicker need not make pictures worse. */
 static uint32_t choose(const lsf_budget *budget)
 {
+    const uint32_t coarsest = LSF_BUDGET_RUNGS - 1;
     uint32_t rung = 0;
-    for (; rung + 1 < LSF_BUDGET_RUNGS; rung++) {
+    for (; rung < coarsest; rung++) {
         bool again = rung < budget->rung && budget->price[rung] > 0.0;
         if (price_of(budget, rung) <= (again ? FITS_AGAIN : FITS) * budget->seconds)
-            break;
+            return rung;
     }
+    if (budget->price[coarsest] <= budget->seconds)
+        return coarsest;
+    for (rung = 0; price_of(budget, rung) > DEARER * budget->price[coarsest];)
+        rung++;
     return rung;
 }
 
@@ -165,6 +177,12 @@ bool lsf_budget_measure(lsf_budget *budget, double seconds)
     if (++budget->frames <= SETTLING)
         return false;
     uint32_t measured = budget->frames - SETTLING;
+    if (measured > ENOUGH && seconds > ANOTHER * budget->mean && !budget->odd) {
+        budget->odd = true; /* one such frame tells nothing */
+        budget->frames--;
+        return false;
+    }
+    budget->odd = false;
     double weight = fmax(1.0 / measured, 1.0 / MEMORY);
     budget->mean += weight * (seconds - budget->mean);
     see(budget);

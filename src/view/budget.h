@@ -16,6 +16,7 @@ typedef struct lsf_budget {
     double price[LSF_BUDGET_RUNGS]; /* seconds of a frame; 0: never seen */
     uint32_t rung;                  /* 0: as asked for */
     uint32_t frames;                /* since it was changed */
+    bool odd;                       /* the last one took far longer than those before */
     double mean;                    /* seconds of frames like this one; 0: none was measured yet */
     double change;                  /* seconds that going over to a rung took, the last time */
     double rested;                  /* seconds since then */

@@ -124,6 +124,8 @@ static void budgets_are_held(void **state)
             assert_true(frame(m, &b) <= b.seconds);
             assert_true(c.settled < (slow ? 2.0 : 2.5 + 3.0 * (m->pixels + m->maps)));
             assert_int_equal(run(m, &b, 200.0).changes, 0); /* it stays there */
+            assert_false(lsf_budget_measure(&b, 3.0));      /* whatever that was */
+            assert_int_equal(run(m, &b, 5.0).changes, 0);
         }
 }
 
@@ -154,6 +156,20 @@ static void budgets_follow_the_machine(void **state)
         assert_int_equal(b.rung, 0);
         run(m, &b, 20.0); /* and back */
         assert_true(frame(m, &b) <= b.seconds);
+    }
+}
+
+/* Pictures are not made worse where that makes no frame quicker. */
+static void budgets_that_cannot_be_held(void **state)
+{
+    (void)state;
+    const machine m = {0.15, 0.03, 0.005, 0.1};
+    for (int slow = 0; slow < 2; slow++) {
+        lsf_budget b;
+        lsf_budget_start(&b, 0.1, slow);
+        run(&m, &b, 15.0);
+        assert_in_range(b.rung, 0, 8);
+        assert_int_equal(run(&m, &b, 30.0).changes, 0);
     }
 }
 
@@ -198,6 +214,7 @@ int main(void)
         cmocka_unit_test(budgets_are_held),
         cmocka_unit_test(budgets_are_used),
         cmocka_unit_test(budgets_follow_the_machine),
+        cmocka_unit_test(budgets_that_cannot_be_held),
         cmocka_unit_test(budgets_bear_other_work),
         cmocka_unit_test(budgets_doubt_what_was_dear),
     };
