@@ -100,7 +100,8 @@ def settled_after(rows):
 
 
 def measure(options, name, technique, size):
-    folder = options.work / f"{name}-{technique}-{size[0]}x{size[1]}-{options.budget:g}"
+    settings = f"{options.budget:g}-{options.frames}-{options.reference_samples}"
+    folder = options.work / f"{name}-{technique}-{size[0]}x{size[1]}-{settings}"
     kept = folder / "result.json"
     if kept.exists():
         return json.loads(kept.read_text())

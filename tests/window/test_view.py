@@ -5,6 +5,7 @@ import os
 import shlex
 import shutil
 import subprocess
+import sys
 import time
 
 from display import Display, WindowTest, main, read_png
@@ -154,6 +155,15 @@ class View(WindowTest):
         self.run_program(COMMAND, "reference", "--view", "moved.view", "-b", "0", "-s", "64", "-q", "-o", "traced.exr")
         for name, error in (("moved", 0.4), ("still", 0.05)):
             self.run_program(COMMAND, "compare", f"{name}.exr", "traced.exr", "--threshold", f"relmse={error}")
+
+    def test_the_script_that_measures(self):
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "measure_motion.py")
+        table = self.run_program(sys.executable, script, "--work", self.folder, "--lightsheaf", COMMAND, "--scenes", "cornell",
+                                 "--techniques", "direct", "--sizes", "80x60", "--frames", "20", "--reference-samples", "8").stdout
+        cells = table.splitlines()[-1].strip("| ").split(" | ")
+        self.assertEqual(cells[:2], ["`cornell`, `direct`", "80×60"])
+        self.assertGreater(float(cells[2]), 0.5, "frames a second")
+        self.assertGreater(float(cells[-1]), 0.6, "SSIM")
 
     def test_shaders_that_change(self):
         """They are read anew; a mistake is told in the window, which goes on with what is right again."""
