@@ -47,6 +47,10 @@ sanitize:  ## the tests once more, under AddressSanitizer and UndefinedBehaviorS
 	    -Db_sanitize=address,undefined -Db_lundef=false \
 	    -Dtest_shader_cache=$(abspath $(BUILD))/tests/shader-cache'
 
+.PHONY: figures
+figures: all  ## measure the tables of the pages anew, which takes an hour of an idle machine
+	scripts/figures --build $(BUILD) $(FIGURES)
+
 .PHONY: install
 install: all  ## install to PREFIX (/usr/local), below DESTDIR
 	@meson install -C $(BUILD) --no-rebuild

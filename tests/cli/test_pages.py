@@ -41,6 +41,24 @@ class Pages(CommandTest):
             self.assertEqual(done.stderr, b"")
 
 
+class Figures(CommandTest):
+    """Tables that are measured: each that stands in a page has a function, and measuring works."""
+
+    def figures(self, *words):
+        return subprocess.run([os.path.join(SOURCE_ROOT, "scripts/figures"), "--command", COMMAND,
+                               *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=True,
+                              text=True, env={**os.environ, "XDG_CACHE_HOME": self.folder}).stdout
+
+    def test_tables_of_pages_are_known(self):
+        self.assertIn("equal-time\tdocs/measure.md", self.figures("--list"))
+
+    def test_table_is_measured(self):
+        lines = self.figures("--quick", "convergence").splitlines()
+        self.assertEqual(lines[0], "|  |  | 1 | 4 |")
+        raw = [float(cell) for cell in lines[2].split("|")[3:5]]
+        self.assertLess(raw[1], raw[0])
+
+
 class Completion(CommandTest):
     """What the shells propose for a line that ends here, in each shell that there is."""
 
