@@ -76,7 +76,8 @@ static void assert_alike(const lsf_image *image, const lsf_image *expected, cons
 static void test_moved_alike(void **unused)
 {
     (void)unused;
-    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path"};
+    static const char *const techniques[] = {"direct", "bidirectional", "voxel_path",
+                                             "substitute_tree"};
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         lsf_image *expected = render(BY_NODE, techniques[t]);
         for (mover by = BY_TARGET; by <= BY_JOINTS; by++) {

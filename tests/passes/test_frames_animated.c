@@ -14,14 +14,12 @@ typedef struct test_case {
     const char *technique;
     bool keeps_voxels;
 } test_case;
-static const test_case cases[] = {{"direct", false},
-                                  {"bidirectional", false},
-                                  {"voxel_path", false},
-                                  {"voxel_path", true},
-                                  {"cone", false}};
-static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=64",
+static const test_case cases[] = {{"direct", false},     {"bidirectional", false},
+                                  {"voxel_path", false}, {"voxel_path", true},
+                                  {"cone", false},       {"substitute_tree", false}};
+static const char *const options[] = {"voxel.resolution=32",  "rsm.resolution=64",
                                       "bundle.resolution=64", "vpl.shadow_resolution=64",
-                                      "voxel.jitter=off"};
+                                      "cloud.count=8192",     "voxel.jitter=off"};
 
 /* A lamp that begins to glow, a box that changes colour and becomes glossy, and a quad, which are
  * nodes by these numbers; a point light that dims. */
