@@ -19,13 +19,16 @@
 const lsf_option_row lsf_light_tree_options[LSF_LIGHT_TREE_OPTION_COUNT] = {
     {"light_tree.similarity", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, similarity), 0.0,
      1.0, NULL, "",
-     "nodes of the tree stand for what is below them where the product of the cosines between "
+     "a node of the tree stands for the lights below it where the product of the cosines between "
      "merged normals is at least this"},
     {"light_tree.spread", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, spread), 0.0, 1e6, NULL,
      "of the scene's longest side",
-     "... and the standard deviation of positions from a node's plane at most this"},
+     "a node of the tree stands for the lights below it where their standard deviation from its "
+     "plane is at most this"},
     {"light_tree.diagonal", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, diagonal), 0.0, 1e6,
-     NULL, "of the scene's longest side", "... and a node's box no larger than this; 0: any size"},
+     NULL, "of the scene's longest side",
+     "a node of the tree stands for the lights below it where its box is no larger than this; 0: "
+     "any size"},
     {"light_tree.covariance", LSF_OPTION_BOOL, offsetof(lsf_light_tree_params, covariance), 0, 0,
      NULL, "",
      "nodes keep how positions vary along all directions, and not along three axes alone"},

@@ -21,9 +21,9 @@ const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_
      "at one of these, found by what it may contribute or by its brightness alone"},
     {"light_tree.angle", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, angle), 0.0, 1e6,
      NULL, "rad",
-     "nodes stand for what is below them where their standard deviation, seen from the point, is "
-     "at "
-     "most this; 0: from everywhere"},
+     "a node of the tree stands for the lights below it at points that see their standard "
+     "deviation "
+     "under at most this angle; 0: at all points"},
     {"light_tree.samples", LSF_OPTION_INT, offsetof(lsf_light_tree_sample_params, samples), 1,
      LSF_LIGHT_TREE_SAMPLE_MOST, NULL, "samples", "of the cloud for each point in an iteration"},
     {"light_tree.bound", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, bound), 0.0, 1e6,
