@@ -34,7 +34,7 @@ typedef struct lsf_light_tree_sample_params {
 #define LSF_LIGHT_TREE_SAMPLE_MOST 32
 
 #define LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS                                                      \
-    .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .samples = 1, .bound = 4.0f,                \
+    .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .samples = 4, .bound = 4.0f,                \
     .kernel_samples = 16.0f, .sight = LSF_LIGHT_TREE_VOXELS
 
 #define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 6

@@ -21,7 +21,7 @@ const lsf_option_row lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP
     {"rsm.pdf", LSF_OPTION_ENUM, offsetof(lsf_reflective_shadow_map_params, pdf), 0, 0,
      "auto|uniform|adaptive", "",
      "VPLs are drawn as the light shines, or where surfaces reflect it to what is seen; auto: the "
-     "latter with directional lights, most of whose light may go elsewhere"},
+     "latter with directional lights where VPLs are few, for most of their light may go elsewhere"},
 };
 
 static const struct {
@@ -107,25 +107,30 @@ static void plan_pdf(lsf_plan *plan, uint32_t faces, uint32_t side)
 static const char *why_uniform(const lsf_plan *plan, const lsf_reflective_shadow_map_params *params)
 {
     if (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM)
-        return "rsm.pdf is uniform";
+        return "VPLs are many or none, or rsm.pdf is uniform";
     if (plan->requirements.blended || lsf_light_walls_needed(plan))
         return "some material is blended, or transmits: VPLs are drawn uniformly";
     return "rsm.pdf is auto, and no light is directional";
 }
 
 void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
-                                    const lsf_state *state, bool sky)
+                                    const lsf_state *state,
+                                    const lsf_reflective_shadow_map_use *use)
 {
+    lsf_reflective_shadow_map_params chosen = *params;
+    if (chosen.pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO && !use->few_vpls)
+        chosen.pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM;
+    params = &chosen;
     bool needed[LSF_LIGHT_MAP_KINDS];
     lsf_light_map_kinds(plan, state, needed);
-    if (sky)
+    if (use->sky)
         needed[LSF_LIGHT_MAP_WINDOWS] = true;
     bool gloss = lsf_plan_surfaces_differ(plan);
     uint32_t adaptive_faces = 0;
     lsf_plan_pass_add(plan, "reflective_shadow_map",
                       "the surfaces that %u punctual light%s%s light", state->light_count,
                       lsf_plural(state->light_count),
-                      sky ? " and directions of the environment" : "");
+                      use->sky ? " and directions of the environment" : "");
     lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_material_switches(plan, gloss, false);
     lsf_scene_gpu_fold_lobes(plan);

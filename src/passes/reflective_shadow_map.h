@@ -9,7 +9,7 @@
 #include "plan/option.h"
 
 typedef enum lsf_reflective_shadow_map_pdf {
-    LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO,     /* adaptive of directional lights */
+    LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO,     /* adaptive of directional lights, for few VPLs */
     LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM,  /* as the light shines */
     LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE, /* as what it meets reflects to visible points */
 } lsf_reflective_shadow_map_pdf;
@@ -25,6 +25,12 @@ typedef struct lsf_reflective_shadow_map_params {
 #define LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row
     lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT];
+
+/* What the maps are for. */
+typedef struct lsf_reflective_shadow_map_use {
+    bool sky;      /* environment directions have maps, too */
+    bool few_vpls; /* so few are drawn that each had better light what is seen */
+} lsf_reflective_shadow_map_use;
 
 /* Valid until the next run. 2D arrays with a layer for each face. */
 typedef struct lsf_reflective_shadow_map_outputs {
@@ -54,10 +60,10 @@ typedef struct lsf_reflective_shadow_map {
 } lsf_reflective_shadow_map;
 
 /* Lists the pass, with adaptive emission also "reflective_shadow_map_pdf", and the textures of the
- * kinds of map that the lights in `state` need; with `sky`, those that stand for the environment,
- * too. */
+ * kinds of map that the lights in `state` need, and what the use does. */
 void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_map_params *params,
-                                    const lsf_state *state, bool sky);
+                                    const lsf_state *state,
+                                    const lsf_reflective_shadow_map_use *use);
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error);
 /* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration.

@@ -62,18 +62,18 @@ static void plan_gbuffer(lsf_sandbox_setup *setup)
 static void plan_maps(lsf_sandbox_setup *setup)
 {
     lsf_plan *plan = setup->plan;
-    lsf_pass_params *params = &setup->setup.pass_params;
+    const lsf_pass_params *params = &setup->setup.pass_params;
     bool light_on_voxels = needs(setup, LSF_NEED_RADIANCE) && (lit(setup) || plan->sky_lights > 0);
     bool reflective = needs(setup, LSF_NEED_REFLECTIVE);
     if ((needs(setup, LSF_NEED_SHADOW) && !reflective) || light_on_voxels)
         lsf_shadow_map_plan(plan, &params->shadow_map, &setup->setup.state);
     else
         lsf_plan_omit(plan, "shadow_map", "the shader names no shadow");
-    if (params->reflective_shadow_map.pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO)
-        params->reflective_shadow_map.pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM; /* no VPLs */
     if (reflective)
-        lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, &setup->setup.state,
-                                       plan->sky_lights > 0 && plan->requirements.environment_map);
+        lsf_reflective_shadow_map_plan(
+            plan, &params->reflective_shadow_map, &setup->setup.state,
+            &(lsf_reflective_shadow_map_use){.sky = plan->sky_lights > 0 &&
+                                                    plan->requirements.environment_map});
     else
         lsf_plan_omit(plan, "reflective_shadow_map", "the shader does not name it");
 }

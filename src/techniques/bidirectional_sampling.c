@@ -145,8 +145,11 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     if (indirect)
         lsf_sparse_chain_plan_split(plan, params, s.interleave);
     if (s.vpl_light || s.bundle_light)
-        lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, state,
-                                       plan->sky_lights > 0 && plan->requirements.environment_map);
+        lsf_reflective_shadow_map_plan(
+            plan, &params->reflective_shadow_map, state,
+            &(lsf_reflective_shadow_map_use){.sky = plan->sky_lights > 0 &&
+                                                    plan->requirements.environment_map,
+                                             .few_vpls = true});
     else
         lsf_plan_omit(plan, "reflective_shadow_map", "no punctual light bounces");
     if (s.vpl_light || s.vpl_emitter)

@@ -77,8 +77,9 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
     if (is_traced(&use)) {
         lsf_voxel_chain_plan(plan, params, state, &chain_use);
         if (use.lights)
-            lsf_reflective_shadow_map_plan(plan, &params->reflective_shadow_map, state,
-                                           plan->sky_lights > 0);
+            lsf_reflective_shadow_map_plan(
+                plan, &params->reflective_shadow_map, state,
+                &(lsf_reflective_shadow_map_use){.sky = plan->sky_lights > 0});
         else
             lsf_plan_omit(plan, "reflective_shadow_map", "no light but what surfaces emit bounces");
         lsf_vpl_cloud_plan(plan, &params->vpl_cloud, &use);

@@ -25,6 +25,7 @@ static const char *const coarser[][LSF_BUDGET_COARSEST + 1] = {
     {"sparse.grid", "1", "2", "2"},
     {"voxel_path.max_samples", "3", "2", "1"},
     {"cloud.count", "65536", "32768", "16384"},
+    {"light_tree.samples", "2", "1", "1"},
 };
 
 void lsf_viewer_touch(lsf_viewer *viewer)

@@ -85,7 +85,8 @@ void light_passes_init(light_passes *p, const lsf_scene *scene, int32_t rsm_reso
                          .samples = 1};
     lsf_scene_gpu_plan(&p->plan, scene);
     lsf_iteration_plan(&p->plan);
-    lsf_reflective_shadow_map_plan(&p->plan, &rsm, &p->state, false);
+    lsf_reflective_shadow_map_plan(&p->plan, &rsm, &p->state,
+                                   &(lsf_reflective_shadow_map_use){.few_vpls = true});
     lsf_vpl_plan(&p->plan, &vpl, &(lsf_vpl_use){.lights = true});
     require(
         lsf_scene_gpu_create(&p->scene_gpu, p->context, &p->plan, scene, &p->state, NULL, &error) &&

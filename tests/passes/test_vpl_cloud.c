@@ -44,8 +44,9 @@ static lsf_voxel_grid plan_all(cloud_rig *rig, const lsf_vpl_cloud_params *param
     lsf_voxel_grid_set_unit(&grid, rig->setup.scene, &rig->setup.state);
     lsf_voxelize_plan(plan, &p->voxelize, &grid);
     if (rig->use.lights)
-        lsf_reflective_shadow_map_plan(plan, &p->reflective_shadow_map, &rig->setup.state,
-                                       plan->sky_lights > 0);
+        lsf_reflective_shadow_map_plan(
+            plan, &p->reflective_shadow_map, &rig->setup.state,
+            &(lsf_reflective_shadow_map_use){.sky = plan->sky_lights > 0});
     lsf_vpl_cloud_plan(plan, params, &rig->use);
     return grid;
 }
