@@ -177,9 +177,11 @@ class View(WindowTest):
         # Looks at files every half a second of the replay's time; ends with the test.
         shots = ["key Shift", "key F12", "key-up F12", "key-up Shift", *(12 * ["step 0.05"]), "settle"]
         script = self.write("script", "".join(f"{10 + k} {line}\n" for k, line in enumerate(2000 * shots)))
+        environment = dict(self.environment())
+        environment.pop("MESA_SHADER_DUMP_PATH", None)  # for tests/shaders: one is wrong on purpose
         program = subprocess.Popen([COMMAND, "view", os.path.join(SCENES, "cornell_point.gltf"), "--shader-dir", folder,
                                     "-r", "300,200", "-s", "1", "-t", "direct", "--replay", script],
-                                   cwd=self.folder, env=self.environment(), stderr=subprocess.PIPE, text=True)
+                                   cwd=self.folder, env=environment, stderr=subprocess.PIPE, text=True)
         self.addCleanup(program.kill)
         def newest():
             """The shot before the last one, which may be half written; 0: there is none."""
