@@ -135,3 +135,14 @@ void finish_gl_scene(lsf_scene *scene)
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
 }
+
+void assert_seen(const char *what, const double found[3], const double expected[3],
+                 double tolerance)
+{
+    bool bad = false;
+    for (int c = 0; c < 3; c++) {
+        print_message("%s, channel %d: %.5f, expected %.5f\n", what, c, found[c], expected[c]);
+        bad |= !(fabs(found[c] - expected[c]) <= tolerance * fabs(expected[c]) + 1e-6);
+    }
+    assert_false(bad);
+}

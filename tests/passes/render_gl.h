@@ -25,6 +25,10 @@ void render_gl_point(const lsf_scene *scene, lsf_float3 eye, lsf_float3 target, 
 /* Means of three channels from `first` on. None of their values is negative. */
 void mean_rgb(const lsf_image *image, uint32_t first, double rgb[3]);
 
+/* Prints each of three channels and asserts that it is within that part of what is expected. */
+void assert_seen(const char *what, const double found[3], const double expected[3],
+                 double tolerance);
+
 void assert_same_pixels(const lsf_image *image, const lsf_image *expected);
 /* Every value is `scale` times the expected one, to the bit. */
 void assert_scaled_pixels(const lsf_image *image, const lsf_image *expected, float scale);

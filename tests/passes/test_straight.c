@@ -24,17 +24,6 @@ static void look(const lsf_scene *scene, const char *technique, uint32_t samples
     lsf_image_destroy(image);
 }
 
-static void assert_seen(const char *what, const double found[3], const double expected[3],
-                        double tolerance)
-{
-    bool bad = false;
-    for (int c = 0; c < 3; c++) {
-        print_message("%s, channel %d: %.5f, expected %.5f\n", what, c, found[c], expected[c]);
-        bad |= !(fabs(found[c] - expected[c]) <= tolerance * fabs(expected[c]) + 1e-6);
-    }
-    assert_false(bad);
-}
-
 static void build_dull_floor(lsf_scene *scene, float albedo, float height)
 {
     build_material(scene, albedo, albedo, albedo)->ior = 1.0f;
