@@ -1,11 +1,11 @@
-/* What a ray-bundle met, for readers of lib/ray_bundle.glsl. */
+/* The nodes of a ray-bundle, for readers of lib/ray_bundle.glsl. */
 #ifndef LSF_FRAME_BUNDLE_NODES_H
 #define LSF_FRAME_BUNDLE_NODES_H
 
 #include "gl/gl.h"
 
-/* Arrays of nodes; lib/ray_bundle.glsl says what they hold. Bound from LSF_BINDING_BUNDLE_NODES on.
- */
+/* Arrays of nodes, bound from LSF_BINDING_BUNDLE_NODES on; lib/ray_bundle.glsl says what they
+ * hold. */
 enum {
     LSF_RAY_BUNDLE_HEADS,
     LSF_RAY_BUNDLE_KEYS,
@@ -18,7 +18,7 @@ enum {
 
 /* Borrowed. */
 typedef struct lsf_bundle_nodes {
-    GLuint projections; /* buffer, which has a struct lsf_bundle_data at `offset` */
+    GLuint projections; /* buffer with a struct lsf_bundle_data at `offset` */
     GLintptr offset;
     const GLuint *arrays; /* LSF_RAY_BUNDLE_ARRAYS buffers */
 } lsf_bundle_nodes;

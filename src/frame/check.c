@@ -1,4 +1,4 @@
-/* What the device cannot hold is refused before anything is allocated. */
+/* Refuses a plan that the device cannot hold before anything is allocated. */
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -43,7 +43,8 @@ bool lsf_plan_check(const lsf_plan *plan, const lsf_context *context, lsf_error 
                              "%u,%u pixels",
                              plan->width, plan->height, plan->width < widest ? plan->width : widest,
                              plan->height < highest ? plan->height : highest);
-    double fixed = 0.0, scaling = 0.0; /* bytes that do not, and do, grow with the resolution */
+    double fixed = 0.0, scaling = 0.0; /* bytes that stay the same, and bytes that grow with the
+                                        * resolution */
     for (uint64_t i = 0; i < plan->resource_count; i++) {
         const lsf_plan_resource *resource = &plan->resources[i];
         bool of_scene = resource->is_buffer || strncmp(resource->name, "scene.", 6) == 0;

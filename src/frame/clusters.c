@@ -6,12 +6,12 @@
 
 #include "base/base.h"
 
-/* Triangles. A draw costs about as much as the setting up of some hundred triangles. */
+/* Triangles of a cluster. A draw costs about as much as setting up some hundred triangles. */
 #define CLUSTER_TRIANGLES 256u
 #define CLUSTER_INDICES (3u * CLUSTER_TRIANGLES)
 
-/* Clusters are kept that are outside by no more than rounding, of the terms of a plane's equation.
- */
+/* Clusters that are outside only by rounding errors are kept; the error is relative to the terms
+ * of a plane's equation. */
 #define ROUNDING 1e-5f
 
 static uint64_t cluster_count(const lsf_primitive *primitive)
@@ -75,7 +75,7 @@ void lsf_clusters_finish(lsf_clusters *clusters)
     memset(clusters, 0, sizeof *clusters);
 }
 
-/* `rounding`: as a share of the terms' magnitudes. */
+/* `rounding` is relative to the magnitudes of the terms. */
 static bool box_inside(const lsf_draw_region *region, const float low[3], const float high[3],
                        float rounding)
 {
@@ -98,7 +98,7 @@ bool lsf_clusters_inside(const lsf_draw_region *region, const lsf_instance_state
     return box_inside(region, instance->bounds_min, instance->bounds_max, 0.0f);
 }
 
-/* Planes of points in object space: n.(M p + t) + w = (M^T n).p + n.t + w. */
+/* Planes for points in object space: n.(M p + t) + w = (M^T n).p + n.t + w. */
 static void to_object_space(lsf_draw_region *region, const float transform[12])
 {
     for (uint32_t i = 0; i < region->plane_count; i++) {
@@ -123,7 +123,7 @@ lsf_cluster_walk lsf_clusters_walk(const lsf_clusters *clusters, const lsf_scene
         .cluster_count = (uint32_t)(clusters->first[instance->primitive + 1] - first),
         .index_count = scene->primitives[instance->primitive].index_count,
     };
-    /* A primitive's only cluster has its bounds, which have been asked. */
+    /* A primitive's only cluster has the primitive's bounds, which were tested already. */
     if (region && walk.cluster_count > 1) {
         walk.region = *region;
         to_object_space(&walk.region, instance->transform);

@@ -1,25 +1,25 @@
-/* Runs of a primitive's triangles with their bounds: what lies outside a region is not drawn, where
- * the whole primitive's bounds reach into it. */
+/* Runs of a primitive's triangles with their bounds: where the primitive's bounds reach into a
+ * region, the runs outside it are not drawn. */
 #ifndef LSF_FRAME_CLUSTERS_H
 #define LSF_FRAME_CLUSTERS_H
 
 #include "scene/state.h"
 
-/* A convex region: what is wholly on the negative side of a plane is not drawn.
- * planes[i]: normal and offset, n.p + w >= 0 inside, normalised space. */
+/* A convex region: what lies wholly on the negative side of a plane is not drawn. planes[i]:
+ * normal and offset, n.p + w >= 0 inside, normalised space. */
 typedef struct lsf_draw_region {
     uint32_t plane_count;
     float planes[6][4];
 } lsf_draw_region;
 
 typedef struct lsf_clusters {
-    uint64_t *first;    /* of each primitive, and one past the last */
+    uint64_t *first;    /* first run of each primitive, and one past the last */
     float (*bounds)[6]; /* object space: least and greatest corner */
 } lsf_clusters;
 
-/* False without memory. Finish it in either case. */
+/* False without memory. It must be finished in either case. */
 bool lsf_clusters_init(lsf_clusters *clusters, const lsf_scene *scene);
-/* Bounds those of a primitive anew, of vertices that were deformed. */
+/* Bounds the runs of a primitive anew after its vertices were deformed. */
 void lsf_clusters_update(lsf_clusters *clusters, const lsf_scene *scene,
                          const lsf_vertices *vertices, uint32_t primitive);
 void lsf_clusters_finish(lsf_clusters *clusters);
@@ -35,7 +35,7 @@ typedef struct lsf_cluster_walk {
     uint32_t first, count;  /* the run: indices, from the primitive's first on */
 } lsf_cluster_walk;
 
-/* `region` NULL: all in one run. */
+/* With `region` NULL all indices are in one run. */
 lsf_cluster_walk lsf_clusters_walk(const lsf_clusters *clusters, const lsf_scene *scene,
                                    const lsf_instance_state *instance,
                                    const lsf_draw_region *region);

@@ -1,5 +1,5 @@
 /* Cones through the pyramid of voxels' radiance: the set that gathers a hemisphere, and how they
- * march. lib/voxel_cone.glsl is the other half. */
+ * march. lib/voxel_cone.glsl is the shader's side. */
 #ifndef LSF_FRAME_CONE_H
 #define LSF_FRAME_CONE_H
 
@@ -9,19 +9,19 @@
 
 typedef enum lsf_cone_sides {
     LSF_CONE_ISOTROPIC,   /* a texel looks the same from everywhere */
-    LSF_CONE_ANISOTROPIC, /* from each of six directions different */
+    LSF_CONE_ANISOTROPIC, /* a texel looks different from each of six directions */
 } lsf_cone_sides;
 
 typedef struct lsf_cone_params {
-    int32_t count;  /* that gather a hemisphere */
+    int32_t count;  /* number that gathers a hemisphere */
     int32_t sides;  /* lsf_cone_sides */
-    float offset;   /* of the start along the normal [voxels] */
-    float step;     /* texels of the level in turn */
-    float opacity;  /* that of texels counts times this, at most 1 */
-    float distance; /* that cones reach [half extents of the scene] */
-    bool jitter;    /* of their elevation, each within its share, from iteration to iteration */
+    float offset;   /* distance of the start along the normal [voxels] */
+    float step;     /* texels of the level that is read */
+    float opacity;  /* factor on the opacity of texels, whose product is at most 1 */
+    float distance; /* reach of cones [half extents of the scene] */
+    bool jitter;    /* elevations vary from iteration to iteration, each within its share */
     bool sealed;    /* cones are rays along their axis, which end where it meets a voxel */
-    bool turn;      /* the set is turned from pixel to pixel */
+    bool turn;      /* the set is rotated from pixel to pixel */
 } lsf_cone_params;
 
 #define LSF_CONE_PARAMS_DEFAULTS                                                                   \
@@ -31,15 +31,15 @@ typedef struct lsf_cone_params {
 #define LSF_CONE_OPTION_COUNT 9
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
 
-/* Levels of radiance that they read: one where cones are sealed, as nothing marches then. */
+/* Levels of radiance that cones read: one where they are sealed, as nothing marches then. */
 uint32_t lsf_cone_levels(const lsf_cone_params *params);
 
-/* Slices of radiance along z. Sealed cones know the surface that they meet, and on which side. */
+/* Slices of radiance along z. Sealed cones distinguish the surface that they meet, and its side. */
 uint32_t lsf_cone_slices(const lsf_cone_params *params);
 
-/* The set about z: in x y z unit directions, in w a cone's diameter by its length. Each of `count`
- * cones stands for an equal share of the cosine-weighted hemisphere. `elevation` in [0, 1) says
- * where in its share each lies. */
+/* The set about z: xyz is a unit direction, w the ratio of a cone's diameter to its length. Each
+ * of `count` cones stands for an equal share of the cosine-weighted hemisphere. `elevation` in
+ * [0, 1) says where in its share each lies. */
 void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones);
 
 /* Sets the uniforms of lib/voxel_cone.glsl and of a set for the program in use, and binds the

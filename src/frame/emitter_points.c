@@ -38,8 +38,8 @@ static struct lsf_emitter_point_data point_of(const lsf_emitters *list, const ui
         .radiance = {s.radiance[0], s.radiance[1], s.radiance[2], (float)s.sides}};
 }
 
-/* As many points of a (0,2)-sequence as there are cells, from a multiple of their number on, lie
- * one in each. */
+/* Of a (0,2)-sequence, as many consecutive points as there are cells, from a multiple of their
+ * number on, have one point in each cell. */
 bool lsf_emitter_points_draw(lsf_emitter_points *points, const lsf_iteration *iteration,
                              uint32_t purpose)
 {

@@ -1,6 +1,6 @@
-/* Points on emissive surfaces, drawn by their power anew in each iteration, for lib/emitter.glsl:
- * one for each cell of a square, so that whoever reads them by stratified numbers takes stratified
- * points. */
+/* Points on emissive surfaces, drawn by their power anew in each iteration, for
+ * lib/emitter.glsl: one for each cell of a square, so that readers with stratified numbers take
+ * stratified points. */
 #ifndef LSF_FRAME_EMITTER_POINTS_H
 #define LSF_FRAME_EMITTER_POINTS_H
 
@@ -16,13 +16,13 @@ typedef struct lsf_emitter_points {
     GLuint buffer; /* 0: there are none */
 } lsf_emitter_points;
 
-/* Their buffer, under a name of the pass. */
+/* Lists their buffer, under a name of the pass. */
 void lsf_emitter_points_plan(lsf_plan *plan, const char *name);
 bool lsf_emitter_points_create(lsf_emitter_points *points, lsf_context *context,
                                const lsf_plan *plan, const char *name, const lsf_scene *scene,
                                const lsf_state *state, lsf_error *error);
-/* Draws this iteration's, by a sequence of `purpose`'s own, and binds them. False: without area
- * nothing is drawn, whatever emits. */
+/* Draws the iteration's points, by a sequence of `purpose`, and binds them. False: the emitters
+ * have no area, and nothing is drawn. */
 bool lsf_emitter_points_draw(lsf_emitter_points *points, const lsf_iteration *iteration,
                              uint32_t purpose);
 void lsf_emitter_points_destroy(lsf_emitter_points *points, lsf_context *context);

@@ -32,7 +32,7 @@ static float dot3(const float a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* What a depth is made of, see view.h: 1 on the near plane, 0 on the far one. */
+/* Parameters of the reverse-Z depth (view.h): 1 on the near plane, 0 on the far one. */
 static void depth_law(const lsf_camera_state *camera, float *slope, float *offset)
 {
     float near_depth = camera->orthographic ? 1.0f : camera->start_depth + camera->near_plane;
@@ -44,8 +44,9 @@ static void depth_law(const lsf_camera_state *camera, float *slope, float *offse
     }
 }
 
-/* The clip-space matrix, of positions less the camera's start, whose inverse is lsf_camera_state.
- * The jitter moves the picture so that a pixel's centre shows its sample point. */
+/* The clip-space matrix, of positions relative to the camera's start, whose inverse is
+ * lsf_camera_state. The jitter moves the picture so that a pixel's centre shows its sample
+ * point. */
 static lsf_mat4 clip_matrix(const lsf_camera_state *camera, float jitter_x, float jitter_y)
 {
     const float *dx = camera->orthographic ? camera->start_dx : camera->forward_dx;
@@ -70,9 +71,9 @@ static lsf_mat4 clip_matrix(const lsf_camera_state *camera, float jitter_x, floa
     return matrix;
 }
 
-/* How far a position that is found from a depth may be off: half a unit in the last place of each
- * of its coordinates, and some more of its distance from the start, by the vertex (twice), the
- * division, the depth and the way back. */
+/* Bound of the error of a position that is found from a depth: half a unit in the last place of
+ * each of its coordinates, and an error relative to its distance from the start, by the vertex
+ * (twice), the division, the depth and the reconstruction. */
 static float position_error(const lsf_state *state)
 {
     const float *low = state->bounds_min, *high = state->bounds_max;
@@ -214,7 +215,7 @@ lsf_iteration_number lsf_iteration_deal(const lsf_iteration *iteration, uint32_t
     lsf_iteration_number number = {.index = iteration->index * each + i / tiles};
     if (slot == 0)
         return number;
-    uint32_t turned = 0; /* the slot's binary digits in reverse */
+    uint32_t turned = 0; /* the slot's binary digits in reverse order */
     for (uint32_t power = 1; power < tiles; power *= 2)
         turned = 2 * turned + (slot / power & 1);
     number.shift[0] = (uint32_t)((uint64_t)slot * UINT32_MAX / (tiles - 1));

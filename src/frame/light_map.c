@@ -94,7 +94,7 @@ static void project_cube(struct lsf_light_data *data, const float rotation[9])
         data->map_window[face] = (lsf_vec4){0.0f, 0.0f, 1.0f, 1.0f};
 }
 
-/* right and up of a map that looks along `forward`, turned by `angle` about it. */
+/* right and up of a map that looks along `forward`, rotated by `angle` about it. */
 static void turned_axes(const lsf_light_state *light, float angle, lsf_float3 *right,
                         lsf_float3 *up)
 {
@@ -119,14 +119,14 @@ static void box_add(box *b, const lsf_float3 axes[3], lsf_float3 p)
 
 static const box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-/* Bounds of the scene along the axes; the unit box when it is empty. */
+/* The scene's axis-aligned bounds; the unit box when it is empty. */
 static box scene_box(const lsf_state *state, const lsf_float3 axes[3])
 {
     box b;
     return lsf_state_bounds_along(state, axes, b.low, b.high) ? b : (box){{-1, -1, -1}, {1, 1, 1}};
 }
 
-/* Bounds, along the axes, of what the camera sees up to `depth` from its start on. */
+/* Axis-aligned bounds of what the camera sees up to `depth` from its start. */
 static box view_box(const lsf_camera_state *camera, const lsf_float3 axes[3], float depth)
 {
     box b = empty_box;
@@ -144,8 +144,7 @@ static box view_box(const lsf_camera_state *camera, const lsf_float3 axes[3], fl
     return b;
 }
 
-/* View depths, from the camera's start on, between which that part of the scene lies which the
- * picture may show. */
+/* View depths, from the camera's start on, between which the visible part of the scene lies. */
 static void seen_depths(const lsf_iteration *iteration, float *nearest, float *farthest)
 {
     const lsf_state *state = iteration->state;
@@ -177,15 +176,15 @@ static void seen_depths(const lsf_iteration *iteration, float *nearest, float *f
 static void set_window(struct lsf_light_data *data, uint32_t face, const lsf_float3 axes[3],
                        const float center[2], const float extent[2])
 {
-    /* One texel more on each side is room for the offset. */
+    /* One more texel on each side leaves space for the offset. */
     float room = 1.0f + 2.0f * data->map_shape.w;
     set_face(data, face, axes[0], axes[1], axes[2]);
     data->map_window[face] = (lsf_vec4){center[0], center[1], fmaxf(extent[0], 1e-4f) * room,
                                         fmaxf(extent[1], 1e-4f) * room};
 }
 
-/* From what is seen farthest along the light to what is seen first, with a sixteenth to spare on
- * either side: the plane of what is lit reaches beyond it within a texel. */
+/* Depths from the farthest to the nearest visible point along the light, with a sixteenth to
+ * spare on either side: the plane of a lit surface reaches beyond it within a texel. */
 static void fit_depths(struct lsf_light_data *data, lsf_float3 along, const box *view,
                        const box *scene)
 {
@@ -199,8 +198,8 @@ static void fit_depths(struct lsf_light_data *data, lsf_float3 along, const box 
     data->map_shape.y = high + room - start;
 }
 
-/* Nested windows: each reaches a third as deep into what is seen as the next one, so that a texel
- * is everywhere about as wide as a pixel is there; the last holds all that is seen. */
+/* Nested windows: each reaches a third as deep into the visible scene as the next one, so that a
+ * texel is everywhere about as wide as a pixel is there; the last holds all that is visible. */
 static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
                                const lsf_light_map_layout *layout, const lsf_float3 axes[3],
                                const box *scene)
@@ -225,8 +224,8 @@ static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration 
     }
 }
 
-/* Along the light, each window holds the whole scene, which may cast its shadow from outside the
- * view. */
+/* Along the light, each window holds the whole scene: surfaces outside the view may cast shadows
+ * into it. */
 static void project_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
                             const lsf_light_map_layout *layout, const lsf_float3 axes[3])
 {

@@ -1,4 +1,4 @@
-/* The tree over a cloud of VPLs, from the pass that builds it to those that go by it. */
+/* The tree over a cloud of VPLs, from the pass that builds it to the passes that sample it. */
 #ifndef LSF_FRAME_LIGHT_TREE_BUFFERS_H
 #define LSF_FRAME_LIGHT_TREE_BUFFERS_H
 
@@ -8,14 +8,14 @@
 
 /* Names are borrowed. */
 typedef struct lsf_light_tree_buffers {
-    GLuint cloud; /* struct lsf_vpl_record each */
+    GLuint cloud; /* one struct lsf_vpl_record for each VPL */
     GLuint tree;  /* struct lsf_light_tree_data */
-    GLuint nodes; /* struct lsf_light_tree_node each */
+    GLuint nodes; /* one struct lsf_light_tree_node for each node */
     GLuint areas; /* float each: squared radius of the disc of the area that a VPL stands for; of
                    * those in the tree */
 } lsf_light_tree_buffers;
 
-/* For lib/light_tree.glsl. */
+/* Binds them for lib/light_tree.glsl. */
 void lsf_light_tree_bind(const lsf_light_tree_buffers *buffers);
 
 #endif

@@ -2,7 +2,8 @@
 
 #include "shared/scene_data.h"
 
-/* Where paths refract, what they meet by chance has to bring all light of the sky that passes. */
+/* Where paths refract, paths that meet the sky by chance have to bring all light of the sky that
+ * passes. */
 static bool sky_passes(const lsf_plan *plan)
 {
     return plan->straight && plan->sky_lights > 0;

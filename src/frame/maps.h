@@ -1,17 +1,18 @@
-/* Textures that passes hand to each other, of the picture's size or of a grid's. Names are
+/* Textures that passes hand to each other, of the size of the picture or of a grid. Names are
  * borrowed. */
 #ifndef LSF_FRAME_MAPS_H
 #define LSF_FRAME_MAPS_H
 
 #include "frame/resources.h"
 
-/* Points on surfaces: what the picture's pixels see, or the same in another order or of fewer
- * pixels. Formats as in lib/gbuffer.glsl. */
+/* Points on surfaces: those that the picture's pixels show, or the same in another order or of
+ * fewer pixels. Formats are in lib/gbuffer.glsl. */
 typedef struct lsf_surface_maps {
-    GLuint depth;   /* reverse-Z, 0 where nothing is seen: DEPTH_COMPONENT32F, or a copy in R32F */
+    GLuint depth;   /* reverse-Z, 0 where no surface is: DEPTH_COMPONENT32F, or a copy in R32F */
     GLuint surface; /* RGBA32UI */
     GLuint gloss;   /* R32UI or RG32UI; 0: roughness and metallic are the same everywhere */
-    GLuint pixels;  /* R32UI, x | y << 16: which pixel sees each; 0: it follows from the place */
+    GLuint pixels;  /* R32UI, x | y << 16: the pixel that shows each point; 0: it follows from
+                     * the position in the texture */
 } lsf_surface_maps;
 
 /* Light at such points, RGBA32F; both 0: there is none. */
@@ -26,22 +27,25 @@ typedef struct lsf_gbuffer_maps {
     GLuint emission; /* RGBA32F, radiance; 0: nothing emits */
     GLuint motion;   /* RG32F, pixels; 0 unless asked for. Where light is kept, RGBA32F: B the
                       * reverse-Z depth in the frame before, A the instance's number and 1 */
-    GLuint tint, absorption; /* RGBA16F, RGBA32F: of light on its way to the eye; 0: none is lost */
+    GLuint tint, absorption; /* RGBA16F, RGBA32F: of light between the surface and the eye; 0:
+                              * none is lost */
 } lsf_gbuffer_maps;
 
 /* The parts of an iteration's picture before they are added up. */
 typedef struct lsf_light_parts {
     const lsf_gbuffer_maps *gbuffer;
     GLuint direct;                /* RGBA32F, reflected radiance of direct light; 0: none */
-    lsf_split_light split_direct; /* direct light beside that */
-    lsf_split_light sky;          /* ... of the environment's directions, beside both */
+    lsf_split_light split_direct; /* direct light that filters take apart, to be added to
+                                   * `direct` */
+    lsf_split_light sky;          /* the same of the environment's directions */
     lsf_split_light indirect;
 } lsf_light_parts;
 
 /* The format of the G-buffer's gloss, once that is planned; GL_NONE: it has none. */
 GLenum lsf_gbuffer_gloss(const lsf_plan *plan);
 
-/* What filters of light go by to stay on one surface: lib/light_guide.glsl has what they hold. */
+/* Guides of filters of light, which keep them on one surface; lib/light_guide.glsl says what
+ * they hold. */
 typedef struct lsf_guide_maps {
     GLuint guide, slope; /* RGBA32F */
     GLuint turn;         /* RG16F */

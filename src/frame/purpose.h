@@ -1,11 +1,11 @@
-/* What random numbers are for: a purpose names a sequence of its own (lsf_iteration_seed), so that
- * no two choices go together by accident. */
+/* Purposes of random numbers: each names a sequence of its own (lsf_iteration_seed), so that no
+ * two choices are correlated by accident. */
 #ifndef LSF_FRAME_PURPOSE_H
 #define LSF_FRAME_PURPOSE_H
 
 typedef enum lsf_purpose {
     LSF_PURPOSE_PIXEL = 0,
-    LSF_PURPOSE_SHADOW_MAP = 1,                  /* turn and shift, two for each light */
+    LSF_PURPOSE_SHADOW_MAP = 1,                  /* rotation and offset, two for each light */
     LSF_PURPOSE_REFLECTIVE_SHADOW_MAP = 0x20000, /* the same */
     LSF_PURPOSE_BUNDLE_DIRECTION = 0x40000,      /* one for each bundle of an iteration */
     LSF_PURPOSE_BUNDLE_TURN = 0x60000,
@@ -22,7 +22,7 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_VOXEL_EMITTER,
     LSF_PURPOSE_SKY,
     LSF_PURPOSE_BLEND_VOXEL, /* whether blended surfaces are there */
-    /* Whether surfaces that transmit, and blended ones, are there; see lib/straight.glsl and
+    /* Whether surfaces that transmit, and blended ones, are hit; see lib/straight.glsl and
      * lib/alpha.glsl. */
     LSF_PURPOSE_STRAIGHT_PIXEL,
     LSF_PURPOSE_SKY_PATTERN, /* which pixels take which directions of the environment */

@@ -1,10 +1,10 @@
-/* What a plan lists, on the GPU. */
+/* The resources that a plan lists, on the GPU. */
 #ifndef LSF_FRAME_RESOURCES_H
 #define LSF_FRAME_RESOURCES_H
 
 #include "plan/plan.h"
 
-/* Creates those that are listed in `pass`, whose others stay 0. */
+/* Creates those textures that are listed in `pass`; the others stay 0. */
 bool lsf_plan_create_textures(const lsf_plan *plan, lsf_context *context,
                               const lsf_texture_row *rows, size_t count, void *pass,
                               lsf_error *error);
@@ -17,14 +17,15 @@ bool lsf_plan_create_texture(const lsf_plan *plan, lsf_context *context, const c
 /* The same for a buffer; `data` holds the planned bytes or is NULL. */
 bool lsf_plan_create_buffer(const lsf_plan *plan, lsf_context *context, const char *name,
                             const void *data, GLbitfield flags, GLuint *buffer, lsf_error *error);
-/* For what is not there in every plan: the name stays 0, with success, when it is not listed. */
+/* For resources that only some plans list: the name stays 0, with success, when it is not
+ * listed. */
 bool lsf_plan_create_texture_if_planned(const lsf_plan *plan, lsf_context *context,
                                         const char *name, GLuint *texture, lsf_error *error);
 bool lsf_plan_create_buffer_if_planned(const lsf_plan *plan, lsf_context *context, const char *name,
                                        const void *data, GLbitfield flags, GLuint *buffer,
                                        lsf_error *error);
-/* Replaces the buffer by one of `bytes`, without its contents, and lists it as that large; for what
- * is known only while rendering. On failure *buffer is 0. */
+/* Replaces the buffer by one of `bytes`, without its contents, and lists it with that size; for
+ * buffers whose size is known only while rendering. On failure *buffer is 0. */
 bool lsf_plan_resize_buffer(lsf_plan *plan, lsf_context *context, const char *name, uint64_t bytes,
                             GLbitfield flags, GLuint *buffer, lsf_error *error);
 /* Compiles `files` (up to five, NULL-terminated) with the pass's switches. 0 on failure. */

@@ -94,7 +94,7 @@ static void update_materials(lsf_scene_gpu *gpu)
 
 /* --- the table of triangles --- */
 
-/* Whether it holds those of an instance. */
+/* Whether the table holds the triangles of an instance. */
 static bool is_listed(const lsf_scene_gpu *gpu, const lsf_instance_state *instance)
 {
     const lsf_material *material = &gpu->surfaces[instance->material];
@@ -102,7 +102,7 @@ static bool is_listed(const lsf_scene_gpu *gpu, const lsf_instance_state *instan
            !(gpu->straight && material->transmission > 0.0f);
 }
 
-/* In normalised space. */
+/* Corners in normalised space. */
 static void place_triangle(float corners[9], const lsf_scene *scene, const lsf_state *state,
                            const lsf_instance_state *instance, uint32_t triangle)
 {
@@ -124,7 +124,7 @@ static uint32_t length_class(float squared)
     return LSF_SCENE_GPU_LENGTHS - 1 - (bits >> 22);
 }
 
-/* Of its longest edge. */
+/* The class of a triangle's longest edge. */
 static uint32_t triangle_class(const float corners[9])
 {
     float longest = 0.0f;
@@ -141,7 +141,7 @@ uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length)
     return gpu->triangles_to[length_class(length * length)];
 }
 
-/* Sorted by classes of length (a counting sort), in the order of instances within one. */
+/* Sorts by classes of length (a counting sort), within one in the order of instances. */
 static void sort_triangles(lsf_scene_gpu *gpu, const lsf_state *state)
 {
     memset(gpu->triangles_to, 0, sizeof gpu->triangles_to);
@@ -168,7 +168,7 @@ static void sort_triangles(lsf_scene_gpu *gpu, const lsf_state *state)
     }
 }
 
-/* The copy on the host is kept where it will be needed for each frame. */
+/* A copy on the host is kept where each frame will need it. */
 static void update_triangles(lsf_scene_gpu *gpu, const lsf_state *state)
 {
     const lsf_requirements *r = &gpu->scene->requirements;
@@ -203,7 +203,7 @@ static instance_data place(const lsf_instance_state *instance, uint32_t index)
                            {n[6], n[7], n[8], (float)index}};
 }
 
-/* Whether some instance moved, came or went. */
+/* Whether some instance moved, appeared or disappeared. */
 static bool update_instances(lsf_scene_gpu *gpu, const lsf_state *state)
 {
     bool any = false;
@@ -284,7 +284,7 @@ static void update_previous(lsf_scene_gpu *gpu, const lsf_state *previous, bool 
     }
 }
 
-/* Whether the materials are others than those that were uploaded, by an edit or an animation. */
+/* Whether materials differ from those that were uploaded, by an edit or an animation. */
 static bool materials_changed(lsf_scene_gpu *gpu, const lsf_animated *animated)
 {
     const lsf_scene *scene = gpu->scene;

@@ -28,7 +28,7 @@ static bool any_texture(const lsf_plan *plan)
            (plan->transmission && r->transmission_textured);
 }
 
-/* Whether fragments may be missing by their alpha. */
+/* Whether alpha may discard fragments. */
 static bool cuts_out(const lsf_requirements *r)
 {
     return r->masked || r->blended;
@@ -207,7 +207,7 @@ static void add_attribute(GLuint array, GLuint location, GLuint buffer, GLint co
     glEnableVertexArrayAttrib(array, location);
 }
 
-/* Three rows of four floats that advance once an instance. */
+/* Three rows of four floats that advance once per instance. */
 static void add_instance_rows(GLuint array, GLuint location, GLuint buffer, size_t stride,
                               size_t offset)
 {
@@ -296,7 +296,7 @@ static bool upload_streams(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *
     return true;
 }
 
-/* What a plan of the same scene may have otherwise, but for streams and textures. */
+/* What two plans of the same scene may differ in, besides streams and textures. */
 static bool create_followers(lsf_scene_gpu *gpu, const lsf_plan *plan, const lsf_state *state,
                              const lsf_state *previous, lsf_error *error)
 {

@@ -1,5 +1,5 @@
 /* The scene's GL resources: vertex streams, instances, materials, textures, environment. Only
- * what the scene requires exists; what neither moves nor is edited is uploaded once. */
+ * those exist that the scene requires; what neither moves nor is edited is uploaded once. */
 #ifndef LSF_FRAME_SCENE_GPU_H
 #define LSF_FRAME_SCENE_GPU_H
 
@@ -8,7 +8,7 @@
 #include "scene/state.h"
 #include "shared/scene_data.h"
 
-/* Classes of triangles' lengths, two for each power of two of a squared length. */
+/* Classes of triangles by length, two for each power of two of a squared length. */
 #define LSF_SCENE_GPU_LENGTHS 512
 
 typedef struct lsf_scene_gpu {
@@ -18,69 +18,69 @@ typedef struct lsf_scene_gpu {
     GLuint positions, normals, tangents, uv0, uv1, colors, indices;
     GLuint instances, previous_transforms, previous_positions, materials, environment;
     GLuint triangles;        /* for lib/scene_triangles.glsl; 0 when the plan does not list it */
-    uint32_t triangle_count; /* in it: those of opaque materials, without what lets light
-                              * straight through; from the longest class to the shortest */
+    uint32_t triangle_count; /* triangles in it: those of opaque materials, without those that
+                              * let light straight through; from the longest class to the
+                              * shortest */
     uint32_t triangles_to[LSF_SCENE_GPU_LENGTHS]; /* where each class ends */
     GLuint lobes, lobe_table; /* struct lsf_lobe_data of each material, and the texture that shaders
                                * read it by; 0: no material needs it */
     GLuint *textures;         /* one for each image and colour space in use */
     uint32_t gl_texture_count;
-    uint32_t *texture_of;  /* scene texture to an entry of `textures` */
+    uint32_t *texture_of;  /* index into `textures` for each texture of the scene */
     GLuint samplers[27];   /* wrap s, wrap t, linear, nearest or point: 3 x 3 x 3; 0: not needed */
     GLuint shading_array;  /* vertex array with every stream */
     GLuint position_array; /* positions (and UVs where masks need them) */
     lsf_clusters clusters;
     uint32_t *draw_order; /* instances, grouped by material */
     uint32_t draw_count;
-    /* What was uploaded of each instance, to tell what has changed. */
+    /* The values of each instance that were uploaded, to tell what has changed. */
     struct lsf_instance_data *placed;
     float (*placed_before)[12];   /* NULL without motion */
     float *posed, *posed_before;  /* values of the pose; NULL: nothing deforms */
     float (*corners)[9];          /* of `triangles`, while something moves; else NULL */
     const lsf_material *surfaces; /* the materials of the state that was uploaded last */
-    uint64_t material_edits;      /* of the scene, when materials were uploaded */
-    uint64_t radiance_edits;      /* ... when its environment was */
-    double *material_values;      /* what was animated then */
-    bool *drawn;                  /* which instances were, then */
+    uint64_t material_edits;      /* the scene's count of edits when materials were uploaded */
+    uint64_t radiance_edits;      /* the same when its environment was uploaded */
+    double *material_values;      /* animated values at that time */
+    bool *drawn;                  /* the instances that were drawn at that time */
     bool anew;                    /* nothing was uploaded yet */
 } lsf_scene_gpu;
 
 /* Lists what lsf_scene_gpu_create will create. */
 void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene);
 
-/* Adds to the pass in turn the switches of lib/material.glsl; gloss and emission are evaluated only
- * where asked for. */
+/* Adds the switches of lib/material.glsl to the current pass; gloss and emission are evaluated
+ * only where asked for. */
 void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission);
 
-/* Adds to a pass that evaluates materials: lobes that only the G-buffer keeps apart are folded into
- * those that every surface has, about as bright. */
+/* Adds switches to a pass that evaluates materials without the lobes that only the G-buffer
+ * keeps apart: they are folded into those that every surface has, with about the same albedo. */
 void lsf_scene_gpu_fold_lobes(lsf_plan *plan);
 
-/* Adds to a pass that reads the G-buffer's gloss which lobes it holds. */
+/* Adds switches to a pass that reads the G-buffer's gloss, which say what lobes it holds. */
 void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss);
-/* That of rough walls, where there are any that are seen by what they scatter. */
+/* Adds the switch of rough thin walls, where the camera sees some that scatter light. */
 void lsf_scene_gpu_scatter_switch(lsf_plan *plan);
-/* The same, and those that it needs, for a pass that is concerned by nothing else that transmits.
- */
+/* The same with the switches that it needs, for a pass that handles no other transmission. */
 void lsf_scene_gpu_scatter_switches(lsf_plan *plan);
 
-/* The word of a texel of the G-buffer's gloss that holds the clear coat, 1 to 3; 0 where nothing is
- * coated, or anisotropy, transmission and tints leave no word: coats are then folded, there too. */
+/* The word of a texel of the G-buffer's gloss that holds the clear coat, 1 to 3; 0 where nothing
+ * is coated, or where anisotropy, transmission and tints leave no word: coats are folded then. */
 int lsf_scene_gpu_coat_word(const lsf_plan *plan);
-/* The same for the sheen, of what the coat leaves. */
+/* The same for the sheen, in the words that the coat leaves. */
 int lsf_scene_gpu_sheen_word(const lsf_plan *plan);
 
-/* Adds those of lib/mask.glsl. */
+/* Adds the switches of lib/mask.glsl. */
 void lsf_scene_gpu_mask_switches(lsf_plan *plan);
 
-/* Adds LSF_ENVIRONMENT, with the reason `why`, and that of lib/environment.glsl. */
+/* Adds LSF_ENVIRONMENT, with the reason `why`, and the switch of lib/environment.glsl. */
 void lsf_scene_gpu_environment_switches(lsf_plan *plan, const char *why);
 
 /* Lists a table of the scene's triangles for shaders that fetch them themselves, unless the scene
  * is larger than such shaders can read on any device. */
 void lsf_scene_gpu_plan_triangles(lsf_plan *plan);
 
-/* How many triangles of the table, from its first on, hold all whose longest edge is at least this
+/* How many triangles, from the table's first on, include all whose longest edge is at least this
  * long, in normalised space. */
 uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length);
 
@@ -88,43 +88,42 @@ uint32_t lsf_scene_gpu_triangles_from(const lsf_scene_gpu *gpu, float length);
 bool lsf_scene_gpu_create(lsf_scene_gpu *gpu, lsf_context *context, const lsf_plan *plan,
                           const lsf_scene *scene, const lsf_state *state, const lsf_state *previous,
                           lsf_error *error);
-/* Brings up to date what of it depends on the state: instances that moved, vertices that were
- * deformed, their triangles, and materials that were edited. Allocates nothing. `state` has to fit
- * the plan. */
+/* Updates what depends on the state: instances that moved, vertices that were deformed, their
+ * triangles, and materials that were edited. Allocates nothing. `state` has to fit the plan. */
 void lsf_scene_gpu_update(lsf_scene_gpu *gpu, const lsf_state *state, const lsf_state *previous);
-/* Goes over from the plan `old` to another of the same scene; streams and textures that both list
- * stay where they are. On failure it can only be destroyed. */
+/* Goes over from the plan `old` to another one of the same scene; streams and textures that both
+ * list stay in place. On failure it can only be destroyed. */
 bool lsf_scene_gpu_replan(lsf_scene_gpu *gpu, const lsf_plan *old, const lsf_plan *plan,
                           const lsf_state *state, const lsf_state *previous, lsf_error *error);
 void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu);
 
 typedef enum lsf_draw_mode {
     LSF_DRAW_SHADING,      /* all streams; material textures are bound for each draw */
-    LSF_DRAW_SEEN,         /* the same of what the camera sees: hidden backs are culled */
+    LSF_DRAW_SEEN,         /* the same for what the camera sees: hidden back faces are culled */
     LSF_DRAW_POINTWISE,    /* the same, but textures give the nearest texel of the nearest level,
                             * for passes whose samples are spread at random */
-    LSF_DRAW_TRANSMISSIVE, /* as for shading, of materials that transmit only */
-    LSF_DRAW_WALLS,        /* the same of thin walls only */
-    LSF_DRAW_POSITIONS,    /* positions; those of base colour are bound where it is not opaque */
-    LSF_DRAW_BUT_WALLS,    /* the same, but of thin walls that transmit */
-    LSF_DRAW_OPAQUE,       /* ... but of what lets light straight through */
-    LSF_DRAW_MASKED,       /* ... of that, what is not opaque only */
+    LSF_DRAW_TRANSMISSIVE, /* as for shading, only materials that transmit */
+    LSF_DRAW_WALLS,        /* the same, only thin walls */
+    LSF_DRAW_POSITIONS,    /* positions, and base colour textures where it is not opaque */
+    LSF_DRAW_BUT_WALLS,    /* positions without thin walls that transmit */
+    LSF_DRAW_OPAQUE,       /* positions without materials that let light straight through */
+    LSF_DRAW_MASKED,       /* of the last, only materials that are not opaque */
 } lsf_draw_mode;
 
-/* What a pass drew since it was made. */
+/* Counts of what a pass has drawn since it was made. */
 enum { LSF_DRAW_INSTANCES, LSF_DRAW_CULLED, LSF_DRAW_TRIANGLES, LSF_DRAW_COUNTS };
 extern const char *const lsf_draw_count_names[LSF_DRAW_COUNTS];
 
-/* Draws what of every instance may be inside `region` (NULL: all) with the bound program and
- * framebuffer, and adds to `counts` (LSF_DRAW_COUNTS of them). */
+/* Draws the part of every instance that may be inside `region` (NULL: all) with the bound
+ * program and framebuffer, and adds to `counts` (LSF_DRAW_COUNTS of them). */
 void lsf_scene_gpu_draw(const lsf_scene_gpu *gpu, const lsf_state *state, lsf_draw_mode mode,
                         const lsf_draw_region *region, uint64_t *counts);
 
-/* For lib/environment.glsl in the program in use. */
+/* Sets the uniforms of lib/environment.glsl in the program in use. */
 void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu);
 
-/* For passes that rasterise by themselves: a material as shaders have it; its textures, bound as
- * `mode` says; and draws of triangles that such a pass lists in `buffer`: a
+/* For passes that rasterise by themselves: a material in the form that shaders read; its
+ * textures, bound as `mode` says; and draws of triangles that such a pass lists in `buffer`: a
  * DrawElementsIndirectCommand for each instance, and indices anywhere. */
 struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, const lsf_material *m,
                                                 uint32_t material);

@@ -7,7 +7,7 @@ static uint32_t least(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-/* Points along an axis. */
+/* Number of points along an axis. */
 static uint32_t points(uint32_t length, uint32_t stride)
 {
     return (length + stride - 1) / stride;
@@ -37,7 +37,7 @@ void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2])
     lsf_sparse_grid_points(plan, size);
     if (plan->stride <= 1)
         return;
-    /* Two layers of stride 2 may be a row higher than the one of stride 1. */
+    /* Two layers of stride 2 may be one row higher than one layer of stride 1. */
     uint32_t layered = plan->finest_stride > 1 ? plan->finest_stride : 2;
     uint32_t rows = 2 * points(plan->height, layered);
     size[1] = rows > size[1] ? rows : size[1];
@@ -49,14 +49,14 @@ void lsf_sparse_grid_switch(lsf_plan *plan)
                         "indirect light is gathered at fewer points than there are pixels");
 }
 
-/* Number i of the places of a square, a power of two wide: after each 4^k of them they are a
- * regular grid. */
+/* The i-th position in a square whose width is a power of two: after each 4^k of them the
+ * positions form a regular grid. */
 static void place_in_square(uint32_t i, uint32_t side, uint32_t place[2])
 {
     place[0] = place[1] = 0;
     for (uint32_t half = side / 2; half > 0; half /= 2, i /= 4) {
         place[0] += (i & 1 ? half : 0);
-        place[1] += ((i ^ i >> 1) & 1 ? half : 0); /* the diagonal one second */
+        place[1] += ((i ^ i >> 1) & 1 ? half : 0); /* the diagonal neighbour comes second */
     }
 }
 

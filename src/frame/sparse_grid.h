@@ -1,6 +1,6 @@
-/* The points at which indirect light is gathered: every n-th pixel of the picture along both sides,
- * others in each iteration. Once all pixels have had their turn n is halved, down to 1, so that the
- * mean converges to that of all pixels. See src/passes/sparse.md. */
+/* The points at which indirect light is gathered: every n-th pixel of the picture along both
+ * axes, others in each iteration. Once all pixels have been gathered n is halved, down to 1, so
+ * that the mean converges to that of all pixels. See src/passes/sparse.md. */
 #ifndef LSF_FRAME_SPARSE_GRID_H
 #define LSF_FRAME_SPARSE_GRID_H
 
@@ -8,33 +8,33 @@
 
 #include "plan/plan.h"
 
-/* Point (x, y) is what pixel (x, y) stride + phase sees; past the picture's border it is nothing.
- */
+/* Point (x, y) is at pixel (x, y) stride + phase; past the picture's border there is no point. */
 typedef struct lsf_sparse_grid {
     uint32_t stride;        /* pixels, a power of two; 1: points are pixels */
     uint32_t width, height; /* points */
     uint32_t phase[2];      /* below the stride, and within the picture */
-    /* Layers of points. In the second one, above the first, is for each point another pixel of the
-     * same block of stride x stride, where something is seen that no point shows; there is none at
-     * stride 1. */
+    /* Layers of points. The second one, above the first, has for each point another pixel of the
+     * same block of stride x stride whose surface no point shows; it does not exist at stride 1. */
     uint32_t layers;
 } lsf_sparse_grid;
 
-/* The stride to which that of the plan falls within so many iterations (UINT32_MAX: any number). */
+/* The stride to which the plan's stride falls within so many iterations (UINT32_MAX: any
+ * number). */
 uint32_t lsf_sparse_grid_finest(uint32_t stride, uint32_t iterations);
-/* Whether there are ever fewer points than pixels. */
+/* Whether some iteration has fewer points than pixels. */
 bool lsf_sparse_grid_is_sparse(const lsf_plan *plan);
-/* Width and height of textures that hold both layers in every iteration; those of the picture where
- * it is not sparse. */
+/* Width and height of textures that hold both layers in every iteration; those of the picture
+ * where the plan is not sparse. */
 void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2]);
-/* The same of one layer. */
+/* The same for one layer. */
 void lsf_sparse_grid_points(const lsf_plan *plan, uint32_t size[2]);
 /* Adds the switch LSF_SPARSE to the pass added last. */
 void lsf_sparse_grid_switch(lsf_plan *plan);
-/* Sets it for lib/sparse_grid.glsl in the program in use, where the plan is sparse. */
+/* Sets the uniforms of lib/sparse_grid.glsl in the program in use, where the plan is sparse. */
 void lsf_sparse_grid_set(const lsf_plan *plan, const lsf_sparse_grid *grid);
-/* That of the frame's iteration number `done`; `index` counts over all frames, so that frames of a
- * few iterations take other phases than those before. `seed` shifts the order of phases. */
+/* The grid of the frame's iteration number `done`; `index` counts over all frames, so that
+ * frames of a few iterations take other phases than the frames before. `seed` permutes the
+ * phases. */
 lsf_sparse_grid lsf_sparse_grid_at(const lsf_plan *plan, uint32_t done, uint32_t index,
                                    uint32_t seed);
 

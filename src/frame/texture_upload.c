@@ -120,7 +120,7 @@ void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
                              scene->environment.height, "the environment map, lat-long");
 }
 
-/* One channel of a texel, 0..1 for integers. */
+/* A channel of a texel; integers are mapped to 0..1. */
 static float texel_value(const lsf_texture_image *image, uint64_t index)
 {
     if (image->type == LSF_TEXEL_U8)
@@ -130,7 +130,8 @@ static float texel_value(const lsf_texture_image *image, uint64_t index)
     return ((const float *)image->texels)[index];
 }
 
-/* Where channel `c` of R, G, B, A is in a texel of `channels`; -1: nowhere, opaque alpha. */
+/* The index of channel `c` of R, G, B, A in a texel of `channels`; -1: it has none, and alpha is
+ * opaque. */
 static int source_channel(uint32_t channels, uint32_t c)
 {
     if (c == 3)
@@ -168,7 +169,7 @@ static void convert_to_rgba(uint8_t *out, const lsf_texture_image *image, size_t
     }
 }
 
-/* Texels as GL takes them where the file's own layout does not fit; NULL without memory. */
+/* Texels in a layout that GL takes, where the file's is another; NULL without memory. */
 static void *convert_texels(const lsf_texture_image *image, storage s)
 {
     size_t size = s.type == GL_FLOAT ? 4 : s.type == GL_UNSIGNED_SHORT ? 2 : 1;

@@ -7,10 +7,10 @@
 #include "scene/sky.h"
 #include "shared/scene_data.h"
 
-/* Of a 3D texture, that every device has (GL 4.5, table 23.53). */
+/* The largest 3D texture that every device has (GL 4.5, table 23.53). */
 #define MAX_TEXTURE_DEPTH 2048
 
-/* Whole blocks of occupancy: 4^2 voxels. */
+/* Sizes are multiples of a block of occupancy, 4^2 voxels. */
 #define BLOCK 16
 
 const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT] = {
@@ -23,8 +23,8 @@ const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT] = {
      "mean"},
 };
 
-/* Two voxels more than the scene takes: half of one is room for the shift on each side, half of one
- * keeps surfaces at the scene's bounds off the grid's. */
+/* The grid has two voxels more than the scene takes: half of one on each side leaves space for
+ * the shift, the other half keeps surfaces at the scene's bounds off the grid's border. */
 static void fit(lsf_voxel_grid *grid, const lsf_state *state, uint32_t resolution)
 {
     float longest = 0.0f;
@@ -48,9 +48,9 @@ static float largest(const float color[3])
     return fmaxf(color[0], fmaxf(color[1], color[2]));
 }
 
-/* A power of two of the order of what surfaces are lit with: radiance is stored as half floats,
- * which then hold what is 2^14 times darker and brighter. Emission may be much brighter than what
- * it lights, so that it is put far up in the range. */
+/* A power of two of the order of the light on surfaces: radiance is stored as half floats, which
+ * then resolve values 2^14 times darker and brighter. Emission may be much brighter than the
+ * surfaces that it lights, so that it gets the upper part of the range. */
 void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const lsf_state *state)
 {
     float brightest = 0.0f;

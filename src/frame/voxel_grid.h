@@ -17,56 +17,59 @@ typedef struct lsf_voxel_grid_params {
 #define LSF_VOXEL_GRID_OPTION_COUNT 3
 extern const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT];
 
-/* Voxels are cubes. `size` is that of textures, whole blocks of occupancy. */
+/* Voxels are cubes. `size` is that of textures: whole blocks of occupancy. */
 typedef struct lsf_voxel_grid {
     uint32_t resolution; /* that was taken */
     uint32_t size[3];    /* voxels along x, y, z, multiples of 16 */
     float side;          /* of a voxel [normalised units] */
     float origin[3];     /* least corner without jitter */
-    float unit;          /* of stored radiance, a power of two: values near 1 are what is usual */
+    float unit;          /* scale of stored radiance, a power of two: usual values are near 1 */
     bool jitter;
 } lsf_voxel_grid;
 
-/* What textures over the grid take. */
+/* The memory of textures over the grid. */
 typedef struct lsf_voxel_grid_use {
-    uint32_t bytes; /* a voxel, in all of them */
-    uint32_t sides; /* slices along z, the most of any */
+    uint32_t bytes; /* bytes of a voxel in all of them */
+    uint32_t sides; /* slices along z, the most of any texture */
 } lsf_voxel_grid_use;
 
-/* The finest grid up to what is asked for whose textures memory and every device hold, of a scene
- * that is not empty. Its unit is not set. */
+/* The finest grid, up to the resolution asked for, whose textures fit the memory and any device,
+ * for a scene that is not empty. Its unit is not set. */
 lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf_state *state,
                                   const lsf_voxel_grid_use *use);
-/* Says in the plan that a coarser grid was taken, where it was. */
+/* Notes in the plan that a coarser grid was taken, where it was. */
 void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
                            const lsf_voxel_grid *grid);
 void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const lsf_state *state);
 
-/* The grid as shaders read it, shifted for this iteration. Half a voxel at least stays free on each
- * side of the scene. */
+/* The grid in the form that shaders read, shifted for this iteration. At least half a voxel
+ * stays free on each side of the scene. */
 struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
                                                const lsf_iteration *iteration);
 
-/* A scene as voxels: 3D textures of the grid's size, read with texelFetch; lib/voxel.glsl says what
- * is in them. Attributes are meaningful in occupied voxels only. */
+/* A scene as voxels: 3D textures of the grid's size, read with texelFetch; lib/voxel.glsl says
+ * what they hold. Attributes are defined in occupied voxels only. */
 typedef struct lsf_voxels {
     GLuint grid_buffer;                           /* struct lsf_voxel_grid_data */
     GLuint occupancy[LSF_VOXEL_OCCUPANCY_LEVELS]; /* R32UI */
     GLuint albedo, point;                         /* R32UI */
     GLuint normal;                                /* R32UI, of planes */
-    GLuint shading;                               /* R32UI; 0 where normals are the planes' */
+    GLuint shading;                               /* R32UI; 0 where normals are those of the
+                                                   * planes */
     GLuint emission;                              /* R32UI; 0 without emitting materials */
-    GLuint shining;                               /* R32UI, bricks that emit; 0 likewise */
+    GLuint shining;                               /* R32UI, bricks that emit; 0 without emitting
+                                                   * materials */
     GLuint gloss;                                 /* R32UI; 0 unless some material is glossy */
-    GLuint transmission;                          /* R32UI; 0 unless light passes some material */
+    GLuint transmission;                          /* R32UI; 0 unless some material transmits
+                                                   * light */
     GLuint bricks;                                /* occupied bricks; voxel_data.h has the layout */
-    GLuint previous_bricks; /* those of the run before: what its readers wrote there is stale */
-    bool changed;           /* since the run before */
+    GLuint previous_bricks; /* those of the run before: what readers wrote there is out of date */
+    bool changed;           /* whether they have changed since the run before */
 } lsf_voxels;
 
-/* The grid's buffer, for lib/voxel.glsl. */
+/* Binds the grid's buffer, for lib/voxel.glsl. */
 void lsf_voxels_bind_grid(const lsf_voxels *voxels);
-/* The same and all textures, to the units in voxel_data.h. */
+/* Binds it and all textures, to the units in voxel_data.h. */
 void lsf_voxels_bind(const lsf_voxels *voxels);
 
 /* Plans a texture over the grid, `sides` slices along z. */
@@ -74,11 +77,11 @@ void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const ch
                             GLenum internal_format, uint32_t sides, uint32_t levels,
                             const char *why);
 
-/* Whether voxels keep shading normals and tangents beside those of their planes; adds the switch of
- * the pass in turn that reads them. */
+/* Whether voxels keep shading normals and tangents beside the normals of their planes; adds the
+ * switch to the current pass, which reads them. */
 bool lsf_voxel_bends(const lsf_plan *plan);
 void lsf_voxel_bend_switch(lsf_plan *plan);
-/* The same of roughness, metallic and f0. */
+/* The same for roughness, metallic and f0. */
 bool lsf_voxel_gloss(const lsf_plan *plan);
 void lsf_voxel_gloss_switch(lsf_plan *plan);
 

@@ -9,8 +9,8 @@
     "On Debian: apt-get install libegl1 libgl1-mesa-dri (EGL, a GPU or software), or "             \
     "libosmesa6 (software)"
 
-/* The context that this library made current on this thread last: another backend's is released
- * before one is bound. Whether it still is current, the platform knows. */
+/* The context that this library made current last on this thread. Another backend's context is
+ * released before one is bound. Whether it is still current, the platform knows. */
 static _Thread_local lsf_context *current_context;
 
 void *lsf_library_open(const char *variable, const char *const *names, lsf_error *error)
@@ -57,7 +57,7 @@ static void set_current(lsf_context *context)
     glad_current = context ? &context->functions : NULL;
 }
 
-/* What the application has made current since is its own. */
+/* A context that the application has made current since then belongs to the application. */
 static void release_current(void)
 {
     if (current_context && current_context->ops->is_current(current_context->platform))
@@ -152,7 +152,7 @@ static char *copy_gl_string(GLenum name)
     return strdup(text ? (const char *)text : "unknown");
 }
 
-/* The context is current. A wrapped one keeps the application's way with debug messages. */
+/* The context is current. A wrapped one keeps the application's settings for debug messages. */
 static bool initialise(lsf_context *context, const lsf_context_params *params, lsf_error *error)
 {
     context->vendor = copy_gl_string(GL_VENDOR);
@@ -213,7 +213,8 @@ lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *err
     return context;
 }
 
-/* A version, and a profile without the fixed functions' state, of which there is more. */
+/* The version, and a profile without the fixed-function pipeline, which has more state than is
+ * handled here. */
 static bool check_wrapped(lsf_error *error)
 {
     GLint profile = 0;
@@ -294,8 +295,8 @@ bool lsf_context_make_current(lsf_context *context, lsf_error *error)
     return true;
 }
 
-/* Draws that are captured would be the library's, and the binding of what captures cannot be
- * changed. */
+/* Transform feedback would capture the library's draws, and its buffer bindings cannot be
+ * changed meanwhile. */
 static bool check_entry(lsf_error *error)
 {
     GLboolean active = GL_FALSE, paused = GL_FALSE;

@@ -1,4 +1,4 @@
-/* What the files of the GL layer share; passes include gl.h only. */
+/* Declarations that the files of the GL layer share; passes include gl.h only. */
 #ifndef LSF_GL_CONTEXT_H
 #define LSF_GL_CONTEXT_H
 
@@ -15,10 +15,10 @@ typedef struct lsf_backend_ops {
     /* Makes an OpenGL 4.5 core context and makes it current. On failure `error` says what was
      * tried and why it failed, without advice: the caller adds which packages to install. */
     void *(*create)(const lsf_context_params *params, lsf_error *error);
-    void (*destroy)(void *platform); /* not current any more */
+    void (*destroy)(void *platform); /* the context is not current any more */
     bool (*make_current)(void *platform, lsf_error *error);
     bool (*is_current)(void *platform); /* on this thread, as the platform says */
-    void (*release)(void *platform);    /* after it no context of this backend is current */
+    void (*release)(void *platform);    /* after this call no context of this backend is current */
     GLADapiproc (*get_proc_address)(void *platform, const char *name);
 } lsf_backend_ops;
 
@@ -42,7 +42,7 @@ typedef struct lsf_cached_program {
     GLuint program;
 } lsf_cached_program;
 
-/* Numbered bindings that the device has. */
+/* Numbers of indexed bindings that the device has. */
 typedef struct lsf_binding_counts {
     GLint textures, images, atomic_counter_buffers, shader_storage_buffers, uniform_buffers;
 } lsf_binding_counts;
@@ -62,7 +62,7 @@ struct lsf_context {
 
     lsf_error failure; /* lsf_context_fail; code 0: none */
     bool fail_on_gl_error;
-    bool error_expected; /* an allocation is being tried: its failure is reported by its caller */
+    bool error_expected; /* an allocation is being tried: its caller reports the failure */
     bool error_seen;
     char first_error[512];
 
@@ -81,9 +81,9 @@ struct lsf_context {
 
 /* --- state --- */
 
-/* What every pass relies on and none changes. */
+/* Sets the state that every pass relies on and none changes. */
 void lsf_state_set_conventions(void);
-/* All state that passes rely on or change, as GL has it in a new context. */
+/* Sets all state that passes rely on or change to what GL gives a new context. */
 void lsf_state_reset(const lsf_context *context);
 void lsf_state_count_bindings(lsf_context *context);
 
@@ -91,7 +91,7 @@ void lsf_state_count_bindings(lsf_context *context);
 
 /* Sends the current context's KHR_debug messages to the log. */
 void lsf_debug_install(lsf_context *context, bool debug);
-/* Moves what glGetError holds into the context's record; returns the first of them. */
+/* Moves the errors that glGetError holds into the context's record; returns the first of them. */
 GLenum lsf_debug_take_errors(lsf_context *context);
 const char *lsf_gl_error_name(GLenum code);
 /* Labels an object for debuggers; cut to what KHR_debug guarantees. */

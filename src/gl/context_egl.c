@@ -30,7 +30,7 @@ typedef struct egl_functions {
     PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string;
 } egl_functions;
 
-/* Of the library, the same for every context of every thread. */
+/* State of the library, shared by all contexts of all threads. */
 static egl_functions egl;
 static pthread_mutex_t egl_lock = PTHREAD_MUTEX_INITIALIZER; /* of writing it */
 
@@ -39,7 +39,7 @@ typedef struct egl_platform {
     EGLContext context;
 } egl_platform;
 
-/* One way to a display. */
+/* One way to get a display. */
 typedef struct candidate {
     EGLenum platform;
     void *native;
@@ -81,7 +81,8 @@ static bool load(lsf_error *error)
         (PFNEGLQUERYDEVICESTRINGEXTPROC)found.get_proc_address("eglQueryDeviceStringEXT");
     if (!found.get_platform_display)
         return lsf_error_set(error, LSF_ERROR_NO_GL, "EGL_EXT_platform_base is missing");
-    /* A thread that renders reads it meanwhile: what stays the same is not written. */
+    /* Another thread that renders reads this table meanwhile: entries that stay the same are not
+     * written. */
     pthread_mutex_lock(&egl_lock);
     if (memcmp(&egl, &found, sizeof egl) != 0)
         egl = found;
@@ -99,7 +100,8 @@ static bool has_extension(const char *list, const char *name)
     return false;
 }
 
-/* Hardware devices, Mesa's surfaceless platform, software devices: in the order to try them. */
+/* Hardware devices, Mesa's surfaceless platform and software devices, in the order in which they
+ * are tried. */
 static size_t list_candidates(candidate candidates[static DEVICES_MAX + 1])
 {
     const char *client = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -129,7 +131,7 @@ static size_t list_candidates(candidate candidates[static DEVICES_MAX + 1])
     return count;
 }
 
-/* From the most that is wanted to the least that will do. */
+/* Context attributes, from the most wanted to the least acceptable. */
 static EGLContext create_context(EGLDisplay display, EGLConfig config, bool debug)
 {
     enum {

@@ -12,7 +12,7 @@ static bool wrap_make_current(void *platform, lsf_error *error)
                          "current (lsf_context_wrap_params.make_current)");
 }
 
-/* Only the application knows: it is asked each time. */
+/* Only the application knows whether its context is current: it is asked each time. */
 static bool wrap_is_current(void *platform)
 {
     (void)platform;

@@ -46,7 +46,7 @@ static const char *group_prefix(const lsf_context *context, char prefix[static 1
     return prefix;
 }
 
-/* The first one is what lsf_context_check tells: the later ones tend to follow from it. */
+/* lsf_context_check tells of the first error: later ones tend to follow from it. */
 static void record_error(lsf_context *context, const char *message)
 {
     if (context->error_expected || context->error_seen)
@@ -75,7 +75,7 @@ static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenu
     lsf_context *context = (lsf_context *)user;
     if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP)
         return;
-    /* Whoever tries an allocation or a compilation reports its failure. */
+    /* The caller that tries an allocation or a compilation reports its failure. */
     bool reported_elsewhere = context->error_expected || source == GL_DEBUG_SOURCE_SHADER_COMPILER;
     lsf_log_level level = reported_elsewhere ? LSF_LOG_DEBUG : level_of(type, severity);
     char prefix[128];
@@ -98,7 +98,7 @@ void lsf_debug_install(lsf_context *context, bool debug)
 GLenum lsf_debug_take_errors(lsf_context *context)
 {
     GLenum first = GL_NO_ERROR;
-    /* Bounded: a lost context may answer GL_CONTEXT_LOST for ever. */
+    /* The loop is bounded: a lost context may answer GL_CONTEXT_LOST for ever. */
     for (int i = 0; i < 16; i++) {
         GLenum code = glGetError();
         if (code == GL_NO_ERROR)

@@ -4,7 +4,7 @@
 /* User clip planes that GL promises. */
 #define CLIP_DISTANCES 8
 
-/* Every fragment of every triangle is kept as it is. What else there is, state.c sets. */
+/* State in which every fragment of every triangle is written unchanged. state.c sets the rest. */
 static void set_plain_state(uint32_t width, uint32_t height, GLuint program)
 {
     static const GLenum off[] = {GL_SCISSOR_TEST,

@@ -2,8 +2,8 @@
 
 #include <stddef.h>
 
-/* Bytes that drivers store: depth formats of 24 bits take a whole word, and a 32-bit depth with
- * stencil takes two. */
+/* Bytes that drivers store for a texel: depth formats of 24 bits take a whole word, and a 32-bit
+ * depth with stencil takes two. */
 static const struct {
     GLenum format;
     uint32_t bytes;

@@ -37,8 +37,8 @@ uint64_t lsf_texture_bytes(const lsf_texture_desc *desc);
 GLuint lsf_texture_create(lsf_context *context, const lsf_texture_desc *desc, lsf_error *error);
 void lsf_texture_destroy(lsf_context *context, GLuint *texture); /* *texture 0 allowed; set to 0 */
 
-/* That a shader can read of one storage block on every device (GL 4.5, table 23.64); software GL
- * has no larger ones. */
+/* The largest storage block that a shader can read on every device (GL 4.5, table 23.64);
+ * software GL has no larger ones. */
 #define LSF_STORAGE_BLOCK_BYTES ((uint64_t)1 << 27)
 
 /* Immutable storage; `data` NULL leaves it undefined; `flags` as for glNamedBufferStorage. */
@@ -46,17 +46,18 @@ GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes
                          GLbitfield flags, lsf_error *error);
 void lsf_buffer_destroy(lsf_context *context, GLuint *buffer);
 
-/* Bytes a texel of this sized internal format takes; 0 when unknown. */
+/* The bytes of a texel of this sized internal format; 0 when it is unknown. */
 uint32_t lsf_format_bytes(GLenum internal_format);
 const char *lsf_format_name(GLenum internal_format); /* "GL_RGBA16F" */
 
 typedef struct lsf_framebuffer_desc {
     const char *label;
     uint32_t color_count;
-    GLuint colors[8];       /* textures; those that are 0 are left out, without a gap */
+    GLuint colors[8];       /* textures; entries that are 0 are left out, without a gap */
     GLuint depth;           /* texture, 0: none */
     int32_t layer;          /* -1: whole textures (layered rendering); else one layer of each */
-    uint32_t width, height; /* of one without attachments, whose shaders write buffers; else 0 */
+    uint32_t width, height; /* size of a framebuffer without attachments, whose shaders write
+                             * buffers; else 0 */
 } lsf_framebuffer_desc;
 GLuint lsf_framebuffer_create(lsf_context *context, const lsf_framebuffer_desc *desc,
                               lsf_error *error);
@@ -66,8 +67,8 @@ void lsf_framebuffer_destroy(lsf_context *context, GLuint *framebuffer);
  * the next); 0 turns it off. A program from the cache does not count. */
 void lsf_context_fail_allocation(lsf_context *context, uint64_t n);
 
-/* What a pass could not do while it ran, where nothing can be returned: the next lsf_context_check
- * fails with it. The first one counts. */
+/* Records an error of a pass that ran, where nothing can be returned: the next lsf_context_check
+ * fails with it. Only the first one is kept. */
 void lsf_context_fail(lsf_context *context, const lsf_error *error);
 
 /* --- programs --- */
@@ -94,57 +95,61 @@ typedef struct lsf_program_desc {
  * declaration. */
 GLuint lsf_program_get(lsf_context *context, const lsf_program_desc *desc, lsf_error *error);
 
-/* A piece of a shader that somebody else wrote, or of what the library sets before and behind it.
- */
+/* A part of a shader's text: one that a user wrote, or one that the library puts before or
+ * behind it. */
 typedef struct lsf_shader_part {
-    const char *path;   /* what messages call it; without a text the file below glsl/ */
+    const char *path;   /* name in messages; without a text, the file below glsl to read */
     const char *text;   /* NULL: that file's */
-    const char *folder; /* of somebody else's: where its #include "..." begins; NULL: glsl/ */
+    const char *folder; /* for a user's text: the folder where its #include "..." begins; NULL:
+                         * glsl */
     uint32_t line;      /* number of the text's first line */
 } lsf_shader_part;
 
 /* Compiles and links the parts, one after the other, as a fragment shader that is drawn by
- * lsf_draw_fullscreen, or a compute shader. In somebody else's text, `#include
- * <lightsheaf/brdf.glsl>` names a file of glsl/lib or glsl/shared, #version is left out and
- * #extension set where GLSL wants it. The caller owns the program. 0 on failure: LSF_ERROR_RENDER
- * holds the log, every line as path:line: message, with the text's line below it. */
+ * lsf_draw_fullscreen, or as a compute shader. In a user's text, `#include
+ * <lightsheaf/brdf.glsl>` names a file of glsl/lib or glsl/shared, #version is left out, and
+ * #extension is moved to where GLSL wants it. The caller owns the program. 0 on failure:
+ * LSF_ERROR_RENDER holds the log, every line as path:line: message, with the text's line below
+ * it. */
 GLuint lsf_program_build(lsf_context *context, const char *label, GLenum stage,
                          const lsf_define *defines, uint32_t define_count,
                          const lsf_shader_part *parts, uint32_t part_count, lsf_error *error);
 void lsf_program_destroy(GLuint *program); /* *program 0 allowed */
 
-/* Nothing that a draw depends on is taken over from the pass before. A pass begins its draws with
- * one of the two that follow, which set all of that state, and then changes what it wants
- * different; nothing is put back. It binds its textures by lsf_bind_texture, and its images and
- * buffers. Buffers alone may stay bound from pass to pass within an iteration: the view, the grid
- * of voxels, the light, VPL and bundle in turn. */
+/* A draw takes over no state from the pass before. A pass begins its draws with one of the two
+ * functions that follow, which set all state that a draw depends on, and then changes what it
+ * needs otherwise; nothing is put back. It binds its own textures (lsf_bind_texture), images and
+ * buffers. Only buffers may stay bound from pass to pass within an iteration: the view, the grid
+ * of voxels, and the light, VPL and bundle that is being worked on. */
 
-/* Before draws of which every fragment counts, without tests, culling and blending: it replaces the
- * framebuffer's texel, or the shader writes elsewhere. */
+/* To be called before draws of which every fragment counts, without tests, culling and blending:
+ * a fragment replaces the framebuffer's texel, or the shader writes elsewhere. */
 void lsf_begin_fullscreen(GLuint framebuffer, uint32_t width, uint32_t height, GLuint program);
 /* Draws one triangle that covers the viewport with an empty vertex array. Pair with
  * "lib/fullscreen.vert.glsl". */
 void lsf_draw_fullscreen(lsf_context *context);
-/* ... or as the DrawArraysIndirectCommand at the start of a buffer has it. */
+/* The same with a DrawArraysIndirectCommand at the start of a buffer. */
 void lsf_draw_fullscreen_indirect(lsf_context *context, GLuint buffer);
 /* Draws triangles of `count` vertices that the vertex shader makes from gl_VertexID alone. */
 void lsf_draw_vertices(lsf_context *context, uint32_t count);
 
-/* Before surfaces are drawn: of those in a texel the nearest stays. Depth is reversed: the greater,
- * the nearer. The caller binds the framebuffer. */
+/* To be called before surfaces are drawn: the nearest surface in a texel stays. Depth is
+ * reversed: the greater, the nearer. The caller binds the framebuffer. */
 void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program);
 
-/* Whether backs are left out of the draws that follow. The winding of a mirrored instance flips;
- * shaders know of it, so that it is not the front that is named anew. */
+/* Sets whether back faces are culled in the draws that follow. The winding of a mirrored
+ * instance flips; shaders take that into account, so that the front face itself is not
+ * redefined. */
 void lsf_cull_back(bool culled, bool mirrored);
 
-/* What the program gives for the first attachments is added to them. */
+/* What the program writes is added to the first `attachments` attachments. */
 void lsf_blend_add(uint32_t attachments);
-/* One attachment is multiplied by it. */
+/* One attachment is multiplied by what the program writes. */
 void lsf_blend_multiply(uint32_t attachment);
 
-/* A texture that is read as itself says (lsf_texture_create), whatever sampler its unit had.
- * Textures of materials come with samplers, and are bound by lsf_scene_gpu_bind_material alone. */
+/* Binds a texture that is filtered as its own parameters say (lsf_texture_create), whatever
+ * sampler its unit had. Textures of materials come with samplers, and are bound by
+ * lsf_scene_gpu_bind_material alone. */
 void lsf_bind_texture(GLuint unit, GLuint texture);
 
 /* --- pass groups and time --- */
@@ -159,8 +164,8 @@ void lsf_timer_end(lsf_timer *timer);
 uint64_t lsf_timer_runs(lsf_timer *timer);
 /* Total over all finished runs; waits for pending ones. */
 double lsf_timer_milliseconds(lsf_timer *timer);
-/* The runs that have finished since the last call, and how long they took together. Waits for none.
- */
+/* The runs that have finished since the last call, and how long they took together. It never
+ * waits. */
 uint64_t lsf_timer_poll(lsf_timer *timer, double *milliseconds);
 const char *lsf_timer_name(const lsf_timer *timer);
 

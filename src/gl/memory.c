@@ -8,7 +8,8 @@ void lsf_context_fail_allocation(lsf_context *context, uint64_t n)
 
 bool lsf_memory_begin(lsf_context *context, const char *what, lsf_error *error)
 {
-    lsf_debug_take_errors(context); /* an older error must not be taken for this one's */
+    lsf_debug_take_errors(context); /* An older error must not be taken for one of this
+                                     * allocation. */
     if (context->fail_countdown && --context->fail_countdown == 0)
         return lsf_error_set(error, LSF_ERROR_RENDER,
                              "%s: allocation failed on purpose, as a test asked", what);

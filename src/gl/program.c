@@ -27,14 +27,14 @@ static GLenum stage_of(const char *path)
     return 0;
 }
 
-/* What is being made: the stages of one program. */
+/* The stages of a program that is being made. */
 typedef struct build {
     const lsf_program_desc *desc;
     uint32_t count;
     GLenum stages[FILES_MAX];
     lsf_shader_source sources[FILES_MAX];
     GLuint shaders[FILES_MAX];
-    bool foreign; /* errors are somebody else's to mend, who knows of no program */
+    bool foreign; /* the text is a user's, who can mend its errors and knows of no program */
 } build;
 
 static bool read_sources(const lsf_context *context, build *b, lsf_error *error)
@@ -65,7 +65,7 @@ static uint64_t hash_sources(const build *b)
     return key;
 }
 
-/* The message holds what fits; a longer log goes whole to the log, line by line. */
+/* The message holds as much of the log as fits; a longer log goes to the logger, line by line. */
 static bool report(const build *b, const char *what, const lsf_string *log, lsf_error *error)
 {
     const char *label = b->desc->label ? b->desc->label : "without a label";
@@ -142,7 +142,7 @@ static bool compile(build *b, lsf_error *error)
     return compiled;
 }
 
-/* By its place, if it names one, else by what it quotes. */
+/* Finds a line of the log by the place that it names, else by the name that it quotes. */
 static void map_foreign_link_line(const lsf_shader_source *source, const char *line,
                                   lsf_string *mapped)
 {

@@ -16,7 +16,7 @@
 typedef struct open_file {
     const char *path;
     const char *folder; /* where its #include "..." begins; NULL: it is below glsl/ */
-    uint64_t line;      /* of it that was read last */
+    uint64_t line;      /* number of the line read last */
     const struct open_file *parent;
 } open_file;
 
@@ -31,7 +31,7 @@ static bool out_of_memory(const builder *b)
     return lsf_error_set(b->error, LSF_ERROR_RENDER, "out of memory while reading shaders");
 }
 
-/* " (included at passes/x.frag.glsl:3)", or nothing for a file that a program names. */
+/* Adds " (included at passes/x.frag.glsl:3)", or nothing for a file that a program names. */
 static void describe_includer(const open_file *file, char *text, size_t size)
 {
     text[0] = '\0';
@@ -123,7 +123,7 @@ typedef enum include_kind {
     BAD_INCLUDE,
 } include_kind;
 
-/* What stands between the quotes, or the angle brackets, that `line` begins with. */
+/* The text between the quotes, or the angle brackets, that `line` begins with. */
 static bool take_name(const char *line, const char *end, char close, char path[static 256])
 {
     const char *last = line < end ? memchr(line + 1, close, (size_t)(end - line - 1)) : NULL;
@@ -205,7 +205,7 @@ static void add_line(const builder *b, const char *line, size_t length, const op
     lsf_string_add_bytes(&source->text, "\n", 1);
 }
 
-/* The include's own line stays as a comment, for readers of the whole text. */
+/* The line of the include stays as a comment, for readers of the whole text. */
 static bool add_include(const builder *b, const open_file *from, uint64_t from_index,
                         const open_file *included)
 {
@@ -233,7 +233,7 @@ static bool bad_include(const builder *b, const open_file *file)
                          file->path, (unsigned long long)file->line);
 }
 
-/* A file of somebody else's, by its path from that of the file that names it. */
+/* A user's file, by its path relative to the file that names it. */
 static bool include_foreign(const builder *b, open_file *file, uint64_t index, const char *name)
 {
     bool alone = name[0] == '/' || strcmp(file->folder, ".") == 0;
@@ -247,7 +247,7 @@ static bool include_foreign(const builder *b, open_file *file, uint64_t index, c
     return good;
 }
 
-/* <lightsheaf/...>: what the library offers to shaders of others. */
+/* <lightsheaf/...>: a file that the library offers to shaders of users. */
 static bool include_offered(const builder *b, open_file *file, uint64_t index, const char *name)
 {
     static const char *const folders[] = {"lib", "shared"};
@@ -278,8 +278,8 @@ static bool begins_with_directive(const char *line, size_t length, const char *n
            strncmp(line + at, name, strlen(name)) == 0;
 }
 
-/* Behind the version: GLSL wants extensions there, and declarations of the library stand before
- * what somebody else wrote. */
+/* Adds text behind the version: GLSL wants extensions there, and the library's declarations
+ * stand before the user's text. */
 static void hoist(const builder *b, const char *line, size_t length, const open_file *from,
                   uint64_t file)
 {
@@ -298,7 +298,7 @@ static void hoist(const builder *b, const char *line, size_t length, const open_
     source->places[1] = place;
 }
 
-/* Of somebody else's files: what stands above them in the text already, or has to. */
+/* Handles directives of a user's file that the text has above it already, or has to have there. */
 static void add_foreign_line(const builder *b, const char *line, size_t length,
                              const open_file *file, uint64_t index)
 {
@@ -326,7 +326,8 @@ static bool include(const builder *b, open_file *file, uint64_t index, include_k
 
 static bool add_lines(const builder *b, open_file *file, uint64_t index, const char *content)
 {
-    static const char mark[] = "\xef\xbb\xbf"; /* of UTF-8, which some editors begin files with */
+    static const char mark[] = "\xef\xbb\xbf"; /* the byte order mark of UTF-8, with which some
+                                                * editors begin files */
     bool in_comment = false;
     char name[256];
     if (file->folder && strncmp(content, mark, strlen(mark)) == 0)
@@ -438,7 +439,7 @@ static const char *parse_place(const char *line, uint64_t *number)
         if (*end++ != ')')
             return NULL;
     } else if (*end == '(') {
-        end += strcspn(end, ")\n"); /* Mesa's column: of the preprocessed text, no help */
+        end += strcspn(end, ")\n"); /* skips Mesa's column, which counts in the preprocessed text */
         if (*end++ != ')')
             return NULL;
     }

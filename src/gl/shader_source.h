@@ -1,4 +1,4 @@
-/* The text of a shader, put together from files below glsl/ and from those of others, with the
+/* The text of a shader, put together from files below glsl/ and from those of users, with the
  * place that each of its lines came from. It makes no call of OpenGL. */
 #ifndef LSF_GL_SHADER_SOURCE_H
 #define LSF_GL_SHADER_SOURCE_H
@@ -16,7 +16,7 @@ extern const lsf_embedded_file lsf_embedded_files[];
 typedef struct lsf_shader_place {
     uint32_t file; /* in paths */
     uint32_t line; /* from 1 */
-    bool foreign;  /* no file of the library */
+    bool foreign;  /* a user's file, none of the library */
 } lsf_shader_place;
 
 typedef struct lsf_shader_source {
@@ -27,21 +27,21 @@ typedef struct lsf_shader_source {
     uint64_t line_count, line_capacity;
 } lsf_shader_source;
 
-/* #version, the defines, then the file with its includes. */
+/* Puts together #version, the defines, then the file with its includes. */
 bool lsf_shader_source_build(const char *shader_dir, const char *path, const lsf_define *defines,
                              uint32_t define_count, lsf_shader_source *source, lsf_error *error);
-/* The same of parts one after the other. */
+/* Does the same with parts, one after the other. */
 bool lsf_shader_source_build_parts(const char *shader_dir, const lsf_define *defines,
                                    uint32_t define_count, const lsf_shader_part *parts,
                                    uint32_t part_count, lsf_shader_source *source,
                                    lsf_error *error);
 void lsf_shader_source_free(lsf_shader_source *source);
-/* A line of a linker's log, which names no place: begins it with where somebody else's text has the
- * name first that it quotes. */
+/* A line of a linker's log, which names no place, gets the place where a user's text first has
+ * the name that it quotes. */
 void lsf_shader_source_map_name(const lsf_shader_source *source, const char *message,
                                 lsf_string *mapped);
-/* A driver's log with every place as path:line:, and below it the line itself if it is somebody
- * else's. */
+/* A driver's log, with every place as path:line:, and below it the line itself if it is a
+ * user's. */
 void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
                                lsf_string *mapped);
 

@@ -1,5 +1,5 @@
-/* The state of an application's context, which comes as it was left and goes back as GL makes it.
- * The contract is in lightsheaf/context.h. */
+/* The state of an application's context, whose values on entry are unknown and which is returned
+ * as GL makes a new one. The contract is in lightsheaf/context.h. */
 #include "gl/context.h"
 
 /* User clip planes that GL promises. */

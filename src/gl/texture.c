@@ -8,7 +8,7 @@ static uint32_t level_size(uint32_t size, uint32_t level)
     return reduced ? reduced : 1;
 }
 
-/* Slices shrink with the level, layers and faces do not. */
+/* Slices shrink with the level; layers and faces do not. */
 static uint64_t level_texels(const lsf_texture_desc *desc, uint32_t level)
 {
     uint32_t depth = desc->target == GL_TEXTURE_3D ? level_size(desc->depth, level) : desc->depth;

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Runs whose timestamps are still on their way. A GPU lags a few frames behind; only a caller that
- * queues this many runs of one timer without a pause waits for the oldest. */
+/* The most runs whose timestamps may be pending. A GPU lags a few frames behind; only a caller
+ * that queues this many runs of one timer without a pause waits for the oldest. */
 #define PENDING_MAX 64
 
 struct lsf_timer {
@@ -13,7 +13,7 @@ struct lsf_timer {
     bool running;
     uint64_t runs;
     double seconds;
-    uint64_t polled_runs; /* told of by lsf_timer_poll */
+    uint64_t polled_runs; /* runs that lsf_timer_poll has reported */
     double polled_seconds;
     double start;                   /* software: lsf_now() */
     GLuint queries[PENDING_MAX][2]; /* GPU: timestamps at begin and end, a ring */

@@ -5,7 +5,8 @@
 
 #include "base/base.h"
 
-/* Sums up `weights` and scales to 1; returns the sum. All zero: the cumulative stays zero. */
+/* Sums up `weights` and scales them to a sum of 1; returns the sum. If all are zero, the
+ * cumulative stays zero. */
 static double accumulate(double *cumulative, const float *weights, uint64_t count)
 {
     cumulative[0] = 0.0;
@@ -19,8 +20,8 @@ static double accumulate(double *cumulative, const float *weights, uint64_t coun
     return sum;
 }
 
-/* Largest i with cumulative[i] <= u: its interval has a width, for equal neighbours are passed
- * over, and the end (1) is never reached by u < 1. */
+/* The largest i with cumulative[i] <= u: its interval has a width, for equal neighbours are
+ * skipped, and the end (1) is never reached by u < 1. */
 static uint64_t find_interval(const double *cumulative, uint64_t count, double u)
 {
     uint64_t low = 0, high = count;

@@ -50,7 +50,8 @@ static uint32_t sobol_second(uint32_t index)
 void lsf_sobol_2d_bits(uint32_t index, uint32_t seed, uint32_t bits[2])
 {
     index = reverse_bits(scramble_reversed(reverse_bits(index), lsf_hash(seed, 0)));
-    /* The first dimension is the index itself with its bits reversed; scrambling wants them so. */
+    /* The first dimension is the index with its bits reversed, which is the order that
+     * scrambling needs. */
     bits[0] = reverse_bits(scramble_reversed(index, lsf_hash(seed, 1)));
     bits[1] = reverse_bits(scramble_reversed(reverse_bits(sobol_second(index)), lsf_hash(seed, 2)));
 }

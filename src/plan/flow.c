@@ -3,7 +3,7 @@
 #include <ctype.h>
 #include <string.h>
 
-/* "gbuffer" is "gbuffer.depth" and all other resources of that stem, "view" one alone. */
+/* "gbuffer" is "gbuffer.depth" and all other resources of that stem; "view" is one resource. */
 static bool names(const char *word, size_t length, const char *resource)
 {
     return strncmp(word, resource, length) == 0 &&
@@ -18,7 +18,7 @@ static bool is_listed(const lsf_plan *plan, const char *word, size_t length)
     return false;
 }
 
-/* Of "a|b|c" the first that the plan lists. */
+/* Whether the first of "a|b|c" that the plan lists names the resource. */
 static bool choice_names(const lsf_plan *plan, const char *choice, size_t size,
                          const char *resource)
 {

@@ -8,13 +8,13 @@
 bool lsf_plan_pass_reads(const lsf_plan *plan, const lsf_plan_pass *pass, const char *resource);
 bool lsf_plan_pass_fills(const lsf_plan_pass *pass, const char *resource);
 
-/* Resources of a stem, "gbuffer" of "gbuffer.depth", go together: `first` is the number of the
+/* Resources of a stem ("gbuffer" of "gbuffer.depth") are grouped: `first` is the number of the
  * first of them. */
 size_t lsf_plan_stem_length(const char *resource);
 bool lsf_plan_same_stem(const char *a, const char *b);
 bool lsf_plan_starts_stem(const lsf_plan *plan, uint64_t resource);
 
-/* Those of a kind differ by a number at their end: "ray_bundle.keys" of "ray_bundle.keys_3". */
+/* Resources of a kind differ by a number at their end: "ray_bundle.keys" of "ray_bundle.keys_3". */
 size_t lsf_plan_kind_length(const char *resource);
 bool lsf_plan_same_kind(const char *a, const char *b);
 bool lsf_plan_starts_kind(const lsf_plan *plan, uint64_t resource);

@@ -78,8 +78,8 @@ static bool set_value(const lsf_option_row *row, void *value, const char *text)
     return true;
 }
 
-/* Options of former versions, a point at the end stands for all of a pass, and what does their work
- * now. */
+/* Options of former versions and the options that do their work now; a point at the end stands
+ * for all options of a pass. */
 static const struct {
     const char *key, *instead;
 } gone[] = {

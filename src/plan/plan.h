@@ -20,11 +20,11 @@ typedef struct lsf_plan_switch {
     char when[LSF_PLAN_TEXT_SIZE]; /* it is on */
 } lsf_plan_switch;
 
-/* The finest that a map or a grid over all of the scene tells apart. */
+/* The finest detail that a map or a grid over the whole scene resolves. */
 typedef struct lsf_plan_grain {
     float width;                    /* normalised space; 0: there is no such map */
     const char *cell, *of, *option; /* "a voxel", of a "grid", and the option for finer ones */
-    const char *instead;            /* what else helps, to follow a comma, or "" */
+    const char *instead;            /* another remedy, to follow a comma, or "" */
 } lsf_plan_grain;
 
 #define LSF_PLAN_MAX_SWITCHES 48
@@ -32,8 +32,8 @@ typedef struct lsf_plan_grain {
 
 typedef struct lsf_plan_pass {
     const char *name;
-    const char *reads[LSF_PLAN_MAX_READS]; /* as lsf_plan_reads was told, then NULL */
-    const char *fills;                     /* as lsf_plan_fills was told, or NULL */
+    const char *reads[LSF_PLAN_MAX_READS]; /* names given to lsf_plan_reads, then NULL */
+    const char *fills;                     /* name given to lsf_plan_fills, or NULL */
     char why[LSF_PLAN_TEXT_SIZE];
     lsf_plan_switch switches[LSF_PLAN_MAX_SWITCHES];
     uint32_t switch_count;
@@ -56,67 +56,72 @@ struct lsf_plan {
     const char *technique;
     lsf_requirements requirements;
     uint32_t width, height, samples, bounces, aovs;
-    uint32_t sky_lights; /* directions an iteration from which the environment lights */
-    lsf_islands islands; /* of techniques that draw maps over the whole scene; else none */
+    uint32_t sky_lights; /* directions in each iteration from which the environment lights */
+    lsf_islands islands; /* for techniques that draw maps over the whole scene; else none */
     lsf_plan_grain grain;
     bool orthographic;
     lsf_seen_background background;
     bool transmission; /* there are materials that transmit light */
-    bool straight;     /* ... and it goes straight through them, for the technique cannot refract */
+    bool straight;     /* light goes straight through transmitting materials: the technique
+                        * cannot refract it */
     bool scattered; /* rough thin walls that are seen scatter the light that comes through them */
     bool random_samples;  /* plain random numbers pick light samples, not low-discrepancy ones */
-    uint32_t pattern;     /* side of that in which pixels take different samples, and pool them by a
-                           * filter; 1: none */
-    uint32_t sky_pattern; /* side of the pattern in which pixels take different ones of these; 0:
-                           * their light is not filtered, all pixels take all */
+    uint32_t pattern;     /* side of the pattern in which pixels take different samples, which a
+                           * filter pools; 1: no pattern */
+    uint32_t sky_pattern; /* side of the pattern in which pixels take different directions of the
+                           * environment; 0: their light is not filtered, and all pixels take all
+                           * directions */
     uint32_t stride; /* pixels from point to point at which indirect light is gathered, a power of
                       * two; 0 is 1 */
-    uint32_t finest_stride; /* to which it falls as iterations go on; where stride is above 1 */
+    uint32_t finest_stride; /* stride to which it falls as iterations go on; used where stride is
+                             * above 1 */
     uint32_t tiles;         /* of pixels, to which samples are dealt out in turn; 0 is 1 */
-    bool filtered;          /* light_filter takes the noise out of the mean */
+    bool filtered;          /* light_filter removes noise from the mean */
     bool temporal;          /* light is kept from frame to frame */
-    bool failed;            /* memory ran out while it was filled */
+    bool failed;            /* memory ran out while the plan was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;
     lsf_plan_resource *resources;
     uint64_t resource_count, resource_capacity;
     lsf_plan_omission *omissions;
     uint64_t omission_count, omission_capacity;
-    char **remarks; /* what the user should know of the picture, one sentence each */
+    char **remarks; /* sentences that tell the user what the picture leaves out or approximates */
     uint64_t remark_count, remark_capacity;
 };
 
-/* Surfaces send out radiance of their own: some material emits or is unlit. */
+/* Whether surfaces send out radiance of their own: some material emits or is unlit. */
 bool lsf_plan_surfaces_shine(const lsf_plan *plan);
-/* The G-buffer holds motion. */
+/* Whether the G-buffer holds motion. */
 bool lsf_plan_measures_motion(const lsf_plan *plan);
-/* Surfaces that light falls on differ in roughness, metallic, f0 or what they transmit. */
+/* Whether lit surfaces differ in roughness, metallic, f0 or what they transmit. */
 bool lsf_plan_surfaces_differ(const lsf_plan *plan);
 
 /* Appends a pass in the order of execution; later lsf_plan_switch_add calls belong to it. */
 void lsf_plan_pass_add(lsf_plan *plan, const char *name, const char *why, ...)
     __attribute__((format(printf, 3, 4)));
-/* What the last pass reads, beside what it fills itself: names of resources, or their stems
- * ("gbuffer" for all of the G-buffer's), with blanks between them; further calls add more. Of "a|b"
- * the first that the plan lists is read. Names that the plan does not list count for nothing. */
+/* Says what the last pass reads, beside the resources that it fills itself: names of resources,
+ * or their stems ("gbuffer" for all of the G-buffer's), separated by blanks; further calls add
+ * more. Of "a|b" the first that the plan lists is read. Names that the plan does not list are
+ * ignored. */
 void lsf_plan_reads(lsf_plan *plan, const char *names);
-/* Light that bounced, in the picture's order: what the last pass of those that make it has left. */
+/* The resources that may hold the picture's indirect light, for lsf_plan_reads: the last pass
+ * that makes some comes first. */
 #define LSF_PLAN_INDIRECT                                                                          \
     "upsampled|blur|sparse|cone_trace|voxel_path|light_tree_sample|bidirectional_shade"
-/* The stem of what the last pass fills, where it is not the beginning of the pass's own name. */
+/* The stem of the resources that the last pass fills, where it differs from the pass's own name. */
 void lsf_plan_fills(lsf_plan *plan, const char *stem);
-/* `when` says what puts it on, whether or not it is. */
+/* `when` names the condition for the switch, whether or not it holds. */
 void lsf_plan_switch_add(lsf_plan *plan, const char *name, int value, const char *when, ...)
     __attribute__((format(printf, 4, 5)));
 void lsf_plan_texture_add(lsf_plan *plan, const char *name, GLenum internal_format, uint32_t width,
                           uint32_t height, const char *why, ...)
     __attribute__((format(printf, 6, 7)));
-/* For anything but a one-level 2D texture; `desc->label` is not looked at. */
+/* For anything but a one-level 2D texture; `desc->label` is ignored. */
 void lsf_plan_texture_desc_add(lsf_plan *plan, const char *name, const lsf_texture_desc *desc,
                                const char *why, ...) __attribute__((format(printf, 4, 5)));
 void lsf_plan_buffer_add(lsf_plan *plan, const char *name, uint64_t bytes, const char *why, ...)
     __attribute__((format(printf, 4, 5)));
-/* Something the technique knows and left out. */
+/* A feature that the technique knows and left out. */
 void lsf_plan_omit(lsf_plan *plan, const char *name, const char *why, ...)
     __attribute__((format(printf, 3, 4)));
 void lsf_plan_remark(lsf_plan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -127,19 +132,20 @@ const lsf_plan_resource *lsf_plan_find(const lsf_plan *plan, const char *name);
 /* The switch's value, 0 when the pass does not have it. */
 int lsf_plan_switch_value(const lsf_plan *plan, const char *pass, const char *name);
 
-/* A texture of a pass: what its plan, its creation and its end have to know. */
+/* A texture of a pass, for its plan, its creation and its destruction. */
 typedef struct lsf_texture_row {
     const char *name;
-    GLenum format; /* GL_NONE: the G-buffer's gloss, and not there without */
+    GLenum format; /* GL_NONE: the format of the G-buffer's gloss, and no texture where there is
+                    * no gloss */
     size_t offset; /* of the GLuint in the pass */
-    uint32_t when; /* bits that are all given where the texture is there; 0: always */
+    uint32_t when; /* bits that must all be given for the texture to exist; 0: it always exists */
     const char *why;
 } lsf_texture_row;
 
 #define LSF_TEXTURE_SPECULAR                                                                       \
-    1u /* given where materials have a specular lobe; others are a pass's own */
+    1u /* given where materials have a specular lobe; other bits belong to the pass */
 
-/* Lists those that are there, all of one size. */
+/* Lists the textures that exist, all of one size. */
 void lsf_plan_textures_add(lsf_plan *plan, const lsf_texture_row *rows, size_t count,
                            uint32_t given, uint32_t width, uint32_t height);
 #endif

@@ -1,4 +1,4 @@
-/* What one plan has that another one has not. */
+/* The passes, resources and switches that one plan has and another one has not. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +45,7 @@ static uint64_t count_kind(const lsf_plan *plan, const char *name)
     return count;
 }
 
-/* "ray_bundle.keys x 16": which of them go does not matter. */
+/* "ray_bundle.keys x 16": their order does not matter. */
 static bool compare_resources(const lsf_plan *with, const lsf_plan *without, lsf_price *price)
 {
     for (uint64_t i = 0; i < with->resource_count; i++) {

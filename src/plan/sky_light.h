@@ -1,7 +1,8 @@
 /* Lights that stand for the environment in an iteration: directions drawn by its radiance, each
- * with the irradiance of a directional light, so that whatever directional lights do (maps, VPLs,
- * light on voxels) the environment does, too. Other ways of finding the sky share its light with
- * them by multiple importance sampling. Where none does, the estimate is L f cos / (N p) alone. */
+ * with the irradiance of a directional light, so that the environment takes part in all that
+ * directional lights do (maps, VPLs, light on voxels). Other ways of finding the sky share its
+ * light with them by multiple importance sampling. Where there are none, the estimate is L f cos
+ * / (N p) alone. */
 #ifndef LSF_PLAN_SKY_LIGHT_H
 #define LSF_PLAN_SKY_LIGHT_H
 
@@ -19,24 +20,26 @@ typedef struct lsf_sky_light_params {
 #define LSF_SKY_LIGHT_OPTION_COUNT 1
 extern const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT];
 
-/* What a light is for: light that visible points receive straight from it, or that other surfaces
- * reflect first. */
+/* What a light is used for: light that visible points receive from it directly, or light that
+ * other surfaces reflect first. */
 typedef enum lsf_light_use { LSF_LIGHT_STRAIGHT, LSF_LIGHT_BOUNCED, LSF_LIGHT_USES } lsf_light_use;
 
-/* How a light of an iteration shares the environment's radiance from its direction with what finds
- * it by chance. */
+/* How a light of an iteration shares the environment's radiance from its direction with the ways
+ * that find it by chance. */
 typedef struct lsf_sky_share {
     float density;                /* of all directions of an iteration, lsf_sky_density [1/sr]; 0:
                                    * this light is no part of the environment */
-    float shares[LSF_LIGHT_USES]; /* what is left to this light; 1: all, as of any other light */
+    float shares[LSF_LIGHT_USES]; /* share that is left to this light; 1: all, as for any other
+                                   * light */
     float kernel;                 /* m'/d of suppression [sr], see brdf_evaluate; 0: exact light */
 } lsf_sky_share;
 
-/* How many lights stand for the environment: none without one, or without anything to light. */
+/* How many lights stand for the environment: none without an environment, or where nothing can
+ * be lit. */
 uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
                              const lsf_sky_light_params *params);
 
-/* The light from one of `count` directions of an iteration, drawn by `u`, two numbers in [0, 1). */
+/* One of the `count` lights of an iteration, its direction drawn by `u`, two numbers in [0, 1). */
 void lsf_sky_light_draw(lsf_light_state *light, lsf_sky_share *share, const lsf_sky *sky,
                         const double u[2], uint32_t count);
 
