@@ -1,4 +1,4 @@
-/* Lights that whoever loads a scene puts beside its own. */
+/* Lights that the program that loads a scene adds to the scene's own. */
 #ifndef LSF_SCENE_ADDED_LIGHTS_H
 #define LSF_SCENE_ADDED_LIGHTS_H
 
@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* Adds params->lights with a node each to a whole scene. LSF_ERROR_USAGE names what one of them
- * cannot have. */
+/* Adds params->lights, with a node each, to a complete scene. LSF_ERROR_USAGE names a value that
+ * is out of range. */
 bool lsf_added_lights_place(lsf_scene *scene, const lsf_scene_params *params, lsf_error *error);
 
 #ifdef __cplusplus

@@ -42,7 +42,7 @@ static bool is_opaque(const lsf_scene *scene, const lsf_material *material, foun
     return known[image] == OPAQUE;
 }
 
-/* `known` has an entry for each vertex, of which that of a primitive's first is used: primitives
+/* `known` has an entry for each vertex; a primitive uses that of its first vertex, as primitives
  * may share their vertices. */
 static bool vertices_are_opaque(const lsf_scene *scene, const lsf_primitive *primitive,
                                 uint8_t *known)
@@ -60,7 +60,7 @@ static bool vertices_are_opaque(const lsf_scene *scene, const lsf_primitive *pri
     return *answer == OPAQUE;
 }
 
-/* Without memory blended materials stay so, which is right if dearer. */
+/* Without memory blended materials stay blended, which is right but slower. */
 void lsf_scene_settle_alpha(lsf_scene *scene)
 {
     found *known = lsf_alloc(scene->image_count, sizeof *known);

@@ -27,7 +27,7 @@ static void *copy_array(void **own, const void *array, uint32_t count, size_t si
     return *own;
 }
 
-/* Materials and lights of their own, as the scene has them, where some are animated. */
+/* Copies of the scene's materials and lights, where some are animated. */
 static bool begin(lsf_animated *a, const lsf_scene *scene)
 {
     void *materials = a->own_materials, *lights = a->own_lights;
@@ -48,7 +48,7 @@ static bool begin(lsf_animated *a, const lsf_scene *scene)
     return enough && a->values && (a->own_hidden || !animates(scene, LSF_KIND_NODE));
 }
 
-/* Sets own values of nodes, then lets their descendants follow. */
+/* Sets the nodes' own values, then those of their descendants. */
 static void hide_nodes(lsf_animated *a, const lsf_scene *scene)
 {
     for (uint32_t i = 0; i < scene->node_count; i++)
@@ -122,8 +122,8 @@ void lsf_animated_set_camera(const lsf_scene *scene, uint32_t index, double time
 
 /* --- ranges --- */
 
-/* Least and greatest of a curve's values. A cubic segment lies within the hull of its Bezier
- * points: a third of the tangents away from its ends. */
+/* The least and the greatest value of a curve. A cubic segment lies within the hull of its
+ * Bezier points: a third of the tangents away from its ends. */
 static void find_bounds(const lsf_curve *curve, double low[WIDEST], double high[WIDEST])
 {
     bool cubic = curve->interpolation == LSF_CUBIC;

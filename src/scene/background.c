@@ -4,9 +4,9 @@
 
 #include "scene/scene.h"
 
-/* Before the default sky, middle grey: of a white surface in full light, which has radiance 1
- * there, the reflectance that looks half as light (CIE L* = 50 is 18 %). White objects and black
- * ones stand out from it alike. */
+/* Middle grey where no sky was given: a white surface in full light has radiance 1, and the
+ * reflectance that looks half as light is 18 % (CIE L* = 50). White objects and black ones stand
+ * out from it alike. */
 #define MIDDLE_GREY 0.18f
 
 lsf_seen_background lsf_background_resolve(const lsf_scene *scene, const lsf_render_params *params)

@@ -1,13 +1,13 @@
-/* What a picture shows where no surface is. */
+/* What a picture shows where there is no surface. */
 #ifndef LSF_SCENE_BACKGROUND_H
 #define LSF_SCENE_BACKGROUND_H
 
 #include <lightsheaf/renderer.h>
 
 typedef struct lsf_seen_background {
-    bool environment; /* that is what is seen; else `radiance` */
+    bool environment; /* the environment is shown; else `radiance` */
     float radiance[3];
-    bool coverage; /* the share of each pixel that surfaces cover is asked for, in channel A */
+    bool coverage; /* the share of each pixel that surfaces cover is asked for, as channel A */
 } lsf_seen_background;
 
 lsf_seen_background lsf_background_resolve(const lsf_scene *scene, const lsf_render_params *params);

@@ -12,7 +12,7 @@
 #include "scene/environment.h"
 #include "scene/material.h"
 
-/* As of files (io.h). */
+/* The same limit as for files (io.h). */
 #define IMAGE_MAX_SIZE 65535u
 
 /* --- the draft --- */
@@ -183,7 +183,7 @@ static bool set_slot(const lsf_scene *scene, lsf_material *material,
     return true;
 }
 
-/* Where materials are diffuse only, other textures are left out, as of files. */
+/* Where materials are diffuse only, textures of other lobes are left out, as for files. */
 static bool is_kept(const lsf_scene *scene, lsf_texture_use use)
 {
     return !scene->diffuse_only || use == LSF_TEXTURE_BASE_COLOR || use == LSF_TEXTURE_EMISSION;

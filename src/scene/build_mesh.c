@@ -10,7 +10,7 @@
 
 /* --- checks --- */
 
-/* Where a message says that something is amiss. */
+/* Names the part in messages. */
 typedef struct place {
     uint32_t mesh, part;
     lsf_error *error;
@@ -68,7 +68,7 @@ static bool check_part(const lsf_scene *scene, const place *at, const lsf_mesh_p
 
 /* --- vertices --- */
 
-/* A part while its vertices become the scene's. */
+/* A part while its vertices are added to the scene's. */
 typedef struct growth {
     lsf_scene *scene;
     lsf_geometry *geometry;
@@ -76,12 +76,12 @@ typedef struct growth {
     const lsf_mesh_part *part;
     const lsf_material *material;
     bool flat;
-    uint64_t first, count; /* of the scene's vertices */
+    uint64_t first, count; /* range of the scene's vertices */
     uint32_t corner_count;
-    uint32_t *triangles; /* counting from `first` */
+    uint32_t *triangles; /* indices relative to `first` */
 } growth;
 
-/* The stream is kept from now on, and what was added before has the default. */
+/* The stream is present from now on; vertices that were added before get the default. */
 static bool open_stream(growth *g, lsf_stream_kind kind, bool wanted)
 {
     lsf_stream *stream = &g->geometry->streams[kind];
@@ -104,7 +104,7 @@ static uint32_t corner(const lsf_mesh_part *part, uint64_t index)
     return part->indices ? part->indices[index] : (uint32_t)index;
 }
 
-/* Those of the part, or where it is flat one for each corner. */
+/* Copies the part's vertices, or for a flat part one for each corner. */
 static bool copy_vertices(growth *g)
 {
     const lsf_mesh_part *part = g->part;
@@ -138,7 +138,7 @@ static void repair_normals(growth *g)
         lsf_replace_zero_normals(positions, g->count, g->triangles, g->corner_count, normals);
 }
 
-/* Appends copies of vertices that count from the first. */
+/* Appends copies of vertices whose numbers are relative to the first. */
 static bool repeat_vertices(growth *g, const uint32_t *from, uint64_t count)
 {
     for (int s = 0; s < LSF_STREAM_COUNT; s++) {

@@ -1,4 +1,4 @@
-/* What becomes of a scene once all of it is there, from a file or from a program. */
+/* The last steps of making a scene, whether it comes from a file or from a program. */
 #ifndef LSF_SCENE_COMPLETE_H
 #define LSF_SCENE_COMPLETE_H
 

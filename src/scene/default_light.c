@@ -15,8 +15,8 @@
 #include "base/base.h"
 #include "scene/emitted_light.h"
 
-/* Rows so many that linear interpolation between them bends the cosine by 3e-4 at most; two
- * columns, for nothing changes along a row. */
+/* The number of rows makes the error of linear interpolation of the cosine 3e-4 at most; two
+ * columns are enough, for nothing changes along a row. */
 enum { SKY_WIDTH = 2, SKY_HEIGHT = 64 };
 
 /* The default camera stands at an azimuth of 31 degrees to the right of +z; the key light comes

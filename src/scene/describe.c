@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What `lightsheaf info` prints. */
+/* The text of `lightsheaf info`. */
 
 static uint32_t count_placed(const lsf_scene *scene, lsf_light_type type)
 {
@@ -22,7 +22,7 @@ static double last_key(const lsf_curve *curve)
     return (double)curve->times[curve->key_count - 1];
 }
 
-/* Time of the last key of all. */
+/* The time of the last key of all animations. */
 double lsf_scene_duration(const lsf_scene *scene)
 {
     if (!scene)
@@ -40,7 +40,7 @@ static const char *kind_of(const lsf_extension *extension)
     return extension->honoured ? extension->required ? "required" : "used" : "ignored";
 }
 
-/* --- the requirements, once for both forms --- */
+/* --- the requirements, for both forms --- */
 
 typedef struct flag {
     const char *name;

@@ -15,12 +15,13 @@ typedef struct lsf_draft {
 
 /* An empty scene that is being built. NULL without memory. */
 lsf_scene *lsf_draft_create(const char *name, lsf_default_light default_light);
-/* Whether things may be added: it is there, and has not been committed. */
+/* Whether things may be added: the scene exists and has not been committed. */
 bool lsf_draft_given(const lsf_scene *scene, lsf_error *error);
-/* Room for one more in an array of the scene, of which it takes the address; false, with an error,
- * without memory. */
+/* Makes space for one more element in an array of the scene, whose address it takes; false, with
+ * an error, without memory. */
 bool lsf_draft_grow(void *array, uint64_t *capacity, uint32_t count, size_t size, lsf_error *error);
-/* A copy that can be printed; of NULL "". NULL, with an error, without memory. */
+/* A copy of `text` that can be printed; of NULL a copy of "". NULL, with an error, without
+ * memory. */
 char *lsf_draft_name(const char *name, lsf_error *error);
 
 #endif

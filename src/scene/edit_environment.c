@@ -50,7 +50,7 @@ static float *values_of(lsf_environment *environment)
     return environment->width > 0 ? environment->texels : environment->radiance;
 }
 
-/* Keeps what the environment was before its first edit. */
+/* Keeps the environment's radiance from before its first edit. */
 static bool keep_given(lsf_environment *environment, lsf_error *error)
 {
     uint64_t count = value_count(environment);

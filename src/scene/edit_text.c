@@ -17,12 +17,12 @@ typedef union description {
     lsf_material_desc material;
 } description;
 
-/* What can be set, as floats of a description. */
+/* A value that can be set: floats of a description. */
 static const struct {
     lsf_kind kind;
     const char *name;
     size_t offset;
-    int least, most; /* numbers; those that are not given stay */
+    int least, most; /* how many numbers it takes; those that are not given stay as they are */
 } rows[] = {
     {LSF_KIND_NODE, "matrix", 0, 16, 16},                           /* doubles */
     {LSF_KIND_LIGHT, "type", offsetof(lsf_light_desc, type), 1, 1}, /* a word */
@@ -49,7 +49,7 @@ static bool bad(const char *edit, const char *why, lsf_error *error)
                          edit, why);
 }
 
-/* The numbers behind the last "="; -1: they are none. */
+/* Reads the numbers behind the last "="; -1: they are malformed. */
 static int read_numbers(const char *text, double numbers[MOST_NUMBERS])
 {
     for (int count = 0; count < MOST_NUMBERS; count++) {
@@ -64,7 +64,7 @@ static int read_numbers(const char *text, double numbers[MOST_NUMBERS])
     return -1;
 }
 
-/* -1: none of these words. */
+/* -1: it is none of these words. */
 static int type_of(const char *word)
 {
     static const char *const words[] = {[LSF_LIGHT_POINT] = "point",
@@ -130,7 +130,7 @@ static bool apply(lsf_scene *scene, const char *edit, size_t row, const char *wh
     return set(scene, kind, index, &d, error);
 }
 
-/* environment/VALUE=NUMBER, which names no thing of several. */
+/* Handles environment/VALUE=NUMBER, which has no index or name. */
 static bool edit_environment(lsf_scene *scene, const char *edit, lsf_error *error)
 {
     static const struct {
@@ -159,7 +159,8 @@ bool lsf_scene_edit(lsf_scene *scene, const char *edit, lsf_error *error)
     char *copy = strdup(edit);
     if (!copy)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for an edit");
-    /* Names may hold anything: the first slash, and the last one before the last sign. */
+    /* Names may contain any character: the separators are the first slash, and the last one
+     * before the last sign. */
     char *equals = strrchr(copy, '='), *which = strchr(copy, '/');
     if (equals)
         *equals++ = '\0';

@@ -8,14 +8,14 @@
 #include "scene/emitters.h"
 #include "scene/placed_triangle.h"
 
-/* Points on surfaces, and on emitters for each. They give the median to a few percent, which is
- * little beside the factors by which scenes differ. */
+/* Number of points on surfaces, and on emitters for each of these. They give the median within a
+ * few percent, which is little beside the factors by which scenes differ. */
 #define POINTS 512
 #define EMITTERS_EACH 32
 
 #define TRIANGLES_MAX ((uint64_t)1 << 24)
 
-/* All triangles, by area. */
+/* A distribution of all triangles by area. */
 typedef struct surfaces {
     const lsf_scene *scene;
     const lsf_state *state;
@@ -92,7 +92,7 @@ static surface_point surfaces_sample(const surfaces *s, const double u[2])
     };
 }
 
-/* What the point reflects of the emitter's, over the density of the latter. */
+/* Light of the emitter's point that the point reflects, over the density of the emitter's point. */
 static float reflected(const surface_point *point, const lsf_emitter_sample *emitter)
 {
     float radiance = lsf_f3_luminance(lsf_f3_load(emitter->radiance));
@@ -104,7 +104,7 @@ static float reflected(const surface_point *point, const lsf_emitter_sample *emi
         at_point = fabsf(at_point);
     if (!(at_point > 0.0f) || !(at_emitter > 0.0f))
         return 0.0f;
-    /* Not divided by r^4 at once, which may be 0 where r^2 is not. */
+    /* Divided by r^2 twice: r^4 may underflow to 0 where r^2 does not. */
     float share = (at_point / squared) * (at_emitter / squared) / (3.14159265f * emitter->density);
     return radiance * share;
 }

@@ -10,11 +10,11 @@
 #include "scene/texture_sample.h"
 #include "shared/brdf.h"
 
-/* Points that a triangle's mean is taken from where its emission varies. */
+/* Number of points whose mean is taken over a triangle where its emission varies. */
 #define MEAN_POINTS 32
 
-/* Share of the emission's factor that a mean is at least, so that what all of these points missed
- * is drawn now and then, too. */
+/* The least mean, as a share of the emission's factor, so that emission which all of these
+ * points missed is also drawn now and then. */
 #define MEAN_FLOOR 0.01f
 
 typedef struct triangle_point {
@@ -57,7 +57,7 @@ static lsf_texel sample_slot(const lsf_emitters *e, const lsf_texture_slot *slot
     return lsf_texture_sample(e->scene, slot, uv);
 }
 
-/* With which probability the surface is there: 0 or 1 unless it is blended. */
+/* The probability that the surface is hit: 0 or 1 unless it is blended. */
 static float coverage(const lsf_emitters *e, const lsf_material *material, const triangle_point *p)
 {
     if (material->alpha_mode == LSF_ALPHA_OPAQUE)
@@ -74,7 +74,7 @@ static float coverage(const lsf_emitters *e, const lsf_material *material, const
     return alpha < material->alpha_cutoff ? 0.0f : 1.0f;
 }
 
-/* Where the surface is there. */
+/* Emission where the surface is hit. */
 static lsf_float3 emission_at(const lsf_emitters *e, uint64_t at, const triangle_point *p)
 {
     const lsf_material *material = material_of(e, e->instance[at]);
@@ -138,7 +138,7 @@ bool lsf_emitters_init(lsf_emitters *e, const lsf_scene *scene, const lsf_state 
     return lsf_distribution_init(&e->power, e->weight, e->count);
 }
 
-/* Whether the list holds the triangles of those instances that the state draws now. */
+/* Whether the list holds the triangles of exactly those instances that the state draws. */
 static bool lists_all(const lsf_emitters *e)
 {
     uint64_t at = 0;
@@ -185,7 +185,7 @@ float lsf_emitters_weight(const lsf_emitters *e)
     return e->power.sum > 0.0 ? (float)(1.0 / e->power.sum) : 0.0f;
 }
 
-/* A third number in [0, 1), of the last digits of the first two. */
+/* A third number in [0, 1), made of the last digits of the first two. */
 static float chance_of(const double u[2])
 {
     return lsf_random_float((uint64_t)(u[0] * 0x1p32), (uint64_t)(u[1] * 0x1p32));

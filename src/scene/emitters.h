@@ -1,5 +1,5 @@
-/* Emissive triangles as lights: one is drawn by its power, a point on it by area, and of a
- * double-sided one a side. Unlit materials are not among them. */
+/* Emissive triangles as lights: a triangle is drawn by its power, a point on it by area, and for
+ * a double-sided one a side. Unlit materials are not among them. */
 #ifndef LSF_SCENE_EMITTERS_H
 #define LSF_SCENE_EMITTERS_H
 
@@ -21,27 +21,29 @@ typedef struct lsf_emitter_sample {
     float position[3], normal[3]; /* unit, the way it shines */
     float radiance[3];
     float density;  /* with which it was drawn, by area of sides */
-    uint32_t sides; /* that shine, 1 or 2: either alike */
-    /* What `density` would be if points were drawn by their own luminance rather than their
-     * triangle's mean: known to whoever sees the point. They are one unless a texture varies. */
+    uint32_t sides; /* emitting sides, 1 or 2, with equal probability */
+    /* The density that the point would have if points were drawn by their own luminance rather
+     * than their triangle's mean, which is known where the point is seen. Both are equal unless
+     * a texture varies. */
     float weight_density;
 } lsf_emitter_sample;
 
-/* Lists the triangles as `state` places them; both must outlive the list. False without memory. */
+/* Lists the triangles where `state` places them; both must outlive the list. False without
+ * memory. */
 bool lsf_emitters_init(lsf_emitters *emitters, const lsf_scene *scene, const lsf_state *state);
-/* Follows the state to what it has become: areas, and where materials were edited all. Allocates
- * nothing while the same triangles emit. False without memory. */
+/* Follows the state: areas, and where materials were edited everything. Allocates nothing while
+ * the same triangles emit. False without memory. */
 bool lsf_emitters_update(lsf_emitters *emitters, bool materials_edited);
 void lsf_emitters_finish(lsf_emitters *emitters);
 
-/* Radiant power, as lsf_light_power states that of lights. */
+/* Radiant power, up to the factor of lsf_light_power. */
 float lsf_emitters_power(const lsf_emitters *emitters);
 
-/* `weight_density` of a point by its luminance: this times it. 0 when nothing emits. */
+/* The factor from a point's luminance to `weight_density`. 0 when nothing emits. */
 float lsf_emitters_weight(const lsf_emitters *emitters);
 
-/* u: uniform in [0, 1). Not to be called when the power is 0. Radiance is 0 where a mask cuts the
- * point out, and as often as a blended surface is not there. */
+/* Draws a point by u, uniform in [0, 1). Not to be called when the power is 0. Radiance is 0
+ * where a mask cuts the point out, and with the probability that a blended surface is not hit. */
 lsf_emitter_sample lsf_emitters_sample(const lsf_emitters *emitters, const double u[2]);
 
 #endif

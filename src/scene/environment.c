@@ -16,7 +16,7 @@ void lsf_environment_rotate(lsf_environment *environment, float rotation)
     environment->turn = (float)(turn - floor(turn));
 }
 
-/* The angle from the zenith comes from atan2, for acos loses half of its digits there. */
+/* The angle from the zenith comes from atan2: acos would lose half of its digits there. */
 void lsf_environment_place(const lsf_environment *environment, lsf_float3 direction, double *u,
                            double *v)
 {
@@ -54,7 +54,7 @@ lsf_float3 lsf_environment_radiance(const lsf_environment *environment, lsf_floa
     return lsf_f3_mad(lsf_f3_scale(upper, 1.0f - ty), lower, ty);
 }
 
-/* Along each axis the texel itself weighs 3/4 and its neighbours 1/8 each. */
+/* Weights of the mean along each axis: 3/4 for the texel, 1/8 for each neighbour. */
 float lsf_environment_texel_luminance(const lsf_environment *environment, uint32_t x, uint32_t y)
 {
     static const float weights[3] = {0.125f, 0.75f, 0.125f};

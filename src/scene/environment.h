@@ -1,5 +1,5 @@
-/* Radiance from outside by direction: where a direction lies on the map, and what is there. Both
- * the rasterised techniques and the reference look it up here. */
+/* Radiance from outside by direction: a direction's position on the map, and the radiance there.
+ * Both the rasterised techniques and the reference look it up here. */
 #ifndef LSF_SCENE_ENVIRONMENT_H
 #define LSF_SCENE_ENVIRONMENT_H
 
@@ -10,16 +10,16 @@
 extern "C" {
 #endif
 
-/* Sets what lsf_environment keeps of a rotation in degrees. */
+/* Sets the members of lsf_environment that depend on the rotation, in degrees. */
 void lsf_environment_rotate(lsf_environment *environment, float rotation);
 
-/* Place of a unit direction on the map, u in [0, 1) around the horizon, v in [0, 1] from the
+/* Position of a unit direction on the map, u in [0, 1) around the horizon, v in [0, 1] from the
  * zenith. */
 void lsf_environment_place(const lsf_environment *environment, lsf_float3 direction, double *u,
                            double *v);
 
 /* The unit direction at `u` around the horizon of the map, whose angle from the zenith has the
- * cosine `zenith_cosine`: cos(pi v) of a place (u, v). */
+ * cosine `zenith_cosine`: cos(pi v) of a position (u, v). */
 lsf_float3 lsf_environment_direction(const lsf_environment *environment, double u,
                                      double zenith_cosine);
 

@@ -17,8 +17,8 @@
 
 enum { SUPPORTS = 4 };
 
-/* Vertices visited for exact supports. Beyond that many, instances count with the corners of their
- * boxes, which can only move the camera back. */
+/* Vertices visited for exact supports. Beyond that number instances are represented by the
+ * corners of their boxes, which can only move the camera back. */
 #define EXACT_VISITS_MAX ((uint64_t)1 << 26)
 
 typedef struct frame {
@@ -116,7 +116,7 @@ static bool add_moments(frame *f, const lsf_scene *scene)
     return enough;
 }
 
-/* An empty scene, or one that is a single point, has no size to go by. */
+/* An empty scene, or one that is a single point, has no size to frame. */
 static bool has_size(const frame *f)
 {
     return f->supports[0] + f->supports[1] > 0.0 || f->supports[2] + f->supports[3] > 0.0;

@@ -1,4 +1,4 @@
-/* The scene's vertices and indices while they grow. */
+/* The vertices and indices of a scene while they grow. */
 #ifndef LSF_SCENE_GEOMETRY_H
 #define LSF_SCENE_GEOMETRY_H
 
@@ -8,13 +8,13 @@
 extern "C" {
 #endif
 
-/* One of lsf_vertices. */
+/* A stream of lsf_vertices. */
 typedef struct lsf_stream {
-    bool present; /* else nothing is kept of it */
+    bool present; /* whether it is stored */
     float **array;
     uint32_t width;
     uint64_t capacity;  /* floats */
-    float otherwise[4]; /* of vertices that have none */
+    float otherwise[4]; /* value of vertices that have none */
 } lsf_stream;
 
 typedef enum lsf_stream_kind {
@@ -32,16 +32,17 @@ typedef struct lsf_geometry {
     uint64_t index_capacity;
 } lsf_geometry;
 
-/* Of an empty scene: positions and normals are present, others are not. */
+/* The streams of an empty scene: positions and normals are present, others are not. */
 void lsf_geometry_begin(lsf_geometry *geometry, lsf_scene *scene);
 
-/* Room for `count` vertices, at least 1, from `first` on; NULL without memory. For streams that are
- * present. */
+/* Space for `count` vertices, at least 1, from `first` on, in a stream that is present; NULL
+ * without memory. */
 float *lsf_stream_grow(lsf_stream *stream, uint64_t first, uint64_t count);
-/* Appends `count` vertices at `first`; NULL: of the default. False without memory; nothing where
- * the stream is not present. */
+/* Appends `count` vertices at `first`; NULL: the default for each. False without memory; does
+ * nothing where the stream is not present. */
 bool lsf_stream_append(lsf_stream *stream, uint64_t first, uint64_t count, const float *values);
-/* Room for that many more indices, at least 1, which count from then on; NULL without memory. */
+/* Space for that many more indices, at least 1, which are counted from then on; NULL without
+ * memory. */
 uint32_t *lsf_geometry_grow_indices(lsf_geometry *geometry, lsf_scene *scene, uint64_t count);
 
 /* Appends a list of triangles whose indices count from the primitive's first vertex, and finds the

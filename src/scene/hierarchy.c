@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Scratch of a node while its transform is put together, kept where its matrix will stand. */
+/* Offsets of the parts of a node's local transform, which are kept where its matrix will be. */
 enum { TRANSLATION = 0, ROTATION = 3, SCALE = 7 };
 
 static void normalize_rotation(double q[4])
@@ -22,7 +22,7 @@ static void slerp(const float *a, const float *b, double t, double q[4])
     double dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2] + from[3] * to[3];
     double sign = dot < 0.0 ? -1.0 : 1.0;
     double angle = acos(fmin(fabs(dot), 1.0));
-    /* Below this angle sin is linear to the last bit, and dividing by it would not be. */
+    /* Below this angle sin is linear to the last bit, and dividing by it would lose precision. */
     bool linear = angle < 1e-6;
     double s = sin(angle);
     double wa = linear ? 1.0 - t : sin((1.0 - t) * angle) / s;

@@ -1,4 +1,4 @@
-/* What a program asks about a scene: how nodes hang together, where they are, what it points at. */
+/* Queries of a scene by a program: the hierarchy of nodes, their transforms, and rays. */
 #include <lightsheaf/edit.h>
 
 #include <math.h>
@@ -49,14 +49,14 @@ typedef struct ray {
     double origin[3], direction[3]; /* normalised space; unit */
 } ray;
 
-/* How far a ray goes until it meets a box; infinity: it does not. */
+/* The distance at which a ray enters a box; infinity: it misses. */
 static double meet_box(const ray *r, const float low[3], const float high[3])
 {
     double enter = 0.0, leave = INFINITY;
     for (int i = 0; i < 3; i++) {
         double a = ((double)low[i] - r->origin[i]) / r->direction[i];
         double b = ((double)high[i] - r->origin[i]) / r->direction[i];
-        if (r->direction[i] == 0.0) { /* a NaN where it grazes the box */
+        if (r->direction[i] == 0.0) { /* a division would give NaN where the ray grazes the box */
             bool within = r->origin[i] >= (double)low[i] && r->origin[i] <= (double)high[i];
             a = within ? -INFINITY : INFINITY;
             b = within ? INFINITY : -INFINITY;

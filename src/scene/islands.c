@@ -3,20 +3,20 @@
 #include <math.h>
 #include <string.h>
 
-/* Slabs that a part's length is divided into, along each axis. */
+/* Number of slabs that a part is divided into along each axis. */
 #define SLABS 256
 
-/* Empty slabs in a row that divide a part. With fewer there is little to gain. */
+/* Number of empty slabs in a row at which a part is divided. Fewer would gain little. */
 #define WIDE_ENOUGH (SLABS / 4)
 
-/* A part of the scene: the triangles within a region of space, which no triangle reaches across,
+/* A part of the scene: the triangles within a region of space, whose border no triangle crosses,
  * and their bounds. */
 typedef struct part {
     float region[6], bounds[6];
 } part;
 
-/* Of the slabs across each axis: how many triangles begin in one less those that ended in the one
- * before. */
+/* For the slabs across each axis: the number of triangles that begin in a slab less the number
+ * that end in the one before. */
 typedef struct slab_counts {
     int64_t changes[3][SLABS + 1];
 } slab_counts;
@@ -112,7 +112,7 @@ static void bound(part *p, const lsf_scene *scene, const lsf_state *state)
     visit(p, scene, state, extend, NULL);
 }
 
-/* The middle of the longest run of empty slabs, across all axes. False: none is wide enough. */
+/* The middle of the longest run of empty slabs along any axis. False: no run is wide enough. */
 static bool widest_gap(const part *p, const slab_counts *counts, int *across, float *middle)
 {
     uint32_t widest = WIDE_ENOUGH - 1;
@@ -133,7 +133,7 @@ static bool widest_gap(const part *p, const slab_counts *counts, int *across, fl
     return widest >= WIDE_ENOUGH;
 }
 
-/* Leaves in `p` what lies before the widest gap, and sets `beyond` to the rest. */
+/* Leaves in `p` the triangles before the widest gap, and moves the others to `beyond`. */
 static bool divide(part *p, part *beyond, const lsf_scene *scene, const lsf_state *state)
 {
     slab_counts counts = {0};

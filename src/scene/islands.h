@@ -1,5 +1,5 @@
-/* Parts of a scene that lie far from each other: boxes that hold all of its triangles, and nothing
- * between them. A map over the whole scene need not spend its texels on the space between. */
+/* Parts of a scene that lie far from each other: boxes that hold all of its triangles. A map
+ * over the whole scene need not spend texels on the space between them. */
 #ifndef LSF_SCENE_ISLANDS_H
 #define LSF_SCENE_ISLANDS_H
 
@@ -12,12 +12,12 @@ typedef struct lsf_islands {
     float bounds[LSF_ISLANDS_MAX][6]; /* normalised space: least and greatest corner */
 } lsf_islands;
 
-/* Divides the scene across its axes, where nothing lies on a share of a part's length that is wide
- * enough, until there are LSF_ISLANDS_MAX parts. Of a scene that moves instances are taken whole,
- * for it is divided anew for each frame. */
+/* Divides the scene at gaps along its axes that are a wide enough share of a part's length,
+ * until there are LSF_ISLANDS_MAX parts. In a scene that moves, instances are kept whole, for it
+ * is divided anew for each frame. */
 void lsf_islands_find(lsf_islands *islands, const lsf_scene *scene, const lsf_state *state);
 
-/* Bounds along an axis of one island. */
+/* An island's bounds along an axis. */
 void lsf_island_bounds_along(const float bounds[6], lsf_float3 axis, float *low, float *high);
 
 #endif

@@ -6,7 +6,7 @@
 #include "base/base.h"
 #include "math/sampling.h"
 
-/* The key's entry, or the free one where it belongs. */
+/* The key's entry, or the free entry where it belongs. */
 static lsf_key_entry *place_of(const lsf_key_map *map, lsf_key key)
 {
     uint64_t hash =
@@ -34,7 +34,7 @@ static bool grow(lsf_key_map *map)
 
 bool lsf_key_map_find(lsf_key_map *map, lsf_key key, uint32_t fresh, uint32_t *value)
 {
-    /* At most half full: probes stay short. */
+    /* It is at most half full, so that probes stay short. */
     if (2 * map->count >= map->capacity && !grow(map))
         return false;
     lsf_key_entry *entry = place_of(map, key);

@@ -1,4 +1,5 @@
-/* A hash map from three 32-bit words to a number, for finding what vertices and edges share. */
+/* A hash map from three 32-bit words to a number, for finding vertices and edges that triangles
+ * share. */
 #ifndef LSF_SCENE_KEY_MAP_H
 #define LSF_SCENE_KEY_MAP_H
 
@@ -20,7 +21,7 @@ typedef struct lsf_key_map {
     uint64_t capacity, count; /* capacity: 0 or a power of two */
 } lsf_key_map;
 
-/* The value at `key`; `fresh` when there was none yet, which adds the key. */
+/* The value at `key`; `fresh` is set when there was none, and the key is added. */
 bool lsf_key_map_find(lsf_key_map *map, lsf_key key, uint32_t fresh, uint32_t *value);
 void lsf_key_map_clear(lsf_key_map *map);
 void lsf_key_map_finish(lsf_key_map *map);

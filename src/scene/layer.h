@@ -1,11 +1,11 @@
-/* The layers of a result: the picture, what it covers, and whatever lsf_aov names. */
+/* The layers of a result: the picture, its coverage, and those that lsf_aov names. */
 #ifndef LSF_SCENE_LAYER_H
 #define LSF_SCENE_LAYER_H
 
 #include <lightsheaf/image.h>
 #include <lightsheaf/renderer.h>
 
-/* Beside the bits of lsf_aov: the picture's channel A, which a transparent background asks for. */
+/* Beside the bits of lsf_aov: channel A of the picture, which a transparent background asks for. */
 #define LSF_LAYER_COVERAGE (1u << 31)
 #define LSF_LAYER_COUNT (2 + LSF_AOV_COUNT)
 

@@ -5,7 +5,7 @@
 #include "math/vector.h"
 #include "scene/animated.h"
 
-/* `unit`: what a normalised unit of this light is in the scene's. */
+/* `unit`: a normalised unit of this light in the scene's units. */
 static bool bound(lsf_scene *scene, float light[3], double unit, const char *kind, const char *name,
                   lsf_error *error)
 {
@@ -40,8 +40,8 @@ static bool bound_environment(lsf_scene *scene, lsf_error *error)
     return true;
 }
 
-/* What animations make of light is held against the upper end alone: below the lower one it is
- * none whenever it is so dim. */
+/* Values that animations give to light are checked against the upper end alone: below the lower
+ * one light is 0 whenever it is that dim. */
 static bool bound_animated(lsf_scene *scene, const float light[3], double unit, const char *kind,
                            const char *name, lsf_error *error)
 {

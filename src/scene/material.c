@@ -59,7 +59,7 @@ lsf_material lsf_default_material(bool diffuse_only)
     return material;
 }
 
-/* --- what materials ask of vertices --- */
+/* --- the vertex streams that materials need --- */
 
 bool lsf_material_wants_tangents(const lsf_material *material)
 {
@@ -92,7 +92,7 @@ bool lsf_material_wants_uv(const lsf_material *material, uint32_t set)
            (lsf_material_wants_tangents(material) && lsf_material_tangent_uv_set(material) == set);
 }
 
-/* --- what a program sets --- */
+/* --- checks of what a program sets --- */
 
 bool lsf_check_material(uint32_t index, const lsf_material_desc *desc, lsf_error *error)
 {

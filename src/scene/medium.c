@@ -25,7 +25,8 @@ void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material, 
 {
     double distance = (double)material->attenuation_distance * scene->requirements.scale;
     for (int c = 0; c < 3; c++) {
-        /* Black stays finite: what passes is then less than a float can tell from nothing. */
+        /* Black is clamped to stay finite: a float cannot tell the light that passes then from
+         * none. */
         double color = fmax((double)material->attenuation_color[c], (double)FLT_MIN);
         absorption[c] = (float)fmin(-log(color) / distance, (double)FLT_MAX);
     }

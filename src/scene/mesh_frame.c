@@ -34,7 +34,8 @@ static bool normalize(double v[3])
     return true;
 }
 
-/* Perpendicular to a unit vector: its cross product with the axis it is farthest from. */
+/* A vector perpendicular to a unit vector: its cross product with the axis that it is farthest
+ * from. */
 static void perpendicular(const double v[3], double result[3])
 {
     int axis = fabs(v[0]) <= fabs(v[1]) && fabs(v[0]) <= fabs(v[2]) ? 0
@@ -204,7 +205,7 @@ bool lsf_split_mirrored(const float *uvs, uint64_t vertex_count, uint32_t *indic
                 twins[vertex] = (uint32_t)*copied_count + 1;
                 ++*copied_count;
             }
-            /* Written last: uv_area of this triangle has been taken already. */
+            /* Written last: uv_area of this triangle is read above. */
             indices[i + corner] = (uint32_t)(vertex_count + twins[vertex] - 1);
         }
     }
@@ -222,7 +223,7 @@ static bool project(const double v[3], const double normal[3], double result[3])
     return normalize(result);
 }
 
-/* Direction of growing u, in the sense of the triangle's own orientation. */
+/* The direction of growing u, with the sign of the triangle's own orientation. */
 static void u_direction(const float *positions, const float *uvs, const uint32_t t[3], double area,
                         double result[3])
 {

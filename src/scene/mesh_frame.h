@@ -1,4 +1,4 @@
-/* Normals and tangents that are left out, and unit ones of those that are there. */
+/* Makes normals and tangents that are left out, and normalises those that are given. */
 #ifndef LSF_SCENE_MESH_FRAME_H
 #define LSF_SCENE_MESH_FRAME_H
 
@@ -9,34 +9,36 @@
 extern "C" {
 #endif
 
-/* Unit normal of a triangle by the right-hand rule. One without area gets some unit vector that is
- * perpendicular to its longest edge. */
+/* Unit normal of a triangle by the right-hand rule. A triangle without area gets a unit vector
+ * that is perpendicular to its longest edge. */
 void lsf_triangle_normal(const float *a, const float *b, const float *c, float normal[3]);
 
 /* One normal for three vertices each; no vertex is shared. */
 void lsf_flat_normals(const float *positions, uint64_t triangle_count, float *normals);
 
 /* Scales to unit length in double precision, so that even denormal input works. False, leaving
- * the vector alone, when its length is 0. `off` is set when the length was not 1 within 1 %. */
+ * the vector alone, when its length is 0. `off` is set when the length differs from 1 by more
+ * than 1 %. */
 bool lsf_make_unit(float vector[3], bool *off);
 
-/* What was amiss with normals and tangents. */
+/* Counts of what was repaired in normals and tangents. */
 typedef struct lsf_frame_repairs {
-    uint64_t normals_missing; /* lists of triangles without */
+    uint64_t normals_missing; /* lists of triangles without normals */
     uint64_t normals_scaled, normals_zero;
     uint64_t tangents_scaled;
     uint64_t tangents_without_uv; /* lists of triangles */
 } lsf_frame_repairs;
 
-/* Makes normals unit, and returns how many have no length: for lsf_replace_zero_normals. */
+/* Normalises normals, and returns how many have no length: these are left to
+ * lsf_replace_zero_normals. */
 uint64_t lsf_unit_normals(float *normals, uint64_t count, lsf_frame_repairs *repairs);
-/* Makes tangents unit and their sign 1 or -1; those of no length become some that are perpendicular
- * to the normals. */
+/* Normalises tangents and sets their sign to 1 or -1; those of no length are replaced by some
+ * that are perpendicular to the normals. */
 void lsf_unit_tangents(const float *normals, float *tangents, uint64_t count,
                        lsf_frame_repairs *repairs);
 
-/* Replaces the normals of no length by the area-weighted mean of the triangles around them, or by
- * 0,0,1 where that is nothing. */
+/* Replaces the normals of no length by the area-weighted mean of the triangles around them, or
+ * by 0,0,1 where that has no length either. */
 void lsf_replace_zero_normals(const float *positions, uint64_t vertex_count,
                               const uint32_t *indices, uint64_t index_count, float *normals);
 

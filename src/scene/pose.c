@@ -45,8 +45,9 @@ static void joint_to_scene(const lsf_joint *joint, const double *worlds, double 
     lsf_multiply_affine(worlds + (size_t)16 * joint->node, inverse_bind, matrix);
 }
 
-/* About the first joint, so that floats lose nothing far from the origin, of about the size of the
- * mesh, and mirrored where the first joint mirrors, so that triangles keep their winding in it. */
+/* A frame at the first joint, so that floats lose nothing far from the origin, scaled to about
+ * the size of the mesh, and mirrored where the first joint mirrors, so that triangles keep their
+ * winding in it. */
 static void make_frame(const lsf_scene *scene, const lsf_skin *skin, const double *worlds,
                        double frame[16])
 {
@@ -133,8 +134,8 @@ static void store_unit(float out[3], const double v[3])
         out[c] = (float)(v[c] / length);
 }
 
-/* Positions and tangents by the matrix, normals by its cofactors: those of its inverse transpose
- * but for a factor. */
+/* Transforms positions and tangents by the matrix, and normals by its cofactors: the inverse
+ * transpose up to a factor. */
 static void follow_joints(vertex *v, const double m[MATRIX])
 {
     double position[3], normal[3], tangent[3];
@@ -163,7 +164,7 @@ static void make_unit(float v[3], const float otherwise[3])
     store_unit(v, wide);
 }
 
-/* Every vertex belongs to one triangle, and they come in its order. */
+/* Every vertex belongs to one triangle; they are in the triangles' order. */
 static void flatten(float *normals, const float *positions, uint32_t vertex_count)
 {
     for (uint32_t i = 0; i + 2 < vertex_count; i += 3) {
@@ -278,7 +279,7 @@ static bool create(lsf_pose *pose, const lsf_scene *scene)
     return true;
 }
 
-/* Whether a deformer's vertices are already those of the values. */
+/* Whether a deformer's vertices already follow the values. */
 static bool is_current(const lsf_pose *pose, const lsf_scene *scene, uint32_t deformer)
 {
     return pose->posed && lsf_pose_is_same(scene, deformer, pose->values, pose->old_values);

@@ -72,7 +72,7 @@ static const lsf_property visible = {
     LSF_KIND_NODE, "extensions/KHR_node_visibility/visible", 0, 1, 0.0f, 1.0f, false};
 const lsf_property *const lsf_property_visible = &visible;
 
-/* Where a material has its textures. */
+/* Offsets of a material's textures. */
 static const char *const slot_names[LSF_SLOT_COUNT] = {
     [LSF_TEXTURE_BASE_COLOR] = "pbrMetallicRoughness/baseColorTexture",
     [LSF_TEXTURE_METALLIC_ROUGHNESS] = "pbrMetallicRoughness/metallicRoughnessTexture",
@@ -123,7 +123,7 @@ static void place_slot(lsf_texture_slot *slot)
     lsf_texture_slot_place(slot, offset, (double)slot->rotation, scale);
 }
 
-/* What is made of a material's properties: as files are read. */
+/* Sets the members that follow from a material's properties, as when files are read. */
 static void complete_material(lsf_material *m, const lsf_property *property)
 {
     if (m->ior > 0.0f && m->ior < 1.0f)

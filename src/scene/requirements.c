@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Vertices visited for exact bounds. Beyond that many (a mesh placed a million times), instances
- * count with the corners of their boxes, which can only make the bounds larger. */
+/* Vertices visited for exact bounds. Beyond that number (a mesh placed a million times)
+ * instances are represented by the corners of their boxes, which can only enlarge the bounds. */
 #define EXACT_VISITS_MAX ((uint64_t)1 << 26)
 
 /* --- materials --- */
@@ -27,7 +27,7 @@ static bool in_use(lsf_requirements *r, const lsf_texture_slot *slot)
     return true;
 }
 
-/* Occlusion maps stand for light that is computed here: none is read. */
+/* Occlusion maps are never read: occlusion is computed. */
 static void add_material(lsf_requirements *r, const lsf_material *material, bool diffuse_only)
 {
     r->masked |= material->alpha_mode == LSF_ALPHA_MASK;
@@ -98,8 +98,8 @@ static void add_lights(const lsf_scene *scene, lsf_requirements *r)
     r->directional_lights += scene->key_light.present;
 }
 
-/* By an animation or a program, by themselves or with an ancestor; what comes and goes moves, too.
- */
+/* Nodes that an animation or a program moves, by themselves or with an ancestor; a node that is
+ * shown and hidden counts as moving. */
 static bool *find_moving_nodes(const lsf_scene *scene)
 {
     bool *moves = lsf_alloc(scene->node_count, sizeof *moves);
@@ -115,7 +115,7 @@ static bool *find_moving_nodes(const lsf_scene *scene)
     return moves;
 }
 
-/* Of each deformer, whether its joints move or its weights change. */
+/* For each deformer, whether its joints move or its weights change. */
 static bool *find_moving_deformers(const lsf_scene *scene, const bool *nodes)
 {
     bool *moves = lsf_alloc(scene->deformer_count, sizeof *moves);
@@ -279,8 +279,8 @@ static uint64_t count_degenerate(const lsf_scene *scene, const lsf_primitive *pr
     return count;
 }
 
-/* Cosine of the angle, half a degree, up to which a vertex' normal counts as its triangle's: what
- * normals of 8 bits are rounded by. */
+/* Cosine of half a degree, the angle up to which a vertex normal is taken for its triangle's:
+ * 8-bit normals are rounded by as much. */
 #define FLAT_COSINE 0.99996
 
 static bool is_flat(const lsf_scene *scene, const uint32_t corners[3])
@@ -316,7 +316,7 @@ static bool is_smooth(const lsf_scene *scene, const lsf_primitive *primitive)
     return !flat;
 }
 
-/* What is flat at rest is not when it is bent, but where normals are made anew. */
+/* A surface that is flat at rest is not when it is bent, unless normals are recomputed. */
 static void note_deformer(lsf_requirements *r, const lsf_scene *scene,
                           const lsf_primitive *primitive)
 {
@@ -334,7 +334,7 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
 {
     double *matrices = lsf_alloc(scene->node_count, 16 * sizeof(double));
     bool *primitive_seen = lsf_alloc(scene->primitive_count, sizeof(bool));
-    /* By a list's first triangle: primitives may share one. */
+    /* Keyed by the first triangle of a list: primitives may share lists. */
     bool *list_seen = lsf_alloc(scene->index_count / 3, sizeof(bool));
     bool enough = matrices && primitive_seen && list_seen;
     lsf_pose pose = {0};
@@ -372,7 +372,7 @@ static bool add_instances(const lsf_scene *scene, lsf_requirements *r)
     return enough;
 }
 
-/* With whatever animations make of them. False without memory. */
+/* Adds what materials require, with all values that animations give them. False without memory. */
 static bool add_materials(const lsf_scene *scene, lsf_requirements *r)
 {
     bool *seen = lsf_alloc(scene->material_count, sizeof(bool));
@@ -429,7 +429,7 @@ bool lsf_scene_update_requirements(lsf_scene *scene)
 {
     const lsf_requirements old = scene->requirements;
     lsf_requirements r;
-    memset(&r, 0, sizeof r); /* padding, too: requirements are compared as bytes */
+    memset(&r, 0, sizeof r); /* clears padding, too: requirements are compared as bytes */
     add_lights(scene, &r);
     if (!add_materials(scene, &r) || !find_moving(scene, &r))
         return false;

@@ -12,7 +12,7 @@
 
 /* --- content --- */
 
-/* Parts are hashed apart, so that bytes that move from one to the next make a difference. */
+/* Parts are hashed apart, so that moving bytes from one part to the next changes the hash. */
 void lsf_scene_add_content(lsf_scene *scene, const void *bytes, size_t length)
 {
     XXH128_hash_t part = XXH3_128bits(bytes, length);
@@ -33,7 +33,7 @@ bool lsf_scene_content_hash(const lsf_scene *scene, char hash[33])
 
 /* --- notes --- */
 
-/* A file may give cause for any number; who has read so many knows. */
+/* A file may give cause for any number of notes; a few hundred are enough to read. */
 enum { NOTES_MAX = 256 };
 
 void lsf_scene_add_note(lsf_scene *scene, const char *format, ...)

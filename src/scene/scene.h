@@ -39,8 +39,9 @@ typedef struct lsf_primitive {
     uint64_t first_vertex;
     uint32_t vertex_count;
     uint32_t material;
-    uint32_t deformer;                  /* that moves its vertices, LSF_NONE: none does */
-    float bounds_min[3], bounds_max[3]; /* object space, of the vertices that triangles use */
+    uint32_t deformer;                  /* the deformer that moves its vertices; LSF_NONE: none
+                                         * does */
+    float bounds_min[3], bounds_max[3]; /* object space, of the vertices that its triangles use */
 } lsf_primitive;
 
 typedef struct lsf_mesh {
@@ -55,7 +56,7 @@ typedef struct lsf_node {
     bool has_matrix;              /* local transform is `matrix`, else T * R * S */
     double matrix[16];            /* column-major */
     double translation[3], rotation[4] /* x,y,z,w unit */, scale[3];
-    uint32_t first_weight, weight_count; /* of its mesh's morph targets, in scene->weights */
+    uint32_t first_weight, weight_count; /* weights of its mesh's morph targets in scene->weights */
     bool edited; /* a program has set `matrix` (edit.c): animations leave it alone */
 } lsf_node;
 
@@ -81,17 +82,19 @@ typedef struct lsf_shape {
     uint32_t vertex_count;
     uint32_t target_count;
     float *position_deltas, *normal_deltas, *tangent_deltas;
-    uint32_t influences; /* joints that each vertex follows; 0: no skin */
-    uint16_t *joints;    /* of the skin; `influences` a vertex, and so are the weights */
+    uint32_t influences; /* joints for each vertex; 0: no skin */
+    uint16_t *joints;    /* indices into the skin's joints, `influences` a vertex, like the
+                          * weights */
     float *weights;      /* 0 or more, and 1 in all for each vertex */
-    bool flat; /* each triangle has vertices of its own, and they its normal, however it turns */
+    bool flat; /* each triangle has vertices of its own, whose normals are recomputed as the
+                * triangle's */
 } lsf_shape;
 
-/* Vertices that one node alone deforms. */
+/* Vertices that a node deforms. */
 typedef struct lsf_deformer {
     uint32_t shape;
-    uint32_t node; /* that has the weights of the morph targets */
-    uint32_t skin; /* LSF_NONE: the node places the vertices, as any others */
+    uint32_t node; /* the node with the weights of the morph targets */
+    uint32_t skin; /* LSF_NONE: the node's transform places the vertices, as for other meshes */
     uint64_t first_vertex;
 } lsf_deformer;
 
@@ -117,7 +120,7 @@ typedef struct lsf_texture_slot {
     uint32_t texture;   /* LSF_NONE: none */
     uint32_t uv_set;    /* 0 or 1 */
     float transform[6]; /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 (KHR_texture_transform) */
-    float offset[2], rotation, scale[2]; /* that a file makes it of, for animations of them */
+    float offset[2], rotation, scale[2]; /* the file's parts of it, for animations of them */
 } lsf_texture_slot;
 
 /* glTF 2.0 metallic-roughness with the extensions that Lightsheaf reads. */
@@ -132,15 +135,17 @@ typedef struct lsf_material {
     float alpha_cutoff;
     bool double_sided; /* also emits from its back */
     bool unlit;        /* shown as emission of its base colour */
-    bool has_tangents; /* so do vertices of its surfaces, that were read or made */
+    bool has_tangents; /* vertices of its surfaces have tangents, read or computed */
     bool edited;       /* by a program: animations leave it alone */
     float ior;
-    float specular, specular_color[3];     /* of the dielectric's reflection: weight; tint of f0 */
+    float specular, specular_color[3];     /* weight of the dielectric's reflection; tint of f0 */
     float sheen_color[3], sheen_roughness; /* factors */
-    float coat, coat_roughness, coat_normal_scale; /* of a clear coat; factors */
-    float transmission;                            /* of what is not reflected [1] */
+    float coat, coat_roughness, coat_normal_scale; /* a clear coat; factors */
+    float transmission;                            /* share of the light that is not reflected
+                                                    * [1] */
     bool volume;                /* bounds a medium that light is refracted into; else a thin wall */
-    float attenuation_distance; /* after which white light has attenuation_color; scene units */
+    float attenuation_distance; /* distance after which white light has attenuation_color; scene
+                                 * units */
     float attenuation_color[3];
     float anisotropy_strength, anisotropy_rotation; /* 0..1, radians from the tangent */
     lsf_texture_slot base_color_texture, metallic_roughness_texture, normal_texture,
@@ -154,7 +159,7 @@ typedef struct lsf_light {
     char *name;
     lsf_light_type type;
     float intensity[3];           /* W/sr, directional W/m^2 */
-    float color[3], strength;     /* whose product it is in a file, for animations */
+    float color[3], strength;     /* factors of intensity in a file, for animations */
     float range;                  /* scene units; INFINITY: none */
     float inner_cone, outer_cone; /* radians, spot only */
     bool edited;                  /* by a program: animations leave it alone */
@@ -164,8 +169,8 @@ typedef struct lsf_camera {
     char *name;
     uint32_t node;     /* LSF_NONE: `matrix` places it */
     double matrix[16]; /* column-major camera-to-scene, only when node is LSF_NONE */
-    bool frames_scene; /* `matrix` only turns it: it stands, and its near plane lies, where the
-                        * picture's aspect asks for (framing.h) */
+    bool frames_scene; /* `matrix` gives only the orientation: position and near plane follow
+                        * from the picture's aspect (framing.h) */
     bool orthographic;
     float fov_y;                            /* radians */
     float x_magnification, y_magnification; /* half width and height, scene units */
@@ -176,7 +181,7 @@ typedef enum lsf_animation_path {
     LSF_PATH_TRANSLATION,
     LSF_PATH_ROTATION,
     LSF_PATH_SCALE,
-    LSF_PATH_WEIGHTS, /* of all morph targets */
+    LSF_PATH_WEIGHTS, /* weights of all morph targets */
 } lsf_animation_path;
 typedef enum lsf_interpolation { LSF_STEP, LSF_LINEAR, LSF_CUBIC } lsf_interpolation;
 
@@ -186,23 +191,23 @@ typedef struct lsf_curve {
     uint32_t key_count;
     uint32_t width; /* values a key */
     float *times;   /* seconds, strictly increasing */
-    float *values;  /* `width` a key; cubic: in-tangent, value, out-tangent */
+    float *values;  /* `width` values a key; cubic: in-tangent, value, out-tangent */
 } lsf_curve;
 
 typedef struct lsf_animation_channel {
     uint32_t node;
     lsf_animation_path path;
-    uint32_t first_weight; /* of the node's, for its weights */
-    lsf_curve curve;       /* of 3 values, 4 of rotation, or as many weights as it changes */
+    uint32_t first_weight; /* first of the node's weights that it changes, for weights */
+    lsf_curve curve;       /* of 3 values, 4 for a rotation, or as many as it changes weights */
 } lsf_animation_channel;
 
-/* What an animation changes of a material, a light, a camera, or whether a node is there
- * (animated.h). */
+/* A property of a material, a light, a camera, or the visibility of a node, that an animation
+ * changes (animated.h). */
 typedef struct lsf_animated_value {
     const struct lsf_property *property;
-    uint32_t index; /* of the material, light, camera or node */
-    uint32_t slot;  /* of a material's texture; LSF_NONE: it is none of a texture's */
-    uint32_t first; /* among the values of all at one instant */
+    uint32_t index; /* number of the material, light, camera or node */
+    uint32_t slot;  /* a material's texture; LSF_NONE: the property is none of a texture's */
+    uint32_t first; /* index among the values of all properties at one instant */
     lsf_curve curve;
 } lsf_animated_value;
 
@@ -245,13 +250,13 @@ typedef struct lsf_extension {
     bool honoured; /* read as far as it has an effect on the picture */
 } lsf_extension;
 
-/* How often a program has edited what kind of thing: who keeps something made of the scene knows by
- * it whether that is stale. */
+/* Counts of a program's edits by kind: whoever keeps something made of the scene can tell
+ * whether it is out of date. */
 typedef struct lsf_edits {
     uint64_t nodes, lights, materials;
     uint64_t environment; /* turned or scaled */
     uint64_t radiance;    /* ... scaled */
-    uint64_t movable;     /* nodes that were set at all: that many may move */
+    uint64_t movable;     /* number of nodes that were ever set, which may all move */
 } lsf_edits;
 
 /* Only what the chosen scene of the file uses: its nodes, the lights and cameras they carry, the
