@@ -14,11 +14,11 @@
 namespace
 {
 
-/* What the edgebreaker keeps for each face: three corners and at most four vertices, each with
- * opposite corner, vertex, traversal and seams; twice, for vectors that grow. And what it keeps
- * besides for each set of attributes with connectivity of its own. */
+/* Memory that the edgebreaker keeps for each face: three corners and at most four vertices, each
+ * with opposite corner, vertex, traversal and seams; twice, for vectors that grow. And the
+ * memory for each set of attributes with connectivity of its own. */
 const uint64_t FACE_BYTES = 256, FACE_BYTES_PER_SET = 192;
-/* What any attribute takes for each point and component beside the value itself: its integer
+/* Memory of any attribute for each point and component beside the value itself: its integer
  * before the transform, and as much again for the prediction; and for each point the maps. */
 const uint64_t COMPONENT_BYTES = 8, POINT_BYTES = 32;
 
@@ -41,7 +41,7 @@ void refuse(const char *format, ...)
     throw refused;
 }
 
-/* Bytes that are going to be allocated, held against the limit. */
+/* Bytes that are about to be allocated, checked against the limit. */
 class allowance
 {
   public:

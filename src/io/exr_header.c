@@ -184,7 +184,7 @@ bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
     return true;
 }
 
-/* An attribute of a header that was checked; advances *at behind it. */
+/* The next attribute of a header that was checked; moves *at behind it. */
 static bool next_attribute(const uint8_t *bytes, size_t *at, const char **type,
                            lsf_header_text *attribute)
 {

@@ -38,7 +38,7 @@ static const struct {
 static const lsf_foreign_file nothing = {"an empty file", "copy or export it again"};
 static const lsf_foreign_file unknown = {"neither: it begins with neither `{` nor `glTF`", CONVERT};
 
-/* What begins with neither '{' nor "glTF" is taken for what its name says. */
+/* A file that begins with neither '{' nor "glTF" is taken for what its name says. */
 static const struct {
     const char *ending;
     lsf_foreign_file file;

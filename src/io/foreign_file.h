@@ -1,4 +1,4 @@
-/* Files that are not glTF, told by what they begin with and by the ending of their name. */
+/* Files that are not glTF, recognised by their first bytes and the ending of their name. */
 #ifndef LSF_IO_FOREIGN_FILE_H
 #define LSF_IO_FOREIGN_FILE_H
 

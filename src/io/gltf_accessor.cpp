@@ -7,7 +7,7 @@
 namespace lsf
 {
 
-/* Elements somewhere in a buffer, proved to lie inside it. */
+/* Elements in a buffer, checked to lie inside it. */
 struct element_span {
     const unsigned char *data; /* NULL: all zeros */
     uint64_t stride;
@@ -47,8 +47,8 @@ std::string accessor_format(const tinygltf::Accessor &accessor)
            component_name(accessor.componentType);
 }
 
-/* Proves that `count` elements of `size` bytes lie inside the buffer view. The view itself was
- * held against its buffer by the schema check. */
+/* Checks that `count` elements of `size` bytes lie inside the buffer view. The schema check
+ * compared the view with its buffer. */
 static element_span find_elements(const gltf_import &import, int view_index, uint64_t offset,
                                   uint64_t count, uint64_t size, uint64_t component,
                                   const std::string &location)

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-/* What tinygltf does not read, though it is legal, is changed in the document that it gets. */
+/* Legal parts of a document that tinygltf does not read are changed in the copy that it gets. */
 
 namespace lsf
 {
@@ -38,7 +38,7 @@ static void take_out_indices(json &root, gltf_checked &checked)
     }
 }
 
-/* Channels without a node are legal: extensions say what they target. False when there are none. */
+/* Channels without a node are legal: extensions name their target. False when there are none. */
 static bool name_no_nodes(json &root)
 {
     bool any = false;

@@ -72,7 +72,7 @@ static void check_format(const tinygltf::Accessor &accessor, const gltf_target &
              "values are %s; %s", accessor_format(accessor).c_str(), wanted);
 }
 
-/* The curve owns what was read of it, also when the rest cannot be. */
+/* The curve owns the arrays that were read, also when the rest fails. */
 static void read_curve(gltf_import &import, const gltf_target &target, uint32_t width,
                        lsf_curve &curve)
 {
@@ -101,14 +101,14 @@ static void read_curve(gltf_import &import, const gltf_target &target, uint32_t 
 
 /* --- what they animate --- */
 
-/* Things of the scene that an animation has already; several may play. */
+/* The things of the scene that an animation already changes; several animations may play. */
 class taken_targets
 {
   public:
     explicit taken_targets(gltf_import &import) : import_(import)
     {
     }
-    /* Whether the target is free; an animation may have it once. */
+    /* Whether the target is free: an animation may change it once. */
     bool take(const gltf_target &target)
     {
         if (target.animation != animation_)
@@ -168,7 +168,7 @@ static void add_channel(gltf_import &import, const gltf_target &target, taken_ta
 /* Scene's cameras by the file's: one for each node that carries it. */
 using camera_lists = std::map<size_t, std::vector<uint32_t>>;
 
-/* What the scene has of a file's thing. */
+/* The scene's things that stand for a thing of the file. */
 static std::vector<uint32_t> things_of(const gltf_import &import, const camera_lists &cameras,
                                        const gltf_target &target)
 {

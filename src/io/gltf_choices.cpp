@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-/* What a file offers to choose from: scenes, animations and variants of materials; and which
- * extensions it uses. */
+/* The choices that a file offers: scenes, animations and variants of materials; and the
+ * extensions that it uses. */
 
 namespace lsf
 {

@@ -21,7 +21,7 @@ static uint64_t target_count(const tinygltf::Mesh &mesh, const std::string &loca
     return count;
 }
 
-/* What the node says, else what the mesh says, else 0. */
+/* The node's weights, else the mesh's, else 0. */
 static void set_weights(const gltf_import &import, size_t node, uint64_t count, float *weights)
 {
     const tinygltf::Node &source = import.model.nodes[node];
@@ -65,7 +65,7 @@ void weights_import(gltf_import &import)
 
 /* --- skins --- */
 
-/* Column-major; the last row of an inverse bind matrix says nothing. */
+/* Column-major; the last row of an inverse bind matrix is not used. */
 static void read_inverse_bind(gltf_import &import, const tinygltf::Skin &source,
                               const std::string &location, std::vector<lsf_joint> &joints)
 {

@@ -13,10 +13,10 @@ void weights_import(gltf_import &import);
 /* The scene's skin for the file's. */
 uint32_t skin_import(gltf_import &import, int skin);
 
-/* Whether a primitive has something to be deformed by. */
+/* Whether skins or morph targets deform a primitive. */
 bool has_shape(const tinygltf::Primitive &primitive, bool skinned);
 
-/* What deforms the vertices of a primitive, as another of the scene's shapes: its index. */
+/* The index of the deformer of a primitive's vertices, as another of the scene's shapes. */
 uint32_t shape_import(gltf_import &import, const tinygltf::Primitive &primitive, bool skinned,
                       bool flat, const vertex_arrays &arrays, const std::string &location);
 

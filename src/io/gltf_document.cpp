@@ -4,7 +4,7 @@
 
 #include <cinttypes>
 
-/* From the file's bytes to a tinygltf model. tinygltf gets to see only what has been checked, and
+/* From the file's bytes to a tinygltf model. tinygltf sees only data that has been checked, and
  * asks for buffers that have been read already: it opens no file itself. */
 
 namespace lsf

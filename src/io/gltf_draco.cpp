@@ -45,7 +45,7 @@ static draco_primitive read_extension(const tinygltf::Primitive &primitive, cons
     return result;
 }
 
-/* The file may hold the same data uncompressed, for those who do not read the extension. */
+/* The file may hold the same data uncompressed, for readers without the extension. */
 static bool must_be_decoded(const tinygltf::Model &model,
                             const std::map<int, source_of_accessor> &known,
                             const draco_primitive &primitive)
@@ -75,7 +75,7 @@ static void set_view(tinygltf::Model &model, int accessor_index, tinygltf::Buffe
     model.bufferViews.push_back(view);
 }
 
-/* The number that all attributes declare. */
+/* The number of elements that all attributes declare. */
 static uint32_t count_points(const tinygltf::Model &model, const draco_primitive &primitive,
                              const std::string &location)
 {

@@ -26,7 +26,7 @@ class geometry_importer
     void finish();
 
   private:
-    /* What primitives that share vertices or indices have in common: accessors. */
+    /* The accessors that primitives share when they share vertices or indices. */
     using vertex_key = std::vector<int>;
     using index_key = std::array<int, 3>;
 
@@ -81,7 +81,7 @@ geometry_importer::geometry_importer(gltf_import &import, const stream_choice &s
     find_uses();
 }
 
-/* --- what materials ask for --- */
+/* --- vertex streams that materials need --- */
 
 static const lsf_material &material_of(const gltf_import &import,
                                        const tinygltf::Primitive &primitive)
@@ -141,7 +141,7 @@ void geometry_importer::count_ignored(const tinygltf::Primitive &source,
 
 /* --- repairs --- */
 
-/* What lsf_replace_zero_normals and lsf_make_tangents take for each vertex. */
+/* Memory that lsf_replace_zero_normals and lsf_make_tangents take for each vertex. */
 static const uint64_t SUM_BYTES = 3 * sizeof(double);
 
 void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles,
@@ -177,7 +177,7 @@ void geometry_importer::compute_tangents(vertex_arrays &arrays, std::vector<uint
 {
     const std::vector<float> &uvs =
         lsf_material_tangent_uv_set(&material) == 0 ? arrays.uv0 : arrays.uv1;
-    /* For lsf_split_mirrored, and for the largest stream while it grows. */
+    /* Takes memory for lsf_split_mirrored, and for the largest stream while it grows. */
     loan.take(arrays.count, 1 + 2 * sizeof(uint32_t) + 4 * sizeof(float));
     if (uvs.empty()) {
         import_.repairs.frames.tangents_without_uv++;
@@ -242,7 +242,7 @@ void geometry_importer::append_indices(const std::vector<uint32_t> &triangles,
         throw std::bad_alloc();
 }
 
-/* Accessors of what a vertex is made of; what is deformed is shared within its mesh alone. */
+/* The accessors of a vertex's attributes; deformed vertices are shared within their mesh alone. */
 geometry_importer::vertex_key geometry_importer::key_of(const tinygltf::Primitive &source,
                                                         size_t mesh) const
 {
@@ -265,7 +265,7 @@ geometry_importer::vertex_key geometry_importer::key_of(const tinygltf::Primitiv
     return key;
 }
 
-/* Vertices and indices as the file has them: primitives that name the same accessors share. */
+/* Vertices and indices as in the file: primitives that name the same accessors share them. */
 void geometry_importer::add_shared(const tinygltf::Primitive &source, size_t mesh,
                                    const std::string &location, lsf_primitive &primitive)
 {
@@ -303,7 +303,7 @@ void geometry_importer::add_shared(const tinygltf::Primitive &source, size_t mes
     known_indices_[indices_key] = primitive;
 }
 
-/* Of vertices that were just appended. */
+/* Bounds of vertices that were just appended. */
 void geometry_importer::add_shape(const tinygltf::Primitive &source, size_t mesh, bool flat,
                                   const vertex_arrays &arrays, const std::string &location,
                                   const lsf_primitive &primitive)
@@ -370,7 +370,7 @@ void geometry_importer::add_mesh(size_t index)
     mesh.primitive_count = (uint32_t)(primitives_.size() - mesh.first_primitive);
 }
 
-/* --- what nodes deform --- */
+/* --- meshes that nodes deform --- */
 
 void geometry_importer::find_uses()
 {
@@ -384,8 +384,8 @@ void geometry_importer::find_uses()
     }
 }
 
-/* The node's own of the primitive's vertices: those that were read where nobody else has them, else
- * copies. */
+/* The node's own copy of the primitive's vertices: those that were read if no other node deforms
+ * them, else copies. */
 uint32_t geometry_importer::deformer_of(uint32_t node, uint32_t index, uint32_t shape,
                                         uint32_t skin)
 {

@@ -1,5 +1,6 @@
-/* What the files of the glTF importer share. Errors travel as exceptions inside the importer and
- * stop at lsf_gltf_load. Findings carry the names that Khronos' glTF-Validator gives them. */
+/* Declarations that the files of the glTF importer share. Errors travel as exceptions inside the
+ * importer and stop at lsf_gltf_load. Findings carry the names that Khronos' glTF-Validator
+ * gives them. */
 #ifndef LSF_IO_GLTF_IMPORT_HPP
 #define LSF_IO_GLTF_IMPORT_HPP
 
@@ -44,7 +45,7 @@ class failure : public std::exception
     std::string text_;
 };
 
-/* What the caller chose is not in the file: LSF_ERROR_USAGE. */
+/* The caller chose something that the file does not have: LSF_ERROR_USAGE. */
 class no_such_choice : public failure
 {
   public:
@@ -58,7 +59,7 @@ class no_such_choice : public failure
 /* "/accessors/7" */
 std::string location_of(const char *array, size_t index);
 
-/* What loading may take at any moment; taken before it is allocated. */
+/* The memory that loading may take at any moment, requested before it is allocated. */
 class memory_budget
 {
   public:
@@ -119,13 +120,14 @@ gltf_container gltf_container_split(std::string_view bytes); /* gltf_container.c
 struct gltf_buffer_source {
     std::string uri; /* empty: the GLB's binary chunk */
     uint64_t byte_length;
-    bool placeholder; /* without data: EXT_meshopt_compression says where they are */
+    bool placeholder; /* it has no data: EXT_meshopt_compression says where its data are */
 };
 struct gltf_checked {
     std::vector<gltf_buffer_source> buffers;
-    /* The document as tinygltf reads it, when it would not read it as it is; else empty. It wants a
-     * URI and a byte of every buffer, and a buffer view of all indices: those without are taken
-     * out of their primitive and listed. The GLB's binary chunk has a URI, too. */
+    /* The document in a form that tinygltf reads, when it would not read it as it is; else
+     * empty. tinygltf needs a URI and a byte for every buffer, and a buffer view for all
+     * indices: indices without one are taken out of their primitive and listed. The GLB's binary
+     * chunk gets a URI, too. */
     std::string json;
     struct indices {
         size_t mesh, primitive;
@@ -155,7 +157,7 @@ file_content file_read(const std::string &path, const memory_budget &budget);
 
 /* --- the import --- */
 
-/* What was repaired, summed up so that a file gives one note for each kind. */
+/* Counts of repairs, so that a file gives one note for each kind. */
 struct gltf_repairs {
     lsf_frame_repairs frames = {};
     uint64_t rotations_scaled = 0;
@@ -166,16 +168,17 @@ struct gltf_repairs {
     uint64_t textures_without_image = 0, negative_colors = 0;
 };
 
-/* What a channel of an animation changes. */
+/* The property that a channel of an animation changes. */
 struct gltf_target {
     std::string location, pointer; /* no pointer: a node's own path */
     size_t animation = 0, channel = 0;
     lsf_kind of = LSF_KIND_NODE;
-    size_t index = 0;                       /* of the file's node, material, light or camera */
+    size_t index = 0;                       /* number of the file's node, material, light or
+                                             * camera */
     const lsf_property *property = nullptr; /* NULL: `path` of the node */
     uint32_t slot = LSF_NONE;
     lsf_animation_path path = LSF_PATH_TRANSLATION;
-    int weight = -1; /* of the node's, -1: all */
+    int weight = -1; /* a weight of the node's, -1: all */
 };
 
 struct gltf_import {
@@ -191,8 +194,8 @@ struct gltf_import {
     memory_budget budget;
     tinygltf::Model model;
     std::vector<bool> placeholders;   /* by file's buffer */
-    std::vector<gltf_target> targets; /* of the animations that play */
-    /* Kind, index and property of those that are not a node's path. */
+    std::vector<gltf_target> targets; /* targets of the animations that play */
+    /* Kind, index and property of targets that are not a node's path. */
     std::set<std::tuple<lsf_kind, size_t, const lsf_property *>> animated;
     gltf_repairs repairs;
 
@@ -205,10 +208,12 @@ struct gltf_import {
     std::vector<uint32_t> material_of; /* file's material -> scene's; LSF_NONE: not used */
     std::vector<uint32_t> light_of;    /* file's light -> scene's; LSF_NONE: not used */
     std::vector<size_t> camera_source; /* scene's camera -> file's */
-    std::vector<bool> never_seen;      /* scene's nodes that no animation shows, with those below */
+    std::vector<bool> never_seen;      /* scene's nodes that no animation shows, with their
+                                        * descendants */
 };
 
-/* What a node of that name takes, its matrix included once all are placed (gltf_nodes.cpp). */
+/* Memory that a node of that name takes, including its matrix once all are placed
+ * (gltf_nodes.cpp). */
 uint64_t node_bytes(const char *name);
 
 void gltf_document_read(gltf_import &import);     /* gltf_document.cpp */
@@ -234,7 +239,7 @@ void set_trs(gltf_import &import, const double translation[3], const double rota
 
 /* --- accessors, gltf_accessor.cpp --- */
 
-/* Holds every accessor against its buffer view. */
+/* Checks that every accessor lies within its buffer view. */
 void accessors_check(const gltf_import &import);
 /* Appends count * width floats; normalised integers become -1..1 or 0..1. */
 void accessor_read_floats(const gltf_import &import, int accessor, std::vector<float> &values);

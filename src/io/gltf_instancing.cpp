@@ -37,7 +37,7 @@ static bool format_is_allowed(const tinygltf::Accessor &accessor,
             (attribute.may_be_integer && integer));
 }
 
-/* Empty where the node does not have the attribute. */
+/* Empty where the node lacks the attribute. */
 static std::vector<float> read_attribute(gltf_import &import, const tinygltf::Value &attributes,
                                          const instance_attribute &attribute, uint64_t count,
                                          const std::string &location, memory_loan &loan)
@@ -61,7 +61,7 @@ static std::vector<float> read_attribute(gltf_import &import, const tinygltf::Va
     return values;
 }
 
-/* Number of instances; 0: nothing says how many, and the node is an ordinary one. */
+/* Number of instances; 0: no attribute says how many, and the node is an ordinary one. */
 static uint64_t count_instances(const gltf_import &import, const tinygltf::Value &attributes)
 {
     for (const instance_attribute *attribute :

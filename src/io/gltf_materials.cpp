@@ -27,7 +27,7 @@ class texture_importer
     {
     }
     uint32_t add(int texture, bool srgb);
-    /* What has roughness 1 - factor * alpha where `texture`, which was added, has alpha. */
+    /* The image of roughness 1 - factor * alpha for the alpha of `texture`, which was added. */
     uint32_t add_roughness(uint32_t texture, float factor);
     void finish();
 
@@ -41,7 +41,8 @@ class texture_importer
     std::vector<lsf_texture> textures_;
     std::vector<size_t> images_;
 
-    /* Images that are made of others; their textures' image is set when all others are known. */
+    /* Images that are made of others; the image of their textures is set when all others are
+     * known. */
     struct roughness {
         uint32_t source, texture; /* into images_, textures_ */
         float factor;
@@ -57,7 +58,7 @@ static lsf_wrap wrap_of(int code)
                                                            : LSF_WRAP_REPEAT;
 }
 
-/* EXT_texture_webp: `source` is for those who do not read it. */
+/* EXT_texture_webp: `source` is for readers without it. */
 static int image_of(const tinygltf::Texture &texture)
 {
     auto webp = texture.extensions.find("EXT_texture_webp");
@@ -140,7 +141,7 @@ void texture_importer::decode(size_t index, lsf_texture_image &decoded)
     } else if (!source.image.empty()) {
         bytes = source.image.data();
         length = source.image.size();
-    } else if (uri_is_data(source.uri)) { /* of a type that tinygltf does not know */
+    } else if (uri_is_data(source.uri)) { /* its type is unknown to tinygltf */
         loan.take(source.uri.size(), 2);
         decoded_uri = uri_data(source.uri, location + "/uri");
         bytes = decoded_uri.data();
@@ -256,7 +257,7 @@ static lsf_texture_slot extension_slot(texture_importer &textures, const Value &
 
 /* --- materials --- */
 
-/* What it is stays where the extension does not say it. */
+/* A value stays as it is where the extension does not give it. */
 static void read_color(const Value &extension, const char *key, float *color, int channels = 3)
 {
     if (extension.IsObject() && extension.Has(key))
@@ -343,8 +344,9 @@ static void read_coat(texture_importer &textures, const Value &extension,
             (float)number_in(extension.Get("clearcoatNormalTexture"), "scale", 1.0);
 }
 
-/* The mesh says how thick its medium is: the extension's thickness, a stand-in for renderers that
- * do not know what is behind a surface, only tells whether there is a medium at all. */
+/* The mesh gives the thickness of its medium: the extension's thickness, a substitute for
+ * renderers that do not know what is behind a surface, only tells whether there is a medium at
+ * all. */
 static void read_volume(const Value &extension, lsf_material &material)
 {
     material.volume = number_in(extension, "thicknessFactor", 0.0) > 0.0;

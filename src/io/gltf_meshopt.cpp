@@ -64,7 +64,7 @@ static void decode_view(gltf_import &import, size_t index, const Value &extensio
     view.byteStride = request.mode == LSF_MESHOPT_ATTRIBUTES ? request.stride : 0;
 }
 
-/* The file may hold the same data uncompressed, for those who do not read the extension. */
+/* The file may hold the same data uncompressed, for readers without the extension. */
 static bool must_be_decoded(const gltf_import &import, const tinygltf::BufferView &view)
 {
     const std::vector<std::string> &required = import.model.extensionsRequired;

@@ -40,7 +40,7 @@ static std::vector<uint32_t> walk(const tinygltf::Model &model, const std::vecto
     return order;
 }
 
-/* With at most one parent each, nodes that no root reaches stand in a loop or below one. */
+/* With at most one parent each, nodes that no root reaches are in a loop or below one. */
 static void check_loops(const tinygltf::Model &model, const std::vector<uint32_t> &parents)
 {
     std::vector<uint32_t> roots;
@@ -56,7 +56,7 @@ static void check_loops(const tinygltf::Model &model, const std::vector<uint32_t
                  "the node is its own ancestor, or below one that is");
 }
 
-/* Those of the chosen scene; all of them in a file without scenes. */
+/* The nodes of the chosen scene; all nodes of a file without scenes. */
 static std::vector<uint32_t> scene_roots(const tinygltf::Model &model, size_t scene,
                                          const std::vector<uint32_t> &parents)
 {
@@ -126,7 +126,7 @@ static bool is_never_seen(const gltf_import &import, uint32_t index)
 
 uint64_t node_bytes(const char *name)
 {
-    const uint64_t block_bytes = 32; /* what a short text takes of the heap */
+    const uint64_t block_bytes = 32; /* memory of a short text on the heap */
     return sizeof(lsf_node) + sizeof(double[16]) + block_bytes + strlen(name);
 }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-/* Cameras and KHR_lights_punctual: what nodes of the scene carry, and nothing else. */
+/* Cameras and KHR_lights_punctual: those that nodes of the scene carry. */
 
 namespace lsf
 {

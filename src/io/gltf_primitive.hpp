@@ -32,7 +32,7 @@ int find_attribute(const tinygltf::Primitive &primitive, const char *name);
 
 bool mode_is_triangles(int mode);
 
-/* What the scene stores of a vertex. */
+/* Bytes that the scene stores for a vertex. */
 uint64_t vertex_bytes(const stream_choice &streams);
 
 /* Reads the attributes that `streams` asks for, checks their formats and counts. Takes memory for

@@ -60,9 +60,9 @@ class locating_parser : public nlohmann::detail::json_sax_dom_parser<json>
     std::string message_;
 };
 
-/* What the document and the structures that are made of it take, at most: measured on documents of
+/* The most memory that the document and the structures made of it take: measured on documents of
  * little but extras, which become tinygltf::Value of 152 bytes, and of little but entries in the
- * root's arrays. Taken for good, though part of it is free again after parsing. */
+ * root's arrays. It stays requested, though part of it is free again after parsing. */
 static void take_document(memory_budget &budget, std::string_view text, const lsf_json_shape &shape)
 {
     budget.take(text.size(), 6, "/"); /* base64 is copied most often */
@@ -95,8 +95,8 @@ static void take_apart(json &value)
     }
 }
 
-/* nlohmann's destructor makes a list of what a value holds; without memory for it, it would end the
- * process. Of a document that was taken apart it has nothing to list. */
+/* nlohmann's destructor makes a list of the children of a value; without memory for the list it
+ * would end the process. A document that was taken apart first has no children to list. */
 struct json_document {
     json root;
     ~json_document()
@@ -340,7 +340,7 @@ void checker::check_object(const json &value, const schema &schema, bool extensi
     }
 }
 
-/* --- what the tables cannot say --- */
+/* --- rules that the tables cannot state --- */
 
 static void check_version(const json &root)
 {
@@ -363,8 +363,8 @@ static const char *remedy_for(const std::string &extension)
     return "export the file without it";
 }
 
-/* Extensions of materials, textures and lights, and what only describes: without them the scene has
- * the same shapes in the same places. */
+/* Extensions of materials, textures and lights, and extensions that only describe: without them
+ * the scene has the same shapes in the same positions. */
 static bool changes_look_alone(const std::string &extension)
 {
     for (const char *part : {"_materials_", "_texture_", "_lights_", "_xmp"})
@@ -488,7 +488,7 @@ gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budge
     json &root = document.root;
     parse(text, budget, root);
     checker checker(root);
-    /* First: what such a file leaves out may be just what the extension would bring. */
+    /* Checked first: data missing from such a file may be what the extension brings. */
     check_required_extensions(root, lenient);
 
     take_entries(budget, root);

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <map>
 
-/* What the channels of animations change: a node's path, or, by KHR_animation_pointer, what a
- * pointer into the document names. */
+/* The targets of animation channels: a node's path or, by KHR_animation_pointer, the property
+ * that a pointer into the document names. */
 
 namespace lsf
 {
@@ -23,7 +23,7 @@ static bool path_of(const std::string &name, lsf_animation_path &path)
     return false;
 }
 
-/* Reads digits from `at` on, which then stands behind them; false where there are none. */
+/* Reads digits from `at` on and moves it behind them; false where there are none. */
 static bool read_index(const std::string &text, size_t &at, size_t &index)
 {
     size_t first = at;
@@ -39,7 +39,7 @@ struct root {
     size_t count;
 };
 
-/* Of what kind and number the pointer names something, and what; false: of none that is read. */
+/* The kind, number and property that the pointer names; false: it names none that is read. */
 static bool split_pointer(const tinygltf::Model &model, gltf_target &target, std::string &name)
 {
     const root roots[] = {
@@ -128,7 +128,7 @@ static bool add_mesh_weights(gltf_import &import, const gltf_target &target, wei
     return true;
 }
 
-/* False: what it changes is not read, or has been added. */
+/* False: the property is not read, or was added already. */
 static bool read_target(gltf_import &import, const tinygltf::AnimationChannel &channel,
                         weight_takers &takers, gltf_target &target)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What `lightsheaf info` prints of a picture. */
+/* The text of `lightsheaf info` for a picture. */
 
 typedef struct description {
     const char *path;

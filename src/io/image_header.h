@@ -33,8 +33,8 @@ typedef struct lsf_image_header {
 bool lsf_image_header_read(lsf_image_header *header, const void *bytes, size_t length,
                            uint64_t byte_limit, const char *name, lsf_error *error);
 
-/* The parts of lsf_image_header_read for one kind of file. `pixels_max` is the most pixels that a
- * file of this compression and length can hold. */
+/* The parts of lsf_image_header_read for one kind of file. `pixels_max` is the largest number of
+ * pixels that a file of this compression and length can hold. */
 bool lsf_png_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
                          uint64_t *pixels_max, const char *name, lsf_error *error);
 bool lsf_jpeg_header_read(lsf_image_header *header, const uint8_t *bytes, size_t length,
@@ -58,9 +58,9 @@ bool lsf_exr_next_text(const uint8_t *bytes, size_t *at, lsf_header_text *text);
 /* The name of the next channel, likewise; there are as many as the header says. */
 const char *lsf_exr_next_channel(const uint8_t *bytes, size_t *at);
 
-/* Takes out of a file that lsf_image_header_read let pass what no pixel needs: comments,
- * thumbnails, Exif, IPTC, XMP, colour profiles. Decoding libraries parse these with less care than
- * pixels. Returns the length that is left. */
+/* Takes out of a file that lsf_image_header_read accepted what no pixel needs: comments,
+ * thumbnails, Exif, IPTC, XMP, colour profiles. Decoding libraries parse these with less care
+ * than pixels. Returns the length that is left. */
 size_t lsf_png_without_metadata(uint8_t *bytes, size_t length);
 size_t lsf_jpeg_without_metadata(uint8_t *bytes, size_t length);
 size_t lsf_webp_without_metadata(uint8_t *bytes, size_t length);

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* Where a scene comes from. */
+/* The source of a scene. */
 typedef struct lsf_gltf_source {
     const char *path; /* of the file; of memory the name for messages */
     const void *data; /* memory; NULL: the file */

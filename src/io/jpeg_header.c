@@ -39,9 +39,9 @@ static bool stands_alone(uint32_t marker)
     return marker == TEM || (marker >= RST0 && marker <= RST7);
 }
 
-/* The next marker with a segment, or the end of the image, from `at` on. False where the file ends
- * before. It steps over entropy-coded data, fill bytes and markers that stand alone, as decoders
- * do: what it does not find, they do not find. */
+/* The next marker with a segment, or the end of the image, from `at` on. False where the file
+ * ends before. It skips entropy-coded data, fill bytes and markers that stand alone, as decoders
+ * do, so that decoders find no marker that it does not. */
 static bool next_segment(segment *found, const uint8_t *bytes, size_t length, size_t at)
 {
     while (at + 2 <= length && (bytes[at] != 0xff || bytes[at + 1] == 0x00 ||
@@ -145,7 +145,8 @@ size_t lsf_jpeg_without_metadata(uint8_t *bytes, size_t length)
     for (size_t at = 2; next_segment(&part, bytes, length, at); at = part.end) {
         bool keep = !is_metadata(part.marker);
         size_t end = keep ? part.end : part.begin;
-        /* A fill byte before a segment that goes would make a marker with what comes after. */
+        /* A fill byte before a segment that is removed would form a marker with the bytes that
+         * follow. */
         while (!keep && end > at && bytes[end - 1] == 0xff)
             end--;
         memmove(bytes + kept, bytes + at, end - at);

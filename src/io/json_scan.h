@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* What stands outside of strings, found without recursion; the text need not be valid. */
+/* The structure outside of strings, found without recursion; the text need not be valid. */
 typedef struct lsf_json_shape {
     uint64_t depth; /* deepest nesting of arrays and objects */
     uint64_t objects, arrays, strings, commas;

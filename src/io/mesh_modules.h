@@ -11,7 +11,7 @@ extern "C" {
 
 /* --- KHR_draco_mesh_compression --- */
 
-/* Where an attribute of the mesh goes. */
+/* The output for an attribute of the mesh. */
 typedef struct lsf_draco_output {
     uint32_t unique_id; /* the attribute's, in the compressed mesh */
     uint32_t width;     /* components */
@@ -23,7 +23,7 @@ typedef struct lsf_draco_request {
     const void *bytes;
     size_t length;
     uint64_t memory_limit; /* bytes that decoding may take beside the outputs */
-    /* At most as many as are given; on return, as many as there are. */
+    /* On entry the sizes of the outputs, on return the numbers decoded. */
     uint32_t point_count, triangle_count;
     lsf_draco_output *outputs;
     uint32_t output_count;
@@ -31,7 +31,8 @@ typedef struct lsf_draco_request {
 } lsf_draco_request;
 
 typedef struct lsf_draco_module {
-    /* Indices are not held against the points. The message says what is wrong with the data. */
+    /* Indices are not compared with the number of points. The message says what is wrong with
+     * the data. */
     bool (*decode)(lsf_draco_request *request, lsf_error *error);
 } lsf_draco_module;
 

@@ -1,11 +1,10 @@
 /* The module lightsheaf-meshopt: EXT_meshopt_compression by the meshoptimizer library, whose
- * decoders are made for input that nobody vouches for. They write count * stride bytes and allocate
- * nothing. */
+ * decoders are made for untrusted input. They write count * stride bytes and allocate nothing. */
 #include "io/mesh_modules.h"
 
 #include <meshoptimizer.h>
 
-/* What the library takes for granted. The limits are those of the extension. */
+/* Preconditions of the library. The limits are those of the extension. */
 static bool is_allowed(const lsf_meshopt_request *request)
 {
     uint32_t stride = request->stride;

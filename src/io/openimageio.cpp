@@ -131,7 +131,7 @@ bool encode_unguarded(const lsf_encode_request *request, void **bytes, size_t *l
             spec.channelnames.emplace_back(request->names[c]);
         spec.attribute("compression", "zip");
     }
-    /* Or colours are taken for multiplied by it, and divided. */
+    /* Without this, colours are taken to be multiplied by alpha, and divided. */
     spec.attribute("oiio:UnassociatedAlpha", 1);
     /* Half the time of the default 6 for files 4 % larger. */
     spec.attribute("png:compressionLevel", 4);

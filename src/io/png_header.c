@@ -75,8 +75,8 @@ bool lsf_png_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
     return true;
 }
 
-/* Chunks that a decoder cannot do without have a capital first letter; of the others only tRNS
- * changes pixels. */
+/* Chunks that a decoder needs have a capital first letter; of the others only tRNS changes
+ * pixels. */
 size_t lsf_png_without_metadata(uint8_t *bytes, size_t length)
 {
     enum { ANCILLARY = 0x20 };

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Turns the environment that was given, and scales its radiance. */
+/* Rotates the environment that was given, and scales its radiance. */
 static bool adjust_environment(lsf_environment *environment, const lsf_scene_params *params,
                                lsf_error *error)
 {

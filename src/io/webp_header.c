@@ -24,8 +24,8 @@ static bool is_type(const uint8_t *chunk, const char *type)
     return memcmp(chunk, type, 4) == 0;
 }
 
-/* Bytes of the chunk at `at` with frame and padding, which the last one may lack; 0: it does not
- * lie inside the file. */
+/* Bytes of the chunk at `at` with header and padding, which the last one may lack; 0: it does
+ * not lie inside the file. */
 static size_t chunk_bytes(const uint8_t *bytes, size_t length, size_t at)
 {
     if (length - at < CHUNK_FRAME_BYTES)

@@ -11,7 +11,7 @@ enum { LSF_GO_ON = -1 };
  * LSF_GO_ON, or the exit status to end with. Finish `settings` in either case. */
 int lsf_tool_begin(lsf_settings *settings, lsf_command_bit command, int argc, char **argv);
 
-/* Begins an object with what all commands' JSON begins with. */
+/* Begins an object with the members that all commands' JSON has. */
 void lsf_tool_begin_json(lsf_json *json, const lsf_settings *settings);
 
 /* Prints a malloc'ed text, which it frees, unless JSON takes its place or all is to be quiet; an

@@ -1,4 +1,4 @@
-/* `lightsheaf bench`: what the measurements have in common. */
+/* `lightsheaf bench`: declarations that its measurements share. */
 #ifndef LSF_TOOLS_BENCH_H
 #define LSF_TOOLS_BENCH_H
 
@@ -20,7 +20,7 @@ bool lsf_bench_rays(lsf_bench *bench, lsf_error *error);
 /* The frames of the measurement that the first operand names. */
 bool lsf_bench_frames(lsf_bench *bench, lsf_error *error);
 
-/* A part of the text, on standard output at once; nothing with --json - or --quiet. */
+/* Prints a part of the text on standard output at once; nothing with --json - or --quiet. */
 bool lsf_bench_print(const lsf_bench *bench, lsf_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

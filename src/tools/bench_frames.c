@@ -17,14 +17,16 @@ typedef struct bench_frame {
     const char *options[MAX_OPTIONS];
     uint32_t screen[2], software_screen[2]; /* [pixels]; the second where GL is software */
     uint32_t supersampling;                 /* pixels rendered for one of the screen, a side */
-    uint32_t bounces;                       /* 0: as --bounces says */
-    uint32_t warm_up;         /* frames before the first one that counts: programs settle */
-    uint32_t software_frames; /* that count, where GL is software */
-    double triangles;         /* that the scene is tessellated to, about; 0: it is not */
+    uint32_t bounces;                       /* 0: the value of --bounces */
+    uint32_t warm_up;         /* frames before the first one that counts, in which programs
+                               * settle */
+    uint32_t software_frames; /* frames that count where GL is software */
+    double triangles;         /* approximate number that the scene is tessellated to; 0: it is
+                               * not */
     const lsf_bench_row *rows;
     size_t row_count;
-    double paper_ms;   /* of a frame; NAN: nobody says */
-    const char *paper; /* where that was measured */
+    double paper_ms;   /* time of a frame; NAN: not published */
+    const char *paper; /* source of that figure */
 } bench_frame;
 
 /* Table 1 of Y. Tokuyoshi and S. Ogaki, "Real-Time Bidirectional Path Tracing via Rasterization",
@@ -140,7 +142,7 @@ typedef struct measured {
     lsf_bench_table table;
 } measured;
 
-/* The factor that comes closest to so many triangles. */
+/* The factor whose number of triangles comes closest to the one asked for. */
 static uint32_t factor_for(uint64_t triangles, double wanted)
 {
     uint32_t best = 1;

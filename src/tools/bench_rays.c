@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-/* Directions that are measured for each row; an odd number has a median of its own. */
+/* Directions that are measured for each row; an odd number has a median that was measured. */
 #define DIRECTIONS 7u
 
 static const uint32_t screens[][2] = {{512, 512}, {1024, 1024}, {1920, 1080}};

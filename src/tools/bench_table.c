@@ -14,7 +14,7 @@ static size_t row_of(const lsf_bench_table *t, const char *pass)
     return others;
 }
 
-/* Adds all that the passes took since the renderer was made, times `sign`. */
+/* Adds the times of all passes since the renderer was made, times `sign`. */
 static void add_passes(lsf_bench_table *t, lsf_renderer *renderer, double sign)
 {
     lsf_renderer_stats stats = lsf_renderer_get_stats(renderer);
@@ -41,7 +41,8 @@ static double sum_of(const lsf_bench_table *t)
     return sum;
 }
 
-/* Tone mapping belongs to the output, reading it back does not: it runs apart, by its own timer. */
+/* Tone mapping belongs to the output, reading it back does not: it runs separately, by its own
+ * timer. */
 bool lsf_bench_table_measure(lsf_bench_table *t, lsf_renderer *renderer, uint8_t *rgb,
                              uint32_t warm_up, uint32_t frames, lsf_error *error)
 {

@@ -1,4 +1,4 @@
-/* What the procedures of a frame take, in the rows of a paper's table. */
+/* The times of published procedures, in the rows of a paper's table. */
 #ifndef LSF_TOOLS_BENCH_TABLE_H
 #define LSF_TOOLS_BENCH_TABLE_H
 
@@ -12,7 +12,7 @@ typedef struct lsf_bench_row {
 
 #define LSF_BENCH_MAX_ROWS 16
 
-/* The last row takes what no other one names. */
+/* The last row counts the passes that no other row names. */
 typedef struct lsf_bench_table {
     const lsf_bench_row *rows;
     size_t row_count;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What --threshold can hold a picture to. */
+/* The metrics that --threshold can limit. */
 static const struct metric {
     const char *name;
     bool higher_is_better;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the shells ask the command for, so that names are those of its version: the names of
+/* Words that the shells ask the command for, so that names are those of its version: the
  * techniques, and each pass.key= with the values that it takes. */
 #define LIST_TECHNIQUES " render --list-techniques 2>/dev/null | awk '{ print $1 }'"
 #define LIST_DEFINES                                                                               \

@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "tools/options.h"
 
-/* The commands and how to learn more. */
+/* The commands, and where to find more. */
 void lsf_help_overview(lsf_string *text);
 
 /* One command: usage, purpose, options by group. */
@@ -16,7 +16,7 @@ void lsf_help_option_title(lsf_string *text, const lsf_command_option *option);
 
 void lsf_help_pass_options(lsf_string *text);
 void lsf_help_techniques(lsf_string *text);
-/* What a shader in the sandbox may name. */
+/* The names that a sandbox shader may use. */
 void lsf_help_sandbox_names(lsf_string *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a picture says of itself in its header: how it was made, and how to make it again. */
+/* The description of a picture in its header: how it was made, and how to make it again. */
 #ifndef LSF_TOOLS_IMPRINT_H
 #define LSF_TOOLS_IMPRINT_H
 

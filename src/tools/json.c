@@ -81,7 +81,7 @@ void lsf_json_members(lsf_json *json, char *object)
     json->text.failed |= !object;
     if (last) {
         do
-            *last = '\0'; /* and the blanks before it */
+            *last = '\0'; /* removes the blanks before it as well */
         while (last > first + 1 && strchr(" \n", *--last));
         start_value(json, NULL);
         first += 1 + strspn(first + 1, " \n");

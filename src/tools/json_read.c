@@ -152,7 +152,7 @@ static bool read_number(reader *r, lsf_json_value *value)
 
 static bool read_value(reader *r, uint32_t index, uint32_t depth);
 
-/* What stands between brackets. */
+/* The content between brackets. */
 static bool read_children(reader *r, uint32_t index, uint32_t depth, char close)
 {
     bool object = close == '}';
@@ -244,7 +244,7 @@ void lsf_json_document_finish(lsf_json_document *document)
     *document = (lsf_json_document){0};
 }
 
-/* --- looking at it --- */
+/* --- queries --- */
 
 const lsf_json_value *lsf_json_first(const lsf_json_document *document, const lsf_json_value *value)
 {

@@ -1,4 +1,4 @@
-/* A JSON text (RFC 8259) as values: what the command has written itself. */
+/* A JSON text (RFC 8259) as values, for files that the command wrote itself. */
 #ifndef LSF_TOOLS_JSON_READ_H
 #define LSF_TOOLS_JSON_READ_H
 

@@ -242,7 +242,7 @@ void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64
                 exposed ? "--exposure auto brightens what is lit, " : "");
 }
 
-/* Pixels that surfaces cover, and those of them that show more than 1 % of white. */
+/* Counts pixels that surfaces cover, and those of them that show more than 1 % of white. */
 static void look_for_darkness(const lsf_destination *destination, const lsf_image *image)
 {
     int rgb[3] = {lsf_image_channel(image, "R"), lsf_image_channel(image, "G"),

@@ -27,8 +27,8 @@ void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count); /*
  */
 void lsf_destination_expose(lsf_destination *destination, const lsf_image *image);
 
-/* Says so when fewer than one in a hundred `pixels` are `seen` to show more than 1 % of white: such
- * a picture looks as if something had gone wrong. */
+/* Warns when fewer than one in a hundred `pixels` are `seen` to show more than 1 % of white:
+ * such a picture looks as if something had gone wrong. */
 void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64_t seen,
                                       uint64_t pixels);
 

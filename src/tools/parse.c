@@ -58,8 +58,8 @@ static const char *meant_by(const char *name, const lsf_command *command)
     return NULL;
 }
 
-/* An option that getopt did not take: says whether it is another command's, a beginning that
- * several share, or a slip of the hand. */
+/* Explains an option that getopt did not accept: it is another command's, a prefix that several
+ * share, or a misspelling. */
 static bool bad_option(const lsf_command *command, const char *word, lsf_error *error)
 {
     const char *help = lsf_command_find(LSF_COMMAND_HELP)->name;
@@ -210,7 +210,7 @@ static const lsf_command_option *find_option(const lsf_command *command, int cod
     return code ? find_by_letter(command, code) : NULL;
 }
 
-/* What the command line says goes over what its preset says, wherever that stands. */
+/* Options of the command line replace those of its preset, in whatever order they are given. */
 static bool read_preset(lsf_settings *settings, int argc, char **argv, const char *letters,
                         const struct option *longs, lsf_error *error)
 {

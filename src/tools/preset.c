@@ -10,7 +10,8 @@
 
 enum { LARGEST = 1 << 16 }; /* bytes */
 
-/* Where a picture goes, and what is said about it, is for the command line. */
+/* Options that say where a picture goes, and what is reported about it, are for the command line
+ * alone. */
 static bool may_stand(const lsf_command_option *option)
 {
     static const char *const groups[] = {"Picture", "Camera", "Scene"};

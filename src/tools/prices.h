@@ -19,7 +19,8 @@ typedef struct lsf_prices {
     uint32_t count;
 } lsf_prices;
 
-/* Of all features that the scene has and can do without. `prices` is to be finished either way. */
+/* Prices all features that the scene has and can do without. `prices` is to be finished either
+ * way. */
 bool lsf_prices_make(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
                      lsf_error *error);
 void lsf_prices_finish(lsf_prices *prices);

@@ -88,7 +88,7 @@ static uint64_t count_seen(const uint8_t *rgb, uint64_t pixels)
     return seen;
 }
 
-/* Tone-mapped on the GPU: only the bytes of the file come back. */
+/* The picture is tone-mapped on the GPU: only the bytes of the file are read back. */
 static bool save_rgb8(render_job *job, const lsf_imprint *imprint, lsf_error *error)
 {
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
@@ -185,8 +185,7 @@ static bool exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
-/* One frame of a sequence. Of one that is interrupted nothing is kept: those that are there are
- * whole. */
+/* Renders one frame of a sequence. A frame that is interrupted is not kept: all files are whole. */
 static bool render_frame(render_job *job, const lsf_sequence *sequence, uint32_t number,
                          const lsf_view *camera, lsf_json *json, lsf_error *error)
 {

@@ -11,7 +11,7 @@
 
 #include <xxhash.h>
 
-/* The log may speak from any thread, over a bar that another one draws. */
+/* The log may be called from any thread, while another one draws a bar. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static lsf_verbosity verbosity = LSF_VERBOSITY_NORMAL;
 static bool bar_is_drawn;

@@ -13,11 +13,12 @@ typedef enum lsf_verbosity {
 /* Takes over the library's log. */
 void lsf_report_start(lsf_verbosity verbosity);
 
-/* Messages of the log that do not name that file begin with it from here on; NULL: with none. */
+/* Messages of the log that do not name that file begin with its name from here on; NULL: they
+ * begin with none. */
 void lsf_report_about(const char *path);
 
-/* Warnings of the log that were printed are not printed again: many renderings have the same ones.
- */
+/* Does not print warnings of the log again that were printed before: many renderings have the
+ * same ones. */
 void lsf_report_once(void);
 
 /* Prints the error; returns the exit status that goes with it. */

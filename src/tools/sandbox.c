@@ -53,7 +53,7 @@ static lsf_sandbox_frame frame_of(const lsf_settings *settings, uint32_t number)
         frame.mouse[i] = (float)settings->mouse[i];
         frame.mouse[2 + i] = i == 0 || number == 0 ? frame.mouse[i] : -frame.mouse[i];
     }
-    /* The same picture whenever it is made: not today's date, but the first day of 2000. */
+    /* The date is the first day of 2000, so that the picture is the same whenever it is made. */
     frame.date[0] = 2000.0f;
     frame.date[2] = 1.0f;
     frame.date[3] = (float)frame.time;
@@ -113,7 +113,7 @@ static bool run_frame(sandbox_job *job, uint32_t number, bool wanted, lsf_error 
                         save(job, number, error)));
 }
 
-/* Frames that are not wanted run where others keep something of them. */
+/* Frames that are not asked for run where later frames depend on them. */
 static bool run_frames(sandbox_job *job, lsf_error *error)
 {
     const lsf_settings *settings = job->settings;
@@ -170,7 +170,7 @@ static int work(void *user)
 
 /* --- in a window --- */
 
-/* Where nobody says it: room for the panel beside a picture. */
+/* The default width leaves space for the panel beside a picture. */
 enum { WINDOW_WIDTH = 1024, WINDOW_HEIGHT = 576 };
 
 static lsf_easel_start easel_start(const lsf_settings *settings)

@@ -1,4 +1,4 @@
-/* What commands about a shader of one's own share. */
+/* Declarations that the commands about a user's shader share. */
 #ifndef LSF_TOOLS_SANDBOX_H
 #define LSF_TOOLS_SANDBOX_H
 

@@ -1,4 +1,4 @@
-/* Shaders to begin with. */
+/* Shaders to begin with, which a command writes. */
 #include "tools/sandbox_new.h"
 
 #include "base/base.h"

@@ -6,7 +6,8 @@
 
 #include "base/base.h"
 
-/* Random numbers from one frame to the next where a time limit leaves the samples open. */
+/* Random numbers are this far apart from frame to frame where a time limit leaves the samples
+ * open. */
 #define OPEN_SAMPLES 65536u
 
 lsf_sequence lsf_sequence_of(const lsf_settings *settings)

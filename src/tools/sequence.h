@@ -15,7 +15,7 @@ typedef struct lsf_sequence {
 
 lsf_sequence lsf_sequence_of(const lsf_settings *settings);
 
-/* Whether the output says where a frame's number is to be, exactly once; and does not where no
+/* Whether the output has a conversion for a frame's number exactly once; and none where no
  * sequence is wanted. LSF_ERROR_USAGE. */
 bool lsf_sequence_check_output(const lsf_sequence *sequence, const char *output, lsf_error *error);
 

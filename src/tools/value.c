@@ -92,7 +92,7 @@ static bool set_choice(int *place, const lsf_command_option *option, const char 
     }
 }
 
-/* What stands behind --json without a thought of its value is a scene or a picture. */
+/* An argument of --json that ends like a scene or a picture was meant for another option. */
 static bool set_json(const char **place, const char *text)
 {
     static const char *const others[] = {".gltf", ".glb", ".exr", ".hdr", ".png", ".jpg"};
@@ -189,9 +189,9 @@ static bool set_define(lsf_list_setting *place, const lsf_command_option *option
     return append_value(place, option, text, error);
 }
 
-/* A list of numbers is a uniform radiance; whatever else is a file. What can only have been meant
- * as numbers (digits, signs, points and commas) is not looked for as a file, nor is a bare word,
- * such as a colour's name, unless there is one. */
+/* A list of numbers is a uniform radiance; anything else is a file. A text that can only have
+ * been meant as numbers (digits, signs, points and commas) is not looked for as a file, nor is a
+ * bare word, such as a colour's name, unless there is such a file. */
 static bool set_environment(lsf_environment_setting *place, const lsf_command_option *option,
                             const char *text, lsf_error *error)
 {
