@@ -1,4 +1,4 @@
-/* What the files of the sandbox's window share. */
+/* Declarations that the files of the sandbox's window share. */
 #ifndef LSF_EASEL_APP_H
 #define LSF_EASEL_APP_H
 
@@ -24,7 +24,7 @@ typedef struct lsf_easel {
     bool restart;
     double time, time_of_last;
     uint32_t number; /* of the next frame */
-    bool dirty;      /* the picture is not of what is set */
+    bool dirty;      /* the picture is out of date */
 
     bool set[LSF_EASEL_UNIFORMS]; /* which uniforms the user has set since the last request */
     lsf_viewer_camera camera;
@@ -33,10 +33,10 @@ typedef struct lsf_easel {
     bool was_down;
     uint8_t keys[3][LSF_SANDBOX_KEYS];
     float exposure;
-    int reduction; /* of the picture: window pixels to one of its own */
+    int reduction; /* window pixels along the side of one of the picture's */
 
     char trouble[LSF_ERROR_MESSAGE_SIZE]; /* of the process, or of a file that was to be written */
-    char said[LSF_ERROR_MESSAGE_SIZE];    /* what stderr has been told last */
+    char said[LSF_ERROR_MESSAGE_SIZE];    /* the message printed to stderr last */
     bool panels;
     double frame_seconds; /* smoothed, from one picture to the next */
     double shown_at, looked_at;

@@ -1,5 +1,5 @@
-/* The sandbox in a window: the shader runs in a process of its own, so that one that hangs or takes
- * its driver down takes no window with it. */
+/* The sandbox in a window: the shader runs in a process of its own, so that a shader that hangs
+ * or crashes its driver does not take the window with it. */
 #ifndef LSF_EASEL_EASEL_H
 #define LSF_EASEL_EASEL_H
 
@@ -8,7 +8,7 @@
 #include "view/view.h"
 #include "window/window.h"
 
-/* What a command line says of it. */
+/* The command line's options. */
 typedef struct lsf_easel_start {
     lsf_sandbox_params sandbox;
     const char *scene_path; /* NULL: there is none */
@@ -22,7 +22,7 @@ typedef struct lsf_easel_start {
                            * LSF_EASEL_WORKER in its environment */
 } lsf_easel_start;
 
-/* Set for the process that runs the shader. */
+/* Name of an environment variable that is set for the process that runs the shader. */
 #define LSF_EASEL_WORKER "LIGHTSHEAF_SANDBOX_WORKER"
 
 /* What the window's module exports as LSF_EASEL_MODULE_TABLE. */

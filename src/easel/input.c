@@ -1,4 +1,4 @@
-/* What the user of the sandbox's window does: for the shader, the clock and the camera. */
+/* Input of the sandbox's window: for the shader, the clock and the camera. */
 #include "easel/app.h"
 
 #include "base/base.h"

@@ -1,4 +1,4 @@
-/* What lies over the sandbox's picture. */
+/* The panels over the sandbox's picture. */
 #include "easel/app.h"
 
 #include "base/base.h"

@@ -21,7 +21,7 @@ bool lsf_easel_process_start(lsf_easel_process *process, char *const *command, l
 /* Ends it, whatever it does. */
 void lsf_easel_process_end(lsf_easel_process *process);
 
-/* Makes room for the request's pixels and sends it. */
+/* Makes space for the request's pixels and sends it. */
 bool lsf_easel_process_ask(lsf_easel_process *process, const lsf_easel_request *request,
                            lsf_error *error);
 

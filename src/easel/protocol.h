@@ -1,5 +1,6 @@
-/* What the window and the process that runs the shader tell each other: a request, its answer, one
- * at a time, through a socket that keeps messages whole; pixels in memory that both have. */
+/* The messages between the window and the process that runs the shader: a request, then its
+ * answer, one at a time, through a socket that keeps messages whole; pixels are in shared
+ * memory. */
 #ifndef LSF_EASEL_PROTOCOL_H
 #define LSF_EASEL_PROTOCOL_H
 

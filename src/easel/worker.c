@@ -42,7 +42,7 @@ static bool start_worker(worker *w, lsf_error *error)
     return !w->scene || w->answer.has_camera;
 }
 
-/* Room for the pixels of a picture, which the window has made. */
+/* Maps the memory for the pixels of a picture, which the window has made. */
 static bool map_pixels(worker *w, size_t bytes)
 {
     if (bytes <= w->mapped)
@@ -55,7 +55,7 @@ static bool map_pixels(worker *w, size_t bytes)
     return w->pixels != NULL;
 }
 
-/* Whether the file has changed since it was read in vain. */
+/* Whether the file has changed since reading it failed. */
 static bool try_again(worker *w)
 {
     struct stat status = {0};
@@ -66,8 +66,8 @@ static bool try_again(worker *w)
     return changed;
 }
 
-/* The shader as it is now; one that is wrong leaves the last good one. False: nothing has changed.
- */
+/* Reads the shader again where it has changed; one that is wrong leaves the last good one.
+ * False: nothing has changed. */
 static bool follow_files(worker *w, const lsf_easel_request *request)
 {
     lsf_error error = {0};

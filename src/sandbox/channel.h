@@ -1,4 +1,4 @@
-/* What a pass reads as iChannel0 to 3. */
+/* The texture that a pass reads as iChannel0 to 3. */
 #ifndef LSF_SANDBOX_CHANNEL_H
 #define LSF_SANDBOX_CHANNEL_H
 
@@ -19,25 +19,26 @@ typedef struct lsf_sandbox_channel {
     uint32_t buffer; /* 0 to 3 */
     GLenum wrap, filter, shrink;
     bool mipmap, flip;
-    char *path;              /* of a file; NULL: none */
+    char *path;              /* a file's path; NULL: it is no file */
     lsf_sandbox_stamp stamp; /* of the file */
-    GLuint texture;          /* owned, of noise, files and cubes */
+    GLuint texture;          /* owned, for noise, files and cubes */
     uint32_t width, height;
-    struct lsf_sandbox_channel *from; /* that the texture is borrowed of */
+    struct lsf_sandbox_channel *from; /* the channel that the texture is borrowed from */
     bool lent;
 } lsf_sandbox_channel;
 
-/* What the text says, with paths from `folder`. LSF_ERROR_USAGE begins with `place`. */
+/* Reads the channel's description, with paths relative to `folder`. The message of
+ * LSF_ERROR_USAGE begins with `place`. */
 bool lsf_sandbox_channel_parse(lsf_sandbox_channel *channel, const char *source, const char *folder,
                                const char *place, lsf_error *error);
-/* Makes its texture; borrows that of one of `before` that is the same. */
+/* Makes its texture; borrows that of a channel in `before` with the same description. */
 bool lsf_sandbox_channel_load(lsf_sandbox_channel *channel, lsf_context *context,
                               lsf_sandbox_channel *before, uint32_t before_count, const char *place,
                               lsf_error *error);
-/* What was borrowed is its own from here on. */
+/* Takes over the ownership of a borrowed texture. */
 void lsf_sandbox_channel_keep(lsf_sandbox_channel *channel);
 void lsf_sandbox_channel_finish(lsf_sandbox_channel *channel, lsf_context *context);
-/* Wrapping and filtering as it says, of a texture that it reads. */
+/* Sets wrapping and filtering of a texture that it reads. */
 void lsf_sandbox_channel_set_filter(const lsf_sandbox_channel *channel, GLuint texture);
 
 #endif

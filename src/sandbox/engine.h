@@ -1,4 +1,5 @@
-/* What of the engine a sandbox's shader names: passes, run once for as long as nothing changes. */
+/* The parts of the engine that a sandbox's shader names: passes, run once for as long as nothing
+ * changes. */
 #ifndef LSF_SANDBOX_ENGINE_H
 #define LSF_SANDBOX_ENGINE_H
 
@@ -22,8 +23,8 @@ typedef struct lsf_sandbox_setup {
     lsf_render_params params;
     const char **options; /* of the text and of the caller; the strings are theirs */
     uint32_t needs;       /* of the text */
-    uint32_t own;         /* of these, what is not the picture's technique's */
-    lsf_setup setup;      /* of `own`; empty without */
+    uint32_t own;         /* the number of them that are not options of the picture's technique */
+    lsf_setup setup;      /* made with those options; empty without */
     lsf_plan *plan;       /* setup.plan, or one of its own */
     lsf_plan *picture;    /* of the technique; NULL: no picture is named */
 } lsf_sandbox_setup;
@@ -59,12 +60,12 @@ typedef struct lsf_sandbox_engine {
 bool lsf_sandbox_engine_create(lsf_sandbox_engine *engine, lsf_context *context,
                                lsf_sandbox_setup *setup, const lsf_sandbox_text *text,
                                lsf_error *error);
-/* Brings everything up to date for a frame. LSF_UPDATE_REPLAN: it has to be made anew. */
+/* Brings everything up to date for a frame. LSF_UPDATE_REPLAN: the engine has to be made anew. */
 lsf_update lsf_sandbox_engine_run(lsf_sandbox_engine *engine, const lsf_sandbox_frame *frame,
                                   lsf_error *error);
-/* For the program in use, whose pass has such needs. */
+/* Binds inputs for the program in use, whose pass has such needs. */
 void lsf_sandbox_engine_bind(const lsf_sandbox_engine *engine, uint32_t needs);
-/* As lsf_technique's report, without the picture's. */
+/* Reports as lsf_technique does, without the picture's passes. */
 uint32_t lsf_sandbox_engine_report(lsf_sandbox_engine *engine, lsf_timer **timers);
 void lsf_sandbox_engine_destroy(lsf_sandbox_engine *engine);
 

@@ -1,21 +1,21 @@
-/* What the sandbox gives a meaning to: one table of names, from which declarations, the plan and
- * the page are made. */
+/* The names that the sandbox gives a meaning to: one table, from which declarations, the plan
+ * and the page are made. */
 #ifndef LSF_SANDBOX_NAMES_H
 #define LSF_SANDBOX_NAMES_H
 
 #include <lightsheaf/sandbox.h>
 
-/* What of the engine a name takes; bits. */
+/* Parts of the engine that a name needs; bits. */
 typedef enum lsf_sandbox_need {
     LSF_NEED_VIEW = 1 << 0,        /* the camera */
-    LSF_NEED_GBUFFER = 1 << 1,     /* what each pixel sees */
-    LSF_NEED_MOTION = 1 << 2,      /* ... and where that was a frame before */
+    LSF_NEED_GBUFFER = 1 << 1,     /* the surface in each pixel */
+    LSF_NEED_MOTION = 1 << 2,      /* its position a frame before */
     LSF_NEED_LIGHTS = 1 << 3,      /* the scene's lights */
     LSF_NEED_SHADOW = 1 << 4,      /* a shadow map of one of them */
     LSF_NEED_REFLECTIVE = 1 << 5,  /* ... with the surfaces that it reaches */
     LSF_NEED_ENVIRONMENT = 1 << 6, /* light from outside */
     LSF_NEED_VOXELS = 1 << 7,      /* the scene as voxels */
-    LSF_NEED_RADIANCE = 1 << 8,    /* ... and the light that they send out, as a pyramid */
+    LSF_NEED_RADIANCE = 1 << 8,    /* the light that they send out, as a pyramid */
     LSF_NEED_BUNDLE = 1 << 9,      /* the lists of a ray-bundle */
     LSF_NEED_HITS = 1 << 10,       /* ... and what rays from the visible points meet */
     LSF_NEED_PICTURE = 1 << 11,    /* the picture of a technique */

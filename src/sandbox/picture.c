@@ -1,4 +1,4 @@
-/* What becomes of a sandbox's picture. */
+/* The output of a sandbox's picture. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* The programs of a sandbox's passes: what is set before and behind a shader's own text. */
+/* The programs of a sandbox's passes: the text that is put before and behind a shader's own. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -197,7 +197,7 @@ bool lsf_sandbox_reload(lsf_sandbox *sandbox, lsf_error *error)
     return lsf_context_check(sandbox->context, error);
 }
 
-/* Makes everything anew, for another size or for what the scene has become. */
+/* Makes everything anew, for another size or an edited scene. */
 static bool remake(lsf_sandbox *sandbox, lsf_error *error)
 {
     lsf_sandbox_version_finish(&sandbox->version, sandbox->context);

@@ -1,10 +1,10 @@
-/* What the files of the sandbox itself share. */
+/* Declarations that the files of the sandbox share. */
 #ifndef LSF_SANDBOX_SANDBOX_H
 #define LSF_SANDBOX_SANDBOX_H
 
 #include "sandbox/version.h"
 
-/* Where a pass draws to: of what is kept, this frame's and the one's before. */
+/* The textures that a pass draws to: where it is kept, this frame's and the one's before. */
 typedef struct lsf_sandbox_target {
     GLuint textures[2], framebuffers[2];
     uint32_t now; /* which of them was drawn last */
@@ -25,7 +25,7 @@ struct lsf_sandbox {
     lsf_sandbox_params params; /* strings and lists in it are owned */
     float camera_position[3], camera_target[3];
     lsf_sandbox_version version;
-    lsf_sandbox_text failed; /* of a version that could not be made since; else empty */
+    lsf_sandbox_text failed; /* text of a version that could not be made since; else empty */
     lsf_sandbox_target targets[LSF_SANDBOX_PASSES];
     GLuint keyboard, black;
     lsf_tonemap tonemap;
@@ -34,7 +34,7 @@ struct lsf_sandbox {
     lsf_pass_time times[LSF_SANDBOX_TIMERS];
 };
 
-/* Textures of the plan's passes. What is there already stays. */
+/* Textures of the plan's passes. Those that exist already stay. */
 bool lsf_sandbox_targets_create(lsf_sandbox *sandbox, lsf_error *error);
 void lsf_sandbox_targets_destroy(lsf_sandbox *sandbox, bool all);
 void lsf_sandbox_targets_clear(lsf_sandbox *sandbox);

@@ -8,7 +8,7 @@
 
 #include "base/base.h"
 
-/* A line that is looked at, and what those before it have left. */
+/* The line that is scanned, and the state after those before it. */
 typedef struct scanner {
     lsf_sandbox_text *text;
     lsf_sandbox_pass_text *pass;
@@ -145,7 +145,7 @@ static bool read_define(scanner *s, const char *rest)
     return text->defines[text->define_count++] || out_of_memory(s);
 }
 
-/* What stands in a comment behind "@". Words that mean nothing here are somebody's own. */
+/* Reads a word behind "@" in a comment. Words without a meaning here are the user's own. */
 static bool read_annotation(scanner *s, const char *comment)
 {
     static const struct {
@@ -226,7 +226,7 @@ static const char *scan_code(scanner *s, const char *line, bool *good)
             at += length;
         } else {
             s->code = s->code || !isspace((unsigned char)*at);
-            /* A number's letters are no name. */
+            /* The letters within a number are no name. */
             at += isdigit((unsigned char)*at) ? strspn(at, "0123456789abcdefABCDEFxXuU.lL") : 1;
         }
     }

@@ -5,8 +5,8 @@
 #include "gl/shader_source.h"
 #include "sandbox/text.h"
 
-/* Notes what the lines of others than the library name and say. LSF_ERROR_RENDER names path and
- * line of an annotation that makes no sense. */
+/* Notes the names and annotations in lines of files that are not the library's. LSF_ERROR_RENDER
+ * names path and line of an annotation that makes no sense. */
 bool lsf_sandbox_scan(lsf_sandbox_text *text, lsf_sandbox_pass_text *pass,
                       const lsf_shader_source *source, lsf_error *error);
 

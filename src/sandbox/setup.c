@@ -1,4 +1,4 @@
-/* From what a shader names to the plan of what is computed for it. */
+/* From the names in a shader to the plan of what is computed for it. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -110,7 +110,7 @@ static void plan_bundle(lsf_sandbox_setup *setup)
         lsf_plan_omit(setup->plan, "ray_bundle_build", "the shader names no ray-bundle");
 }
 
-/* What shaders of the library have to know of the scene. */
+/* Properties of the scene that shaders of the library depend on. */
 static void plan_seen_switches(lsf_plan *plan, const lsf_plan *seen)
 {
     const lsf_requirements *r = &seen->requirements;
@@ -148,7 +148,7 @@ static void plan_switches(lsf_sandbox_setup *setup)
         lsf_ray_bundle_reader_switches(plan, &setup->setup.pass_params.ray_bundle);
 }
 
-/* Who names what, for those who read the plan. */
+/* Which pass uses which name, for readers of the plan. */
 static void plan_names(lsf_plan *plan, const lsf_sandbox_text *text)
 {
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++)

@@ -21,23 +21,25 @@ typedef struct lsf_sandbox_place {
     uint32_t line;
 } lsf_sandbox_place;
 
-/* What a channel is, as it was written. */
+/* The description of a channel, as it was written. */
 typedef struct lsf_sandbox_channel_text {
-    char *source; /* "wood.png wrap=clamp"; NULL: nothing was said */
+    char *source; /* "wood.png wrap=clamp"; NULL: there is none */
     lsf_sandbox_place place;
 } lsf_sandbox_channel_text;
 
 typedef struct lsf_sandbox_pass_text {
-    lsf_shader_part part; /* its text and what it points to are owned; text NULL: there is none */
+    lsf_shader_part part; /* its text and the strings that it points to are owned; text NULL:
+                           * there is none */
     bool compute;
     bool main_image; /* it has mainImage, and main is to be made for it */
     bool main;
     bool mentions[LSF_SANDBOX_NAMES];            /* which rows of the table it names */
     bool declares[LSF_SANDBOX_NAMES];            /* ... and declares itself */
-    lsf_sandbox_place places[LSF_SANDBOX_NAMES]; /* where first; also what is common names */
+    lsf_sandbox_place places[LSF_SANDBOX_NAMES]; /* where it names them first; also those in the
+                                                  * common part */
     uint32_t needs;
     lsf_sandbox_channel_text channels[LSF_SANDBOX_CHANNELS];
-    bool feeds_back; /* some pass reads what it was a frame before */
+    bool feeds_back; /* some pass reads its own picture of a frame before */
 } lsf_sandbox_pass_text;
 
 /* A uniform that the shader declares itself. */
@@ -47,14 +49,14 @@ typedef struct lsf_sandbox_own {
     float minimum, maximum;
 } lsf_sandbox_own;
 
-/* By what one file is told from another of its name: when it was written, which one, how long. */
+/* Tells one file from another of its name: time of change, inode, length. */
 typedef struct lsf_sandbox_stamp {
     int64_t seconds, nanoseconds, number, bytes; /* all -1: there is none */
 } lsf_sandbox_stamp;
 
 lsf_sandbox_stamp lsf_sandbox_stamp_of(const char *path); /* NULL: of none */
 
-/* A file that was read, and how it was. */
+/* A file that was read, and its stamp at that time. */
 typedef struct lsf_sandbox_file {
     char *path;
     lsf_sandbox_stamp stamp;
@@ -85,9 +87,9 @@ bool lsf_sandbox_text_read(lsf_sandbox_text *text, const char *shader_dir, const
                            const char *content, lsf_error *error);
 void lsf_sandbox_text_finish(lsf_sandbox_text *text);
 
-/* Whether one of the files is otherwise than it was read. */
+/* Whether one of the files has changed since it was read. */
 bool lsf_sandbox_text_changed(const lsf_sandbox_text *text);
-/* Notes that what is made of the text depends on a file, too. */
+/* Notes another file that the result depends on. */
 bool lsf_sandbox_text_watch(lsf_sandbox_text *text, const char *path);
 
 /* "a" to "d", "image". */

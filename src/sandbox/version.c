@@ -163,7 +163,7 @@ static bool make(lsf_sandbox_version *version, lsf_context *context, const lsf_s
     return load_channels(version, context, before, error);
 }
 
-/* What GL is made of, without the text. */
+/* The objects of OpenGL, without the text. */
 static void drop(lsf_sandbox_version *version, lsf_context *context)
 {
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++) {

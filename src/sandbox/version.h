@@ -1,5 +1,5 @@
-/* A sandbox's shader as it was read once: its text, programs and channels, and what of the engine
- * it names. */
+/* A sandbox's shader as it was read once: its text, programs and channels, and the parts of the
+ * engine that it names. */
 #ifndef LSF_SANDBOX_VERSION_H
 #define LSF_SANDBOX_VERSION_H
 
@@ -24,13 +24,13 @@ typedef struct lsf_sandbox_version {
     lsf_sandbox_pass passes[LSF_SANDBOX_PASSES];
 } lsf_sandbox_version;
 
-/* What the channels of all passes are, by the text and by the caller; notes who feeds back. */
+/* The channels of all passes, by the text and by the caller; notes which pass feeds back. */
 bool lsf_sandbox_channels_parse(lsf_sandbox_text *text, const lsf_sandbox_params *params,
                                 lsf_sandbox_channel channels[][LSF_SANDBOX_CHANNELS],
                                 lsf_error *error);
 
-/* Reads and compiles, and makes what is named; `before` (NULL: none) lends what has stayed the
- * same. On failure what was read is left in `version->text`, for its files. */
+/* Reads and compiles, and makes what is named; `before` (NULL: none) lends what has not changed.
+ * On failure the files that were read are left in `version->text`. */
 bool lsf_sandbox_version_make(lsf_sandbox_version *version, lsf_context *context,
                               const lsf_scene *scene, const lsf_sandbox_params *params,
                               lsf_sandbox_version *before, lsf_error *error);

@@ -1,4 +1,4 @@
-/* What the files of the viewer share. */
+/* Declarations that the files of the viewer share. */
 #ifndef LSF_VIEW_APP_H
 #define LSF_VIEW_APP_H
 
@@ -17,7 +17,7 @@ enum {
     LSF_VIEWER_LIGHTS = 32, /* that can be added */
 };
 
-/* --- settings: what a picture is of, beside scene and camera --- */
+/* --- settings: the parameters of a picture beside scene and camera --- */
 
 typedef struct lsf_viewer_option {
     const char *key, *type, *help; /* lsf_option's */
@@ -42,7 +42,7 @@ typedef struct lsf_viewer_settings {
 
 void lsf_viewer_settings_start(lsf_viewer_settings *settings, const lsf_viewer_start *start);
 
-/* Sets what render params take of them; they borrow `storage`. */
+/* Sets the render parameters that settings hold; they borrow `storage`. */
 typedef struct lsf_viewer_assignments {
     char text[LSF_VIEWER_OPTIONS + 8][128];
     const char *items[LSF_VIEWER_OPTIONS + 8];
@@ -61,12 +61,12 @@ typedef struct lsf_viewer_picture {
     uint32_t width, height;
     uint32_t done;    /* iterations of the picture that is shown */
     uint32_t samples; /* that it is to have */
-    bool begun;       /* it is of what the viewer shows */
-    uint32_t version; /* of the settings that its renderer has */
+    bool begun;       /* it is a picture of what the viewer shows */
+    uint32_t version; /* version of the settings that its renderer has */
     lsf_error error;  /* code LSF_OK: none */
 } lsf_viewer_picture;
 
-/* What the picture is held against. */
+/* The picture that the picture is compared with. */
 typedef enum lsf_viewer_rival {
     LSF_VIEWER_ALONE,
     LSF_VIEWER_REFERENCE, /* the path tracer; higher: a technique */
@@ -75,20 +75,21 @@ typedef enum lsf_viewer_rival {
 
 typedef struct lsf_viewer_compare {
     int rival;                  /* LSF_VIEWER_TECHNIQUE + n: technique n */
-    bool difference;            /* shown in place of the rival */
+    bool difference;            /* the difference is shown in place of the rival */
     float gain;                 /* of the difference */
-    float split;                /* where the bar is, 0..1 of the picture's width */
+    float split;                /* position of the bar, 0..1 of the picture's width */
     bool dragging;              /* the bar */
-    lsf_viewer_picture picture; /* of a rival technique; of the path tracer without renderer */
+    lsf_viewer_picture picture; /* picture of a rival technique; of the path tracer without
+                                 * renderer */
     lsf_canvas apart;           /* the difference */
-    lsf_image *image;           /* of the finished rival */
+    lsf_image *image;           /* image of the finished rival */
     lsf_compare_result result;
     bool measured;
-    struct lsf_viewer_tracer *tracer; /* on its way; NULL: none */
+    struct lsf_viewer_tracer *tracer; /* the path tracer while it runs; NULL: it does not */
     uint32_t traced;                  /* samples of the path tracer's picture */
 } lsf_viewer_compare;
 
-/* Milliseconds of the last frames, by passes. */
+/* Milliseconds of the last frames, by pass. */
 typedef struct lsf_viewer_times {
     char names[LSF_VIEWER_PASSES][40];
     float milliseconds[LSF_VIEWER_HISTORY][LSF_VIEWER_PASSES];
@@ -113,21 +114,22 @@ typedef struct lsf_viewer {
     const lsf_input *input;
     lsf_context_info device;
 
-    /* Files that are open, and the one that is shown. */
+    /* The files that are open, and the one that is shown. */
     char **paths;
     uint32_t path_count, shown;
     uint64_t path_capacity;
     lsf_scene *scene; /* NULL: the start page, or a file that did not load */
     lsf_scene_params scene_params;
     lsf_placed_light lights[LSF_VIEWER_LIGHTS]; /* that were added, those of the start first */
-    bool *edited[LSF_KIND_CAMERA];              /* of each node, light, material: its user did it */
-    uint32_t node, light, material;             /* that are chosen; LSF_NONE: none */
-    double anchor[3];                           /* where the chosen node's handles are */
-    int dragged;                                /* the handle in hand; -1: none */
-    double ring_angle;                          /* where it is held, of a ring */
-    char environment[4096];                     /* the path that was let fall on the window */
-    bool environment_edited;                    /* turned or scaled by its user */
-    double press_x, press_y;                    /* where the left button went down */
+    bool *edited[LSF_KIND_CAMERA];              /* whether the user edited each node, light,
+                                                 * material */
+    uint32_t node, light, material;             /* the selected ones; LSF_NONE: none */
+    double anchor[3];                           /* position of the selected node's handles */
+    int dragged;                                /* the handle that is dragged; -1: none */
+    double ring_angle;                          /* angle at which a ring is held */
+    char environment[4096];                     /* path that was dropped on the window */
+    bool environment_edited;                    /* rotated or scaled by the user */
+    double press_x, press_y;                    /* position at which the left button was pressed */
     bool placing;                               /* the next click puts a light there */
     lsf_error scene_error;
 
@@ -139,40 +141,41 @@ typedef struct lsf_viewer {
     double time, duration;     /* seconds of animations */
     bool playing;
 
-    lsf_rect area; /* of the picture, in the window */
+    lsf_rect area; /* the picture's rectangle in the window */
     lsf_viewer_picture lively, still;
     lsf_viewer_compare compare;
     lsf_viewer_times times;
     lsf_budget budget;
-    uint32_t budget_version; /* of the settings whose prices it has; 0: of none */
+    uint32_t budget_version; /* version of the settings whose prices it has; 0: none */
     bool spent;              /* the frame's time counts for the budget */
     lsf_viewer_assignments assignments;
-    bool stale;         /* something is otherwise than in the frame before */
-    bool moving;        /* lively pictures are shown */
+    bool stale;         /* something differs from the frame before */
+    bool moving;        /* pictures of the fast renderer are shown */
     double quiet_since; /* seconds on the input's clock */
     char *plan_text;
     bool plan_wanted;
-    bool cut;           /* nothing that is shown goes on: another scene, a jump in time */
-    bool tones_changed; /* exposure or curve: pictures are shown anew */
+    bool cut;           /* nothing that is shown continues: another scene, a jump in time */
+    bool tones_changed; /* exposure or curve changed: pictures are tone-mapped anew */
     bool expose_wanted; /* the exposure is to follow from the next finished picture */
 
     bool panels, cheat_sheet;
     lsf_viewer_tab tab;
     bool tab_wanted;  /* `tab` comes to the front */
-    char notice[256]; /* in the status bar, for a while */
+    char notice[256]; /* shown in the status bar for a while */
     lsf_ui_color notice_color;
     double notice_until;
-    double slice_end;   /* of a rival's iterations, lsf_now */
+    double slice_end;   /* end of a rival's iterations in this frame, lsf_now */
     FILE *frame_log;    /* of --frame-times; NULL: none */
     double frame_begun; /* lsf_now */
-    double looked_at;   /* when files were looked at for changes, seconds on the input's clock */
-    int64_t scene_changed, shaders_changed; /* when they were, nanoseconds */
-    char *capture;                          /* the picture goes there as soon as it is finished */
+    double looked_at;   /* when files were last checked for changes, seconds on the input's clock */
+    int64_t scene_changed, shaders_changed; /* times of their last change, nanoseconds */
+    char *capture;                          /* file that the picture is saved to as soon as it is
+                                             * finished */
 } lsf_viewer;
 
-/* Something of the picture is otherwise from now on. */
+/* Something in the picture changes from now on. */
 void lsf_viewer_touch(lsf_viewer *viewer);
-/* ... and of its settings. */
+/* The same for its settings. */
 void lsf_viewer_touch_settings(lsf_viewer *viewer);
 /* A line in the status bar for some seconds. */
 void lsf_viewer_say(lsf_viewer *viewer, lsf_ui_color color, const char *format, ...)
@@ -181,11 +184,11 @@ void lsf_viewer_say(lsf_viewer *viewer, lsf_ui_color color, const char *format, 
 /* --- files.c --- */
 
 bool lsf_viewer_add_path(lsf_viewer *viewer, const char *path);
-/* Shows the file of that index; what fails is shown, too. */
+/* Shows the file of that index; errors are shown, too. */
 void lsf_viewer_show_file(lsf_viewer *viewer, uint32_t index);
 void lsf_viewer_close_scene(lsf_viewer *viewer);
 
-/* What was let fall on the window. */
+/* Handles files that were dropped on the window. */
 void lsf_viewer_take_dropped(lsf_viewer *viewer);
 /* Follows changes of the scene's file, and of --shader-dir. */
 void lsf_viewer_watch(lsf_viewer *viewer);
@@ -193,13 +196,13 @@ void lsf_viewer_start_page(lsf_viewer *viewer);
 
 /* --- compare.c --- */
 
-/* The rival a frame further; begins anew where the picture has. */
+/* Takes the rival a frame further; begins anew where the picture has begun anew. */
 void lsf_viewer_refine_rival(lsf_viewer *viewer);
-/* Before the scene changes: the path tracer, which reads it, is stopped. */
+/* To be called before the scene changes: stops the path tracer, which reads it. */
 void lsf_viewer_stop_rival(lsf_viewer *viewer);
 void lsf_viewer_drop_rival(lsf_viewer *viewer);
 bool lsf_viewer_rival_finished(const lsf_viewer *viewer);
-/* The split picture's other half, over it, and its bar. */
+/* Draws the other half of a split picture over it, and the bar. */
 void lsf_viewer_draw_rival(const lsf_viewer *viewer);
 /* True where the bar takes the drag. */
 bool lsf_viewer_drag_bar(lsf_viewer *viewer);
@@ -207,78 +210,79 @@ void lsf_viewer_compare_tab(lsf_viewer *viewer);
 
 /* --- edits.c --- */
 
-/* What its user has edited, as lsf_scene_edit takes it, one in a line; malloc'ed, "" where there is
- * nothing; NULL without memory. */
+/* The user's edits, as lsf_scene_edit takes them, one in a line; malloc'ed, "" where there are
+ * none; NULL without memory. */
 char *lsf_viewer_edits(const lsf_viewer *viewer);
-/* Nothing of the scene that is loaded is edited yet. False without memory. */
+/* Marks nothing of the loaded scene as edited. False without memory. */
 bool lsf_viewer_begin_edits(lsf_viewer *viewer);
-/* Loads the file again, as scene_params now are, and edits it as before. */
+/* Loads the file again, with the current scene_params, and applies the edits. */
 void lsf_viewer_reload(lsf_viewer *viewer);
 void lsf_viewer_set_light(lsf_viewer *viewer, uint32_t light, const lsf_light_desc *desc);
 extern const char *const lsf_viewer_light_types[];
 void lsf_viewer_set_environment(lsf_viewer *viewer, float rotation, float strength);
 void lsf_viewer_set_material(lsf_viewer *viewer, uint32_t material, const lsf_material_desc *desc);
-/* Turns, scales or shears the node about its anchor, in the scene: `linear` has rows of 3. */
+/* Rotates, scales or shears the node about its anchor, in scene space: `linear` has rows of 3. */
 void lsf_viewer_transform_node(lsf_viewer *viewer, uint32_t node, const double linear[9]);
-/* Moves the node by that much, in the scene. */
+/* Moves the node by that vector, in scene space. */
 void lsf_viewer_move_node(lsf_viewer *viewer, uint32_t node, const double by[3]);
 void lsf_viewer_add_light(lsf_viewer *viewer, const double position[3]);
 
 /* --- click.c --- */
 
-/* Clicks on the picture: choosing, turning about a point, placing lights. True where handles take
- * the drag. */
+/* Handles clicks on the picture: selecting, orbiting about a point, placing lights. True where
+ * handles take the drag. */
 bool lsf_viewer_point(lsf_viewer *viewer);
 void lsf_viewer_choose_node(lsf_viewer *viewer, uint32_t node);
-/* What is under the cursor. False: nothing, or it is not over the picture. */
+/* The surface under the cursor. False: there is none, or the cursor is not over the picture. */
 bool lsf_viewer_pick(const lsf_viewer *viewer, lsf_hit *hit);
 
 /* --- handles.c --- */
 
-/* Of what is chosen; -1: none is there. `angle`: where a ring is met. */
+/* The handle of the selected node under the cursor; -1: none. `angle`: where a ring is met. */
 int lsf_viewer_handle_under_cursor(const lsf_viewer *viewer, double *angle);
-/* The one in hand, as far as the cursor went in this frame. */
+/* Drags the held handle, as far as the cursor moved in this frame. */
 void lsf_viewer_drag_handle(lsf_viewer *viewer);
 void lsf_viewer_draw_handles(const lsf_viewer *viewer);
 double lsf_viewer_aspect(const lsf_viewer *viewer); /* of the picture */
 
 /* --- pictures.c --- */
 
-/* Parameters of a picture of that size, of everything as it is; they borrow from the viewer. */
+/* Parameters of a picture of that size, with the current camera and settings; they borrow from
+ * the viewer. */
 lsf_render_params lsf_viewer_params(lsf_viewer *viewer, uint32_t width, uint32_t height);
 /* Goes over to these parameters; makes a renderer where there is none. */
 bool lsf_viewer_adopt(lsf_viewer *viewer, lsf_viewer_picture *picture,
                       const lsf_render_params *params);
 /* Brings the picture that is shown a frame further. */
 void lsf_viewer_refine(lsf_viewer *viewer);
-/* The frame before took so long. */
+/* Tells how long the frame before took. */
 void lsf_viewer_spend(lsf_viewer *viewer, double seconds);
-/* The picture that is to be looked at: of the two. */
+/* The picture to show, of the two. */
 const lsf_viewer_picture *lsf_viewer_shown(const lsf_viewer *viewer);
 bool lsf_viewer_finished(const lsf_viewer *viewer);
 void lsf_viewer_drop_pictures(lsf_viewer *viewer);
-/* Saves the finished picture as PNG, with how it was made. */
+/* Saves the finished picture as PNG, with the command that makes it. */
 void lsf_viewer_save_picture(lsf_viewer *viewer, const char *path);
 
 /* --- frame_log.c --- */
 
 bool lsf_viewer_open_frame_log(lsf_viewer *viewer, lsf_error *error);
-/* How long the frame before was shown, and what it showed. */
+/* Writes how long the frame before was shown, and which picture it showed. */
 void lsf_viewer_log_frame(lsf_viewer *viewer, double seconds);
 bool lsf_viewer_close_frame_log(lsf_viewer *viewer, lsf_error *error);
-/* Writes NAME.exr, the radiance that is shown, as large as in the window, and NAME.view, from where
- * it is seen. */
+/* Writes NAME.exr, the radiance that is shown, at the size of the window, and NAME.view, its
+ * camera and settings. */
 bool lsf_viewer_take_snapshot(lsf_viewer *viewer, const char *name, lsf_error *error);
 
 /* --- layers.c --- */
 
-/* Shows a layer's texture, as the layer is best seen, in a canvas of its size. */
+/* Shows a layer's texture, with a mapping that suits the layer, in a canvas of its size. */
 void lsf_viewer_show_layer(lsf_viewer *viewer, uint32_t texture, lsf_canvas *canvas);
 const char *lsf_viewer_layer_name(int layer); /* "Picture", "Albedo", ...; NULL past the end */
 
 /* --- keys.c --- */
 
-/* Rows of the table of keys that are the mouse's. */
+/* Rows of the table of keys that belong to the mouse. */
 typedef enum lsf_viewer_mouse {
     LSF_VIEWER_ORBIT,
     LSF_VIEWER_PAN,
@@ -289,13 +293,14 @@ typedef enum lsf_viewer_mouse {
     LSF_VIEWER_DOUBLE_CLICK
 } lsf_viewer_mouse;
 
-/* Tells what covers keys (window/reach.h) of a row that was used; and that there are all. */
+/* Marks a row of the table of keys as used, for the coverage (window/reach.h); and notes all
+ * rows. */
 void lsf_viewer_reach(size_t row);
 void lsf_viewer_list_keys(void);
 
 void lsf_viewer_handle(lsf_viewer *viewer);
 bool lsf_viewer_key(uint32_t index, lsf_viewer_key_row *row);
-/* Functions of keys and menus alike. */
+/* Functions that keys and menus share. */
 void lsf_viewer_reset(lsf_viewer *viewer);
 void lsf_viewer_next_camera(lsf_viewer *viewer);
 void lsf_viewer_screenshot(lsf_viewer *viewer);
@@ -305,8 +310,8 @@ void lsf_viewer_set_technique(lsf_viewer *viewer, int technique);
 
 /* --- command_line.c --- */
 
-/* The options that make this very picture, each with a space before it, or each in a line of its
- * own; malloc'ed, NULL without memory. */
+/* The options that make this picture, each with a space before it, or each in a line of its own;
+ * malloc'ed, NULL without memory. */
 char *lsf_viewer_command(lsf_viewer *viewer);
 char *lsf_viewer_view_file(lsf_viewer *viewer);
 

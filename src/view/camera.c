@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A camera that looks straight up or down has no side that is up. */
+/* A camera that looks straight up or down has no horizontal direction that is up. */
 #define STEEPEST (89.9 * M_PI / 180.0)
 #define ORBIT_SPEED M_PI /* radians for a drag as long as the picture is high */
 #define LOOK_SPEED 1.2
@@ -168,7 +168,7 @@ static double half_height(const lsf_viewer_camera *camera)
     return back_of(camera).distance * tan(0.5 * (double)camera->shown_fov_y * M_PI / 180.0);
 }
 
-/* The point under the cursor stays under it. */
+/* The point under the cursor stays under the cursor. */
 void lsf_viewer_camera_pan(lsf_viewer_camera *camera, double dx, double dy)
 {
     double axes[3][3], by[3], height = 2.0 * half_height(camera);
@@ -196,7 +196,8 @@ void lsf_viewer_camera_look(lsf_viewer_camera *camera, double dx, double dy)
 void lsf_viewer_camera_zoom(lsf_viewer_camera *camera, double notches)
 {
     spherical back = back_of(camera);
-    if (camera->shown_height > 0.0f) { /* the command knows no height: as a perspective camera */
+    if (camera->shown_height > 0.0f) { /* the command has no option for a height: the view
+                                        * becomes a perspective one */
         double half = half_height(camera);
         camera->fov_y = (float)(2.0 * atan(half / back.distance) * 180.0 / M_PI);
         camera->shown_fov_y = camera->fov_y;
@@ -252,7 +253,7 @@ void lsf_viewer_camera_frame(lsf_viewer_camera *camera, const lsf_requirements *
     stand(camera, &back);
 }
 
-/* --- what others ask --- */
+/* --- queries --- */
 
 lsf_view lsf_viewer_camera_view(const lsf_viewer_camera *camera)
 {

@@ -1,4 +1,4 @@
-/* What is shown, as one would type it. */
+/* The command line that makes the picture that is shown. */
 #include "view/app.h"
 
 #include "base/base.h"

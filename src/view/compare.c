@@ -110,7 +110,7 @@ void lsf_viewer_drop_rival(lsf_viewer *viewer)
     compare->traced = 0;
 }
 
-/* --- numbers and the difference --- */
+/* --- metrics and the difference --- */
 
 static bool show_image(lsf_viewer *viewer, const lsf_image *image, lsf_canvas *canvas,
                        float exposure, lsf_tone_curve curve, lsf_error *error)

@@ -1,4 +1,4 @@
-/* What its user changes in a scene, so that it can be typed, and done again to the same file. */
+/* The user's edits of a scene, as text, and applied again to the same file. */
 #include "view/app.h"
 
 #include "base/base.h"
@@ -109,7 +109,7 @@ char *lsf_viewer_edits(const lsf_viewer *viewer)
     return text.text;
 }
 
-/* Which thing an edit is of; false: one of the start that names it. */
+/* The thing that an edit is of; false: an edit of the command line that names it instead. */
 static bool parse(const char *edit, lsf_kind *kind, uint32_t *index)
 {
     static const char *const words[] = {"node/", "light/", "material/"};

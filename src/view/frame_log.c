@@ -1,4 +1,4 @@
-/* What frames took, and what they showed, for who measures the moving picture. */
+/* Times of frames, and their pictures, for measuring the moving picture. */
 #include "view/app.h"
 
 #include "base/base.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- what frames took --- */
+/* --- times of frames --- */
 
 bool lsf_viewer_open_frame_log(lsf_viewer *viewer, lsf_error *error)
 {
@@ -45,7 +45,7 @@ bool lsf_viewer_close_frame_log(lsf_viewer *viewer, lsf_error *error)
                                  viewer->start->frame_times, strerror(errno));
 }
 
-/* --- what they showed --- */
+/* --- pictures of frames --- */
 
 /* Of the pixel's centre, between the two of the smaller picture: its own size is taken to the
  * window's as OpenGL filters a texture. */

@@ -1,5 +1,5 @@
-/* Handles of what is chosen: three arrows that move it, three rings that turn it about them, and a
- * square that scales it. */
+/* Handles of the selected node: three arrows that move it, three rings that rotate it about
+ * them, and a square that scales it. */
 #include "view/app.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ double lsf_viewer_aspect(const lsf_viewer *viewer)
     return (double)viewer->area.width / (double)viewer->area.height;
 }
 
-/* --- where they are --- */
+/* --- their positions --- */
 
 /* A point of the scene in the window. */
 static bool to_window(const lsf_viewer *viewer, const double point[3], double xy[2])
@@ -29,8 +29,8 @@ static bool to_window(const lsf_viewer *viewer, const double point[3], double xy
     return true;
 }
 
-/* What a height of the picture is in the scene, at the anchor: so handles are as large wherever
- * they are. */
+/* The length in the scene of a height of the picture, at the anchor, so that handles have the
+ * same size wherever they are. */
 static double height_there(const lsf_viewer *viewer)
 {
     double axes[3][3], ahead = 0.0;
@@ -148,7 +148,7 @@ static void move(lsf_viewer *viewer, int axis)
     lsf_viewer_move_node(viewer, viewer->node, by);
 }
 
-/* By as much as the place in hand goes along the ring. */
+/* Rotates by as much as the held point of the ring moves along it. */
 static void turn(lsf_viewer *viewer, int axis)
 {
     double a[2], b[2], step = 1e-3;

@@ -1,4 +1,4 @@
-/* What keys and the mouse do: one table, from which the cheat sheet and the page are made. */
+/* The functions of keys and mouse: one table, from which the cheat sheet and the page are made. */
 #include "view/app.h"
 
 #include "base/base.h"

@@ -13,7 +13,7 @@
 /* Iterations of the still picture from which on it is better than the quick one. */
 enum { ENOUGH = 4 };
 
-/* What is coarser while things move, step by step. Only what nobody has set. */
+/* Options that are coarser while things move, step by step; those that the user has set stay. */
 static const char *const coarser[][LSF_BUDGET_COARSEST + 1] = {
     {"environment.directions", "4", "2", "1"},
     {"interleave.size", "3", "2", "2"},
@@ -69,7 +69,7 @@ void lsf_viewer_drop_pictures(lsf_viewer *viewer)
     viewer->stale = true;
 }
 
-/* --- what passes took --- */
+/* --- times of passes --- */
 
 static uint32_t column_of(lsf_viewer_times *times, const char *name)
 {
@@ -136,7 +136,7 @@ static bool present(lsf_viewer *viewer, lsf_viewer_picture *picture)
                                 &picture->error);
 }
 
-/* --- the quick one --- */
+/* --- the fast renderer --- */
 
 static void make_coarser(lsf_viewer *viewer, lsf_render_params *params)
 {
@@ -209,7 +209,7 @@ void lsf_viewer_spend(lsf_viewer *viewer, double seconds)
     viewer->spent = false;
 }
 
-/* --- the still one --- */
+/* --- the converging renderer --- */
 
 typedef struct slice {
     lsf_viewer *viewer;

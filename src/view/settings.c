@@ -13,7 +13,7 @@ static int technique_of(const char *name)
     return 0;
 }
 
-/* Takes over what -D says. */
+/* Takes over the options of -D. */
 static void assign(lsf_viewer_settings *settings, const char *assignment)
 {
     const char *equals = strchr(assignment, '=');

@@ -1,4 +1,4 @@
-/* The tabs of settings and of what passes take. */
+/* The tabs of settings and of the times of passes. */
 #include "view/app.h"
 
 #include "base/base.h"
@@ -264,7 +264,7 @@ void lsf_viewer_picture_tab(lsf_viewer *viewer)
         lsf_viewer_save_view(viewer);
 }
 
-/* --- what passes take --- */
+/* --- times of passes --- */
 
 static const uint32_t pass_colors[] = {0x4c8df0ff, 0xe8b04bff, 0x57b55cff, 0xe5534bff, 0xa57be0ff,
                                        0x4fc1c9ff, 0xe388b8ff, 0x9aa84fff, 0xc98a5cff, 0x7f8a99ff};

@@ -6,7 +6,7 @@
 
 #include "window/window.h"
 
-/* What a command line says of it. */
+/* The command line's options. */
 typedef struct lsf_viewer_start {
     const char *const *paths; /* of scenes */
     uint32_t path_count;      /* 0: a page of the scenes that come with Lightsheaf */

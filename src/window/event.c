@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What follows an event's word. */
+/* The kind of argument that follows an event's word. */
 typedef enum event_form {
     FORM_ALONE,
     FORM_KEY,

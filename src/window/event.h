@@ -1,4 +1,4 @@
-/* What a user does, one thing at a time, and how that is written down: the lines of --record. */
+/* The user's actions, one at a time, and their text: the lines of --record. */
 #ifndef LSF_WINDOW_EVENT_H
 #define LSF_WINDOW_EVENT_H
 
@@ -17,15 +17,15 @@ typedef enum lsf_event_kind {
     LSF_EVENT_BUTTON_UP,
     LSF_EVENT_SCROLL, /* y: notches */
     LSF_EVENT_DROP,   /* text: a path */
-    LSF_EVENT_SIZE,   /* x, y: of the window */
+    LSF_EVENT_SIZE,   /* x, y: size of the window */
     LSF_EVENT_STEP,   /* x: seconds since the frame before */
     LSF_EVENT_CLOSE,
-    /* Of a replay alone, written by hand. */
+    /* Events of replays alone, written by hand. */
     LSF_EVENT_PRESS,    /* text: the label of a button, a menu or the like, which is clicked */
     LSF_EVENT_DRAG,     /* text: the label of what is dragged by x, y */
     LSF_EVENT_SET,      /* text: label = value, of a slider or a choice */
-    LSF_EVENT_SETTLE,   /* what follows waits until the client rests */
-    LSF_EVENT_SNAPSHOT, /* text: a name, under which the client keeps what it shows */
+    LSF_EVENT_SETTLE,   /* the events that follow wait until the client is idle */
+    LSF_EVENT_SNAPSHOT, /* text: a name, under which the client saves what it shows */
     LSF_EVENT_MINIMISE,
     LSF_EVENT_LOSE, /* the context is treated as lost */
     LSF_EVENT_COUNT

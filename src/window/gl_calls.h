@@ -48,7 +48,7 @@ typedef struct lsf_window_gl {
 #undef LSF_WINDOW_GL_MEMBER
 } lsf_window_gl;
 
-/* Of the context that is current: a process has one window. */
+/* Functions of the context that is current: a process has one window. */
 extern lsf_window_gl lsf_gl;
 
 /* False where the context lacks one of them. */

@@ -7,11 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Between two clicks that are one double click, and how far the cursor may go meanwhile. */
+/* The longest time between the two clicks of a double click, and the farthest that the cursor
+ * may move meanwhile. */
 #define DOUBLE_SECONDS 0.4
 #define DOUBLE_PIXELS 6.0
 #define REPLAY_STEP (1.0 / 60.0)
-enum { PATIENCE = 30 }; /* frames within which a label has to show */
+enum { PATIENCE = 30 }; /* frames within which a label has to appear */
 
 bool lsf_input_key(const lsf_input *input, int key, uint32_t modifiers)
 {
@@ -21,7 +22,7 @@ bool lsf_input_key(const lsf_input *input, int key, uint32_t modifiers)
     return false;
 }
 
-/* --- what GLFW says --- */
+/* --- GLFW's callbacks --- */
 
 void lsf_window_push(lsf_window *window, lsf_event event)
 {
@@ -58,7 +59,7 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
                                     .code = button});
 }
 
-/* GLFW counts in screen coordinates, of which a pixel may be a part. */
+/* GLFW counts in screen coordinates, which may be larger than a pixel. */
 static void on_cursor(GLFWwindow *handle, double x, double y)
 {
     int width, height;
@@ -112,7 +113,7 @@ void lsf_window_listen(lsf_window *window)
 static void resize(lsf_window *window, double width, double height)
 {
     glfwSetWindowSize(window->handle, (int)width, (int)height);
-    for (int i = 0; i < 100; i++) { /* the display's server takes its time */
+    for (int i = 0; i < 100; i++) { /* the display's server needs some time */
         int now[2];
         glfwGetWindowSize(window->handle, &now[0], &now[1]);
         if (now[0] == (int)width && now[1] == (int)height)
@@ -211,13 +212,13 @@ static void apply(lsf_window *window, const lsf_event *event)
 
 /* --- a replay --- */
 
-/* The next step of a click on what has a label. False: there is nothing of that label. */
+/* The next step of a click on a labelled thing. False: nothing has that label. */
 static bool go_on_pressing(lsf_window *window, lsf_error *error)
 {
     lsf_event event = {.kind = LSF_EVENT_MOVE, .code = LSF_BUTTON_LEFT};
     const char *label = window->pressed->text;
     double x, y;
-    /* Panels may have been laid out anew since the cursor went there. */
+    /* Panels may have been laid out anew since the cursor moved there. */
     if (window->press == LSF_PRESS_DOWN && lsf_ui_find(label, &x, &y) &&
         hypot(x - window->input.x, y - window->input.y) > 1.0 && window->patience++ < PATIENCE)
         window->press = LSF_PRESS_MOVE;
@@ -247,7 +248,7 @@ static bool go_on_pressing(lsf_window *window, lsf_error *error)
     return true;
 }
 
-/* What is written for this frame, as far as the next thing that takes more frames than one. */
+/* The lines of the replay for this frame, up to the next one that takes several frames. */
 static bool take_replayed(lsf_window *window, lsf_error *error)
 {
     if (!lsf_ui_assigned())
@@ -280,7 +281,7 @@ static bool take_replayed(lsf_window *window, lsf_error *error)
     return true;
 }
 
-/* --- all of a frame --- */
+/* --- one frame --- */
 
 static void take_waiting(lsf_window *window)
 {
@@ -353,7 +354,7 @@ void lsf_window_hide_taken(lsf_window *window)
     bool cursor = lsf_ui_takes_cursor();
     for (int i = 0; i < LSF_BUTTON_COUNT; i++) {
         input->pressed[i] = input->pressed[i] && !cursor;
-        /* In the frame that lets go as well, for how far the cursor went in it. */
+        /* Also in the frame in which the button is released: the cursor may have moved in it. */
         bool held = window->button[i] || input->released[i];
         input->down[i] = (input->down[i] && held) || input->pressed[i];
     }

@@ -1,4 +1,4 @@
-/* Values of a texture made visible in a canvas. */
+/* Draws the values of a texture as colours in a canvas. */
 #include "window/canvas.h"
 
 #include "window/gl_calls.h"

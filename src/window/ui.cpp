@@ -1,4 +1,4 @@
-/* The look of panels, and a frame of them: Dear ImGui with what lsf_input says. */
+/* The look of panels, and a frame of them: Dear ImGui with the input of lsf_input. */
 #include "window/reach.h"
 #include "window/ui_frame.h"
 #include "window/ui_parts.hpp"
@@ -22,7 +22,7 @@ const float TEXT_PIXELS = 15.0f; /* on a screen of usual density */
 
 float scale;
 
-/* Where labelled things were in the last frame, and are in this one. */
+/* Positions of labelled things in the last frame and in this one. */
 struct Note {
     char label[LABEL_SIZE];
     float x, y;
@@ -44,7 +44,7 @@ const uint32_t colors[LSF_UI_COLOR_COUNT] = {
     0x4c8df0ff, /* blue */
 };
 
-/* A label's part that is shown. */
+/* The part of a label that is shown. */
 size_t shown_length(const char *label)
 {
     const char *hidden = strstr(label, "##");
@@ -151,7 +151,7 @@ void build_fonts()
     ui::mono = add_font(fixed, (float)(int)(0.9f * TEXT_PIXELS * scale + 0.5f));
 }
 
-/* Keys that text fields and the like know. */
+/* Keys that text fields use. */
 void map_keys(ImGuiIO &io)
 {
     const struct {
@@ -184,7 +184,7 @@ void map_keys(ImGuiIO &io)
 }
 } // namespace
 
-/* --- what widgets.cpp uses --- */
+/* --- functions for widgets.cpp --- */
 
 ImU32 ui::packed(uint32_t rgba)
 {
@@ -244,7 +244,7 @@ void lsf_ui_mark(const char *label, float x, float y, bool held)
     lsf_reach_note("handle", label, held);
 }
 
-/* --- what window.c uses --- */
+/* --- functions for window.c --- */
 
 bool lsf_ui_open(float wanted_scale)
 {

@@ -1,7 +1,8 @@
-/* Panels over the picture, made anew in each frame, for clients in C. A function that shows a value
- * returns whether the user has just changed it. A label is what is shown, and names the thing for a
- * replay; what stands behind ## tells equal ones apart and is not shown. Lengths are in pixels of
- * the window, from its upper left; sizes that say "lines" grow with the text. */
+/* Panels over the picture, built anew in each frame, for clients in C. A function that shows a
+ * value returns whether the user has just changed it. A label is the text that is shown, and
+ * names the thing for a replay; a part behind ## tells equal labels apart and is not shown.
+ * Lengths are in pixels of the window, from its upper left; sizes named "lines" grow with the
+ * text. */
 #ifndef LSF_WINDOW_UI_H
 #define LSF_WINDOW_UI_H
 
@@ -31,20 +32,22 @@ typedef enum lsf_ui_color {
 
 /* --- measures --- */
 
-float lsf_ui_em(void);   /* height of the text: what `lines` count */
+float lsf_ui_em(void);   /* height of the text, the unit of `lines` */
 float lsf_ui_line(void); /* height of a line of widgets with the gap below it */
 float lsf_ui_text_width(const char *text);
 
 /* --- panels --- */
 
-/* A fixed panel; end it in any case. `scrolls`: what does not fit is scrolled to. */
+/* A fixed panel; to be ended in any case. `scrolls`: it has a scroll bar where its content does
+ * not fit. */
 void lsf_ui_panel_begin(const char *name, lsf_rect rect, bool scrolls);
 void lsf_ui_panel_end(void);
-/* A dialogue in the middle of the window, in front of all; end it in any case. */
+/* A dialogue in the middle of the window, in front of everything; to be ended in any case. */
 void lsf_ui_dialogue_begin(const char *title, float width_lines);
 void lsf_ui_dialogue_end(void);
 
-/* The menu bar along the upper edge; its height is lsf_ui_menu_height(). End only what began. */
+/* The menu bar along the upper edge; its height is lsf_ui_menu_height(). Only what began is to
+ * be ended. */
 bool lsf_ui_menu_bar_begin(void);
 void lsf_ui_menu_bar_end(void);
 float lsf_ui_menu_height(void);
@@ -68,12 +71,13 @@ void lsf_ui_text(lsf_ui_color color, const char *format, ...) __attribute__((for
 void lsf_ui_text_wrapped(lsf_ui_color color, const char *text);
 /* A long text in monospace that scrolls both ways; height in lines. */
 void lsf_ui_listing(const char *name, const char *text, float lines);
-void lsf_ui_help(const char *text); /* of what came before, while the cursor rests on it */
+void lsf_ui_help(const char *text); /* shown for the item before, while the cursor rests on it */
 void lsf_ui_same_line(void);
-void lsf_ui_at(float x_lines); /* goes on in this line, so many lines' heights from the left */
+void lsf_ui_at(float x_lines); /* continues on this line, at so many lines' heights from the left */
 void lsf_ui_gap(void);
 void lsf_ui_rule(void);
-/* Labels of what follows stand to the left, in a column so many lines' heights wide; 0: behind. */
+/* Places the labels of the items that follow to the left, in a column so many lines' heights
+ * wide; 0: behind the items. */
 void lsf_ui_labels(float lines);
 
 /* --- values --- */
@@ -92,33 +96,36 @@ bool lsf_ui_drag(const char *label, float *values, int count, float speed, float
 bool lsf_ui_color3(const char *label, float rgb[3]);
 /* One of `count` names. */
 bool lsf_ui_choice(const char *label, int *value, const char *const *names, int count);
-/* A line in a list or a tree; `depth` levels in. True when clicked. `dim`: of less weight. */
+/* A line in a list or a tree, indented by `depth` levels. True when clicked. `dim`: drawn less
+ * prominently. */
 bool lsf_ui_row(const char *label, int depth, bool chosen, bool dim);
-/* A part of the panel that scrolls by itself; end it in any case. Height in lines; 0: the rest. */
+/* A part of the panel with a scroll bar of its own; to be ended in any case. Height in lines; 0:
+ * the rest. */
 void lsf_ui_list_begin(const char *name, float lines);
 void lsf_ui_list_end(void);
-/* Things within are shown dim and take nothing. */
+/* Items within are greyed out and cannot be used. */
 void lsf_ui_disable_begin(bool disabled);
 void lsf_ui_disable_end(void);
-/* Equal labels within are told apart by this. */
+/* Tells equal labels within apart. */
 void lsf_ui_scope_begin(int number);
 void lsf_ui_scope_end(void);
 
 /* --- drawing --- */
 
-/* The place of what comes next in the panel, so many lines high, which is left to be drawn in. */
+/* The rectangle of the next item in the panel, so many lines high, which is left free for
+ * drawing. */
 lsf_rect lsf_ui_place(float lines);
-/* Names a place that is drawn by hand, for a replay to press or drag; `held`: it is being dragged.
- */
+/* Names a rectangle that is drawn by hand, for a replay to press or drag; `held`: it is being
+ * dragged. */
 void lsf_ui_mark(const char *label, float x, float y, bool held);
 
 typedef enum lsf_layer_place {
     LSF_UNDER_PANELS, /* over the client's own drawing */
-    LSF_IN_PANEL,     /* of the panel in progress */
+    LSF_IN_PANEL,     /* over the current panel */
     LSF_OVER_PANELS
 } lsf_layer_place;
 
-/* Draws go there from now on, within `clip`; NULL: within the window. */
+/* Selects where draws go from now on, clipped to `clip`; NULL: to the window. */
 void lsf_ui_draw_begin(lsf_layer_place place, const lsf_rect *clip);
 void lsf_ui_draw_end(void);
 /* `rgba`: 0xrrggbbaa. */
@@ -128,7 +135,7 @@ void lsf_ui_draw_line(float x0, float y0, float x1, float y1, uint32_t rgba, flo
 void lsf_ui_draw_circle(float x, float y, float radius, uint32_t rgba, bool filled);
 void lsf_ui_draw_triangle(const float xy[6], uint32_t rgba);
 void lsf_ui_draw_text(float x, float y, uint32_t rgba, const char *text);
-/* A texture, rows from the bottom, in that rectangle. */
+/* Draws a texture, rows from the bottom, in that rectangle. */
 void lsf_ui_draw_picture(uint32_t texture, lsf_rect rect);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* What the window does with the panels: of ui.cpp, for window.c. */
+/* The functions of ui.cpp by which window.c runs the panels. */
 #ifndef LSF_WINDOW_UI_FRAME_H
 #define LSF_WINDOW_UI_FRAME_H
 
@@ -12,14 +12,14 @@
 extern "C" {
 #endif
 
-/* With the context current. False: no memory, or its shaders do not compile. */
+/* Starts Dear ImGui; the context is current. False: no memory, or its shaders do not compile. */
 bool lsf_ui_open(float scale);
 void lsf_ui_close(void);
 
-/* Text as dense as the screen. */
+/* Sets the density of the text to the screen's. */
 void lsf_ui_set_scale(float scale);
 
-/* Begins a frame with what the user has done; sets whether panels take cursor and keyboard. */
+/* Begins a frame with the user's input; sets whether panels take cursor and keyboard. */
 void lsf_ui_begin(const lsf_input *input, const bool buttons[LSF_BUTTON_COUNT], double scroll,
                   const uint32_t *characters, uint32_t character_count);
 bool lsf_ui_takes_cursor(void);
@@ -31,12 +31,12 @@ void lsf_ui_end(void);
  * 4 hand. */
 int lsf_ui_cursor(void);
 
-/* For a replay: the middle of what has that label, as shown in the last frame. Of several the
- * first. */
+/* For a replay: the middle of the item with that label, as shown in the last frame; the first of
+ * several. */
 bool lsf_ui_find(const char *label, double *x, double *y);
-/* "label = value": the thing of that label takes the value when it is shown next. */
+/* "label = value": the item of that label takes the value when it is shown next. */
 void lsf_ui_assign(const char *assignment);
-/* Whether it has been taken. */
+/* Whether the value was taken. */
 bool lsf_ui_assigned(void);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* What ui.cpp and widgets.cpp share. */
+/* Declarations that ui.cpp and widgets.cpp share. */
 #ifndef LSF_WINDOW_UI_PARTS_HPP
 #define LSF_WINDOW_UI_PARTS_HPP
 
@@ -10,10 +10,10 @@ namespace ui
 {
 extern ImFont *plain, *mono;
 
-/* Tells a replay where the item that was just drawn is; of one that it looks for and that is
- * scrolled out of sight, scrolls there. */
+/* Tells a replay where the item is that was just drawn; scrolls to it where the replay looks for
+ * it and it is out of sight. */
 void note(const char *label);
-/* The same, of something that its user may use, and has just `used`, which it returns. */
+/* The same for an item that the user may use, and has just `used`, which it returns. */
 bool note_used(const char *kind, const char *label, bool used);
 
 /* The value that a replay sets of this label, taken by the call; nullptr: none. */

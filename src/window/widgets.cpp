@@ -15,7 +15,7 @@ const ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_No
                                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
 float label_lines;
-const char *list_name = ""; /* of the list in progress */
+const char *list_name = ""; /* of the current list */
 ImDrawList *list;
 
 float em()
@@ -23,7 +23,8 @@ float em()
     return ImGui::GetFontSize();
 }
 
-/* Puts the label to the left where there is a column for it; what to call the widget itself. */
+/* Draws the label to the left where there is a column for labels; returns the name of the widget
+ * itself. */
 const char *begin_value(const char *label)
 {
     static char hidden[160];
@@ -46,7 +47,7 @@ const char *begin_value(const char *label)
     return hidden;
 }
 
-/* A replay's numbers, as many as there are. */
+/* The numbers of a replay, as many as it gives. */
 bool assign_numbers(const char *label, float *values, int count)
 {
     const char *text = ui::assigned(label);
@@ -141,7 +142,8 @@ float lsf_ui_menu_height(void)
 bool lsf_ui_menu_begin(const char *label)
 {
     bool open = ImGui::BeginMenu(label);
-    /* Of an open menu the last item is one of its own. */
+    /* For ui::note, the last item of an open menu is inside the menu: only a closed one is noted.
+     */
     if (!open)
         ui::note(label);
     lsf_reach_note("menu", label, open);

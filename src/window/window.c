@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LOSSES = 3 }; /* of the context, without a frame between that went well */
+enum { MOST_LOSSES = 3 }; /* of the context, with no successful frame between */
 
-/* --- making the window --- */
+/* --- creating the window --- */
 
 static bool fail(lsf_error *error, const char *what, const char *remedy)
 {
@@ -82,7 +82,7 @@ static void close_context(lsf_window *window)
     window->handle = NULL;
 }
 
-/* Everything of OpenGL is made anew, in a window at the place of the one before. */
+/* Creates all objects of OpenGL anew, in a window at the position of the one before. */
 static bool recover(lsf_window *window, lsf_error *error)
 {
     int place[4];
@@ -138,7 +138,7 @@ static bool draw(lsf_window *window, lsf_error *error)
     static const float black[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     lsf_input *input = &window->input;
     bool buttons[LSF_BUTTON_COUNT];
-    /* A click that is shorter than a frame is one all the same. */
+    /* A click that is shorter than a frame still counts. */
     for (int i = 0; i < LSF_BUTTON_COUNT; i++)
         buttons[i] = window->button[i] || window->just_pressed[i];
     lsf_ui_set_scale(input->scale);

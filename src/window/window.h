@@ -1,5 +1,5 @@
-/* A window with an OpenGL 4.5 context, what its user does, and a loop of frames. It knows nothing
- * of scenes: its clients do, who draw into it and lay panels over that (ui.h). */
+/* A window with an OpenGL 4.5 context, the user's input, and a loop of frames. It knows nothing
+ * of scenes: its clients do, which draw into it and lay panels over that (ui.h). */
 #ifndef LSF_WINDOW_WINDOW_H
 #define LSF_WINDOW_WINDOW_H
 
@@ -47,14 +47,14 @@ enum { LSF_SHIFT = 1, LSF_CONTROL = 2, LSF_ALT = 4 };
 
 #define LSF_KEYS_A_FRAME 16
 
-/* What happened since the frame before, and how things are. What panels take for themselves, such
- * as a click on a button or keys while text is typed, is left out. */
+/* The events since the frame before, and the current state of the input. Input that panels take,
+ * such as a click on a button or keys while text is typed, is left out. */
 typedef struct lsf_input {
     uint64_t frame;              /* from 0 */
     double time, step;           /* seconds since the start, and since the frame before */
     uint32_t width, height;      /* of the window, in pixels; at least 1 */
     float scale;                 /* of text and panels: 1 on a screen of usual density */
-    double x, y, dx, dy;         /* cursor, and how far it went; pixels from the upper left */
+    double x, y, dx, dy;         /* cursor, and how far it moved; pixels from the upper left */
     double scroll;               /* notches of the wheel, away from the user */
     bool down[LSF_BUTTON_COUNT]; /* held, pressed outside of panels */
     bool pressed[LSF_BUTTON_COUNT], released[LSF_BUTTON_COUNT];
@@ -63,22 +63,22 @@ typedef struct lsf_input {
     uint32_t key_count;  /* keys that went down, or repeat */
     int keys[LSF_KEYS_A_FRAME];
     bool held[LSF_KEY_LIMIT]; /* keys that are down */
-    uint32_t dropped_count;   /* files let fall on the window; valid during the frame */
+    uint32_t dropped_count;   /* files dropped on the window; valid during the frame */
     const char *const *dropped;
-    const char *snapshot; /* name under which a replay wants what this frame shows; NULL: it does
-                           * not */
+    const char *snapshot; /* name under which a replay asks for a snapshot of this frame; NULL:
+                           * it does not */
 } lsf_input;
 
-/* Whether that key went down, with just these modifiers. */
+/* Whether that key was pressed, with exactly these modifiers. */
 bool lsf_input_key(const lsf_input *input, int key, uint32_t modifiers);
 
 typedef struct lsf_window_client {
     void *user;
-    /* OpenGL is there: at the start, and once more after the context was lost. False ends the
-     * window with the error. */
+    /* Called when OpenGL is available: at the start, and again after the context was lost. False
+     * ends the window with the error. */
     bool (*open)(void *user, lsf_window *window, lsf_error *error);
-    /* Gives back what `open` and `frame` made of OpenGL, which may be lost already. Also after a
-     * failed `open`. */
+    /* Destroys the objects of OpenGL that `open` and `frame` created, which may be lost already.
+     * Also called after a failed `open`. */
     void (*close)(void *user);
     /* Draws one frame: of the client's own into framebuffer 0 or canvases (canvas.h), then panels
      * (ui.h), which lie over it. False ends the window with the error. */
@@ -90,9 +90,11 @@ typedef struct lsf_window_params {
     uint32_t width, height; /* screen coordinates: pixels, but where a display has two densities */
     bool full_screen;
     const char *shader_dir; /* as lsf_context_params has it */
-    const char *record;     /* file to write what the user does to; NULL: none */
-    const char *replay;     /* file of such, in place of a user; the window closes after it */
-    const char *coverage;   /* file that tells what of keys and panels was used (reach.h) */
+    const char *record;     /* file for the user's actions; NULL: none */
+    const char *replay;     /* file of actions that replaces the user; the window closes at its
+                             * end */
+    const char *coverage;   /* file for the list of keys and parts of panels that were used
+                             * (reach.h) */
 } lsf_window_params;
 
 #define LSF_WINDOW_PARAMS_DEFAULTS                                                                 \
@@ -104,28 +106,29 @@ typedef struct lsf_window_params {
 bool lsf_window_run(const lsf_window_params *params, const lsf_window_client *client,
                     lsf_error *error);
 
-/* --- for its client, during a call --- */
+/* --- functions for its client, during a call --- */
 
-/* The window's context, wrapped; the window's until `close`. */
+/* The window's context, wrapped; it belongs to the window, and is valid until `close`. */
 lsf_context *lsf_window_context(lsf_window *window);
 void lsf_window_close(lsf_window *window); /* after this frame */
 void lsf_window_set_title(lsf_window *window, const char *title);
 void lsf_window_toggle_full_screen(lsf_window *window);
 void lsf_window_copy(lsf_window *window, const char *text); /* to the clipboard */
 
-/* Saves what the window shows at the end of this frame as PNG. What comes of it is told by the next
- * frame's lsf_window_captured. */
+/* Saves the window's content at the end of this frame as PNG. lsf_window_captured tells the
+ * result in the next frame. */
 void lsf_window_capture(lsf_window *window, const char *path);
 /* The path that was written since the last call, or NULL; `error` where that failed, code LSF_OK
  * where there was nothing to do. */
 const char *lsf_window_captured(lsf_window *window, lsf_error *error);
 
-/* How the client looks at this frame's end. Busy: the next frame follows at once. Else it waits for
- * up to `seconds` until the user does something. A replay's `settle` goes on when not busy. */
+/* Tells at the end of a frame whether the client is busy: then the next frame follows at once.
+ * Else the window waits for up to `seconds` until the user does something. A replay's `settle`
+ * ends when the client is not busy. */
 void lsf_window_rest(lsf_window *window, bool busy, double seconds);
 
-/* Whether the user has done anything that waits for the next frame: may be asked within a long
- * iteration, from lsf_progress as well. It makes no call of OpenGL. */
+/* Whether input waits for the next frame: may be asked within a long iteration, also from
+ * lsf_progress. It makes no call of OpenGL. */
 bool lsf_window_waits(lsf_window *window);
 
 #ifdef __cplusplus

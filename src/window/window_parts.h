@@ -1,4 +1,4 @@
-/* What the files of the window share. */
+/* Declarations that the files of the window share. */
 #ifndef LSF_WINDOW_WINDOW_PARTS_H
 #define LSF_WINDOW_WINDOW_PARTS_H
 
@@ -14,7 +14,8 @@
 #define LSF_DROPPED_A_FRAME 64
 #define LSF_CHARACTERS_A_FRAME 32
 
-/* Clicks on a labelled thing take three frames: there, down, up; drags go on before they let go. */
+/* Clicks on a labelled thing take three frames: move, press, release; drags move before the
+ * release. */
 typedef enum lsf_press {
     LSF_PRESS_NONE,
     LSF_PRESS_MOVE,
@@ -29,15 +30,15 @@ struct lsf_window {
     GLFWwindow *handle;
     lsf_context *context;
     bool lost, closing, failed;
-    lsf_error *error; /* of lsf_window_run, for what fails in a callback */
+    lsf_error *error; /* error of lsf_window_run, for failures in a callback */
 
-    lsf_event events[LSF_EVENTS_A_FRAME]; /* that wait for the next frame */
+    lsf_event events[LSF_EVENTS_A_FRAME]; /* events that wait for the next frame */
     uint32_t event_count;
     lsf_input input;
     const char *dropped[LSF_DROPPED_A_FRAME];
     char *dropped_copies[LSF_DROPPED_A_FRAME]; /* of a user's files */
     uint32_t dropped_copy_count;
-    bool button[LSF_BUTTON_COUNT]; /* as the device says, of panels as well */
+    bool button[LSF_BUTTON_COUNT]; /* as the device reports, including those over panels */
     bool just_pressed[LSF_BUTTON_COUNT];
     double wheel;
     uint32_t characters[LSF_CHARACTERS_A_FRAME], character_count;
@@ -46,18 +47,18 @@ struct lsf_window {
     FILE *record;
     bool replaying;
     lsf_replay replay;
-    uint64_t
-        script_frame; /* of the replay: it stands still while a click or the client takes time */
+    uint64_t script_frame; /* frame number of the replay: it stands still while a click or the
+                            * client takes time */
     lsf_press press;
     const lsf_event *pressed; /* or set */
     bool settling;
-    uint32_t patience; /* frames that a label has been looked for */
+    uint32_t patience; /* frames for which a label has been looked for */
 
     bool busy;
     double rest;    /* seconds that the next frame may wait */
-    uint32_t awake; /* frames that panels still need to follow what happened */
+    uint32_t awake; /* frames that panels still need to react to the input */
     double start, before;
-    int restored[4]; /* place and size outside of full screen */
+    int restored[4]; /* position and size outside of full screen */
     char *capture, *captured;
     lsf_error capture_error;
 };
@@ -66,10 +67,10 @@ struct lsf_window {
 
 void lsf_window_listen(lsf_window *window); /* installs GLFW's callbacks */
 void lsf_window_push(lsf_window *window, lsf_event event);
-/* Turns what waits, or the replay's next frame, into window->input. False: a replay cannot go on.
- */
+/* Turns the waiting events, or the replay's next frame, into window->input. False: the replay
+ * cannot go on. */
 bool lsf_window_take_input(lsf_window *window, lsf_error *error);
-/* Leaves out what panels have taken; between lsf_ui_begin and the client's frame. */
+/* Removes the input that panels have taken; called between lsf_ui_begin and the client's frame. */
 void lsf_window_hide_taken(lsf_window *window);
 
 #endif
