@@ -57,6 +57,7 @@ static uint32_t add_first_operands(lsf_string *page, const lsf_command *command)
 static bool takes_file(const lsf_command_option *option)
 {
     return option->type == LSF_VALUE_ENVIRONMENT || option->type == LSF_VALUE_JSON ||
+           option->type == LSF_VALUE_PRESET ||
            (option->type == LSF_VALUE_TEXT && strncmp(option->argument, "NAME", 4) != 0);
 }
 

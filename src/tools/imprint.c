@@ -1,5 +1,7 @@
 #include "tools/imprint.h"
 
+#include "tools/preset.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,8 +24,9 @@ void lsf_imprint_add_word(lsf_string *text, const char *word)
 void lsf_imprint_add_option(lsf_string *options, const lsf_command_option *option,
                             const char *value)
 {
-    static const char *const others[] = {"output", "format",  "json", "preset",
-                                         "quiet",  "verbose", "view"};
+    static const char *const others[] = {"output", "format", "json", "quiet", "verbose", "view"};
+    if (strcmp(option->name, "preset") == 0 && lsf_preset_number(option, value) == LSF_PRESET_FILE)
+        return; /* what the file says is there */
     for (size_t i = 0; i < LSF_COUNT(others); i++)
         if (strcmp(option->name, others[i]) == 0)
             return;

@@ -96,16 +96,26 @@ static bool measure_point(void *user, uint32_t configuration, uint32_t samples, 
 
 /* --- all of them --- */
 
+/* Powers of 2 below the most, and the most itself; 0 ends them. */
+static uint32_t samples_after(uint32_t samples, uint32_t most)
+{
+    if (samples == most)
+        return 0;
+    return samples > most / 2 ? most : 2 * samples;
+}
+
 static bool sweep(lsf_measure_job *job, lsf_error *error)
 {
     const lsf_settings *settings = &job->settings;
     lsf_measurement *m = &job->measurement;
+    uint32_t most = settings->samples;
     bool good = true, stopped = false;
-    for (uint32_t samples = 1; samples <= settings->samples; samples *= 2)
+    for (uint32_t samples = 1; samples > 0; samples = samples_after(samples, most))
         job->total +=
             samples * settings->seeds * m->configuration_count * (1 + 2 * job->frame_count);
     lsf_progress_bar_start(&job->bar, "measure", job->total, INFINITY);
-    for (uint32_t samples = 1; good && !stopped && samples <= settings->samples; samples *= 2)
+    for (uint32_t samples = 1; good && !stopped && samples > 0;
+         samples = samples_after(samples, most))
         for (uint32_t c = 0; good && !stopped && c < m->configuration_count; c++)
             good = measure_point(job, c, samples, settings->seeds, &stopped, error);
     return good;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "tools/preset.h"
 #include "tools/value.h"
 
 typedef struct measure_preset {
@@ -50,11 +51,13 @@ static bool is_taken(const lsf_settings *settings, const char *sweep)
 bool lsf_measure_fill_in(lsf_settings *settings, lsf_error *error)
 {
     bool answers = !isnan(settings->budget_ms) || !isnan(settings->error);
-    const measure_preset *preset = &(answers ? searches : presets)[settings->measure_preset];
+    bool of_file = settings->measure_preset == LSF_PRESET_FILE; /* and of nothing beside it */
+    const measure_preset *preset =
+        &(answers ? searches : presets)[of_file ? 0 : settings->measure_preset];
     bool good = true, all = settings->techniques.count == 0;
     for (uint32_t i = 0; good && all && lsf_technique_name(i); i++)
         good = append(&settings->techniques, lsf_technique_name(i), error);
-    if (settings->sweeps.count == 0)
+    if (settings->sweeps.count == 0 && !of_file)
         for (size_t i = 0; good && i < LSF_COUNT(preset->sweeps) && preset->sweeps[i]; i++)
             if (is_taken(settings, preset->sweeps[i]))
                 good = append(&settings->sweeps, preset->sweeps[i], error);

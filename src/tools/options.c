@@ -139,9 +139,11 @@ static const lsf_command_option options[] = {
     {"pictures", 0, "DIR", LSF_COMMAND_MEASURE, "Output", LSF_VALUE_TEXT, AT(picture_folder), 0, 0,
      NULL, NULL, "keep a picture of each point and of the reference in that folder, .exr and .png"},
 
-    {"preset", 0, "NAME", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_CHOICE, AT(measure_preset),
-     0, 0, "quick|full", "quick",
-     "what is measured unless other options say: techniques, options, samples, seeds, reference"},
+    {"preset", 0, "NAME|FILE", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_PRESET,
+     AT(measure_preset), 0, 0, "quick|full", "quick",
+     "what is measured unless other options say: techniques, options, samples, seeds, reference; "
+     "or "
+     "a file of --save-preset, whose settings alone are measured then"},
     {"technique", 't', "LIST", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_TECHNIQUES,
      AT(techniques), 0, 0, NULL, NULL, "techniques, separated by commas; see --list-techniques"},
     {"sweep", 0, "pass.key=A,B,...", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_SWEEP,
@@ -153,7 +155,7 @@ static const lsf_command_option options[] = {
      "width and height in pixels; without it, 1024x768 on a GPU and 256x192 in software"},
     {"samples", 's', "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT, AT(samples), 1,
      65536, NULL, NULL,
-     "the most iterations of a frame; fewer are measured as well, by powers of 2"},
+     "the most iterations of a frame; the powers of 2 below are measured as well"},
     {"seeds", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT, AT(seeds), 2, 32, NULL,
      NULL, "frames of each point, from different random numbers: they tell noise from bias"},
     {"reference-samples", 0, "N", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_COUNT,
@@ -193,7 +195,7 @@ static const lsf_command_option options[] = {
     {"preset", 0, "FILE", SHOWING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TEXT, AT(preset), 0,
      0, NULL, NULL,
      "take options from a file, one a line as name=value, as measure --save-preset writes them; "
-     "those on the command line count more"},
+     "those on the command line count more; reference takes neither technique nor samples from it"},
     {"technique", 't', "NAME", SHOWING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TECHNIQUE,
      AT(technique), 0, 0, NULL, "bidirectional", "how light is found; see --list-techniques"},
     {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,
@@ -446,6 +448,8 @@ char *lsf_command_option_range(const lsf_command_option *option)
         return lsf_format("a file such as report.json, or - for standard output");
     case LSF_VALUE_CHOICE:
         return lsf_format("one of %s", option->choices);
+    case LSF_VALUE_PRESET:
+        return lsf_format("one of %s, or a file", option->choices);
     case LSF_VALUE_TECHNIQUE:
         return lsf_format("one of the names that --list-techniques prints");
     case LSF_VALUE_TECHNIQUES:

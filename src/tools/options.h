@@ -57,6 +57,7 @@ typedef enum lsf_value_type {
     LSF_VALUE_ENVIRONMENT, /* lsf_environment_setting */
     LSF_VALUE_EXPOSURE,    /* lsf_exposure_setting */
     LSF_VALUE_BACKGROUND,  /* lsf_background_setting */
+    LSF_VALUE_PRESET,      /* int: which of the choices, or LSF_PRESET_FILE */
     LSF_VALUE_THRESHOLD,   /* lsf_list_setting of "metric=x" */
     LSF_VALUE_LIGHT,       /* lsf_lights_setting */
 } lsf_value_type;
@@ -192,7 +193,7 @@ typedef struct lsf_settings {
     uint32_t reference_samples;                                /* of each half; 0: not given */
     const char *csv_path, *html_path, *picture_folder, *cache; /* NULL: not given */
 
-    int measure_preset;                /* 0: quick, 1: full */
+    int measure_preset;                /* which of quick and full, or LSF_PRESET_FILE */
     double budget_ms, error;           /* NAN: not asked for */
     const char *preset, *saved_preset; /* NULL: not given */
 

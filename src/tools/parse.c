@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MOST_OPTIONS = 128, FIRST_LONG_VALUE = 256 };
 
@@ -210,22 +211,42 @@ static const lsf_command_option *find_option(const lsf_command *command, int cod
     return code ? find_by_letter(command, code) : NULL;
 }
 
+/* What is neither a name that the option knows nor a file may be a slip of the hand. */
+static bool read_preset_file(lsf_settings *settings, const lsf_command_option *option,
+                             const char *path, lsf_error *error)
+{
+    if (option->choices && access(path, F_OK) != 0)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--preset %s: neither one of %s nor a file that is there", path,
+                             option->choices);
+    return lsf_preset_read(settings, path, error);
+}
+
 /* Options of the command line replace those of its preset, in whatever order they are given. */
 static bool read_preset(lsf_settings *settings, int argc, char **argv, const char *letters,
                         const struct option *longs, lsf_error *error)
 {
     const char *path = NULL, *view = NULL;
+    const lsf_command_option *preset = NULL;
+    bool techniques = false; /* are on the command line */
     int code;
     while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
         const lsf_command_option *option =
             code == '?' || code == ':' || code == 1 ? NULL : find_option(settings->command, code);
-        if (option && strcmp(option->name, "preset") == 0 && option->type == LSF_VALUE_TEXT)
+        if (option && strcmp(option->name, "preset") == 0) {
+            preset = option;
             path = optarg;
+        }
         if (option && strcmp(option->name, "view") == 0)
             view = optarg;
+        techniques = techniques || (option && option->type == LSF_VALUE_TECHNIQUES);
     }
-    return (!path || lsf_preset_read(settings, path, error)) &&
-           (!view || lsf_view_read(settings, view, error));
+    if (path && lsf_preset_number(preset, path) == LSF_PRESET_FILE &&
+        !read_preset_file(settings, preset, path, error))
+        return false;
+    if (techniques)
+        settings->techniques.count = 0;
+    return !view || lsf_view_read(settings, view, error);
 }
 
 bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, char **argv,

@@ -15,7 +15,8 @@ enum { LARGEST = 1 << 16 }; /* bytes */
 static bool may_stand(const lsf_command_option *option)
 {
     static const char *const groups[] = {"Picture", "Camera", "Scene"};
-    static const char *const others[] = {"exposure", "tonemap", "resolution"};
+    static const char *const others[] = {"exposure", "tonemap", "resolution", "technique",
+                                         "samples"};
     for (size_t i = 0; i < LSF_COUNT(others); i++)
         if (strcmp(option->name, others[i]) == 0)
             return true;
@@ -48,6 +49,19 @@ static const lsf_command_option *find(const lsf_command *command, const char *na
     return NULL;
 }
 
+/* The path tracer is what a technique's settings are measured against: it has no use for them, and
+ * for few samples least of all. */
+static bool is_passed_over(const lsf_settings *settings, const lsf_command_option *option)
+{
+    static const char *const names[] = {"technique", "define", "samples", "raw"};
+    if (settings->command->bit != LSF_COMMAND_REFERENCE)
+        return false;
+    for (size_t i = 0; i < LSF_COUNT(names); i++)
+        if (strcmp(option->name, names[i]) == 0)
+            return true;
+    return false;
+}
+
 static bool read_line(lsf_settings *settings, char *line, lsf_error *error)
 {
     char *value = strchr(line, '=');
@@ -69,6 +83,8 @@ static bool read_line(lsf_settings *settings, char *line, lsf_error *error)
         free(range);
         return false;
     }
+    if (is_passed_over(settings, option))
+        return true;
     if (!lsf_settings_set(settings, option, value, error))
         return false;
     lsf_settings_note(settings, option, value);
@@ -109,6 +125,19 @@ static bool read_file(lsf_settings *settings, const char *path, char **content, 
             return lsf_error_set(error, cause.code, "%s: line %u: %s", path, number, cause.message);
     }
     return true;
+}
+
+int lsf_preset_number(const lsf_command_option *option, const char *text)
+{
+    const char *name = option->choices;
+    size_t length = strlen(text);
+    for (int number = 0; name; number++) {
+        if (strncmp(name, text, length) == 0 && (name[length] == '|' || name[length] == '\0'))
+            return number;
+        name = strchr(name, '|');
+        name += name != NULL;
+    }
+    return LSF_PRESET_FILE;
 }
 
 bool lsf_preset_read(lsf_settings *settings, const char *path, lsf_error *error)

@@ -2,6 +2,7 @@
 
 #include "base/base.h"
 #include "tools/number.h"
+#include "tools/preset.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -325,6 +326,10 @@ bool lsf_settings_set(lsf_settings *settings, const lsf_command_option *option, 
     case LSF_VALUE_TEXTS:
         return *text ? append_value(place, option, text, error)
                      : bad_value(option, text, NULL, error);
+    case LSF_VALUE_PRESET:
+        *(int *)place = lsf_preset_number(option, text);
+        good = *text != '\0';
+        break;
     case LSF_VALUE_CHOICE:
         good = set_choice(place, option, text);
         break;

@@ -42,6 +42,12 @@ class Measure(CommandTest):
                          sum(point["front"] for point in points))
         self.check_pictures(report)
 
+    def test_any_number_of_samples(self):
+        """Such as an answer has: powers of two below it, and the number itself."""
+        for most, counts in ((1, [1]), (5, [1, 2, 4, 5]), (6, [1, 2, 4, 6])):
+            self.measure("-t", "direct", "-s", str(most), "--json", "a.json")
+            self.assertEqual([p["samples"] for p in self.read_json("a.json")["points"]], counts)
+
     def check_point(self, point):
         self.assertEqual(len(point["seeds"]), 3)
         error = point["relmse"]
@@ -127,12 +133,12 @@ class Measure(CommandTest):
 
     def test_an_answer(self):
         done = self.measure("-t", "direct,voxel_path", "--sweep", "voxel.resolution=8,16",
-                            "--budget-ms", "1e6", "-s", "4", "--json", "a.json", "--pictures", "p",
+                            "--budget-ms", "1e6", "-s", "5", "--json", "a.json", "--pictures", "p",
                             "--save-preset", "best.txt")
         answer = self.read_json("a.json")["answer"]
         self.assertIn(answer["command"], done.stdout.decode())
         self.assertIs(answer["met"], True)
-        self.assertEqual(answer["samples"], 4)
+        self.assertIn(answer["samples"], (4, 5))
         self.assertLessEqual(answer["relmse"]["value"], min(
             point["relmse"]["value"] for point in self.read_json("a.json")["points"]
             if len(point["seeds"]) == 3) + 1e-12)
@@ -144,7 +150,19 @@ class Measure(CommandTest):
         self.assertEqual(self.pixels("a.exr"), self.pixels("b.exr"))
         self.assertEqual(self.pixels("a.exr"), self.pixels(point["picture"]))
         plan = self.run_command("plan", CORNELL, "-r", "16,12", "--preset", "best.txt").stdout
-        self.assertIn(b"4 iterations, 1 bounce", plan)
+        self.assertIn(b"%d iterations, 1 bounce" % answer["samples"], plan)
+        self.answer_measured_once_more(point)
+
+    def answer_measured_once_more(self, point):
+        """By its own preset, and nothing beside it; the search may have taken more seeds."""
+        self.measure("--preset", "best.txt", "--json", "b.json")
+        again = self.read_json("b.json")
+        self.assertEqual(len(again["configurations"]), 1)
+        last = again["points"][-1]
+        self.assertEqual(last["samples"], point["samples"])
+        for one, other in zip(last["seeds"], point["seeds"]):
+            self.assertEqual([one[k] for k in ("seed", "ssim", "bias")],
+                             [other[k] for k in ("seed", "ssim", "bias")])
 
     def test_the_soonest(self):
         words = ("-t", "direct,voxel_path", "--sweep", "voxel.resolution=8", "-s", "4")

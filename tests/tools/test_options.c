@@ -9,6 +9,7 @@
 #include "base/base.h"
 #include "tools/number.h"
 #include "tools/options.h"
+#include "tools/preset.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,9 +81,9 @@ static void test_rows_are_whole(void **state)
         assert_non_null(option->group);
         assert_true(option->commands != 0);
         assert_int_equal(option->argument == NULL, option->type == LSF_VALUE_FLAG);
-        assert_int_equal(option->choices != NULL, option->type == LSF_VALUE_CHOICE ||
-                                                      option->type == LSF_VALUE_AOVS ||
-                                                      option->type == LSF_VALUE_THRESHOLD);
+        assert_int_equal(option->choices != NULL,
+                         option->type == LSF_VALUE_CHOICE || option->type == LSF_VALUE_PRESET ||
+                             option->type == LSF_VALUE_AOVS || option->type == LSF_VALUE_THRESHOLD);
         char *range = lsf_command_option_range(option);
         assert_non_null(range);
         free(range);
@@ -402,6 +403,13 @@ static void test_presets(void **state)
     /* The picture's header tells the options, for the file may be another one then. */
     assert_non_null(strstr(settings.typed.text, "--camera 'Side view'"));
     assert_null(strstr(settings.typed.text, "preset"));
+    /* The path tracer takes what decides on what is seen, and how often light bounces. */
+    snprintf(line, sizeof line, "reference a.glb -o a.exr --preset %s", preset_path);
+    must_parse(LSF_COMMAND_REFERENCE, line);
+    assert_int_equal(settings.samples, 0);
+    assert_int_equal(settings.bounces, 2);
+    assert_int_equal(settings.defines.count, 0);
+    assert_false(lsf_settings_given(&settings, "technique"));
 
     static const struct {
         const char *text, *says;
@@ -421,6 +429,32 @@ static void test_presets(void **state)
     }
     assert_false(parse(LSF_COMMAND_RENDER, "render --preset there/is/none -o a.exr"));
     assert_int_equal(error.code, LSF_ERROR_FILE);
+}
+
+/* A name, or a file whose technique the command line replaces. */
+static void test_presets_of_measure(void **state)
+{
+    (void)state;
+    char line[256];
+    must_parse(LSF_COMMAND_MEASURE, "measure a.glb");
+    assert_int_equal(settings.measure_preset, 0);
+    must_parse(LSF_COMMAND_MEASURE, "measure a.glb --preset full");
+    assert_int_equal(settings.measure_preset, 1);
+    assert_non_null(strstr(settings.typed.text, "--preset full"));
+    write_preset("technique=cone\nsamples=5\ndefine=cone.count=4\n");
+    snprintf(line, sizeof line, "measure a.glb --preset %s", preset_path);
+    must_parse(LSF_COMMAND_MEASURE, line);
+    assert_int_equal(settings.measure_preset, LSF_PRESET_FILE);
+    assert_int_equal(settings.techniques.count, 1);
+    assert_string_equal(settings.techniques.items[0], "cone");
+    assert_int_equal(settings.samples, 5);
+    assert_null(strstr(settings.typed.text, "preset"));
+    snprintf(line, sizeof line, "measure a.glb --preset %s -t direct", preset_path);
+    must_parse(LSF_COMMAND_MEASURE, line);
+    assert_int_equal(settings.techniques.count, 1);
+    assert_string_equal(settings.techniques.items[0], "direct");
+    must_refuse(LSF_COMMAND_MEASURE, "measure a.glb --preset fast",
+                "--preset fast: neither one of quick|full nor a file", NULL);
 }
 
 static void test_numbers(void **state)
@@ -453,6 +487,7 @@ int main(void)
         cmocka_unit_test(test_pass_options),
         cmocka_unit_test(test_bad_values),
         cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_presets_of_measure),
         cmocka_unit_test(test_numbers),
     };
     char path[] = "/tmp/lightsheaf-preset-XXXXXX";
