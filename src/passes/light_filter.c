@@ -6,6 +6,10 @@
 #include "base/base.h"
 
 const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
+    {"light_filter.kind", LSF_OPTION_ENUM, offsetof(lsf_light_filter_params, kind), 0, 0,
+     "atrous|network", "",
+     "what takes the noise out of light; network: a trained one goes on from what the other has "
+     "filtered"},
     {"light_filter.steps", LSF_OPTION_INT, offsetof(lsf_light_filter_params, steps), 0, 8, NULL, "",
      "steps of the filter, each twice as wide as the one before; 0: no filter"},
     {"light_filter.tolerance", LSF_OPTION_FLOAT, offsetof(lsf_light_filter_params, tolerance), 1e-3,
@@ -39,6 +43,7 @@ void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params
     lsf_plan_pass_add(plan, "light_filter", "%d steps over the mean of light, once a picture",
                       params->steps);
     lsf_plan_reads(plan, "view light_mean light_guide temporal");
+    lsf_plan_reads(plan, "denoise");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
                         "materials have a specular lobe");
@@ -175,8 +180,8 @@ static float correlation_before(int32_t step)
     return (along * along - independent) / (1.0f - independent);
 }
 
-/* Returns which of the turns holds the filtered light. */
-static int32_t run_steps(const lsf_light_filter *pass, const lsf_plan *plan, float iterations)
+/* Sets `filtered`. */
+static void run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterations)
 {
     const GLuint *light = pass->light;
     float first =
@@ -191,20 +196,21 @@ static int32_t run_steps(const lsf_light_filter *pass, const lsf_plan *plan, flo
         lsf_draw_fullscreen(pass->context);
         light = pass->turns[i % 2];
     }
-    return (pass->params.steps - 1) % 2;
+    memcpy(pass->filtered, light, sizeof pass->filtered);
 }
 
 /* Adds to the picture what the filter changes. */
 static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iterations,
-                  int32_t turn, const lsf_light_filter_inputs *inputs)
+                  const lsf_light_filter_inputs *inputs, const GLuint filtered[2])
 {
     const lsf_light_filter_part *parts = inputs->parts;
+    int32_t window = pass->params.steps % 2; /* the turn that holds no filtered light */
     if (pass->params.limit) {
-        begin(plan, pass->turn_framebuffers[1 - turn], pass->change);
+        begin(plan, pass->turn_framebuffers[window], pass->change);
         set_guide(pass);
         glUniform1i(1, false);
         bind_parts(2, pass->light);
-        bind_parts(4, pass->turns[turn]);
+        bind_parts(4, filtered);
         lsf_draw_fullscreen(pass->context);
     }
     begin(plan, pass->picture_framebuffer, pass->blend);
@@ -212,9 +218,9 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
     set_guide(pass);
     glUniform1i(1, false);
     glUniform1f(2, pass->params.limit ? uncertainty_of(plan, iterations) : -1.0f);
-    bind_parts(2, pass->turns[1 - turn]);
+    bind_parts(2, pass->turns[window]);
     bind_parts(4, pass->light);
-    bind_parts(6, pass->turns[turn]);
+    bind_parts(6, filtered);
     bind_parts(8, (GLuint[]){parts[0].factor, parts[1].factor});
     lsf_draw_fullscreen(pass->context);
 }
@@ -226,11 +232,23 @@ void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration
     float n = (float)iterations;
     lsf_timer_begin(pass->timer);
     lsf_iteration_bind_view(iteration);
+    lsf_guide_maps_bind(&inputs->guide);
+    divide(pass, plan, n, inputs);
+    run_steps(pass, plan, n);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_light_filter_finish(lsf_light_filter *pass, const lsf_iteration *iteration,
+                             uint32_t iterations, const lsf_light_filter_inputs *inputs,
+                             const GLuint filtered[2])
+{
+    const lsf_plan *plan = iteration->plan;
+    lsf_timer_begin(pass->timer);
+    lsf_iteration_bind_view(iteration);
     glCopyImageSubData(inputs->picture, GL_TEXTURE_2D, 0, 0, 0, 0, pass->picture, GL_TEXTURE_2D, 0,
                        0, 0, 0, (GLsizei)plan->width, (GLsizei)plan->height, 1);
     lsf_guide_maps_bind(&inputs->guide);
-    divide(pass, plan, n, inputs);
-    blend(pass, plan, n, run_steps(pass, plan, n), inputs);
+    blend(pass, plan, (float)iterations, inputs, filtered);
     lsf_timer_end(pass->timer);
 }
 

@@ -7,7 +7,14 @@
 #include "frame/maps.h"
 #include "plan/option.h"
 
+/* What takes the noise out of light. */
+typedef enum lsf_light_filter_kind {
+    LSF_LIGHT_FILTER_ATROUS,
+    LSF_LIGHT_FILTER_NETWORK, /* goes on from there (passes/denoise.h) */
+} lsf_light_filter_kind;
+
 typedef struct lsf_light_filter_params {
+    int32_t kind;       /* lsf_light_filter_kind */
     int32_t steps;      /* the last one's neighbours are 2^(steps - 1) pixels apart; 0: no filter */
     float tolerance;    /* standard deviations that count as noise */
     float depth_weight; /* pixels that a neighbour may be off the pixel's plane, for each pixel
@@ -17,9 +24,10 @@ typedef struct lsf_light_filter_params {
 } lsf_light_filter_params;
 
 #define LSF_LIGHT_FILTER_PARAMS_DEFAULTS                                                           \
-    .steps = 5, .tolerance = 2.0f, .depth_weight = 0.1f, .normal_weight = 32.0f, .limit = 1
+    .kind = LSF_LIGHT_FILTER_ATROUS, .steps = 5, .tolerance = 2.0f, .depth_weight = 0.1f,          \
+    .normal_weight = 32.0f, .limit = 1
 
-#define LSF_LIGHT_FILTER_OPTION_COUNT 5
+#define LSF_LIGHT_FILTER_OPTION_COUNT 6
 extern const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT];
 
 /* Mean light and what it is multiplied by, as lsf_light_mean_part. */
@@ -38,9 +46,11 @@ typedef struct lsf_light_filter_inputs {
 typedef struct lsf_light_filter {
     lsf_context *context;
     lsf_light_filter_params params;
-    GLuint picture;  /* output: RGBA32F */
-    GLuint light[2]; /* of the diffuse part and, where materials have lobes, of the specular one */
-    GLuint turns[2][2]; /* what the last step but one, and the last, made of both parts */
+    GLuint picture; /* output: RGBA32F */
+    /* Outputs, too: without tint, of the diffuse part and, where materials have lobes, of the
+     * specular one; A: variance, below 0: it tells nothing. After the steps: */
+    GLuint light[2], filtered[2]; /* `filtered` are two of the turns */
+    GLuint turns[2][2];           /* what the last step but one, and the last, made of both parts */
     GLuint light_framebuffer, turn_framebuffers[2], divided_framebuffer, picture_framebuffer;
     GLuint divide, window, variance, step, change, blend; /* programs */
     lsf_timer *timer;
@@ -49,9 +59,14 @@ typedef struct lsf_light_filter {
 void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params);
 bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_light_filter_params *params, lsf_error *error);
-/* Of the mean of `iterations` iterations, of which `iteration` was the last. */
+/* Filters the mean of `iterations` iterations, of which `iteration` was the last: light without
+ * tint. */
 void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration,
                           uint32_t iterations, const lsf_light_filter_inputs *inputs);
+/* Makes the picture of it, or of what another pass has made of `filtered`. */
+void lsf_light_filter_finish(lsf_light_filter *pass, const lsf_iteration *iteration,
+                             uint32_t iterations, const lsf_light_filter_inputs *inputs,
+                             const GLuint filtered[2]);
 void lsf_light_filter_destroy(lsf_light_filter *pass);
 
 #endif

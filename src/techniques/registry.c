@@ -33,6 +33,7 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(light_tree, LSF_LIGHT_TREE_OPTION_COUNT),
     TABLE(light_tree_sample, LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT),
     TABLE(light_filter, LSF_LIGHT_FILTER_OPTION_COUNT),
+    TABLE(denoise, LSF_DENOISE_OPTION_COUNT),
     TABLE(temporal, LSF_TEMPORAL_OPTION_COUNT),
 };
 const uint32_t lsf_pass_option_table_count = LSF_COUNT(lsf_pass_option_tables);
@@ -56,8 +57,9 @@ const char *lsf_technique_help(uint32_t index)
 }
 
 /* Of options that every technique takes. */
-static const char *const common_groups[] = {"tessellation", "environment",  "gbuffer",  "shadow",
-                                            "interleave",   "light_filter", "temporal", NULL};
+static const char *const common_groups[] = {"tessellation", "environment", "gbuffer",
+                                            "shadow",       "interleave",  "light_filter",
+                                            "denoise",      "temporal",    NULL};
 
 static bool has_group(const char *const *groups, const char *key)
 {

@@ -40,7 +40,10 @@ static bool create_filters(lsf_renderer *renderer, lsf_error *error)
                                 plan->tiles > 1 ? tiles : 0, error)) &&
            (!lsf_plan_find_pass(plan, "light_filter") ||
             lsf_light_filter_create(&renderer->light_filter, context, plan, &params->light_filter,
-                                    error));
+                                    error)) &&
+           (!lsf_plan_find_pass(plan, "denoise") ||
+            lsf_denoise_create(&renderer->denoise, context, plan, &params->denoise, setup->net,
+                               error));
 }
 
 bool lsf_renderer_create_technique(lsf_renderer *renderer, lsf_error *error)
@@ -64,6 +67,7 @@ bool lsf_renderer_create_technique(lsf_renderer *renderer, lsf_error *error)
 void lsf_renderer_destroy_technique(lsf_renderer *renderer)
 {
     lsf_tonemap_destroy(&renderer->tonemap);
+    lsf_denoise_destroy(&renderer->denoise);
     lsf_light_filter_destroy(&renderer->light_filter);
     lsf_temporal_destroy(&renderer->temporal);
     lsf_light_guide_destroy(&renderer->light_guide);
@@ -182,6 +186,23 @@ static lsf_temporal_inputs temporal_inputs(const lsf_renderer *renderer)
                                            {mean->specular.light, mean->specular.factor}}};
 }
 
+/* What the network makes of filtered light; the light itself where there is none. */
+static const GLuint *denoise(lsf_renderer *renderer, const lsf_light_filter_inputs *filter)
+{
+    const lsf_light_mean *mean = &renderer->light_mean;
+    const GLuint *light = renderer->light_filter.light, *done = renderer->light_filter.filtered;
+    if (!renderer->denoise.timer)
+        return done;
+    const lsf_denoise_inputs inputs = {
+        .mean = mean->guide,
+        .specular_factor = mean->specular.factor,
+        .light = {light[0], light[1]},
+        .filtered = {done[0], done[1]},
+        .factors = {filter->parts[0].factor, filter->parts[1].factor}};
+    lsf_denoise_run(&renderer->denoise, &renderer->iteration, &inputs);
+    return renderer->denoise.net ? renderer->denoise.light : done;
+}
+
 static void filter(lsf_renderer *renderer, GLuint picture)
 {
     const lsf_light_mean *mean = &renderer->light_mean;
@@ -197,6 +218,8 @@ static void filter(lsf_renderer *renderer, GLuint picture)
     /* One iteration has no variance of its own, but with light of the frames before. */
     uint32_t iterations = temporal && renderer->samples == 1 ? 2 : renderer->samples;
     lsf_light_filter_run(&renderer->light_filter, &renderer->iteration, iterations, &inputs);
+    lsf_light_filter_finish(&renderer->light_filter, &renderer->iteration, iterations, &inputs,
+                            denoise(renderer, &inputs));
 }
 
 GLuint lsf_renderer_picture(lsf_renderer *renderer)
@@ -316,6 +339,8 @@ bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, ls
     renderer->samples = renderer->next = renderer->kept = 0;
     renderer->begun = renderer->begun && !frame->cut;
     renderer->broken = !good || !follow_state(renderer, first_sample, error);
+    if (renderer->denoise.timer)
+        lsf_denoise_begin(&renderer->denoise, frame->cut);
     if (renderer->temporal.timer)
         renderer->iteration.kept =
             lsf_temporal_begin(&renderer->temporal, &change, renderer->setup.params.samples,

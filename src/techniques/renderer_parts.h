@@ -6,7 +6,7 @@
 #include "passes/tonemap.h"
 #include "techniques/setup.h"
 
-#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 6)
+#define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 7)
 
 struct lsf_renderer {
     lsf_context *context;
@@ -16,10 +16,11 @@ struct lsf_renderer {
     void *technique;
     lsf_technique_outputs outputs;
     lsf_accumulate accumulate;
-    lsf_light_mean light_mean; /* this and the next three are empty unless the plan has them */
+    lsf_light_mean light_mean; /* this and the next four are empty unless the plan has them */
     lsf_light_guide light_guide;
     lsf_temporal temporal;
     lsf_light_filter light_filter;
+    lsf_denoise denoise;
     bool finished; /* their picture is of the mean as it is */
     lsf_tonemap tonemap;
     bool broken; /* no frame is in progress: going over to another plan has failed */

@@ -249,6 +249,8 @@ static uint32_t list_passes(lsf_renderer *renderer,
         reports[count++] = (lsf_pass_report){.timer = renderer->temporal.timer};
     if (renderer->light_filter.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->light_filter.timer};
+    if (renderer->denoise.timer)
+        reports[count++] = (lsf_pass_report){.timer = renderer->denoise.timer};
     if (renderer->tonemap.timer)
         reports[count++] = (lsf_pass_report){.timer = renderer->tonemap.timer};
     return count;

@@ -270,6 +270,26 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
            update_previous(setup, params->time, NULL, error) && begin_plan(setup, error);
 }
 
+static bool wants_network(const lsf_setup *setup)
+{
+    return setup->pass_params.light_filter.kind == LSF_LIGHT_FILTER_NETWORK;
+}
+
+/* What a network would be given is recorded for those who train one. */
+static bool records(const lsf_setup *setup)
+{
+    return wants_network(setup) && lsf_denoise_record_path();
+}
+
+/* Where it is to be recorded there may be none yet. */
+static bool load_network(lsf_setup *setup, lsf_error *error)
+{
+    if (!wants_network(setup) || !filters(setup, setup->technique) || records(setup))
+        return true;
+    setup->net = lsf_net_load(getenv("LIGHTSHEAF_DENOISER_WEIGHTS"), error);
+    return setup->net != NULL;
+}
+
 static bool plan_technique(lsf_setup *setup, lsf_error *error)
 {
     const lsf_render_params *params = &setup->params;
@@ -296,9 +316,11 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         lsf_temporal_plan(plan);
     else if (plan->temporal)
         lsf_plan_omit(plan, "temporal", "no light is noisy but for edges and shadows");
-    if (split && plan->filtered)
+    if (split && plan->filtered) {
         lsf_light_filter_plan(plan, &setup->pass_params.light_filter);
-    else if (!plan->filtered)
+        if (setup->net || records(setup))
+            lsf_denoise_plan(plan, setup->net);
+    } else if (!plan->filtered)
         lsf_plan_omit(plan, "light_filter", "%s",
                       params->raw ? "the raw picture is asked for"
                                   : "light_filter.steps is 0, or all pixels take the same samples");
@@ -321,7 +343,7 @@ bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_p
                              "technique '%s' does not exist; lsf_technique_name has all",
                              params->technique);
     setup->params.technique = setup->technique->name;
-    return plan_technique(setup, error);
+    return load_network(setup, error) && plan_technique(setup, error);
 }
 
 bool lsf_setup_plans_alike(const lsf_setup *setup, const lsf_render_params *params, bool *alike,
@@ -443,6 +465,7 @@ void lsf_setup_finish(lsf_setup *setup)
     lsf_state_finish(&setup->state);
     lsf_state_finish(&setup->previous);
     lsf_plan_destroy(setup->plan);
+    lsf_net_destroy(setup->net);
     lsf_scene_tessellated_destroy(setup->tessellated);
     free((char *)setup->params.camera);
     *setup = (lsf_setup){0};

@@ -2,6 +2,7 @@
 #ifndef LSF_TECHNIQUES_SETUP_H
 #define LSF_TECHNIQUES_SETUP_H
 
+#include "denoiser/net.h"
 #include "passes/accumulate.h"
 #include "scene/layer.h"
 #include "scene/state.h"
@@ -30,6 +31,7 @@ typedef struct lsf_setup {
     lsf_state previous;  /* of the frame before, from which motion is measured */
     lsf_changes changes; /* from that one */
     lsf_plan_basis basis;
+    lsf_net *net; /* NULL: light_filter takes its steps alone */
     lsf_plan *plan;
     uint32_t layer_count;                     /* of the result; the first is the picture */
     const char *layer_names[LSF_LAYER_COUNT]; /* "picture", "albedo", ... */

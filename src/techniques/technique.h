@@ -7,6 +7,7 @@
 #include "passes/bidirectional_shade.h"
 #include "passes/blur.h"
 #include "passes/compose.h"
+#include "passes/denoise.h"
 #include "passes/gbuffer.h"
 #include "passes/light_filter.h"
 #include "passes/light_guide.h"
@@ -45,6 +46,7 @@ typedef struct lsf_pass_params {
     lsf_light_tree_params light_tree;
     lsf_light_tree_sample_params light_tree_sample;
     lsf_light_filter_params light_filter;
+    lsf_denoise_params denoise;
     lsf_temporal_params temporal;
 } lsf_pass_params;
 
@@ -60,7 +62,8 @@ typedef struct lsf_pass_params {
     .cone = {LSF_CONE_PARAMS_DEFAULTS}, .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
     .vpl_cloud = {LSF_VPL_CLOUD_PARAMS_DEFAULTS}, .light_tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS},  \
     .light_tree_sample = {LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS},                                  \
-    .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}, .temporal = {LSF_TEMPORAL_PARAMS_DEFAULTS}
+    .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}, .denoise = {LSF_DENOISE_PARAMS_DEFAULTS},  \
+    .temporal = {LSF_TEMPORAL_PARAMS_DEFAULTS}
 
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;

@@ -121,6 +121,8 @@ static void filter(rig *r)
         .parts = {{r->mean.diffuse.light, r->mean.diffuse.factor},
                   {r->mean.specular.light, r->mean.specular.factor}}};
     lsf_light_filter_run(&r->filter, &r->s.iteration, r->iterations, &inputs);
+    lsf_light_filter_finish(&r->filter, &r->s.iteration, r->iterations, &inputs,
+                            r->filter.filtered);
     surface_rig_read(r->filter.picture, r->s.width, r->s.height, r->out[0]);
 }
 
@@ -300,7 +302,7 @@ static void a_plane_gets_the_tent(void **unused)
     for (int test = 0; test < 8; test++) {
         bool orthographic = test % 2;
         int steps = 1 + test / 2;
-        lsf_light_filter_params params = {steps, 1e3f, 0.5f, 32.0f, 0};
+        lsf_light_filter_params params = {LSF_LIGHT_FILTER_ATROUS, steps, 1e3f, 0.5f, 32.0f, 0};
         rig_begin(&r, 64, 64, orthographic, &params);
         seen wall = test & 4 ? surface_rig_ground() : surface_rig_wall(&r.s, 1.0f);
         if (orthographic)
