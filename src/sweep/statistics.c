@@ -27,6 +27,32 @@ lsf_quartiles lsf_quartiles_of(double *values, size_t count)
                            quantile(values, count, 0.75)};
 }
 
+/* As many of `count` values are left out at either end as keep the probability below 1/40 that all
+ * that are left lie on the same side of the median: the chance of so few heads among that many
+ * tosses of a coin. `count` where even one is too many. */
+static size_t left_out_of_median(size_t count)
+{
+    double tosses = pow(0.5, (double)count), chance = tosses;
+    size_t left_out = 0;
+    if (chance > 0.025)
+        return count;
+    while (chance <= 0.025) {
+        left_out++;
+        tosses *= (double)(count - left_out + 1) / (double)left_out;
+        chance += tosses;
+    }
+    return left_out - 1;
+}
+
+lsf_estimate lsf_median_of(double *values, size_t count)
+{
+    double median = lsf_quartiles_of(values, count).median;
+    size_t ends = left_out_of_median(count);
+    if (ends >= count)
+        return (lsf_estimate){median, NAN, NAN};
+    return (lsf_estimate){median, values[ends], values[count - 1 - ends]};
+}
+
 /* P(-t < T < t), for whole degrees of freedom the finite sums of Abramowitz and Stegun 1964,
  * 26.7.3 and 26.7.4. */
 static double central_probability(double t, uint32_t degrees)

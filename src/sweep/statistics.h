@@ -8,6 +8,11 @@
  * NAN of none. Sorts `values`. */
 lsf_quartiles lsf_quartiles_of(double *values, size_t count);
 
+/* Median of independent values, with the interval of 95 % or more that two of them bound, whatever
+ * their distribution (Conover 1971, "Practical Nonparametric Statistics", section 3.2): of nine the
+ * second and the last but one. Fewer than six have none. Sorts `values`. */
+lsf_estimate lsf_median_of(double *values, size_t count);
+
 /* The quantile 0.975 of Student's distribution. */
 double lsf_student_quantile(uint32_t degrees);
 /* P(T <= t). */

@@ -255,6 +255,10 @@ static bool print_table(lsf_measure_job *job, lsf_error *error)
     if (settings->quiet || (settings->csv_path && strcmp(settings->csv_path, "-") == 0))
         return true;
     lsf_measure_add_table(&text, &job->measurement);
+    if (settings->prices) {
+        lsf_string_add(&text, "\n");
+        lsf_prices_add_text(&text, &job->prices);
+    }
     if (job->measurement.answer.given) {
         lsf_string_add(&text, "\n");
         lsf_measure_add_answer(&text, &job->measurement);

@@ -6,7 +6,7 @@
 #include "sweep/statistics.h"
 #include "tools/interrupt.h"
 
-enum { FRAMES = 5 }; /* of each, in turn with the other's, so that both see the same machine */
+enum { FRAMES = 9 }; /* of each, in turn with the other's, so that both see the same machine */
 
 static bool time_frame(const lsf_measure_job *job, lsf_renderer *renderer, double *milliseconds,
                        lsf_error *error)
@@ -27,20 +27,27 @@ static bool time_frame(const lsf_measure_job *job, lsf_renderer *renderer, doubl
 }
 
 /* The first frame of each does not count. */
-static bool time_both(const lsf_measure_job *job, lsf_renderer *const renderers[2],
-                      double *difference, lsf_error *error)
+static bool time_both(lsf_measure_job *job, lsf_renderer *const renderers[2],
+                      lsf_estimate *difference, lsf_error *error)
 {
-    double milliseconds[2][FRAMES + 1];
-    for (int frame = 0; frame <= FRAMES; frame++)
-        for (int which = 0; which < 2; which++)
-            if (!time_frame(job, renderers[which], &milliseconds[which][frame], error))
+    double differences[FRAMES + 1];
+    for (int frame = 0; frame <= FRAMES; frame++) {
+        double milliseconds[2];
+        for (int turn = 0; turn < 2; turn++) {
+            int which = (turn + frame) % 2; /* each comes first as often as second */
+            if (!time_frame(job, renderers[which], &milliseconds[which], error))
                 return false;
-    *difference = lsf_quartiles_of(milliseconds[0] + 1, FRAMES).median -
-                  lsf_quartiles_of(milliseconds[1] + 1, FRAMES).median;
+            lsf_progress_bar_draw(&job->bar, ++job->done, job->total);
+        }
+        differences[frame] = milliseconds[0] - milliseconds[1];
+        if (lsf_interrupted())
+            return true;
+    }
+    *difference = lsf_median_of(differences + 1, FRAMES);
     return true;
 }
 
-static bool time_feature(const lsf_measure_job *job, const lsf_render_params *params,
+static bool time_feature(lsf_measure_job *job, const lsf_render_params *params,
                          lsf_feature_price *price, lsf_error *error)
 {
     lsf_scene *without = lsf_scene_without(job->scene, price->feature, error);
@@ -66,7 +73,11 @@ bool lsf_measure_prices(lsf_measure_job *job, lsf_error *error)
     params.samples = 1;
     params.temporal = false;
     bool good = lsf_prices_make(&job->prices, job->scene, &params, error);
+    job->done = 0;
+    job->total = job->prices.count * 2 * (FRAMES + 1);
+    lsf_progress_bar_start(&job->bar, "prices", job->total, INFINITY);
     for (uint32_t i = 0; good && i < job->prices.count && !lsf_interrupted(); i++)
         good = time_feature(job, &params, &job->prices.features[i], error);
+    lsf_progress_bar_clear();
     return good;
 }

@@ -6,13 +6,27 @@
 #include "tools/scenes.h"
 #include "tools/tools.h"
 
+static lsf_plan *plan_sandbox(const void *user, const lsf_scene *scene, lsf_error *error)
+{
+    return lsf_sandbox_plan(scene, user, error);
+}
+
+static bool make_prices(lsf_prices *prices, const lsf_settings *settings, const lsf_scene *scene,
+                        lsf_error *error)
+{
+    lsf_render_params params = lsf_settings_render_params(settings);
+    if (!settings->sandbox)
+        return lsf_prices_make(prices, scene, &params, error);
+    lsf_sandbox_params sandbox = lsf_settings_sandbox_params(settings);
+    return lsf_prices_make_of(prices, scene, &params, plan_sandbox, &sandbox, error);
+}
+
 static bool print_prices(const lsf_settings *settings, uint32_t index, const char *path,
                          const lsf_scene *scene, lsf_json *json, lsf_error *error)
 {
-    lsf_render_params params = lsf_settings_render_params(settings);
     lsf_prices prices;
     lsf_string text = {0};
-    bool good = lsf_prices_make(&prices, scene, &params, error);
+    bool good = make_prices(&prices, settings, scene, error);
     if (good) {
         lsf_prices_add_text(&text, &prices);
         good = lsf_tool_print(settings, index, text.text, error);
@@ -70,9 +84,16 @@ static bool print_sandbox(void *user, uint32_t index, const char *path, lsf_json
     lsf_sandbox_params params = lsf_settings_sandbox_params(settings);
     bool named = settings->operands.count > 0;
     double seconds;
+    if (settings->prices && !named)
+        return lsf_error_set(error, LSF_ERROR_USAGE,
+                             "--prices: the shader has no scene whose features cost; name one");
     lsf_scene *scene = named ? lsf_tool_load_scene(settings, path, &seconds, error) : NULL;
-    lsf_plan *plan = scene || !named ? lsf_sandbox_plan(scene, &params, error) : NULL;
-    bool good = print_whole(settings, index, named ? path : NULL, plan, json, error);
+    bool good = scene || !named;
+    if (good && settings->prices)
+        good = print_prices(settings, index, path, scene, json, error);
+    else if (good)
+        good = print_whole(settings, index, named ? path : NULL,
+                           lsf_sandbox_plan(scene, &params, error), json, error);
     lsf_scene_destroy(scene);
     return good;
 }

@@ -6,36 +6,64 @@
 
 #include "base/base.h"
 
-static bool add_feature(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
+/* How the plan of a scene is made. */
+typedef struct plan_maker {
+    lsf_prices_plan *plan;
+    const void *user;
+} plan_maker;
+
+/* NULL, with good true, where an animation needs the feature, or a shader of the user's own. */
+static lsf_plan *plan_without(const lsf_scene *scene, const plan_maker *maker, lsf_feature feature,
+                              bool *good, lsf_error *error)
+{
+    lsf_error cause = {0};
+    lsf_scene *without = lsf_scene_without(scene, feature, &cause);
+    lsf_plan *plan = without ? maker->plan(maker->user, without, &cause) : NULL;
+    lsf_scene_destroy(without);
+    *good = plan || cause.code == LSF_ERROR_USAGE ||
+            lsf_error_set(error, cause.code, "%s", cause.message);
+    return plan;
+}
+
+static bool add_feature(lsf_prices *prices, const lsf_scene *scene, const plan_maker *maker,
                         const lsf_plan *with, lsf_feature feature, lsf_error *error)
 {
-    lsf_error cause;
-    lsf_scene *without = lsf_scene_without(scene, feature, &cause);
-    if (!without) /* animations need it, which is no failure */
-        return cause.code == LSF_ERROR_USAGE ||
-               lsf_error_set(error, cause.code, "%s", cause.message);
-    lsf_plan *plan = lsf_plan_create(without, params, error);
+    bool good;
+    lsf_plan *plan = plan_without(scene, maker, feature, &good, error);
+    if (!plan)
+        return good;
     lsf_feature_price *row = &prices->features[prices->count];
-    *row = (lsf_feature_price){.feature = feature, .milliseconds = NAN};
-    bool good = plan && lsf_plan_price(with, plan, &row->price, error);
+    *row = (lsf_feature_price){.feature = feature, .milliseconds = {NAN, NAN, NAN}};
+    good = lsf_plan_price(with, plan, &row->price, error);
     prices->count += good;
     lsf_plan_destroy(plan);
-    lsf_scene_destroy(without);
     return good;
+}
+
+bool lsf_prices_make_of(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
+                        lsf_prices_plan *plan, const void *user, lsf_error *error)
+{
+    const plan_maker maker = {plan, user};
+    *prices = (lsf_prices){
+        .technique = params->technique, .width = params->width, .height = params->height};
+    lsf_plan *with = plan(user, scene, error);
+    bool good = with;
+    for (int f = 0; good && f < LSF_FEATURE_COUNT; f++)
+        if (lsf_scene_has(scene, (lsf_feature)f))
+            good = add_feature(prices, scene, &maker, with, (lsf_feature)f, error);
+    lsf_plan_destroy(with);
+    return good;
+}
+
+static lsf_plan *plan_technique(const void *user, const lsf_scene *scene, lsf_error *error)
+{
+    return lsf_plan_create(scene, user, error);
 }
 
 bool lsf_prices_make(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
                      lsf_error *error)
 {
-    *prices = (lsf_prices){
-        .technique = params->technique, .width = params->width, .height = params->height};
-    lsf_plan *with = lsf_plan_create(scene, params, error);
-    bool good = with;
-    for (int f = 0; good && f < LSF_FEATURE_COUNT; f++)
-        if (lsf_scene_has(scene, (lsf_feature)f))
-            good = add_feature(prices, scene, params, with, (lsf_feature)f, error);
-    lsf_plan_destroy(with);
-    return good;
+    return lsf_prices_make_of(prices, scene, params, plan_technique, params, error);
 }
 
 void lsf_prices_finish(lsf_prices *prices)
@@ -68,6 +96,16 @@ static void add_size(lsf_string *text, int64_t bytes)
     free(size.text);
 }
 
+/* Where the interval holds 0, what was measured is the machine's unrest. */
+static void add_milliseconds(lsf_string *text, lsf_estimate saved)
+{
+    if (!isfinite(saved.value))
+        return;
+    bool shows = saved.low > 0.0 || saved.high < 0.0;
+    lsf_string_add(text, "; %.3g ms (95 %%: %.3g to %.3g%s)", saved.value, saved.low, saved.high,
+                   shows ? "" : ", nothing that shows");
+}
+
 void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices)
 {
     lsf_string_add(text, "%-18s %12s  %s\n", "without", "saved", "and what goes");
@@ -75,8 +113,7 @@ void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices)
         const lsf_feature_price *row = &prices->features[i];
         lsf_string bytes = {0}, rest = {0};
         add_size(&bytes, row->price.bytes);
-        if (isfinite(row->milliseconds))
-            lsf_string_add(&rest, "; %.3g ms", row->milliseconds);
+        add_milliseconds(&rest, row->milliseconds);
         add_names(&rest, &row->price.passes, "passes");
         add_names(&rest, &row->price.resources, "resources");
         if (row->price.switches.count)
@@ -92,6 +129,19 @@ void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices)
 }
 
 /* --- JSON --- */
+
+static void add_estimate(lsf_json *json, lsf_estimate saved)
+{
+    if (!isfinite(saved.value)) {
+        lsf_json_string(json, "milliseconds", NULL);
+        return;
+    }
+    lsf_json_begin(json, "milliseconds", '{');
+    lsf_json_number(json, "value", saved.value);
+    lsf_json_number(json, "low", saved.low);
+    lsf_json_number(json, "high", saved.high);
+    lsf_json_end(json, '}');
+}
 
 static void add_list(lsf_json *json, const char *name, const lsf_price_list *list)
 {
@@ -116,7 +166,7 @@ void lsf_prices_add_json(lsf_json *json, const char *name, const lsf_prices *pri
         lsf_json_begin(json, NULL, '{');
         lsf_json_string(json, "feature", lsf_feature_name(row->feature));
         lsf_json_number(json, "bytes", (double)row->price.bytes);
-        lsf_json_number(json, "milliseconds", row->milliseconds);
+        add_estimate(json, row->milliseconds);
         add_list(json, "passes", &row->price.passes);
         add_list(json, "resources", &row->price.resources);
         add_list(json, "switches", &row->price.switches);

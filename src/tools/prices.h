@@ -4,12 +4,13 @@
 
 #include <lightsheaf/renderer.h>
 
+#include "sweep/measurement.h"
 #include "tools/json.h"
 
 typedef struct lsf_feature_price {
     lsf_feature feature;
     lsf_price price;
-    double milliseconds; /* of a frame, that it saves; NAN: not measured */
+    lsf_estimate milliseconds; /* of a frame, that it saves; NAN: not measured */
 } lsf_feature_price;
 
 typedef struct lsf_prices {
@@ -19,10 +20,16 @@ typedef struct lsf_prices {
     uint32_t count;
 } lsf_prices;
 
+/* The plan whose parts are counted, of a scene. NULL: it cannot be made. */
+typedef lsf_plan *lsf_prices_plan(const void *user, const lsf_scene *scene, lsf_error *error);
+
 /* Prices all features that the scene has and can do without. `prices` is to be finished either
  * way. */
 bool lsf_prices_make(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
                      lsf_error *error);
+/* The same of other plans than those of a technique; `params` say what the prices are called. */
+bool lsf_prices_make_of(lsf_prices *prices, const lsf_scene *scene, const lsf_render_params *params,
+                        lsf_prices_plan *plan, const void *user, lsf_error *error);
 void lsf_prices_finish(lsf_prices *prices);
 
 void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices);

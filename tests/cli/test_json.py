@@ -110,6 +110,19 @@ class Json(CommandTest):
             self.check("plan", "scene.gltf", "-t", technique, kind="plan")
         self.check("plan", "scene.gltf", "--time-limit", "1", kind="plan")
         self.check("plan", "scene.gltf", "--prices", kind="prices")
+        with open(self.path("a.frag"), "w", encoding="utf-8") as file:
+            file.write("void mainImage(out vec4 c, in vec2 p) { c = vec4(lsf_depth(p)); }")
+        self.check("plan", "--sandbox", "a.frag", "scene.gltf", "--prices", kind="prices")
+
+    @unittest.skipUnless(os.environ["LSF_MODULES"], "built without the path tracer")
+    def test_bench(self):
+        self.scene()
+        for words in (("rays", "scene.gltf", "-r", "16,12", "-s", "1"),
+                      ("bidirectional", "scene.gltf", "-r", "16,12", "-s", "1", "-D", "tessellation.factor=1",
+                       "-D", "vpl.count=4", "-D", "interleave.size=2", "-D", "bundle.count=4"),
+                      ("cone", "scene.gltf", "-r", "16,12", "-s", "1", "-D", "voxel.resolution=8"),
+                      ("voxel_path", "scene.gltf", "-r", "16,12", "-s", "1", "-D", "voxel.resolution=8")):
+            self.check("bench", *words, kind="bench")
 
     def test_the_check_finds_faults(self):
         """And the schema uses no word that it does not know."""

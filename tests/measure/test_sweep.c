@@ -56,6 +56,19 @@ static void test_means(void **state)
     NEAR(quartiles.upper, 3.25, 1e-12);
     assert_true(isnan(lsf_quartiles_of(values, 0).median));
 
+    double nine[] = {9.0, 1.0, 5.0, 3.0, 7.0, 2.0, 8.0, 6.0, 4.0};
+    lsf_estimate median = lsf_median_of(nine, 9);
+    NEAR(median.value, 5.0, 0.0);
+    NEAR(median.low, 2.0, 0.0);
+    NEAR(median.high, 8.0, 0.0);
+    median = lsf_median_of(nine, 6);
+    NEAR(median.low, 1.0, 0.0);
+    NEAR(median.high, 6.0, 0.0);
+    median = lsf_median_of(nine, 5);
+    NEAR(median.value, 3.0, 0.0);
+    assert_true(isnan(median.low) && isnan(median.high));
+    assert_true(isnan(lsf_median_of(nine, 0).value));
+
     /* The jackknife of a mean is the mean's own interval. */
     double left_out[] = {2.0, 3.0, 7.0 / 3.0, 8.0 / 3.0};
     lsf_estimate jackknife = lsf_jackknife(2.5, left_out, 4, 0.0);

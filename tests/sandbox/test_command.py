@@ -46,6 +46,20 @@ class Sandbox(CommandTest):
         self.assertIn("seen.frag:1: lsf_depth", plan["notes"])
         self.refuse("plan", "--sandbox", "seen.frag", says=["seen.frag:1: lsf_depth is of a scene"])
 
+    def test_prices(self):
+        """Of what the shader names; without lights there is no map of one, so that they have no price there."""
+        self.scene(emissive=True)
+        self.write("seen.frag", "void mainImage(out vec4 c, in vec2 p) { c = vec4(lsf_depth(p)); }")
+        self.write("lit.frag", "void mainImage(out vec4 c, in vec2 p) { c = vec4(lsf_visibility(lsf_position(p), "
+                                "lsf_normal(p))); }")
+        saved = {}
+        for name in ("seen", "lit"):
+            self.run_command("plan", "--sandbox", name + ".frag", "scene.gltf", "--prices", "--json", "p.json")
+            saved[name] = {each["feature"]: each["bytes"] for each in self.read_json("p.json")["prices"]["features"]}
+        self.assertEqual((set(saved["seen"]), set(saved["lit"])), ({"emission", "lights"}, {"emission"}))
+        self.assertGreater(saved["lit"]["emission"], 0)
+        self.refuse("plan", "--sandbox", "seen.frag", "--prices", says=["--prices: the shader has no scene"])
+
     def test_mistakes(self):
         self.write("bad.frag", "void mainImage(out vec4 c, in vec2 p)\n{\n    c = vec4(q);\n}\n")
         self.refuse("sandbox", "bad.frag", "-o", "x.png", status=RENDERING,
