@@ -72,6 +72,6 @@ void main()
     for (uint p = 0u; p < 4u; p++) {
         uvec2 at = gl_WorkGroupID.xy * LSF_DENOISE_TILE + gl_LocalInvocationID.xy + uvec2(p % 2u, p / 2u) * LSF_SIDE;
         if (all(lessThan(at, size)))
-            target_maps[(target * size.y + at.y) * size.x + at.x] = packed(sums[p][0], sums[p][1]);
+            target_maps[(target * size.y + at.y) * size.x + at.x] = halves_of(sums[p][0], sums[p][1]);
     }
 }

@@ -25,6 +25,6 @@ void main()
     }
     for (uint p = 0u; p < 4u; p++) {
         uvec2 to = 2u * at + uvec2(p % 2u, p / 2u);
-        target_maps[(target * 2u * size.y + to.y) * 2u * size.x + to.x] = packed(sums[p][0], sums[p][1]);
+        target_maps[(target * 2u * size.y + to.y) * 2u * size.x + to.x] = halves_of(sums[p][0], sums[p][1]);
     }
 }

@@ -22,7 +22,8 @@ layout(std430, binding = LSF_BINDING_DENOISE_WEIGHTS) readonly buffer lsf_denois
 layout(location = 0) uniform uvec2 size; /* of the maps that invocations stand for */
 /* Groups of the source and of what is read beside it; groups that there are weights for; of the target. */
 layout(location = 1) uniform uvec4 groups;
-layout(location = 2) uniform uint first_weight, first_bias;
+layout(location = 2) uniform uint first_weight;
+layout(location = 3) uniform uint first_bias;
 layout(location = 4) uniform float leak;  /* that negative numbers are multiplied by; 1: nothing happens to them */
 layout(location = 5) uniform bool pooled; /* the source is twice as large, and the most of 2 x 2 counts */
 
@@ -39,7 +40,7 @@ vec4 high_of(uvec4 texel)
 }
 
 /* Half floats without an infinity, which times a weight of 0 would be no number. */
-uvec4 packed(vec4 low, vec4 high)
+uvec4 halves_of(vec4 low, vec4 high)
 {
     low = clamp(low * mix(vec4(leak), vec4(1.0), greaterThan(low, vec4(0.0))), -65504.0, 65504.0);
     high = clamp(high * mix(vec4(leak), vec4(1.0), greaterThan(high, vec4(0.0))), -65504.0, 65504.0);

@@ -11,9 +11,9 @@
 
 /* Where a module lies beside the library or the executable: installed, or in the build folder
  * (the library is in src/, the command in the top folder or in src/tools/). */
-static const char *const subfolders[] = {"",           "lightsheaf/",    "src/",
-                                         "src/io/",    "src/reference/", "io/",
-                                         "reference/", "../io/",         "../reference/"};
+static const char *const subfolders[] = {
+    "",    "lightsheaf/", "src/",      "src/io/", "src/reference/", "src/denoiser/",
+    "io/", "reference/",  "denoiser/", "../io/",  "../reference/",  "../denoiser/"};
 
 /* Opens folder/name.so when it is there. A module that exists but does not load (a missing
  * library, mostly) leaves the loader's message in `cause`. */

@@ -6,11 +6,7 @@
 
 #include "math/half.h"
 
-/* Of the built-in file; both the same where there is none. */
-extern const unsigned char lsf_net_built_in[], lsf_net_built_in_end[];
-
 #define FILE_VERSION 1
-#define FILE_BYTES_MAX ((uint64_t)64 << 20)
 
 typedef struct reader {
     const unsigned char *at, *end;
@@ -213,25 +209,6 @@ lsf_net *lsf_net_read(const void *bytes, size_t length, const char *name, lsf_er
         return NULL;
     }
     return net;
-}
-
-lsf_net *lsf_net_load(const char *path, lsf_error *error)
-{
-    if (path) {
-        size_t length;
-        char *bytes = lsf_file_read(path, FILE_BYTES_MAX, &length, error);
-        lsf_net *net = bytes ? lsf_net_read(bytes, length, path, error) : NULL;
-        free(bytes);
-        return net;
-    }
-    size_t length = (size_t)(lsf_net_built_in_end - lsf_net_built_in);
-    if (length == 0) {
-        lsf_error_set(error, LSF_ERROR_FILE,
-                      "the library was built without weights of the denoiser; name a file of them "
-                      "in LIGHTSHEAF_DENOISER_WEIGHTS, or use light_filter.kind=atrous");
-        return NULL;
-    }
-    return lsf_net_read(lsf_net_built_in, length, "the built-in weights", error);
 }
 
 void lsf_net_destroy(lsf_net *net)

@@ -1,6 +1,11 @@
-/* The file of weights that the library is built with, and nothing where there is none. */
+/* The file of weights that the library is built with, and those that users name. */
+#include <stdlib.h>
+
 #include "denoiser/net.h"
 
+#define FILE_BYTES_MAX ((uint64_t)64 << 20)
+
+/* Of the built-in file; both the same where there is none. */
 extern const unsigned char lsf_net_built_in[], lsf_net_built_in_end[];
 
 __asm__(".pushsection .rodata\n"
@@ -16,3 +21,22 @@ __asm__(".pushsection .rodata\n"
         "lsf_net_built_in_end:\n"
         ".byte 0\n"
         ".popsection\n");
+
+lsf_net *lsf_net_load(const char *path, lsf_error *error)
+{
+    if (path) {
+        size_t length;
+        char *bytes = lsf_file_read(path, FILE_BYTES_MAX, &length, error);
+        lsf_net *net = bytes ? lsf_net_read(bytes, length, path, error) : NULL;
+        free(bytes);
+        return net;
+    }
+    size_t length = (size_t)(lsf_net_built_in_end - lsf_net_built_in);
+    if (length == 0) {
+        lsf_error_set(error, LSF_ERROR_FILE,
+                      "the library was built without weights of the denoiser; name a file of them "
+                      "in LIGHTSHEAF_DENOISER_WEIGHTS, or use light_filter.kind=atrous");
+        return NULL;
+    }
+    return lsf_net_read(lsf_net_built_in, length, "the built-in weights", error);
+}

@@ -43,10 +43,11 @@ static void plan_network(lsf_plan *plan, const lsf_net *net, uint32_t width, uin
     lsf_plan_buffer_add(plan, "denoise.weights", layout->weight_bytes,
                         "of the network; none where the CPU runs it");
     lsf_plan_buffer_add(
-        plan, "denoise.features", layout->feature_bytes,
+        plan, "denoise.features", layout->chain.shared_bytes,
         "what its layers make, each while it is needed; none where the CPU runs it");
     for (int i = 0; i < 2 && plan->temporal; i++)
-        lsf_plan_buffer_add(plan, i ? "denoise.state_1" : "denoise.state_0", layout->state_bytes,
+        lsf_plan_buffer_add(plan, i ? "denoise.state_1" : "denoise.state_0",
+                            layout->chain.state_bytes,
                             "what it keeps from frame to frame; none where the CPU runs it");
     free(layout);
 }
@@ -252,45 +253,48 @@ static void give(const lsf_denoise *pass, const lsf_plan *plan, const lsf_denois
 
 static void bind_map(const lsf_denoise *pass, GLuint binding, uint32_t map, bool before)
 {
-    const lsf_denoise_place *place = &pass->layout->maps[map];
-    GLuint buffer = place->home == LSF_DENOISE_EXCHANGE ? pass->exchange
-                    : place->home == LSF_DENOISE_STATE  ? pass->states[before ? 0 : 1]
-                                                        : pass->features;
-    uint64_t bytes = (uint64_t)place->groups * place->width * place->height * 2 * LSF_DENOISE_GROUP;
+    const lsf_net_map *place = &pass->layout->chain.maps[map];
+    GLuint buffer = place->home == LSF_NET_OUTSIDE ? pass->exchange
+                    : place->home == LSF_NET_STATE ? pass->states[before ? 0 : 1]
+                                                   : pass->features;
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer, (GLintptr)place->offset,
-                      (GLsizeiptr)bytes);
+                      (GLsizeiptr)lsf_denoise_map_bytes(place));
 }
 
-static void run_layer(const lsf_denoise *pass, const lsf_denoise_layer *layer)
+static void run_step(const lsf_denoise *pass, uint32_t i)
 {
-    const lsf_denoise_place *maps = pass->layout->maps;
-    const lsf_denoise_place *source = &maps[layer->source], *target = &maps[layer->target];
-    bool doubles = layer->net->side == 2, kept = layer->kept && pass->kept;
-    uint32_t beside = kept ? layer->target : layer->beside;
+    const lsf_net_chain *chain = &pass->layout->chain;
+    const lsf_net_step *step = &chain->steps[i];
+    const lsf_denoise_weights *weights = &pass->layout->weights[i];
+    const lsf_net_map *source = &chain->maps[step->source], *target = &chain->maps[i + 1];
+    bool doubles = step->layer->side == 2,
+         reads_beside = step->beside && (!step->kept || pass->kept);
     glUseProgram(doubles ? pass->twice : pass->convolve);
-    bind_map(pass, LSF_BINDING_DENOISE_TARGET, layer->target, false);
-    bind_map(pass, LSF_BINDING_DENOISE_SOURCE, layer->source, false);
-    if (beside)
-        bind_map(pass, LSF_BINDING_DENOISE_SOURCE + 1, beside, kept);
-    const lsf_denoise_place *size = doubles ? source : target;
+    bind_map(pass, LSF_BINDING_DENOISE_TARGET, i + 1, false);
+    bind_map(pass, LSF_BINDING_DENOISE_SOURCE, step->source, false);
+    if (reads_beside)
+        bind_map(pass, LSF_BINDING_DENOISE_SOURCE + 1, step->beside, step->kept);
+    const lsf_net_map *size = doubles ? source : target;
+    uint32_t targets = lsf_denoise_groups(target->features);
     glUniform2ui(0, size->width, size->height);
-    glUniform4ui(1, source->groups, beside ? maps[beside].groups : 0, layer->groups,
-                 target->groups);
-    glUniform1ui(2, layer->first_weight);
-    glUniform1ui(3, layer->first_bias);
-    glUniform1f(4, layer->rectified ? pass->net->leak : 1.0f);
+    glUniform4ui(1, lsf_denoise_groups(source->features),
+                 reads_beside ? lsf_denoise_groups(step->beside_features) : 0, weights->groups,
+                 targets);
+    glUniform1ui(2, weights->first_weight);
+    glUniform1ui(3, weights->first_bias);
+    glUniform1f(4, step->last || doubles ? 1.0f : pass->net->leak);
     if (!doubles)
-        glUniform1i(5, layer->pooled);
+        glUniform1i(5, step->pooled);
     /* Of what doubles, a work group has half as many pixels to a side. */
     uint32_t share = doubles ? 2 : 1;
-    dispatch(size->width * share, size->height * share, target->groups);
+    dispatch(size->width * share, size->height * share, targets);
 }
 
 static void run_by_gl(const lsf_denoise *pass)
 {
     bind(LSF_BINDING_DENOISE_WEIGHTS, pass->weights);
-    for (uint32_t i = 0; i < pass->layout->layer_count; i++)
-        run_layer(pass, &pass->layout->layers[i]);
+    for (uint32_t i = 0; i < pass->layout->chain.step_count; i++)
+        run_step(pass, i);
 }
 
 static void unpack(const uint16_t *maps, float *values, uint32_t count, size_t pixels)
