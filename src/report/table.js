@@ -17,8 +17,7 @@ class Table {
       const cell = element("td", column.words ? { class: "words" } : {}, column.shown(row));
       if (column.more) cell.title = column.more(row);
       if (column.strong && column.strong(row)) cell.classList.add("front");
-      if (column.faint && column.faint(row))
-          cell.classList.add("faint");
+      if (column.faint && column.faint(row)) cell.classList.add("faint");
       return cell;
     });
     const line = element("tr", this.choose ? { tabindex: "0" } : {}, ...cells);
@@ -86,22 +85,14 @@ const shows = (estimate) => Boolean(estimate) && (estimate.low > 0 || estimate.h
 
 /* What a scene without one of its features saves. */
 function priceColumns() {
-    return [
-        {title : "Without", of : (price) => price.feature, shown : (price) => price.feature},
-        {title : "Bytes saved", of : (price) => price.bytes, shown : (price) => bytes(price.bytes)},
-        {
-            title : "ms saved",
-            of : (price) => (price.milliseconds || {}).value,
-            faint : (price) => !shows(price.milliseconds),
-            shown : (price) => interval(price.milliseconds || {})
-        },
-        figure("Passes", (price) => price.passes.length, 3),
-        figure("Switches", (price) => price.switches.length, 3),
-        {
-            title : "What goes",
-            words : true,
-            of : (price) => price.passes.join(" "),
-            shown : (price) => [...price.passes, ...price.resources].join(", ") || "–"
-        },
-    ];
+  return [
+    { title: "Without", of: (price) => price.feature, shown: (price) => price.feature },
+    { title: "Bytes saved", of: (price) => price.bytes, shown: (price) => bytes(price.bytes) },
+    { title: "ms saved", of: (price) => (price.milliseconds || {}).value, faint: (price) => !shows(price.milliseconds),
+      shown: (price) => interval(price.milliseconds || {}) },
+    figure("Passes", (price) => price.passes.length, 3),
+    figure("Switches", (price) => price.switches.length, 3),
+    { title: "What goes", words: true, of: (price) => price.passes.join(" "),
+      shown: (price) => [...price.passes, ...price.resources].join(", ") || "–" },
+  ];
 }
