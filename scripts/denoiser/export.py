@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Writes a checkpoint's weights as data/denoiser/weights.lsfd, and a small input with the net's answer for the test."""
+import argparse
+import pathlib
+import struct
+import sys
+
+MAGIC, VERSION = b"LSFD", 1
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("checkpoint", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path, help="weights file to write")
+    parser.add_argument("--check", type=pathlib.Path, help="file for a small input and what the net makes of it")
+    return parser.parse_args()
+
+
+def write(net, path):
+    """Magic, version, number of layers, slope of the leaky ReLU; of each layer its name, sizes, half weights, biases."""
+    import numpy as np
+    from net import SLOPE
+    data = MAGIC + struct.pack("<IIf", VERSION, len(net.layers), SLOPE)
+    for name, layer in net.layers.items():
+        weight = layer.weight.detach().numpy()
+        out, into = layer.out_channels, layer.in_channels
+        data += struct.pack("<B", len(name)) + name.encode()
+        data += struct.pack("<4I", out, into, *weight.shape[2:])
+        half = weight.astype("<f2")
+        if not np.isfinite(half).all():
+            raise ValueError(f"{name}: weights beyond half floats")
+        data += half.tobytes() + layer.bias.detach().numpy().astype("<f4").tobytes()
+    path.write_bytes(data)
+
+
+def read(net, path):
+    """The other way round, into a net of the same layers."""
+    import numpy as np
+    import torch
+    data = path.read_bytes()
+    if data[:4] != MAGIC or struct.unpack_from("<II", data, 4) != (VERSION, len(net.layers)):
+        raise ValueError(f"{path}: not weights of this net")
+    at = 16
+    for name, layer in net.layers.items():
+        length = data[at]
+        if data[at + 1:at + 1 + length].decode() != name:
+            raise ValueError(f"{path}: layer {data[at + 1:at + 1 + length]!r} where {name} is expected")
+        at += 1 + length + 16
+        count = layer.weight.numel()
+        weight = np.frombuffer(data, "<f2", count, at).astype(np.float32)
+        bias = np.frombuffer(data, "<f4", layer.out_channels, at + 2 * count)
+        with torch.no_grad():
+            layer.weight.copy_(torch.from_numpy(weight.reshape(layer.weight.shape)))
+            layer.bias.copy_(torch.from_numpy(bias.copy()))
+        at += 2 * count + 4 * layer.out_channels
+
+
+def write_check(net, path):
+    """Two frames of 32 x 32 pixels, so that the state counts: input and output, as little-endian floats."""
+    import numpy as np
+    import torch
+    from net import INPUTS
+    rng, state, data = np.random.default_rng(7), None, b""
+    for _ in range(2):
+        x = rng.random((1, INPUTS, 32, 32)).astype(np.float32)
+        with torch.no_grad():
+            change, state = net(torch.from_numpy(x), state)
+        data += x.astype("<f4").tobytes() + change.numpy().astype("<f4").tobytes()
+    path.write_bytes(data)
+
+
+def main():
+    args = arguments()
+    import torch
+    from net import Net
+    net = Net()
+    net.load_state_dict(torch.load(args.checkpoint)["net"])
+    write(net, args.out)
+    read(net, args.out)  # what is left of the weights in half floats
+    if args.check:
+        write_check(net, args.check)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
