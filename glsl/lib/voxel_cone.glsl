@@ -1,13 +1,13 @@
 /* What a cone sees of voxels. Switches LSF_SEALED: it is the ray along its axis, which ends at the surface that it
  * meets; else it marches through the pyramid of radiance; LSF_VOXEL_SIDES, as in voxel_mip, or sealed
- * LSF_VOXEL_SIDES_SURFACE. */
+ * LSF_VOXEL_SIDES_SURFACE; LSF_VOXEL_PASSAGE: sealed ones go on through what transmits, tinted. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
 
 #include "lib/voxel.glsl"
 #include "shared/cone.h"
 #if LSF_SEALED
-#include "lib/voxel_sight.glsl"
+#include "lib/voxel_passage.glsl"
 #endif
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
@@ -40,7 +40,7 @@ vec3 cone_direction(int i, vec2 shift)
 
 struct cone_light {
     vec3 radiance;      /* in the grid's unit */
-    float transmittance; /* how much of the environment is seen */
+    vec3 transmittance; /* how much of the environment is seen */
 };
 
 #if LSF_SEALED
@@ -62,10 +62,28 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 {
     voxel_ray ray;
     ivec3 met;
-    if (voxel_ray_begin(point + voxel_lift(normal), direction, ray) && voxel_leave_start(ray) &&
-        voxel_ray_meet(ray, cone_march.z, true, met))
-        return cone_light(cone_meet(met, direction), 0.0);
-    return cone_light(vec3(0.0), 1.0);
+    if (!voxel_ray_begin(point + voxel_lift(normal), direction, ray) || !voxel_leave_start(ray))
+        return cone_light(vec3(0.0), vec3(1.0));
+#if LSF_VOXEL_PASSAGE
+    voxel_passage passage = voxel_passage_begin();
+    vec3 radiance = vec3(0.0);
+    for (int i = 0; i < VOXEL_PASSAGE_MOST; i++) {
+        if (!voxel_ray_meet(ray, cone_march.z, true, met))
+            return cone_light(radiance, voxel_passed(passage));
+        bool sheet;
+        vec3 left = voxel_passed(passage);
+        bool goes_on = voxel_pass(passage, ray, met, sheet);
+        if (!sheet)
+            radiance += left * cone_meet(met, direction);
+        if (!goes_on)
+            break;
+    }
+    return cone_light(radiance, vec3(0.0));
+#else
+    if (voxel_ray_meet(ray, cone_march.z, true, met))
+        return cone_light(cone_meet(met, direction), vec3(0.0));
+    return cone_light(vec3(0.0), vec3(1.0));
+#endif
 }
 #else
 #if LSF_VOXEL_SIDES > 1
@@ -93,12 +111,10 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 #if LSF_VOXEL_SIDES > 1
     vec3 slice = vec3(0.0, 2.0, 4.0) + mix(vec3(0.0), vec3(1.0), lessThan(direction, vec3(0.0)));
 #endif
-    cone_light light;
-    light.radiance = vec3(0.0);
-    light.transmittance = 1.0;
-    float t = 0.0;
+    vec3 radiance = vec3(0.0);
+    float transmittance = 1.0, t = 0.0;
     for (int i = 0; i < cone_steps; i++) {
-        if (t >= end || light.transmittance < CONE_OPAQUE)
+        if (t >= end || transmittance < CONE_OPAQUE)
             break;
         float width = spread * (offset + t);
         float texel = max(min(width, (offset + rise * t) * flatness), 0.125 * width);
@@ -123,13 +139,11 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
         vec3 color = (rate.x * x.rgb + rate.y * y.rgb + rate.z * w.rgb) /
                      max(dot(rate, opacity), 1e-6);
 #endif
-        light.radiance += light.transmittance * (1.0 - clear) * color;
-        light.transmittance *= clear;
+        radiance += transmittance * (1.0 - clear) * color;
+        transmittance *= clear;
         t += dt;
     }
-    if (light.transmittance < CONE_OPAQUE)
-        light.transmittance = 0.0;
-    return light;
+    return cone_light(radiance, vec3(transmittance < CONE_OPAQUE ? 0.0 : transmittance));
 }
 #endif
 

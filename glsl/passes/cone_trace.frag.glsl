@@ -7,7 +7,7 @@
 #include "lib/sparse.glsl"
 #include "lib/voxel_cone.glsl"
 
-layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility */
+layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility, of green light */
 #if LSF_SPECULAR
 layout(location = 1) out vec4 specular_out;
 #endif
@@ -131,7 +131,7 @@ void main()
 #endif
 #endif
         irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction, local.z),
-                                       light.transmittance);
+                                       light.transmittance.g);
     }
 #if LSF_SPECULAR
     specular_out.rgb += lobe_light(s, point, to_viewer);

@@ -1,11 +1,12 @@
 /* Light that visible points get from a cloud of VPLs, by way of the tree over it; see
- * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (what is between is looked at), LSF_GLOSS and those of the libraries. */
+ * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (what is between is looked at), LSF_VOXEL_PASSAGE (light
+ * goes on through what transmits), LSF_GLOSS and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/sparse.glsl"
 #include "passes/light_tree_sample_walk.glsl"
 #if LSF_LIGHT_TREE_SIGHT
-#include "lib/voxel_sight.glsl"
+#include "lib/voxel_passage.glsl"
 #endif
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_count_block
@@ -27,12 +28,18 @@ void count(uint what, uint number)
         atomicAdd(counts[2u * what + 1u], 1u);
 }
 
-bool seen(light_receiver r, light_point p)
+/* What comes of the point's light to the receiver. */
+vec3 seen(light_receiver r, light_point p)
 {
 #if LSF_LIGHT_TREE_SIGHT
-    return voxel_sees(voxel_from_position(r.position), r.s.geometric_normal, voxel_from_position(p.position), p.normal);
+    vec3 from = voxel_from_position(r.position), to = voxel_from_position(p.position);
+#if LSF_VOXEL_PASSAGE
+    return voxel_seen(from, r.s.geometric_normal, to, p.normal);
 #else
-    return true;
+    return vec3(voxel_sees(from, r.s.geometric_normal, to, p.normal));
+#endif
+#else
+    return vec3(1.0);
 #endif
 }
 
@@ -58,7 +65,10 @@ void add_light(light_receiver r, light_point p, bool specular, float probability
     float distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
     vec3 direction = way * inversesqrt(distance2);
     float leaves = -dot(p.normal, direction), arrives = dot(r.s.normal, direction);
-    if (leaves <= 0.0 || arrives <= 0.0 || dot(r.s.geometric_normal, direction) <= 0.0 || !seen(r, p))
+    if (leaves <= 0.0 || arrives <= 0.0 || dot(r.s.geometric_normal, direction) <= 0.0)
+        return;
+    vec3 intensity = p.intensity * seen(r, p);
+    if (intensity == vec3(0.0))
         return;
     float held2 = max(distance2, light_bound2(p.disc2));
     brdf_value f = brdf_evaluate(r.s, r.view, direction, light_kernel(p.disc2, leaves / held2));
@@ -66,12 +76,12 @@ void add_light(light_receiver r, light_point p, bool specular, float probability
     float bounded = geometry / held2, lost = geometry / distance2 - bounded;
 #if LSF_SPECULAR
     if (specular) {
-        vec3 reflected = f.specular * p.intensity;
+        vec3 reflected = f.specular * intensity;
         specular_out += vec4(bounded * reflected, lost * luminance(reflected));
         return;
     }
 #endif
-    vec3 reflected = f.diffuse * p.intensity;
+    vec3 reflected = f.diffuse * intensity;
     irradiance_out += vec4(bounded * reflected, lost * luminance(reflected));
 }
 

@@ -2,9 +2,9 @@
  * their surface. */
 #include "lib/environment.glsl"
 #include "lib/sky.glsl"
-#include "lib/voxel_cone.glsl"
 #include "lib/voxel_reflect.glsl"
 #include "lib/voxel_shading.glsl"
+#include "lib/voxel_cone.glsl"
 #include "lib/voxel_sides.glsl"
 
 layout(binding = 1) uniform sampler3D base_texture;
@@ -13,6 +13,9 @@ layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D point_texture;
 #if LSF_VOXEL_GLOSS
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D gloss_texture;
+#endif
+#if LSF_TRANSMISSION
+layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_texture;
 #endif
 layout(location = 0) uniform bvec3 sum_of; /* what was there, the base, what is reflected */
 
@@ -67,11 +70,15 @@ void light_side(ivec3 cell, bool back)
     if (sum_of.z) {
         uint point = texelFetch(point_texture, cell, 0).r;
         uint gloss = 0u;
+        float transmission = 0.0;
 #if LSF_VOXEL_GLOSS
         gloss = texelFetch(gloss_texture, cell, 0).r;
 #endif
+#if LSF_TRANSMISSION
+        transmission = voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
+#endif
         reflector material =
-            voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, gloss, 0.0);
+            voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, gloss, transmission);
         if (!voxel_unlit(point))
             reflected = gather(material, vec3(cell) + voxel_point_unpack(point), n, shading,
                                cell_turn(cell));

@@ -1,9 +1,14 @@
-/* A triangle of the instance in turn in the grid. LSF_VOXELIZE_ID_BITS of a bid tell the triangle. */
+/* A triangle of the instance in turn in the grid. LSF_VOXELIZE_ID_BITS of a bid tell the triangle. Switch
+ * LSF_VOXEL_CHANCE: surfaces that transmit are there by chance, for cones that march cannot go on behind one. */
 #ifndef LSF_PASSES_VOXELIZE
 #define LSF_PASSES_VOXELIZE
 
 #include "lib/triangle_fetch.glsl"
 #include "lib/voxel.glsl"
+
+#ifndef LSF_VOXEL_CHANCE
+#define LSF_VOXEL_CHANCE 0
+#endif
 
 layout(location = 0) uniform uint first_triangle; /* of the instance among all */
 
@@ -114,7 +119,7 @@ vec3 closest_weights(voxel_triangle t, vec3 p)
  * back. Plane and cubes lie elsewhere in each iteration. */
 uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
 {
-#if LSF_BLEND || LSF_STRAIGHT
+#if LSF_BLEND || LSF_VOXEL_CHANCE
     uvec3 bits = hash(uvec3(chance, 0u));
     uvec3 cube = (uvec3(cell) + bits % BLEND_CUBE) / BLEND_CUBE;
     vec3 n = t.axis == 0 ? t.normal.zxy : t.axis == 1 ? t.normal.yzx : t.normal;
@@ -125,7 +130,7 @@ uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
 #endif
 }
 
-#if LSF_STRAIGHT
+#if LSF_VOXEL_CHANCE
 /* With which probability a surface that transmits is not there: its transmittance to diffuse light, of which
  * Schlick's term takes f0 + (f90 - f0) / 21, without its colour. */
 float voxel_passes(surface s)
@@ -145,7 +150,7 @@ bool surface_in(voxel_triangle t, ivec3 cell, vec3 weights, out surface s, out v
     point.key = voxel_layer_key(t, cell);
     if (!material_surface(triangle_material(), point, s, emission))
         return false;
-#if LSF_STRAIGHT && !defined(VOXEL_WON)
+#if LSF_VOXEL_CHANCE && !defined(VOXEL_WON)
     return chance_number(point.key) >= voxel_passes(s);
 #else
     return true;

@@ -46,7 +46,7 @@ bool edges_reach_zx(voxel_triangle t, vec2 low)
 void bid(voxel_triangle t, ivec3 cell, vec3 low)
 {
     vec3 weights = closest_weights(t, low + 0.5);
-#if LSF_MASK || LSF_STRAIGHT
+#if LSF_MASK || LSF_VOXEL_CHANCE
     surface s;
     vec3 emission;
     if (!surface_in(t, cell, weights, s, emission))

@@ -36,7 +36,7 @@ void write_surface(voxel_triangle t, ivec3 cell)
     vec3 emission;
     if (!surface_in(t, cell, weights, s, emission))
         return;
-#if LSF_STRAIGHT
+#if LSF_VOXEL_CHANCE
     /* What it reflects counts for all the iterations in which it is not there. */
     s.transmission = 1.0 - (1.0 - s.transmission) / (1.0 - voxel_passes(s));
 #endif

@@ -2,12 +2,14 @@
  * emitter. A diffuse virtual point light of intensity I sends out the flux pi I, in directions whose density is
  * cos / pi: a path that is drawn by it carries pi I whatever the direction. Each vertex is a virtual point light of
  * what it reflects; the path goes on from it with the probability that keeps its largest channel as bright as before
- * (Russian roulette), and ends there otherwise. Switches LSF_EMISSION, LSF_TRANSMISSION and those of the libraries. */
+ * (Russian roulette), and ends there otherwise. Where it meets what transmits, chance decides whether it passes. Switches
+ * LSF_EMISSION, LSF_TRANSMISSION, LSF_VOXEL_PASSAGE and those of the libraries. */
 #include "lib/cosine.glsl"
+#include "lib/hash.glsl"
 #include "lib/voxel_reflect.glsl"
 #include "lib/voxel_shading.glsl"
-#include "lib/voxel_sight.glsl"
 #include "lib/vpl_cloud.glsl"
+#include "lib/voxel_passage.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
 #if LSF_VOXEL_GLOSS
@@ -74,6 +76,37 @@ lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint dept
     return lsf_vpl_record(voxel_to_position(place), octahedral_encode(side), reflected, depth);
 }
 
+/* On to the voxel that reflects the light; `left`: what is left of it. False: there is none. */
+bool meet(inout voxel_ray ray, uint path, uint vertex, out ivec3 cell, out vec3 left)
+{
+    left = vec3(1.0);
+#if LSF_VOXEL_PASSAGE
+    voxel_passage passage = voxel_passage_begin();
+    float weight = 1.0; /* of what chance has decided */
+    for (uint i = 0u; i < uint(VOXEL_PASSAGE_MOST); i++) {
+        bool sheet;
+        if (!voxel_ray_meet(ray, VOXEL_FAR, true, cell))
+            return false;
+        vec3 before = passage.left;
+        left = weight * voxel_passed(passage);
+        if (!voxel_pass(passage, ray, cell, sheet))
+            return true;
+        if (sheet)
+            continue;
+        float passes = straight_chance(passage.left / max(before, vec3(1e-6)));
+        uvec3 key = uvec3(cloud_turn.x * cloud_shape.y + path, vertex, i) ^ hash(cloud_turn.yzz);
+        if (hash_unit(hash(key)).x >= passes) {
+            left /= 1.0 - passes;
+            return true;
+        }
+        weight /= passes;
+    }
+    return false;
+#else
+    return voxel_ray_meet(ray, VOXEL_FAR, true, cell);
+#endif
+}
+
 void main()
 {
     uint path = gl_GlobalInvocationID.x, vertex;
@@ -88,11 +121,12 @@ void main()
         vec3 direction = normalize(local.x * t + local.y * b + local.z * n);
         voxel_ray ray;
         ivec3 cell;
+        vec3 left;
         if (!voxel_ray_begin(voxel_from_position(v.position) + voxel_lift(n), direction, ray) ||
-            !voxel_leave_start(ray) || !voxel_ray_meet(ray, VOXEL_FAR, true, cell))
+            !voxel_leave_start(ray) || !meet(ray, path, vertex, cell, left))
             return;
         float carried = largest_of(v.intensity);
-        v = reflect_from(cell, ray, v.intensity, v.depth + 1u);
+        v = reflect_from(cell, ray, v.intensity * left, v.depth + 1u);
         cloud[cloud_slot(path, vertex)] = v;
         float goes_on = min(largest_of(v.intensity) / carried, 1.0);
         if (u.z >= goes_on)

@@ -178,3 +178,43 @@ void lsf_voxel_gloss_switch(lsf_plan *plan)
     lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_voxel_gloss(plan),
                         "roughness or metallic vary between voxels");
 }
+
+void lsf_voxel_chance_switch(lsf_plan *plan)
+{
+    if (plan->voxel_chance)
+        lsf_plan_switch_add(plan, "LSF_VOXEL_CHANCE", true, "light passes surfaces by chance");
+}
+
+bool lsf_voxel_passage(const lsf_plan *plan)
+{
+    return plan->straight && !plan->voxel_chance;
+}
+
+void lsf_voxel_passage_switches(lsf_plan *plan)
+{
+    if (!lsf_voxel_passage(plan))
+        return;
+    lsf_plan_switch_add(plan, "LSF_VOXEL_PASSAGE", true, "rays go on through what transmits");
+    lsf_plan_switch_add(plan, "LSF_STRAIGHT", true, "light goes straight on");
+    lsf_scene_gpu_scatter_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->requirements.refractive, "there are media");
+}
+
+void lsf_voxel_passage_all_switches(lsf_plan *plan)
+{
+    if (!lsf_voxel_passage(plan)) {
+        lsf_scene_gpu_scatter_switches(plan);
+        return;
+    }
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "light passes materials that transmit");
+    lsf_voxel_gloss_switch(plan);
+    lsf_voxel_bend_switch(plan);
+    lsf_voxel_passage_switches(plan);
+}
+
+void lsf_voxel_passage_bind(const lsf_iteration *iteration)
+{
+    if (lsf_voxel_passage(iteration->plan))
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS,
+                         iteration->scene->materials);
+}

@@ -84,5 +84,17 @@ void lsf_voxel_bend_switch(lsf_plan *plan);
 /* The same for roughness, metallic and f0. */
 bool lsf_voxel_gloss(const lsf_plan *plan);
 void lsf_voxel_gloss_switch(lsf_plan *plan);
+/* Adds the switch of surfaces that transmit and are there by chance, where cones march. */
+void lsf_voxel_chance_switch(lsf_plan *plan);
+/* Whether rays go on through voxels of materials that transmit. */
+bool lsf_voxel_passage(const lsf_plan *plan);
+/* Adds the switches of lib/voxel_passage.glsl where they do, but for those of materials: gloss,
+ * shading normals, and that light is transmitted. */
+void lsf_voxel_passage_switches(lsf_plan *plan);
+/* The same with these, for passes that need them for nothing else; where rays end, the switches of
+ * rough walls that are seen. */
+void lsf_voxel_passage_all_switches(lsf_plan *plan);
+/* The media's absorption, for such passes. */
+void lsf_voxel_passage_bind(const lsf_iteration *iteration);
 
 #endif

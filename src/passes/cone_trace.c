@@ -46,7 +46,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params)
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic && params->sealed,
                         "rays of the lobe are drawn; cones are round");
-    lsf_scene_gpu_scatter_switches(plan);
+    lsf_voxel_passage_all_switches(plan);
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
@@ -130,6 +130,7 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_bind_texture(3, pass->lobe_albedo);
     lsf_voxels_bind(inputs->voxels);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance);
+    lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (iteration->plan->requirements.environment)
         lsf_iteration_bind_sky(iteration);

@@ -76,7 +76,10 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
                         "some material is anisotropic");
-    lsf_scene_gpu_scatter_switches(plan);
+    if (params->sight == LSF_LIGHT_TREE_VOXELS)
+        lsf_voxel_passage_all_switches(plan);
+    else
+        lsf_scene_gpu_scatter_switches(plan);
     lsf_scene_gpu_lobe_switches(plan, gloss);
     lsf_sparse_grid_places(plan, places);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, places[0], places[1]);
@@ -127,8 +130,10 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
     lsf_surface_maps_bind(inputs->seen);
     lsf_light_tree_bind(inputs->tree);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_COUNTS, pass->count_buffer);
-    if (pass->params.sight == LSF_LIGHT_TREE_VOXELS)
+    if (pass->params.sight == LSF_LIGHT_TREE_VOXELS) {
         lsf_voxels_bind(inputs->voxels);
+        lsf_voxel_passage_bind(iteration);
+    }
     set_disc_scale(pass, iteration);
     float angle = pass->params.angle;
     glUniform1f(LOCATION_SPREAD, angle > 0.0f ? angle * angle : INFINITY);

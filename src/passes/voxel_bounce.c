@@ -25,6 +25,9 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
                         "materials have a specular lobe");
     lsf_voxel_gloss_switch(plan);
+    if (plan->transmission)
+        lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "light passes materials that transmit");
+    lsf_voxel_passage_switches(plan);
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     for (int i = 0; i < (of_own ? 2 : 1); i++)
@@ -102,6 +105,7 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     lsf_voxels_bind(voxels);
     if (sum->source)
         lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
+    lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (iteration->plan->requirements.environment)
         lsf_iteration_bind_sky(iteration);

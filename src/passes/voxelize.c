@@ -100,6 +100,7 @@ static void plan_programs(lsf_plan *plan)
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_ROW", ROW, "triangles of a row of work groups");
     lsf_plan_switch_add(plan, "LSF_BINDING_TILES", BINDING_TILES, "always");
     lsf_scene_gpu_material_switches(plan, false, false);
+    lsf_voxel_chance_switch(plan);
     lsf_plan_pass_add(plan, "voxelize_list", "the voxels that each instance has won");
     plan_switches(plan);
     lsf_plan_pass_add(plan, "voxelize_write", "the surfaces of those that won");
@@ -108,6 +109,7 @@ static void plan_programs(lsf_plan *plan)
     lsf_voxel_bend_switch(plan);
     lsf_scene_gpu_material_switches(plan, lsf_voxel_gloss(plan), lsf_plan_surfaces_shine(plan));
     lsf_scene_gpu_fold_lobes(plan);
+    lsf_voxel_chance_switch(plan);
     lsf_plan_pass_add(plan, "voxelize_beside", "what spares rays a look at voxels beside others");
     beside_switches(plan);
 }
@@ -363,7 +365,7 @@ static void use_mark_program(GLuint program, const instance_turn *turn)
 {
     use_program(program, turn);
     const lsf_plan *plan = turn->iteration->plan;
-    if (plan->requirements.blended || plan->straight)
+    if (plan->requirements.blended || plan->voxel_chance)
         lsf_iteration_set_chance(turn->iteration, LSF_PURPOSE_BLEND_VOXEL, 0);
 }
 

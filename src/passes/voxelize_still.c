@@ -16,7 +16,7 @@ static void still_name(char name[64], const char *of)
 
 bool lsf_voxelize_always_anew(const lsf_plan *plan, bool jitter)
 {
-    return jitter || plan->requirements.blended || plan->straight;
+    return jitter || plan->requirements.blended || plan->voxel_chance;
 }
 
 bool lsf_voxelize_keeps_still(const lsf_plan *plan, bool jitter)

@@ -85,6 +85,7 @@ static void plan_bounce(lsf_plan *plan, const lsf_vpl_cloud_use *use)
     plan_materials(plan);
     lsf_voxel_gloss_switch(plan);
     lsf_voxel_bend_switch(plan);
+    lsf_voxel_passage_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
 }
@@ -240,6 +241,7 @@ void lsf_vpl_cloud_bounce(lsf_vpl_cloud *pass, const lsf_iteration *iteration,
     uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_CLOUD_EMITTER);
     lsf_timer_begin(pass->bounce_timer);
     lsf_voxels_bind(voxels);
+    lsf_voxel_passage_bind(iteration);
     glUseProgram(pass->bounce_program);
     set_shape(pass, iteration, NO_LIGHT, pass->light_paths, pass->shape.paths - pass->light_paths);
     glUniform1ui(2, pass->shape.vertices);

@@ -64,6 +64,8 @@ struct lsf_plan {
     bool transmission; /* there are materials that transmit light */
     bool straight;     /* light goes straight through transmitting materials: the technique
                         * cannot refract it */
+    bool voxel_chance; /* ... and through voxels, which are there by chance: cones march and cannot
+                        * go on behind one */
     bool scattered; /* rough thin walls that are seen scatter the light that comes through them */
     bool random_samples;  /* plain random numbers pick light samples, not low-discrepancy ones */
     uint32_t pattern;     /* side of the pattern in which pixels take different samples, which a

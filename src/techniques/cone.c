@@ -67,6 +67,7 @@ static void remark(lsf_plan *plan, const way *w)
 static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
     way w = choose_way(plan, params);
+    plan->voxel_chance = w.traced && plan->straight && !params->cone.sealed;
     if (w.traced) {
         lsf_voxel_chain_use use = chain_use(params, &w);
         lsf_voxel_chain_plan(plan, params, state, &use);

@@ -158,6 +158,92 @@ static void bundles_and_vpls_pass(void **unused)
     }
 }
 
+/* A rough pane before a clear tinted one in a white world: rays of cones, and what they meet, see
+ * the sky in that tint. The rough pane scatters light of all directions, of which the other lets
+ * the same share through but for Fresnel's term. */
+static void cones_are_tinted(void **unused)
+{
+    (void)unused;
+    static const double tint[3] = {1.0, 0.5, 0.2};
+    double rgb[2][3], expected[3];
+    for (int pane = 0; pane < 2; pane++) {
+        lsf_scene *scene = build_scene();
+        build_glass(scene, 1.0f, 0.3f, 0.0f)->ior = 1.0f;
+        build_floor(scene, 0.0f, 4.0f);
+        lsf_material *glass = build_glass(scene, 1.0f, 0.0f, 0.0f);
+        glass->ior = 1.0f;
+        for (int c = 0; c < 3; c++)
+            glass->base_color[c] = (float)tint[c];
+        build_floor(scene, pane ? -1.0f : 0.5f, 4.0f);
+        build_environment(scene, 1.0f);
+        finish_gl_scene(scene);
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+        params.technique = "cone";
+        params.bounces = 0;
+        params.samples = 32;
+        params.fov_y = 2.0f;
+        lsf_image *image =
+            render_gl_from(scene, params, 16, lsf_f3(0, 0.3f, 0.05f), lsf_f3(0, 0, 0));
+        mean_rgb(image, 0, rgb[pane]);
+        lsf_image_destroy(image);
+        destroy_scene(scene);
+    }
+    for (int c = 0; c < 3; c++)
+        expected[c] = rgb[0][c] * tint[c];
+    assert_seen("cones through a pane", rgb[1], expected, 0.03);
+}
+
+/* A floor under a pane, and under a slab of a medium that absorbs, in a white room: what comes
+ * through is that of the techniques' rays through voxels. */
+static void rays_through_voxels_are_tinted(void **unused)
+{
+    (void)unused;
+    static const char *const techniques[] = {"cone", "substitute_tree"};
+    static const double tint[3] = {0.9, 0.5, 0.2};
+    for (int k = 0; k < 4; k++) {
+        double rgb[2][3], expected[3];
+        bool slab = k / 2 == 1;
+        for (int glass = 0; glass < 2; glass++) {
+            lsf_scene *scene = build_scene();
+            build_dull_floor(scene, 0.5f, 0.0f);
+            lsf_material *lamp = build_material(scene, 0, 0, 0);
+            lamp->emission[0] = lamp->emission[1] = lamp->emission[2] = 1.0f;
+            build_box(scene, lsf_f3(-4, -1, -4), lsf_f3(4, 3, 4), true);
+            lsf_material *pane = build_glass(scene, 1.0f, 0.0f, slab ? 1.0f : 0.0f);
+            pane->ior = 1.0f;
+            if (slab)
+                pane->attenuation_distance = 1.0f;
+            for (int c = 0; c < 3; c++)
+                *(slab ? &pane->attenuation_color[c] : &pane->base_color[c]) = (float)tint[c];
+            if (glass && slab)
+                build_box(scene, lsf_f3(-4, 0.25f, -4), lsf_f3(4, 0.75f, 4), false);
+            else if (glass)
+                build_floor(scene, 0.25f, 4.0f);
+            finish_gl_scene(scene);
+            lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+            params.technique = techniques[k % 2];
+            params.bounces = 0;
+            params.samples = 32;
+            params.fov_y = 2.0f;
+            lsf_image *image =
+                render_gl_from(scene, params, 16, lsf_f3(0, 0.2f, 0), lsf_f3(0.2f, 0, 0));
+            mean_rgb(image, 0, rgb[glass]);
+            lsf_image_destroy(image);
+            destroy_scene(scene);
+        }
+        /* The mean over the hemisphere, by the cosine; the slab is 0.5 thick. */
+        for (int c = 0; c < 3; c++) {
+            double share = 0.0;
+            for (int i = 0; i < 1000; i++) {
+                double cosine = sqrt((i + 0.5) / 1000.0), pass = 1.0 - schlick(0.0, cosine);
+                share += slab ? pass * pass * pow(tint[c], 0.5 / cosine) : pass * tint[c];
+            }
+            expected[c] = rgb[0][c] * share / 1000.0;
+        }
+        assert_seen(techniques[k % 2], rgb[1], expected, 0.03);
+    }
+}
+
 /* Veils of bundles, tints of maps and chance do not depend on who draws what first. */
 static void bits_are_the_same_for_any_threads(void **unused)
 {
@@ -189,6 +275,8 @@ int main(void)
         cmocka_unit_test(panes_reflect),
         cmocka_unit_test(slabs_absorb),
         cmocka_unit_test(bundles_and_vpls_pass),
+        cmocka_unit_test(cones_are_tinted),
+        cmocka_unit_test(rays_through_voxels_are_tinted),
         cmocka_unit_test(bits_are_the_same_for_any_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
