@@ -42,10 +42,10 @@ void lsf_net_chain_make(lsf_net_chain *chain, const lsf_net *net, uint32_t width
     chain->maps[last].home = LSF_NET_OUTSIDE;
 }
 
-/* The last step that reads a map. */
+/* The last step that reads a map; of the last map, that which makes it. */
 static uint32_t last_use(const lsf_net_chain *chain, uint32_t map)
 {
-    uint32_t last = 0;
+    uint32_t last = map - 1;
     for (uint32_t i = 0; i < chain->step_count; i++)
         if (chain->steps[i].source == map || chain->steps[i].beside == map)
             last = i;

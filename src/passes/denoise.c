@@ -40,15 +40,12 @@ static void plan_network(lsf_plan *plan, const lsf_net *net, uint32_t width, uin
     }
     lsf_denoise_layout_make(layout, net, width, height, plan->temporal);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
-    lsf_plan_buffer_add(plan, "denoise.weights", layout->weight_bytes,
-                        "of the network; none where the CPU runs it");
-    lsf_plan_buffer_add(
-        plan, "denoise.features", layout->chain.shared_bytes,
-        "what its layers make, each while it is needed; none where the CPU runs it");
+    lsf_plan_buffer_add(plan, "denoise.weights", layout->weight_bytes, "of the network");
+    lsf_plan_buffer_add(plan, "denoise.features", layout->chain.shared_bytes,
+                        "what its layers make, each while it is needed");
     for (int i = 0; i < 2 && plan->temporal; i++)
         lsf_plan_buffer_add(plan, i ? "denoise.state_1" : "denoise.state_0",
-                            layout->chain.state_bytes,
-                            "what it keeps from frame to frame; none where the CPU runs it");
+                            layout->chain.state_bytes, "what it keeps from frame to frame");
     free(layout);
 }
 
@@ -160,7 +157,15 @@ static bool create_network(lsf_denoise *pass, const lsf_plan *plan, lsf_error *e
                                              &pass->states[1], error);
 }
 
-bool lsf_denoise_create(lsf_denoise *pass, lsf_context *context, const lsf_plan *plan,
+static void leave_out(lsf_plan *plan)
+{
+    static const char *const names[] = {"denoise.weights", "denoise.features", "denoise.state_0",
+                                        "denoise.state_1"};
+    for (size_t i = 0; i < LSF_COUNT(names); i++)
+        lsf_plan_leave_out(plan, names[i], "the CPU runs the network");
+}
+
+bool lsf_denoise_create(lsf_denoise *pass, lsf_context *context, lsf_plan *plan,
                         const lsf_denoise_params *params, const lsf_net *net, lsf_error *error)
 {
     *pass = (lsf_denoise){.context = context,
@@ -177,6 +182,8 @@ bool lsf_denoise_create(lsf_denoise *pass, lsf_context *context, const lsf_plan 
     if (net && (!create_processor(pass, (lsf_denoise_processor)params->processor, error) ||
                 (!pass->processor && !create_network(pass, plan, error))))
         return false;
+    if (pass->processor)
+        leave_out(plan);
     if (!create_programs(pass, plan, error))
         return false;
     pass->timer = lsf_timer_create(context, "denoise", error);

@@ -58,7 +58,8 @@ typedef struct lsf_denoise {
 
 /* `net` NULL: there is none, and what it would get is recorded. */
 void lsf_denoise_plan(lsf_plan *plan, const lsf_net *net);
-bool lsf_denoise_create(lsf_denoise *pass, lsf_context *context, const lsf_plan *plan,
+/* Where the CPU runs the network, the plan is rid of what OpenGL would need for it. */
+bool lsf_denoise_create(lsf_denoise *pass, lsf_context *context, lsf_plan *plan,
                         const lsf_denoise_params *params, const lsf_net *net, lsf_error *error);
 /* Goes over to another frame; with `cut` nothing of those before is kept. */
 void lsf_denoise_begin(lsf_denoise *pass, bool cut);

@@ -139,6 +139,17 @@ void lsf_plan_omit(lsf_plan *plan, const char *name, const char *why, ...)
     FORMAT_INTO(omission->why, why);
 }
 
+void lsf_plan_leave_out(lsf_plan *plan, const char *resource, const char *why)
+{
+    uint64_t left = 0;
+    for (uint64_t i = 0; i < plan->resource_count; i++)
+        if (strcmp(plan->resources[i].name, resource) != 0)
+            plan->resources[left++] = plan->resources[i];
+    if (left < plan->resource_count)
+        lsf_plan_omit(plan, resource, "%s", why);
+    plan->resource_count = left;
+}
+
 void lsf_plan_remark(lsf_plan *plan, const char *format, ...)
 {
     char **remark = APPEND(plan, remark);

@@ -126,6 +126,8 @@ void lsf_plan_buffer_add(lsf_plan *plan, const char *name, uint64_t bytes, const
 /* A feature that the technique knows and left out. */
 void lsf_plan_omit(lsf_plan *plan, const char *name, const char *why, ...)
     __attribute__((format(printf, 3, 4)));
+/* Something that was planned and turns out not to be needed: a resource is no longer listed. */
+void lsf_plan_leave_out(lsf_plan *plan, const char *resource, const char *why);
 void lsf_plan_remark(lsf_plan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* NULL when the plan does not list it. */

@@ -27,7 +27,7 @@ lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error)
 static bool create_filters(lsf_renderer *renderer, lsf_error *error)
 {
     const lsf_setup *setup = &renderer->setup;
-    const lsf_plan *plan = setup->plan;
+    lsf_plan *plan = setup->plan;
     lsf_context *context = renderer->context;
     const lsf_pass_params *params = &setup->pass_params;
     uint32_t tiles = (uint32_t)(params->sparse.interleave * params->sparse.interleave);

@@ -114,6 +114,7 @@ static void maps_share_bytes(void **unused)
         lsf_net_chain chain;
         uint64_t sum = 0;
         lsf_net_chain_make(&chain, net, 64, 32, recurrent);
+        chain.maps[chain.step_count].home = LSF_NET_SHARED; /* as on the CPU */
         for (uint32_t i = 0; i <= chain.step_count; i++)
             chain.maps[i].bytes =
                 (uint64_t)chain.maps[i].features * chain.maps[i].width * chain.maps[i].height;
@@ -169,24 +170,27 @@ static void onednn_agrees_with_plain_c(void **unused)
     enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT };
     static float input[LSF_NET_INPUTS * PIXELS], again[LSF_NET_OUTPUTS * PIXELS];
     static float output[LSF_NET_OUTPUTS * PIXELS], expected[LSF_NET_OUTPUTS * PIXELS];
-    for (uint32_t stages = 1; stages <= 4; stages++) {
+    for (uint32_t test = 0; test < 8; test++) {
+        uint32_t stages = 1 + test / 2;
+        bool recurrent = test % 2;
         lsf_net *net = net_rig_make(stages, stages % 2 ? 0.1f : 0.0f, 1.4f, 1.0f, stages);
         size_t size = net_rig_state_size(net, WIDTH, HEIGHT);
         float *state = calloc(size, sizeof *state);
-        void *runner = module->create(net, WIDTH, HEIGHT, true, &error);
+        void *runner = module->create(net, WIDTH, HEIGHT, recurrent, &error);
         assert_non_null(runner);
         for (uint32_t frame = 0; frame < 3; frame++) {
             for (uint32_t i = 0; i < LSF_COUNT(input); i++)
                 input[i] = 2.0f * lsf_random_float(50 + frame, i);
-            if (frame == 2)
+            if (frame == 2 || !recurrent)
                 memset(state, 0, size * sizeof *state);
-            bool kept = frame == 1;
+            bool kept = recurrent && frame == 1;
             net_rig_run(net, WIDTH, HEIGHT, input, expected, state);
             assert_true(module->run(runner, input, output, kept, &error));
             assert_true(module->run(runner, input, again, kept, &error));
             assert_memory_equal(output, again, sizeof output);
             compare(output, expected, LSF_COUNT(output), 1e-5f);
-            module->keep(runner);
+            if (recurrent)
+                module->keep(runner);
         }
         module->destroy(runner);
         free(state);

@@ -28,7 +28,7 @@ static uint32_t pixels_of(const rig *r)
 }
 
 static void rig_begin(rig *r, uint32_t width, uint32_t height, bool orthographic,
-                      const lsf_net *net, lsf_denoise_processor processor)
+                      const lsf_net *net, lsf_denoise_processor processor, bool recurrent)
 {
     lsf_error error = {0};
     const lsf_denoise_params params = {processor};
@@ -36,7 +36,7 @@ static void rig_begin(rig *r, uint32_t width, uint32_t height, bool orthographic
     assert_true(width * height <= MAX_PIXELS);
     surface_rig_begin(&r->s, width, height, orthographic);
     r->net = net;
-    r->s.setup.plan->temporal = true;
+    r->s.setup.plan->temporal = recurrent;
     lsf_denoise_plan(r->s.setup.plan, net);
     surface_rig_start(&r->s);
     if (!lsf_denoise_create(&r->pass, r->s.context, r->s.setup.plan, &params, net, &error))
@@ -257,17 +257,20 @@ static void both_processors_agree_with_plain_c(void **unused)
     static const char *const names[] = {[LSF_DENOISE_GL] = "gl", [LSF_DENOISE_CPU] = "cpu"};
     lsf_error missing = {0};
     bool has_module = lsf_denoiser_module_get(&missing);
-    for (uint32_t s = 0; s < LSF_COUNT(sizes); s++)
+    for (uint32_t test = 0; test < 2 * LSF_COUNT(sizes); test++)
         for (int processor = LSF_DENOISE_GL; processor <= LSF_DENOISE_CPU; processor++) {
+            uint32_t s = test / 2;
+            bool recurrent = test % 2;
             if (processor == LSF_DENOISE_CPU && !has_module)
                 continue;
             lsf_net *net = net_rig_make(s + 1, 0.1f, 1.0f, 0.3f, s);
-            rig_begin(&r, sizes[s][0], sizes[s][1], s % 2, net, (lsf_denoise_processor)processor);
+            rig_begin(&r, sizes[s][0], sizes[s][1], s % 2, net, (lsf_denoise_processor)processor,
+                      recurrent);
             float *state =
                 calloc(net_rig_state_size(net, r.pass.width, r.pass.height), sizeof *state);
             for (uint32_t frame = 0; frame < 3; frame++) {
                 lsf_denoise_begin(&r.pass, frame == 2);
-                if (frame == 2)
+                if (frame == 2 || !recurrent)
                     memset(state, 0,
                            sizeof *state * net_rig_state_size(net, r.pass.width, r.pass.height));
                 set_texels(&r, 10 * frame);
@@ -294,7 +297,7 @@ static void the_picture_keeps_its_light(void **unused)
     static rig r;
     for (uint32_t test = 0; test < 2; test++) {
         lsf_net *net = net_rig_make(2, 0.0f, test ? 1.0f : 0.0f, 0.3f, 4);
-        rig_begin(&r, 48, 40, false, net, LSF_DENOISE_GL);
+        rig_begin(&r, 48, 40, false, net, LSF_DENOISE_GL, false);
         lsf_denoise_begin(&r.pass, true);
         set_texels(&r, 3);
         run(&r);
@@ -327,7 +330,7 @@ static void nothing_becomes_infinite(void **unused)
     static rig r;
     static const float factors[] = {0.0f, 1.0f, 1e17f, 1e-24f, 1e18f};
     lsf_net *net = net_rig_make(3, 0.0f, 3.0f, 1.0f, 5);
-    rig_begin(&r, 20, 12, false, net, LSF_DENOISE_GL);
+    rig_begin(&r, 20, 12, false, net, LSF_DENOISE_GL, false);
     for (uint32_t test = 0; test < 2 * LSF_COUNT(factors); test++) {
         lsf_denoise_begin(&r.pass, false);
         set_texels(&r, test);
