@@ -73,10 +73,10 @@ static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
     basis->height = setup->params.height;
 }
 
-/* Iterations up to which a pattern of 4 pixels a side pays in any picture, and one of any size;
- * beyond, the picture without converges faster. In pictures of so many pixels the maps of 16
+/* Iterations up to which patterns of 4 and of 3 pixels a side pay in any picture, and one of any
+ * size; beyond, the picture without converges faster. In pictures of so many pixels the maps of 16
  * samples take less than the pixels do. src/passes/light_filter.md has the measurements. */
-enum { PATTERN_4 = 4, PATTERN_ANY = 128, PATTERN_4_PIXELS = 1 << 17 };
+enum { PATTERN_4 = 4, PATTERN_3 = 8, PATTERN_ANY = 128, PATTERN_4_PIXELS = 1 << 17 };
 
 /* interleave.size, where nobody says it: the fewer iterations, the more samples in each. */
 static int32_t choose_interleave(const lsf_render_params *params)
@@ -85,7 +85,9 @@ static int32_t choose_interleave(const lsf_render_params *params)
     if (params->raw || (params->samples > PATTERN_ANY && !limited))
         return 1;
     bool large = (uint64_t)params->width * params->height >= PATTERN_4_PIXELS && !limited;
-    return params->samples <= PATTERN_4 || large ? 4 : 2;
+    if (params->samples <= PATTERN_4 || large)
+        return 4;
+    return params->samples <= PATTERN_3 ? 3 : 2;
 }
 
 /* Points that two cores trace in a second, with some of it left for all else: 1 to 6 voxel paths
