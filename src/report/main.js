@@ -14,7 +14,8 @@ function describe() {
     Scene: data.scene, Processor: machine.processor && `${machine.processor}, ${machine.cores} cores`,
     Memory: machine.memory_bytes && bytes(machine.memory_bytes), System: machine.system,
     OpenGL: device.renderer && `${device.renderer}, ${device.version}`,
-    Clock: data.clock === "gpu" ? "GPU timestamps" : "wall clock of finished frames",
+    Clock: { gpu: "GPU timestamps", wall: "wall clock of finished frames",
+      processor: "processor time of all cores" }[data.clock],
     Reference: data.reference && `${data.reference.technique}, ${(data.reference.samples || []).join(" + ")} samples a ` +
       `pixel, standard deviation ${number(data.reference.rmse)}`,
     "relMSE’s ε": number(data.relmse_epsilon), "Took": `${number(data.seconds)} s`,

@@ -9,6 +9,12 @@
 #include "sweep/front.h"
 #include "sweep/statistics.h"
 
+const char *lsf_clock_name(lsf_clock clock)
+{
+    static const char *const names[] = {"wall", "gpu", "processor"};
+    return names[clock];
+}
+
 static void finish_configuration(lsf_configuration *configuration)
 {
     free(configuration->technique);

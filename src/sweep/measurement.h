@@ -9,6 +9,12 @@
 
 enum { LSF_SWEEP_MAX_SEEDS = 32, LSF_SWEEP_MAX_OPTIONS = 16, LSF_SWEEP_MAX_PASSES = 64 };
 
+/* What milliseconds are: those of the clock on the wall, of the GPU's timestamps, or what all cores
+ * work for this process, which other programs disturb less. */
+typedef enum lsf_clock { LSF_CLOCK_WALL, LSF_CLOCK_GPU, LSF_CLOCK_PROCESSOR } lsf_clock;
+
+const char *lsf_clock_name(lsf_clock clock); /* "wall" */
+
 /* With its 95 % confidence interval. NAN: not known. */
 typedef struct lsf_estimate {
     double value, low, high;
@@ -132,7 +138,8 @@ typedef struct lsf_measurement {
     char scene_hash[33]; /* of the files' content */
     char key[33];        /* of all that its points depend on */
     uint32_t width, height, bounces;
-    bool raw, interrupted, gpu_clock;
+    bool raw, interrupted;
+    lsf_clock clock;
     double relmse_epsilon;
     float exposure; /* EV, of SSIM and previews */
     double seconds; /* that all of it took */

@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "sweep/errors.h"
 #include "sweep/statistics.h"
+#include "sweep/stopwatch.h"
 
 /* --- pictures --- */
 
@@ -121,11 +122,11 @@ static lsf_image *render(path_run *run, const lsf_path_frame *at, uint32_t numbe
                              .view = &at->view,
                              .first_sample = number * run->point->samples,
                              .cut = cut};
-    double begun = lsf_now();
     run->done = 0;
+    lsf_stopwatch watch = lsf_stopwatch_start(run->stage->clock, run->renderer);
     bool good = lsf_renderer_begin_frame(run->renderer, &frame, error) &&
                 lsf_renderer_run(run->renderer, error);
-    *milliseconds = 1e3 * (lsf_now() - begun);
+    *milliseconds = lsf_stopwatch_stop(&watch, run->renderer, NULL);
     return good && !run->stopped ? lsf_renderer_read(run->renderer, error) : NULL;
 }
 

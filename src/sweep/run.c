@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "sweep/errors.h"
+#include "sweep/stopwatch.h"
 
 /* One point in the making. */
 typedef struct point_run {
@@ -45,25 +46,6 @@ static bool list_options(point_run *run, lsf_error *error)
     return true;
 }
 
-/* What of all passes has finished since this was last asked; each is kept with the point, where one
- * is given. */
-static double poll_milliseconds(lsf_renderer *renderer, lsf_measured_point *point)
-{
-    const lsf_pass_time *times;
-    double sum = 0.0;
-    uint32_t count = lsf_renderer_poll_times(renderer, &times);
-    for (uint32_t i = 0; i < count; i++) {
-        sum += times[i].milliseconds;
-        if (!point || times[i].runs == 0 || point->pass_count == LSF_SWEEP_MAX_PASSES)
-            continue;
-        lsf_measured_pass *pass = &point->passes[point->pass_count++];
-        *pass = (lsf_measured_pass){.runs = times[i].runs,
-                                    .milliseconds = times[i].milliseconds / point->samples};
-        snprintf(pass->name, sizeof pass->name, "%s", times[i].name);
-    }
-    return sum;
-}
-
 /* A frame whose time does not count, then the one that does: lsf_renderer_run waits until it is
  * done. */
 static bool time_frame(point_run *run, lsf_renderer *renderer, double *milliseconds,
@@ -73,16 +55,12 @@ static bool time_frame(point_run *run, lsf_renderer *renderer, double *milliseco
     if (!lsf_renderer_iterate(renderer, error) || !lsf_renderer_texture(renderer, 0, error))
         return false;
     lsf_renderer_get_stats(renderer); /* which waits */
-    poll_milliseconds(renderer, NULL);
     run->done = 0;
-    double start = lsf_now();
+    lsf_stopwatch watch = lsf_stopwatch_start(run->stage->clock, renderer);
     bool good =
         lsf_renderer_begin_frame(renderer, &frame, error) && lsf_renderer_run(renderer, error);
-    *milliseconds = 1e3 * (lsf_now() - start);
     lsf_measured_point *first = run->point->pass_count == 0 ? run->point : NULL;
-    double finished = poll_milliseconds(renderer, first);
-    if (run->stage->gpu_clock)
-        *milliseconds = finished;
+    *milliseconds = lsf_stopwatch_stop(&watch, renderer, first);
     return good;
 }
 

@@ -10,10 +10,10 @@
 typedef struct lsf_sweep_stage {
     lsf_context *context;
     const lsf_scene *scene;
-    lsf_render_params params;    /* technique, samples, seed and options are each point's */
-    const lsf_image *halves[2];  /* of the reference: R, G, B */
-    float exposure;              /* EV, of SSIM and of previews */
-    bool gpu_clock;              /* times are those of GPU timestamps, else of the wall */
+    lsf_render_params params;   /* technique, samples, seed and options are each point's */
+    const lsf_image *halves[2]; /* of the reference: R, G, B */
+    float exposure;             /* EV, of SSIM and of previews */
+    lsf_clock clock;
     const char *folder;          /* where pictures go; NULL: nowhere */
     void (*advance)(void *user); /* called after each iteration; NULL: nobody wants to know */
     bool (*go_on)(void *user);   /* whether to; asked often. NULL: always */

@@ -93,7 +93,9 @@ static bool describe_run(lsf_measure_job *job, lsf_error *error)
     m->bounces = lsf_summary_bounces(settings, job->scene);
     m->raw = settings->raw;
     m->exposure = settings->exposure.ev;
-    m->gpu_clock = !job->device.software;
+    m->clock = settings->clock == 1   ? LSF_CLOCK_PROCESSOR
+               : job->device.software ? LSF_CLOCK_WALL
+                                      : LSF_CLOCK_GPU;
     return good &&
            ((m->scene && m->command) || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left"));
 }
@@ -145,8 +147,8 @@ static bool make_key(lsf_measure_job *job, lsf_error *error)
     for (uint32_t i = 0; i < settings->defines.count; i++)
         lsf_string_add(&text, " %s", settings->defines.items[i]);
     lsf_string_add(&text, "%s", job->path_key.text ? job->path_key.text : "");
-    lsf_string_add(&text, "\n%s %s %s", job->device.backend, job->device.renderer,
-                   job->device.version);
+    lsf_string_add(&text, "\n%s %s %s %s", lsf_clock_name(m->clock), job->device.backend,
+                   job->device.renderer, job->device.version);
     XXH128_hash_t hash = XXH3_128bits(text.text, text.length);
     snprintf(m->key, sizeof m->key, "%016" PRIx64 "%016" PRIx64, hash.high64, hash.low64);
     free(text.text);

@@ -259,7 +259,7 @@ void lsf_measure_add_json(lsf_json *json, const lsf_measurement *m, const lsf_co
     lsf_json_integer(json, "bounces", m->bounces);
     lsf_json_bool(json, "raw", m->raw);
     lsf_json_bool(json, "interrupted", m->interrupted);
-    lsf_json_string(json, "clock", m->gpu_clock ? "gpu" : "wall");
+    lsf_json_string(json, "clock", lsf_clock_name(m->clock));
     lsf_json_number(json, "relmse_epsilon", m->relmse_epsilon);
     lsf_json_number(json, "exposure", m->exposure);
     lsf_json_number(json, "seconds", m->seconds);

@@ -34,7 +34,7 @@ static lsf_sweep_stage stage_of(lsf_measure_job *job)
                              .params = params,
                              .halves = {job->reference.halves[0], job->reference.halves[1]},
                              .exposure = settings->exposure.ev,
-                             .gpu_clock = job->measurement.gpu_clock,
+                             .clock = job->measurement.clock,
                              .folder = settings->picture_folder,
                              .advance = advance,
                              .go_on = go_on,

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "sweep/statistics.h"
+#include "sweep/stopwatch.h"
 #include "tools/interrupt.h"
 
 enum { FRAMES = 9 }; /* of each, in turn with the other's, so that both see the same machine */
@@ -12,18 +13,11 @@ static bool time_frame(const lsf_measure_job *job, lsf_renderer *renderer, doubl
                        lsf_error *error)
 {
     const lsf_frame frame = {LSF_FRAME_DEFAULTS, .time = job->settings.time, .cut = true};
-    const lsf_pass_time *times;
-    lsf_renderer_poll_times(renderer, &times);
-    double start = lsf_now();
-    if (!lsf_renderer_begin_frame(renderer, &frame, error) || !lsf_renderer_run(renderer, error))
-        return false;
-    *milliseconds = 1e3 * (lsf_now() - start);
-    if (!job->measurement.gpu_clock)
-        return true;
-    *milliseconds = 0.0;
-    for (uint32_t i = 0, count = lsf_renderer_poll_times(renderer, &times); i < count; i++)
-        *milliseconds += times[i].milliseconds;
-    return true;
+    lsf_stopwatch watch = lsf_stopwatch_start(job->measurement.clock, renderer);
+    bool good =
+        lsf_renderer_begin_frame(renderer, &frame, error) && lsf_renderer_run(renderer, error);
+    *milliseconds = lsf_stopwatch_stop(&watch, renderer, NULL);
+    return good;
 }
 
 /* The first frame of each does not count. */

@@ -169,6 +169,10 @@ static const lsf_command_option options[] = {
      "instead of measuring all of them"},
     {"error", 0, "X", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_DOUBLE, AT(error), 1e-12, 1e12,
      NULL, NULL, "look for those that are the soonest to a relMSE of X"},
+    {"clock", 0, "CLOCK", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_CHOICE, AT(clock), 0, 0,
+     "auto|processor", "auto",
+     "what milliseconds are: auto takes the GPU's timestamps, or the wall clock where OpenGL is "
+     "software; processor adds up what all cores work, which other programs disturb less"},
     {"save-preset", 0, "FILE", LSF_COMMAND_MEASURE, "Measurement", LSF_VALUE_JSON, AT(saved_preset),
      0, 0, NULL, NULL,
      "write what was found with --budget-ms or --error as a preset, for render --preset"},

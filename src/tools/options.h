@@ -194,6 +194,7 @@ typedef struct lsf_settings {
     const char *csv_path, *html_path, *picture_folder, *cache; /* NULL: not given */
 
     int measure_preset;                /* which of quick and full, or LSF_PRESET_FILE */
+    int clock;                         /* 0: what suits the device, 1: the processor's */
     double budget_ms, error;           /* NAN: not asked for */
     const char *preset, *saved_preset; /* NULL: not given */
 

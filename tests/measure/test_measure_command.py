@@ -38,6 +38,7 @@ class Measure(CommandTest):
         rows = list(csv.DictReader(io.StringIO(self.read("a.csv").decode())))
         self.assertEqual(len(rows), len(points))
         self.assertAlmostEqual(float(rows[4]["relmse"]) / points[4]["relmse"]["value"], 1, 6)
+        self.assertEqual(report["clock"], "wall")
         self.assertEqual([line[0] for line in done.stdout.decode().splitlines()[1:10]].count("*"),
                          sum(point["front"] for point in points))
         self.check_pictures(report)
@@ -47,6 +48,16 @@ class Measure(CommandTest):
         for most, counts in ((1, [1]), (5, [1, 2, 4, 5]), (6, [1, 2, 4, 6])):
             self.measure("-t", "direct", "-s", str(most), "--json", "a.json")
             self.assertEqual([p["samples"] for p in self.read_json("a.json")["points"]], counts)
+
+    def test_processor_time(self):
+        """Another clock makes other points."""
+        words = ("-t", "direct", "-s", "1", "--json", "a.json")
+        self.measure(*words, "--clock", "processor")
+        report = self.read_json("a.json")
+        self.assertEqual(report["clock"], "processor")
+        self.assertGreater(report["points"][0]["milliseconds"]["median"], 0)
+        self.refuse("measure", CORNELL, *SMALL, *words, "--resume", status=FILE,
+                    says=["a.json: something else was measured"])
 
     def check_point(self, point):
         self.assertEqual(len(point["seeds"]), 3)
