@@ -35,6 +35,16 @@ static bool append(lsf_list_setting *list, const char *item, lsf_error *error)
     return lsf_list_append(list, item) || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
 }
 
+/* What --define holds fast is not swept. */
+static bool is_held(const lsf_settings *settings, const char *sweep)
+{
+    size_t length = strcspn(sweep, "=") + 1;
+    for (uint32_t i = 0; i < settings->defines.count; i++)
+        if (strncmp(settings->defines.items[i], sweep, length) == 0)
+            return true;
+    return false;
+}
+
 /* A sweep counts when one of the techniques takes its option. */
 static bool is_taken(const lsf_settings *settings, const char *sweep)
 {
@@ -59,7 +69,7 @@ bool lsf_measure_fill_in(lsf_settings *settings, lsf_error *error)
         good = append(&settings->techniques, lsf_technique_name(i), error);
     if (settings->sweeps.count == 0 && !of_file)
         for (size_t i = 0; good && i < LSF_COUNT(preset->sweeps) && preset->sweeps[i]; i++)
-            if (is_taken(settings, preset->sweeps[i]))
+            if (is_taken(settings, preset->sweeps[i]) && !is_held(settings, preset->sweeps[i]))
                 good = append(&settings->sweeps, preset->sweeps[i], error);
     if (!settings->samples)
         settings->samples = preset->samples;

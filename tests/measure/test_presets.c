@@ -60,8 +60,28 @@ static void test_presets(void **state)
     free(path);
 }
 
+/* An option that was given is not swept beside. */
+static void test_defines_hold(void **state)
+{
+    (void)state;
+    lsf_error error;
+    const char *defines[] = {"voxel.resolution=32"};
+    lsf_settings settings = {.defines = {defines, 1, 1}, .budget_ms = NAN, .error = NAN};
+    assert_true(lsf_measure_fill_in(&settings, &error));
+    assert_int_equal(settings.sweeps.count, 0);
+    free((void *)settings.techniques.items);
+    settings = (lsf_settings){.defines = {defines, 1, 1}, .budget_ms = 1.0, .error = NAN};
+    assert_true(lsf_measure_fill_in(&settings, &error));
+    for (uint32_t i = 0; i < settings.sweeps.count; i++)
+        assert_null(strstr(settings.sweeps.items[i], "voxel.resolution"));
+    assert_true(settings.sweeps.count > 0);
+    free((void *)settings.techniques.items);
+    free((void *)settings.sweeps.items);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_presets)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_presets),
+                                       cmocka_unit_test(test_defines_hold)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
