@@ -4,6 +4,7 @@
 #include "lib/brdf_sample.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/sparse.glsl"
+#include "passes/light_tree_sample_cut.glsl"
 #include "passes/light_tree_sample_walk.glsl"
 #if LSF_LIGHT_TREE_SIGHT
 #include "lib/voxel_passage.glsl"
@@ -14,7 +15,7 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_co
     uint counts[]; /* low and high words of LSF_LIGHT_TREE_SAMPLE_ */
 };
 
-layout(location = 1) uniform uvec3 turn; /* iteration, seed, samples of a point */
+layout(location = 1) uniform uvec2 turn; /* iteration, seed */
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: luminance that a bound took away */
 #if LSF_SPECULAR
@@ -105,21 +106,28 @@ void main()
     light_receiver r = light_receiver_of(position_from_depth(ndc, depth), view, s);
     float chance = specular_chance(r);
     path_random_key key = path_random_key(uint(texel.x) | (uint(texel.y) << 16), turn.y, texel);
-    uint dead = 0u, steps = 0u;
-    for (uint i = 0u; i < turn.z; i++) {
-        uint index = turn.x * turn.z + i;
-        vec3 u = path_random(key, index, 0u);
-        bool specular = u.z < chance;
-        light_walk_end end = light_walk(r, specular, u.x, key, index);
+    bvec2 lobes = bvec2(false);
+    for (uint i = 0u; i < LSF_LIGHT_TREE_SAMPLES; i++) {
+        vec3 u = path_random(key, turn.x * LSF_LIGHT_TREE_SAMPLES + i, 0u);
+        picks[i] = light_pick(u.z < chance, LSF_LIGHT_TREE_NONE, u.x, 0.0);
+        lobes = bvec2(lobes.x || !picks[i].specular, lobes.y || picks[i].specular);
+    }
+    uint dead = 0u, steps = light_cut(r, lobes);
+    for (uint i = 0u; i < LSF_LIGHT_TREE_SAMPLES; i++) {
+        uint index = turn.x * LSF_LIGHT_TREE_SAMPLES + i;
+        bool specular = picks[i].specular;
+        float share = picks[i].weight / weight_sums[int(specular)];
+        light_walk_end end = light_walk(r, specular, picks[i].link, share, picks[i].u, key, index);
         steps += end.steps;
         if (end.link == LSF_LIGHT_TREE_NONE) {
             dead++;
             continue;
         }
-        light_point p = light_point_at(end.link, vec4(path_random(key, index, 1u), u.y));
-        add_light(r, p, specular, end.probability * (specular ? chance : 1.0 - chance) * float(turn.z));
+        light_point p = light_point_at(end.link, vec4(path_random(key, index, 1u), path_random(key, index, 0u).y));
+        add_light(r, p, specular,
+                  end.probability * (specular ? chance : 1.0 - chance) * float(LSF_LIGHT_TREE_SAMPLES));
     }
-    count(LSF_LIGHT_TREE_SAMPLE_ALL, turn.z);
+    count(LSF_LIGHT_TREE_SAMPLE_ALL, LSF_LIGHT_TREE_SAMPLES);
     count(LSF_LIGHT_TREE_SAMPLE_STEPS, steps);
     if (dead > 0u)
         count(LSF_LIGHT_TREE_SAMPLE_DEAD, dead);

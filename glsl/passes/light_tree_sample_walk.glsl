@@ -5,8 +5,6 @@
 #include "lib/path_random.glsl"
 #include "passes/light_tree_sample_weight.glsl"
 
-/* Nodes above a leaf are fewer than the bits of a code. */
-#define WALK_DEPTH 64
 /* A number of 24 bits decides so often, about, before too few of them are left. */
 #define WALK_SHARED 8
 
@@ -19,10 +17,12 @@ struct light_walk_end {
     uint steps;
 };
 
-/* `u`: one number, 0 <= u < 1; further ones are of `key` and `index`. */
-light_walk_end light_walk(light_receiver r, bool specular, float u, path_random_key key, uint index)
+/* From a link that was come to with this probability. `u`: one number, 0 <= u < 1; further ones are of `key` and
+ * `index`. */
+light_walk_end light_walk(light_receiver r, bool specular, uint link, float probability, float u, path_random_key key,
+                          uint index)
 {
-    light_walk_end end = light_walk_end(tree.root, 1.0, 0u);
+    light_walk_end end = light_walk_end(link, probability, 0u);
     for (; end.steps < WALK_DEPTH && end.link != LSF_LIGHT_TREE_NONE && !light_is_leaf(end.link); end.steps++) {
         lsf_light_tree_node node = nodes[end.link];
 #if LSF_LIGHT_TREE_SUBSTITUTE

@@ -8,6 +8,9 @@
 #include "lib/light_tree.glsl"
 #include "shared/light.h"
 
+/* Nodes above a leaf are fewer than the bits of a code. */
+#define WALK_DEPTH 64
+
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) readonly buffer lsf_light_tree_area_block
 {
     float discs2[]; /* by record */
@@ -82,6 +85,18 @@ float specular_bound(light_receiver r, vec3 center, vec3 extent, float kernel)
 }
 #endif
 
+/* Root mean square of what is above 0 of a normal distribution, whose integral is taken as S. R. Bowling et al. 2009
+ * approximate it, "A logistic approximation to the cumulative normal distribution". */
+float height_above(float mean, float variance)
+{
+    if (mean * mean >= 36.0 * variance)
+        return max(mean, 0.0);
+    float x = mean * inversesqrt(variance);
+    float density = exp(-0.5 * x * x) * inversesqrt(2.0 * LSF_PI);
+    float above = 1.0 / (1.0 + exp(-x * (1.5976 + 0.07056 * x * x)));
+    return sqrt(variance * max((x * x + 1.0) * above + x * density, 0.0));
+}
+
 /* What light comes to from a link to a receiver. */
 struct light_way {
     float arrives, leaves, distance2; /* the cosines at both ends; the squared distance */
@@ -104,10 +119,10 @@ light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, ve
     }
     /* The mean squared distance: that to the box says nothing where a box is large or the point is in it. */
     w.distance2 += light_variance(node);
-    /* Of a box that is partly above the surface most may be below: two deviations above the mean count as its top, yet
-     * a hundredth of the box's, or what is above could be missed. */
-    float top = dot(r.s.normal, way) + 2.0 * sqrt(light_variance_along(node, r.s.normal, frame));
-    w.arrives = clamp(top * inversesqrt(w.distance2), 0.01 * w.arrives, w.arrives);
+    /* Of a box that is partly above the surface most may be below: heights count as those of a normal distribution, yet
+     * as a hundredth of the box's, or what is above could be missed. */
+    float height = height_above(dot(r.s.normal, way), light_variance_along(node, r.s.normal, frame));
+    w.arrives = clamp(height * inversesqrt(w.distance2), 0.01 * w.arrives, w.arrives);
     w.disc2 = light_disc2(node, frame);
     /* As far as normals are alike, a point sees the VPLs as they see it, all under one normal. */
     frame[2] = -frame[2];

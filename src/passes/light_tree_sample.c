@@ -12,6 +12,7 @@
 #define LOCATION_DISC 0
 #define LOCATION_TURN 1
 #define LOCATION_SPREAD 2
+#define LOCATION_CUT 3
 
 const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT] = {
     {"light_tree.node", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, node), 0, 0,
@@ -24,6 +25,10 @@ const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_
      "a node of the tree stands for the lights below it at points that see their standard "
      "deviation "
      "under at most this angle; 0: at all points"},
+    {"light_tree.cut", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, cut), 0.0, 1e6,
+     NULL, "rad",
+     "samples begin at nodes of the tree whose lights' standard deviation a point sees under at "
+     "most this angle; smaller: slower, with fewer specks; 0: all begin at the root"},
     {"light_tree.samples", LSF_OPTION_INT, offsetof(lsf_light_tree_sample_params, samples), 1,
      LSF_LIGHT_TREE_SAMPLE_MOST, NULL, "samples", "of the cloud for each point in an iteration"},
     {"light_tree.bound", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, bound), 0.0, 1e6,
@@ -67,6 +72,7 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SUBSTITUTE",
                         params->node == LSF_LIGHT_TREE_SUBSTITUTE, "light_tree.node is substitute");
+    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SAMPLES", params->samples, "light_tree.samples");
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SITES", params->node != LSF_LIGHT_TREE_VPL,
                         "light_tree.node is not vpl");
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SIGHT", params->sight == LSF_LIGHT_TREE_VOXELS,
@@ -120,6 +126,12 @@ static void set_disc_scale(const lsf_light_tree_sample *pass, const lsf_iteratio
                 pass->params.kernel_samples * LSF_PI / clouds);
 }
 
+/* Of variances to squared distances: 0 rad are any. */
+static float square_or_any(float angle)
+{
+    return angle > 0.0f ? angle * angle : INFINITY;
+}
+
 void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,
                                const lsf_light_tree_sample_inputs *inputs)
 {
@@ -135,11 +147,13 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
         lsf_voxel_passage_bind(iteration);
     }
     set_disc_scale(pass, iteration);
-    float angle = pass->params.angle;
-    glUniform1f(LOCATION_SPREAD, angle > 0.0f ? angle * angle : INFINITY);
-    glUniform3ui(LOCATION_TURN, iteration->index,
-                 lsf_iteration_seed(iteration, LSF_PURPOSE_LIGHT_TREE),
-                 (GLuint)pass->params.samples);
+    glUniform1f(LOCATION_SPREAD, square_or_any(pass->params.angle));
+    /* By luminance alone the root is as good as any cut. */
+    glUniform1f(LOCATION_CUT, pass->params.node == LSF_LIGHT_TREE_VPL
+                                  ? INFINITY
+                                  : square_or_any(pass->params.cut));
+    glUniform2ui(LOCATION_TURN, iteration->index,
+                 lsf_iteration_seed(iteration, LSF_PURPOSE_LIGHT_TREE));
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

@@ -23,6 +23,7 @@ typedef enum lsf_light_tree_sight {
 typedef struct lsf_light_tree_sample_params {
     int32_t node;    /* lsf_light_tree_stop */
     float angle;     /* under which a node that stands for VPLs is seen, at most [rad]; 0: any */
+    float cut;       /* under which nodes where ways begin are seen, at most [rad]; 0: any */
     int32_t samples; /* of a point in an iteration */
     float bound; /* VPLs are no nearer than this [radii of their discs]; 0: as near as they are */
     float kernel_samples; /* that a glossy lobe is spread over, at least; 0: it is not */
@@ -34,10 +35,10 @@ typedef struct lsf_light_tree_sample_params {
 #define LSF_LIGHT_TREE_SAMPLE_MOST 32
 
 #define LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS                                                      \
-    .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .samples = 4, .bound = 4.0f,                \
+    .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .cut = 0.5f, .samples = 4, .bound = 4.0f,   \
     .kernel_samples = 16.0f, .sight = LSF_LIGHT_TREE_VOXELS
 
-#define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 6
+#define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 7
 extern const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT];
 
 extern const char *const lsf_light_tree_sample_count_names[LSF_LIGHT_TREE_SAMPLE_COUNTS];

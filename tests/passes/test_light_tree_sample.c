@@ -184,7 +184,7 @@ static void print_counts(rig *r)
 }
 
 /* Means against the sum, both parts. */
-static void measure(int32_t node, uint32_t count, uint32_t iterations, bool covariance,
+static void measure(int32_t node, uint32_t count, uint32_t iterations, float cut, bool covariance,
                     comparison c[2])
 {
     static const char *const names[] = {"substitute", "lightcut", "vpl"};
@@ -194,6 +194,7 @@ static void measure(int32_t node, uint32_t count, uint32_t iterations, bool cova
     static double expected[2][PIXELS];
     const lsf_light_tree_sample_params params = {.node = node,
                                                  .angle = 0.25f,
+                                                 .cut = cut,
                                                  .samples = LSF_LIGHT_TREE_SAMPLE_MOST,
                                                  .bound = BOUND,
                                                  .sight = LSF_LIGHT_TREE_OPEN};
@@ -203,11 +204,11 @@ static void measure(int32_t node, uint32_t count, uint32_t iterations, bool cova
     run(&r, iterations, s);
     for (int part = 0; part < 2; part++) {
         c[part] = compare(&s[part], expected[part], iterations, LSF_LIGHT_TREE_SAMPLE_MOST);
-        print_message("%s%s, %s: bias %.3f %%, deviation of a sample %.0f %%, errors %.2f "
-                      "standard errors, %.2f at most\n",
-                      names[node], covariance ? " with covariance" : "", parts[part],
-                      100.0 * c[part].bias, 100.0 * c[part].deviation, c[part].spread,
-                      c[part].worst);
+        print_message(
+            "%s, cut %.2g%s, %s: bias %.3f %%, deviation of a sample %.0f %%, errors %.2f "
+            "standard errors, %.2f at most\n",
+            names[node], (double)cut, covariance ? " with covariance" : "", parts[part],
+            100.0 * c[part].bias, 100.0 * c[part].deviation, c[part].spread, c[part].worst);
     }
     print_counts(&r);
     free(records);
@@ -218,10 +219,18 @@ static void test_means(void **state)
 {
     (void)state;
     comparison c[2];
-    for (int i = 0; i <= LSF_LIGHT_TREE_VPL + 1; i++) {
-        bool covariance = i > LSF_LIGHT_TREE_VPL;
-        int32_t node = covariance ? LSF_LIGHT_TREE_SUBSTITUTE : i;
-        measure(node, VPLS, 32, covariance, c);
+    static const struct {
+        int32_t node;
+        float cut;
+        bool covariance;
+    } cases[] = {
+        {LSF_LIGHT_TREE_SUBSTITUTE, 0.0f, false}, {LSF_LIGHT_TREE_SUBSTITUTE, 0.5f, false},
+        {LSF_LIGHT_TREE_SUBSTITUTE, 0.5f, true},  {LSF_LIGHT_TREE_LIGHTCUT, 0.0f, false},
+        {LSF_LIGHT_TREE_LIGHTCUT, 0.5f, false},   {LSF_LIGHT_TREE_VPL, 0.0f, false},
+    };
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        int32_t node = cases[i].node;
+        measure(node, VPLS, 32, cases[i].cut, cases[i].covariance, c);
         for (int part = 0; part < 2; part++) {
             bool exact = node != LSF_LIGHT_TREE_SUBSTITUTE || part == 1;
             /* Four standard errors of all the samples' mean. */
@@ -355,10 +364,12 @@ int main(int argc, char **argv)
 {
     /* With a number, a cloud of as many, in more detail. */
     if (argc > 1) {
+        static const float cuts[] = {0.0f, 0.5f, 0.25f};
         comparison c[2];
         for (int32_t node = LSF_LIGHT_TREE_SUBSTITUTE; node <= LSF_LIGHT_TREE_VPL; node++)
-            measure(node, (uint32_t)atoi(argv[1]), 32, false, c);
-        measure(LSF_LIGHT_TREE_SUBSTITUTE, (uint32_t)atoi(argv[1]), 32, true, c);
+            for (int i = 0; i < (node == LSF_LIGHT_TREE_VPL ? 1 : 3); i++)
+                measure(node, (uint32_t)atoi(argv[1]), 32, cuts[i], false, c);
+        measure(LSF_LIGHT_TREE_SUBSTITUTE, (uint32_t)atoi(argv[1]), 32, cuts[1], true, c);
         return 0;
     }
     const struct CMUnitTest tests[] = {

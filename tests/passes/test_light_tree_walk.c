@@ -11,10 +11,12 @@ enum { VPLS = 400, DRAWS = 1 << 17 };
 /* For each draw where it ended, and the probability of that. */
 static const char shader[] =
     "#define LSF_SPECULAR 1\n"
+    "#define LSF_LIGHT_TREE_SAMPLES 1\n"
+    "#include \"passes/light_tree_sample_cut.glsl\"\n"
     "#include \"passes/light_tree_sample_walk.glsl\"\n"
     "layout(local_size_x = 64) in;\n"
-    "layout(location = 4) uniform bool specular;\n"
-    "layout(location = 3) uniform vec3 position;\n"
+    "layout(location = 5) uniform bool specular;\n"
+    "layout(location = 6) uniform vec3 position;\n"
     "layout(std430, binding = 7) writeonly buffer block { uvec2 result[]; };\n"
     "void main()\n"
     "{\n"
@@ -29,7 +31,10 @@ static const char shader[] =
     "    light_receiver r = light_receiver_of(position, normalize(vec3(-0.5, 0.6, 0.3)), s);\n"
     "    uint i = gl_GlobalInvocationID.x;\n"
     "    path_random_key key = path_random_key(i, 11u, ivec2(0));\n"
-    "    light_walk_end end = light_walk(r, specular, path_random(key, 0u, 0u).x, key, 0u);\n"
+    "    picks[0] = light_pick(specular, LSF_LIGHT_TREE_NONE, path_random(key, 0u, 0u).x, 0.0);\n"
+    "    light_cut(r, bvec2(!specular, specular));\n"
+    "    float share = picks[0].weight / weight_sums[int(specular)];\n"
+    "    light_walk_end end = light_walk(r, specular, picks[0].link, share, picks[0].u, key, 0u);\n"
     "    result[i] = uvec2(end.link, floatBitsToUint(end.probability));\n"
     "}\n";
 
@@ -94,7 +99,8 @@ static int by_link(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-static void draw_all(rig *r, bool substitute, bool sites, bool specular, const float position[3])
+static void draw_all(rig *r, bool substitute, bool sites, bool specular, float cut,
+                     const float position[3])
 {
     lsf_error error = {0};
     const lsf_define defines[] = {{"LSF_LIGHT_TREE_SUBSTITUTE", substitute},
@@ -110,8 +116,9 @@ static void draw_all(rig *r, bool substitute, bool sites, bool specular, const f
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, r->result);
     glUniform2f(0, 1.0f, 0.0f);
     glUniform1f(2, 1e9f);
-    glUniform1i(4, specular);
-    glUniform3fv(3, 1, position);
+    glUniform1f(3, cut > 0.0f ? cut * cut : INFINITY);
+    glUniform1i(5, specular);
+    glUniform3fv(6, 1, position);
     glDispatchCompute(DRAWS / 64, 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(r->result, 0, DRAWS * sizeof *r->draws, r->draws);
@@ -156,19 +163,22 @@ static void test_frequencies(void **state)
     static const struct {
         const char *name;
         bool substitute, sites, specular;
-        uint32_t least; /* ends */
+        float cut;
     } cases[] = {
-        {"substitutes, diffuse", true, true, false, 20},
-        {"substitutes, specular", true, true, true, 50},
-        {"lightcut, diffuse", false, true, false, 80},
-        {"by luminance", false, false, false, 190},
+        {"substitutes, diffuse", true, true, false, 0.0f},
+        {"substitutes, specular", true, true, true, 0.0f},
+        {"lightcut, diffuse", false, true, false, 0.0f},
+        {"by luminance", false, false, false, 0.0f},
+        {"substitutes from a cut, diffuse", true, true, false, 0.5f},
+        {"lightcut from a cut, diffuse", false, true, false, 0.5f},
+        {"from a cut, specular", true, true, true, 0.25f},
     };
     static const float positions[2][3] = {{0.0f, -0.45f, 0.0f}, {0.7f, 0.3f, -0.55f}};
     static rig r;
     rig_begin(&r);
     for (size_t i = 0; i < 2 * LSF_COUNT(cases); i++) {
         draw_all(&r, cases[i / 2].substitute, cases[i / 2].sites, cases[i / 2].specular,
-                 positions[i % 2]);
+                 cases[i / 2].cut, positions[i % 2]);
         check_frequencies(&r, cases[i / 2].name);
     }
     rig_end(&r);

@@ -1,0 +1,81 @@
+/* Where the ways down begin: at the nodes of a cut through the tree (B. Walter et al. 2005, "Lightcuts: A Scalable
+ * Approach to Illumination"; one for each point, C. Yuksel 2019, "Stochastic Lightcuts"). A node that a point sees under
+ * a small angle is about as far away as all that is below it, so that its weight says what comes from there; that of a
+ * larger one may hide a near light among far ones. Each sample takes one of the cut's nodes in proportion to its weight,
+ * as the nodes come along (M. T. Chao 1982, "A General Purpose Unequal Probability Sampling Plan"). Switch
+ * LSF_LIGHT_TREE_SAMPLES, samples of a point. */
+#ifndef LSF_PASSES_LIGHT_TREE_SAMPLE_CUT
+#define LSF_PASSES_LIGHT_TREE_SAMPLE_CUT
+
+#include "passes/light_tree_sample_weight.glsl"
+
+/* Nodes that are opened, at most; software GL ends all loops of a shader together after 65535 turns. Any cut is
+ * right. */
+#define CUT_MOST 512
+
+/* Variance of positions to the squared distance, at most, of the nodes of a cut, but for leaves; infinite: the root alone. */
+layout(location = 3) uniform float cut_bound;
+
+struct light_pick {
+    bool specular;
+    uint link;  /* LSF_LIGHT_TREE_NONE: nothing shines at the point */
+    float u;    /* 0 <= u < 1, what is left of the number that picks */
+    float weight; /* of the link */
+};
+
+light_pick picks[LSF_LIGHT_TREE_SAMPLES];
+
+/* Of the cut's nodes so far, for samples of the diffuse and the specular lobe. */
+float weight_sums[2];
+
+void pick_among(uint link, float weight, int lobe)
+{
+    if (!(weight > 0.0))
+        return;
+    weight_sums[lobe] += weight;
+    float share = weight / weight_sums[lobe];
+    for (int i = 0; i < LSF_LIGHT_TREE_SAMPLES; i++) {
+        if (int(picks[i].specular) != lobe)
+            continue;
+        float u = picks[i].u;
+        bool taken = u < share;
+        picks[i].u = min(taken ? u / share : (u - share) / (1.0 - share), 1.0 - 1.0 / 16777216.0);
+        if (taken) {
+            picks[i].link = link;
+            picks[i].weight = weight;
+        }
+    }
+}
+
+/* Fills the picks, whose lobes and numbers are given; `lobes`: which of the two any of them has. Returns how many nodes
+ * were opened. */
+uint light_cut(light_receiver r, bvec2 lobes)
+{
+    uint stack[WALK_DEPTH];
+    uint opened = 0u;
+    int top = 0;
+    weight_sums[0] = weight_sums[1] = 0.0;
+    stack[0] = tree.root;
+    if (tree.root == LSF_LIGHT_TREE_NONE)
+        return 0u;
+    float most = luminance(light_node(tree.root).intensity);
+    while (top >= 0) {
+        uint link = stack[top--];
+        if (!light_is_leaf(link) && opened < CUT_MOST) {
+            vec3 way = nodes[link].position - r.position;
+            if (light_variance(nodes[link]) > cut_bound * dot(way, way)) {
+                stack[++top] = nodes[link].right;
+                stack[++top] = nodes[link].left;
+                opened++;
+                continue;
+            }
+        }
+        if (lobes.x)
+            pick_among(link, light_weight(r, link, most, false), 0);
+        if (lobes.y)
+            pick_among(link, light_weight(r, link, most, true), 1);
+    }
+    return opened;
+}
+
+#endif
