@@ -42,6 +42,12 @@ static bool begin(grid *g, const char *technique, const char *const *sweeps, uin
             return lsf_error_set(error, LSF_ERROR_USAGE,
                                  "--sweep %s: one too many; %d options are the most", sweeps[i],
                                  LSF_SWEEP_MAX_OPTIONS);
+        for (uint32_t k = 0; k < g->count; k++)
+            if (strncmp(g->sweeps[k], sweeps[i], strcspn(sweeps[i], "=") + 1) == 0)
+                return lsf_error_set(error, LSF_ERROR_USAGE,
+                                     "--sweep %s: that option is swept already; name all its "
+                                     "values at once",
+                                     sweeps[i]);
         used[i] = true;
         g->sweeps[g->count] = sweeps[i];
         g->values[g->count++] = strchr(sweeps[i], '=') + 1;

@@ -164,7 +164,8 @@ static bool measure_rung(search_run *run, double milliseconds, lsf_error *error)
     for (uint32_t i = 0; good && !run->stopped && i < run->count; i++) {
         uint32_t c = run->candidates[i].configuration;
         uint32_t samples = samples_within(run, c, milliseconds);
-        good = measure(run, c, samples ? samples : 1, run->search->seeds, error);
+        if (samples_within(run, c, run->search->budget_ms) > 0)
+            good = measure(run, c, samples ? samples : 1, run->search->seeds, error);
     }
     return good;
 }

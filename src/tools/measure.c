@@ -25,6 +25,40 @@
 #include "tools/summary.h"
 #include "tools/tools.h"
 
+/* Where all that is found goes. */
+typedef struct outputs {
+    const char *names[4], *paths[4];
+} outputs;
+
+static outputs outputs_of(const lsf_settings *settings)
+{
+    return (outputs){
+        {"--json", "--csv", "--html", "--save-preset"},
+        {settings->json_path, settings->csv_path, settings->html_path, settings->saved_preset}};
+}
+
+static bool is_standard_output(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+/* Before anything is traced. */
+static bool check_outputs(const lsf_settings *settings, lsf_error *error)
+{
+    const outputs all = outputs_of(settings);
+    const char *taken = NULL;
+    for (size_t i = 0; i < LSF_COUNT(all.paths); i++) {
+        if (is_standard_output(all.paths[i]) && taken)
+            return lsf_error_set(error, LSF_ERROR_USAGE,
+                                 "%s - and %s -: only one of them can go to standard output", taken,
+                                 all.names[i]);
+        if (all.paths[i] && !lsf_file_can_write(all.paths[i], error))
+            return false;
+        taken = is_standard_output(all.paths[i]) ? all.names[i] : taken;
+    }
+    return true;
+}
+
 static bool check_settings(const lsf_settings *settings, lsf_error *error)
 {
     bool budget = !isnan(settings->budget_ms), wanted = !isnan(settings->error);
@@ -45,15 +79,10 @@ static bool check_settings(const lsf_settings *settings, lsf_error *error)
         settings->turntable == 1)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--frames: two frames at least tell what changes between them");
-    if (settings->resume && (!path || strcmp(path, "-") == 0))
+    if (settings->resume && (!path || is_standard_output(path)))
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "--resume: name the file with the points, with --json FILE");
-    if (path && settings->csv_path && strcmp(path, "-") == 0 &&
-        strcmp(settings->csv_path, "-") == 0)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--json - and --csv -: only one of them can go to standard output");
-    return (!settings->csv_path || lsf_file_can_write(settings->csv_path, error)) &&
-           (!settings->saved_preset || lsf_file_can_write(settings->saved_preset, error));
+    return check_outputs(settings, error);
 }
 
 static bool open_scene(lsf_measure_job *job, lsf_error *error)
@@ -249,13 +278,15 @@ static bool write_csv(const lsf_measure_job *job, lsf_error *error)
     return good;
 }
 
-/* Where JSON or CSV takes its place, and where nothing was asked for, there is no table. */
+/* Where something else takes its place there is no table. */
 static bool print_table(lsf_measure_job *job, lsf_error *error)
 {
     const lsf_settings *settings = &job->settings;
+    const outputs all = outputs_of(settings);
     lsf_string text = {0};
-    if (settings->quiet || (settings->csv_path && strcmp(settings->csv_path, "-") == 0))
-        return true;
+    for (size_t i = 0; i < LSF_COUNT(all.paths); i++)
+        if (is_standard_output(all.paths[i]))
+            return true;
     lsf_measure_add_table(&text, &job->measurement);
     if (settings->prices) {
         lsf_string_add(&text, "\n");
@@ -276,6 +307,18 @@ static bool save_preset(const lsf_measure_job *job, lsf_error *error)
                                    error);
 }
 
+/* What took long to measure is not lost because one of the files cannot be written: the first
+ * error counts, and the rest is written all the same. */
+static bool write_all(lsf_measure_job *job, lsf_error *error)
+{
+    lsf_error later;
+    bool good = write_html(job, error);
+    good = lsf_measure_write_json(job, good ? error : &later) && good;
+    good = write_csv(job, good ? error : &later) && good;
+    good = save_preset(job, good ? error : &later) && good;
+    return print_table(job, good ? error : &later) && good;
+}
+
 static bool run(lsf_measure_job *job, lsf_error *error)
 {
     if (!check_settings(&job->settings, error) || !lsf_measure_fill_in(&job->settings, error) ||
@@ -289,8 +332,7 @@ static bool run(lsf_measure_job *job, lsf_error *error)
                 read_points(job, error) && lsf_measure_points(job, error) &&
                 lsf_measure_prices(job, error);
     lsf_interrupt_end_iterations();
-    return good && write_html(job, error) && lsf_measure_write_json(job, error) &&
-           write_csv(job, error) && save_preset(job, error) && print_table(job, error);
+    return good && write_all(job, error);
 }
 
 int lsf_tool_measure(int argc, char **argv)

@@ -236,7 +236,9 @@ class Measure(CommandTest):
                 (["--save-preset", "a"], "--save-preset a: say what"),
                 (["--resume"], "--resume: name the file"),
                 (["--json", "-", "--csv", "-"], "only one of them"),
+                (["--csv", "-", "--html", "-"], "--csv - and --html -: only one of them"),
                 (["-t", "direct", "--sweep", "vpl.count=1,2"], "none of the techniques takes"),
+                (["--sweep", "vpl.count=1,2", "--sweep", "vpl.count=4"], "vpl.count=4: that option is swept already"),
                 (["--sweep", "vpl.cuont=1"], "did you mean vpl.count?"),
                 (["--sweep", "vpl.count=1,many"], "vpl.count"),
                 (["-t", "direct,cones"], "did you mean"),
@@ -258,6 +260,17 @@ class Measure(CommandTest):
         table = self.measure(*words, "--csv", "-").stdout.decode()
         self.assertEqual(len(table.splitlines()), 2)
         self.assertEqual(self.measure(*words, "-q").stdout, b"")
+        page = self.measure(*words, "--html", "-").stdout
+        self.assertTrue(page.startswith(b"<!DOCTYPE html>") and page.rstrip().endswith(b"</html>"))
+
+    def test_a_full_disk_spoils_one_file_alone(self):
+        with open("/dev/full", "wb") as full:
+            done = self.run_command("measure", CORNELL, *SMALL, "-t", "direct", "-s", "1", "--html", "-",
+                                    "--json", "a.json", "--csv", "a.csv", status=FILE, stdout=full)
+        self.assertIn("standard output", done.text)
+        self.assertEqual(len(self.read_json("a.json")["points"]), 1)
+        self.assertEqual(len(self.read("a.csv").splitlines()), 2)
+        self.refuse("measure", CORNELL, *SMALL, "--html", "none/a.html", status=FILE, says=["none/a.html"])
 
 
 if __name__ == "__main__":

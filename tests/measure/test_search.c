@@ -152,6 +152,8 @@ static void test_nothing_is_quick_enough(void **state)
     assert_false(w.measurement.answer.met);
     assert_int_equal(w.measurement.answer.configuration, 0); /* the quickest */
     assert_int_equal(w.measurement.answer.samples, 1);
+    assert_int_equal(w.measurement.point_count, LSF_COUNT(crossing)); /* one look at each */
+    assert_int_equal(w.measurement.points[0].seed_count, 2);
     lsf_measurement_finish(&w.measurement);
 }
 
