@@ -1,6 +1,7 @@
 """Every technique on a second driver: OpenGL over Vulkan (Mesa's zink on lavapipe), whose shaders another
 compiler translates. Pictures agree with those of Mesa's own software OpenGL."""
 import os
+import struct
 
 from command import CommandTest, SOURCE_ROOT, main
 
@@ -17,6 +18,21 @@ def write_environment(path):
         texels += bytes([120, 140, 180, 134 if i == 10 else 128])
     with open(path, "wb") as file:
         file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" + texels)
+    return path
+
+
+def write_weights(path):
+    """A network of two stages (src/passes/denoise.md), of which each weight is another one."""
+    layers = [("enc1a", 9, 20, 3), ("enc1b", 9, 18, 3), ("enc2a", 13, 9, 3), ("enc2b", 13, 26, 3),
+              ("dec1a", 12, 13, 2), ("dec1b", 9, 21, 3), ("out", 6, 9, 3)]
+    with open(path, "wb") as file:
+        file.write(b"LSFD" + struct.pack("<IIf", 1, len(layers), 0.1))
+        for name, features, read, side in layers:
+            count = features * read * side * side
+            most = (3 / (read * (9 if side == 3 else 1))) ** 0.5
+            file.write(struct.pack("<B", len(name)) + name.encode() + struct.pack("<4I", features, read, side, side))
+            file.write(struct.pack(f"<{count}e", *(most * (i * 7919 % 201 / 100 - 1) for i in range(count))))
+            file.write(struct.pack(f"<{features}f", *[0.1] * features))
     return path
 
 
@@ -61,6 +77,14 @@ class SecondDriver(CommandTest):
         # them end elsewhere.
         self.agrees("substitute_tree", "cornell_glossy.gltf", 4, 0.03, "--raw", "-D", "cloud.count=16384",
                     "-D", "light_tree.samples=8")
+
+    def test_denoiser(self):
+        path = write_weights(self.path("weights.lsfd"))
+        for variables in (os.environ, ZINK):
+            variables["LIGHTSHEAF_DENOISER_WEIGHTS"] = path
+            self.addCleanup(variables.pop, "LIGHTSHEAF_DENOISER_WEIGHTS")
+        self.agrees("cone", "cornell_glossy.gltf", 1, 0.01, "-D", "light_filter.kind=network", "-D",
+                    "denoise.processor=gl")
 
 
 if __name__ == "__main__":
