@@ -19,6 +19,7 @@ typedef struct estimator {
     const char *technique, *scene;
     bool diffuse_only;
     uint32_t bounces, samples, reference_samples;
+    float sky[3]; /* radiance from all around; 0: none */
 } estimator;
 
 typedef struct means {
@@ -31,6 +32,7 @@ static lsf_scene *load(const estimator *e, float light)
     lsf_error error = {0};
     lsf_scene_params params = {LSF_SCENE_PARAMS_DEFAULTS};
     params.diffuse_only = e->diffuse_only;
+    params.environment_radiance = e->sky[0] > 0.0f ? e->sky : NULL;
     snprintf(path, sizeof path, "%s/data/scenes/%s.gltf", getenv("LSF_SOURCE_ROOT"), e->scene);
     lsf_scene *scene = lsf_scene_load(path, &params, &error);
     if (!scene)
@@ -167,7 +169,8 @@ static void check(const char *name, const estimator *e)
 static void direct(void **state)
 {
     (void)state;
-    const estimator e = {"direct", "cornell_point", false, 0, 16, 64};
+    const estimator e = {
+        .technique = "direct", .scene = "cornell_point", .samples = 16, .reference_samples = 64};
     check("direct light of a point", &e);
     means dimmed = render_all(&e, 0.98f), reference = trace_all(&e);
     assert_true(is_biased("lamps with 2 % less light", &dimmed, &reference));
@@ -176,15 +179,35 @@ static void direct(void **state)
 static void bidirectional(void **state)
 {
     (void)state;
-    check("bidirectional, a point light",
-          &(estimator){"bidirectional", "cornell_point", true, 2, 16, 64});
+    check("bidirectional, a point light", &(estimator){.technique = "bidirectional",
+                                                       .scene = "cornell_point",
+                                                       .diffuse_only = true,
+                                                       .bounces = 2,
+                                                       .samples = 16,
+                                                       .reference_samples = 64});
 }
 
 static void emissive(void **state)
 {
     (void)state;
-    check("bidirectional, an emissive surface",
-          &(estimator){"bidirectional", "cornell_emissive", true, 1, 40, 256});
+    check("bidirectional, an emissive surface", &(estimator){.technique = "bidirectional",
+                                                             .scene = "cornell_emissive",
+                                                             .diffuse_only = true,
+                                                             .bounces = 1,
+                                                             .samples = 40,
+                                                             .reference_samples = 256});
+}
+
+/* By directions that all pixels share, each with a shadow map. */
+static void sky(void **state)
+{
+    (void)state;
+    check("direct light of a sky", &(estimator){.technique = "direct",
+                                                .scene = "cornell_point",
+                                                .diffuse_only = true,
+                                                .samples = 16,
+                                                .reference_samples = 64,
+                                                .sky = {1.0f, 0.8f, 0.6f}});
 }
 
 int main(void)
@@ -193,6 +216,7 @@ int main(void)
         cmocka_unit_test(direct),
         cmocka_unit_test(bidirectional),
         cmocka_unit_test(emissive),
+        cmocka_unit_test(sky),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
