@@ -279,8 +279,9 @@ static void run_step(const lsf_denoise *pass, uint32_t i)
     glUseProgram(doubles ? pass->twice : pass->convolve);
     bind_map(pass, LSF_BINDING_DENOISE_TARGET, i + 1, false);
     bind_map(pass, LSF_BINDING_DENOISE_SOURCE, step->source, false);
-    if (reads_beside)
-        bind_map(pass, LSF_BINDING_DENOISE_SOURCE + 1, step->beside, step->kept);
+    /* Nothing of it is read where there is nothing beside. */
+    bind_map(pass, LSF_BINDING_DENOISE_SOURCE + 1, reads_beside ? step->beside : step->source,
+             reads_beside && step->kept);
     const lsf_net_map *size = doubles ? source : target;
     uint32_t targets = lsf_denoise_groups(target->features);
     glUniform2ui(0, size->width, size->height);

@@ -2,9 +2,11 @@
 #include "plan/flow.h"
 
 #include "base/base.h"
+#include "net_rig.h"
 #include "render_gl.h"
 
 #include <string.h>
+#include <unistd.h>
 
 enum { SIZE = 16, UNITS = 64, TOUCHES = 4096 };
 
@@ -257,6 +259,7 @@ static const struct plan_case {
     {"voxel_path", .raw = true, .options = {"voxel.method=raster", "environment.directions=0"}},
     {"cone", .options = {"sparse.grid=2", "sparse.blur=1"}},
     {"cone", .raw = true, .options = {"cone.sealed=off", "sparse.outliers=on"}},
+    {"cone", .temporal = true, .options = {"light_filter.kind=network", "denoise.processor=gl"}},
     {"substitute_tree", .options = {"sparse.grid=2", "cloud.count=8192"}},
     {"substitute_tree", .raw = true, .options = {"rsm.pdf=adaptive", "cloud.count=8192"}},
 };
@@ -293,8 +296,13 @@ static void check(const struct plan_case *c)
 static void passes_read_what_the_plan_says(void **state)
 {
     (void)state;
+    char path[64];
+    snprintf(path, sizeof path, "/tmp/lightsheaf-plan-reads-%d.lsfd", (int)getpid());
+    net_rig_write(path, 2, 0.0f, 1.0f, 1.0f, 1);
+    setenv("LIGHTSHEAF_DENOISER_WEIGHTS", path, 1);
     for (size_t i = 0; i < LSF_COUNT(cases); i++)
         check(&cases[i]);
+    unlink(path);
     assert_int_equal(wrong, 0);
 }
 
