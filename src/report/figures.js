@@ -15,6 +15,7 @@ function lessThanOne({ value, low, high }) {
 }
 
 const medianTime = (point) => (point.milliseconds || {}).median;
+const timeLabel = data.clock === "processor" ? "milliseconds of processor time a frame" : "milliseconds a frame";
 
 function interval(estimate) {
   const known = estimate.low !== null && estimate.low !== undefined;
@@ -51,7 +52,7 @@ function seriesOf(metric, x, more = () => ({})) {
 }
 
 function errorFigure(metric) {
-  return { label: `${metric.label} against milliseconds a frame`, x: "milliseconds a frame", y: metric.label,
+  return { label: `${metric.label} against milliseconds a frame`, x: timeLabel, y: metric.label,
     series: seriesOf(metric, medianTime), front: metric.key === "relmse" };
 }
 

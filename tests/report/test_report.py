@@ -180,8 +180,25 @@ class Report(CommandTest):
         self.assertEqual(self.js("return document.querySelector('[aria-checked=true]').dataset.show"), "reference")
         self.assert_same_picture(self.data["reference"]["preview"])
         self.exposure()
+        self.keys()
         self.difference()
         self.zoom()
+
+    def keys(self):
+        """They flip whatever was touched last: the slider keeps its arrows, the list its own."""
+        shown = "return document.querySelector('.flip [aria-checked=true]').dataset.show"
+        for name in ("exposure", "picture-choice", "metric"):
+            self.js("document.getElementById(arguments[0]).focus()", name)
+            for key, show in (("1", "result"), ("2", "reference")):
+                self.browser.press(key)
+                self.assertEqual(self.js(shown), show)
+        before = self.text("#exposure-value")
+        self.js("document.getElementById('exposure').focus()")
+        self.browser.press(RIGHT)
+        self.assertNotEqual(self.text("#exposure-value"), before)
+        self.browser.press(LEFT)
+        self.assertEqual(self.text("#exposure-value"), before)
+        self.js("document.activeElement.blur()")
 
     def exposure(self):
         """Pixels are tone-mapped at the slider's exposure; keys go by half an EV."""
