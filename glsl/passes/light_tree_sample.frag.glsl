@@ -1,13 +1,24 @@
 /* Light that visible points get from a cloud of VPLs, by way of the tree over it; see
- * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (what is between is looked at), LSF_VOXEL_PASSAGE (light
- * goes on through what transmits), LSF_GLOSS and those of the libraries. */
+ * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (what is between is looked for: 1 among voxels, 2 among
+ * triangles), LSF_VOXEL_PASSAGE (light goes on through what transmits), LSF_GLOSS and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/sparse.glsl"
 #include "passes/light_tree_sample_cut.glsl"
 #include "passes/light_tree_sample_walk.glsl"
 #if LSF_LIGHT_TREE_SIGHT
+#include "lib/voxel.glsl"
+#endif
+#if LSF_LIGHT_TREE_SIGHT == 1
 #include "lib/voxel_passage.glsl"
+#elif LSF_LIGHT_TREE_SIGHT == 2
+#define LSF_BINDING_TRIANGLES LSF_BINDING_LIGHT_TREE_TRIANGLES
+#include "lib/triangle_sight.glsl"
+
+layout(location = 5) uniform uint triangle_count;
+
+/* Above both surfaces, so that neither is in the way: further vertices of paths lie on planes that voxels hold. */
+#define SIGHT_LIFT (4.0 * VOXEL_PLANE)
 #endif
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_count_block
@@ -32,7 +43,11 @@ void count(uint what, uint number)
 /* What comes of the point's light to the receiver. */
 vec3 seen(light_receiver r, light_point p)
 {
-#if LSF_LIGHT_TREE_SIGHT
+#if LSF_LIGHT_TREE_SIGHT == 2
+    float lift = SIGHT_LIFT * grid.origin.w;
+    return vec3(!triangles_between(triangle_count, r.position + lift * r.s.geometric_normal,
+                                   p.position + lift * p.normal));
+#elif LSF_LIGHT_TREE_SIGHT
     vec3 from = voxel_from_position(r.position), to = voxel_from_position(p.position);
 #if LSF_VOXEL_PASSAGE
     return voxel_seen(from, r.s.geometric_normal, to, p.normal);

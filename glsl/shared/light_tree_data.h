@@ -69,6 +69,7 @@ struct lsf_light_tree_node {
 #define LSF_BINDING_LIGHT_TREE_COUNTS 7
 #define LSF_BINDING_LIGHT_TREE_PARENTS 6
 #define LSF_BINDING_LIGHT_TREE_TURNS 7
+#define LSF_BINDING_LIGHT_TREE_TRIANGLES 5 /* of the scene, in what samples the tree */
 
 #include "shared/shared_end.h"
 #endif

@@ -13,6 +13,10 @@
 #define LOCATION_TURN 1
 #define LOCATION_SPREAD 2
 #define LOCATION_CUT 3
+#define LOCATION_TRIANGLES 5
+
+/* Tests of triangles for a point. */
+#define TRIANGLES_MOST (1 << 19)
 
 const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT] = {
     {"light_tree.node", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, node), 0, 0,
@@ -40,7 +44,9 @@ const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_
      "virtual point lights over which a glossy lobe is spread; fewer: sharper and spikier, 0: "
      "exact"},
     {"light_tree.sight", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, sight), 0, 0,
-     "voxels|open", "", "what hides a sample: voxels; nothing, to measure by"},
+     "voxels|exact|open", "",
+     "what hides a sample: voxels; to measure by, each opaque triangle, of scenes with few, or "
+     "nothing"},
 };
 
 const char *const lsf_light_tree_sample_count_names[LSF_LIGHT_TREE_SAMPLE_COUNTS] = {
@@ -57,6 +63,35 @@ static const lsf_texture_row textures[] = {
      "light of the specular lobe"},
 };
 
+/* Whether all triangles may be tried for each sample: 16 in a turn of a loop, of which software GL
+ * makes 65535 in all, some thousand of them for other ends. */
+static bool triangles_are_few(const lsf_plan *plan, const lsf_light_tree_sample_params *params)
+{
+    return lsf_plan_find(plan, "scene.triangles") &&
+           plan->requirements.triangles * (uint64_t)params->samples <= TRIANGLES_MOST;
+}
+
+/* As LSF_LIGHT_TREE_SIGHT says it. */
+static int sight_of(const lsf_plan *plan, const lsf_light_tree_sample_params *params)
+{
+    if (params->sight == LSF_LIGHT_TREE_OPEN)
+        return 0;
+    return params->sight == LSF_LIGHT_TREE_EXACT && triangles_are_few(plan, params) ? 2 : 1;
+}
+
+static void plan_triangles(lsf_plan *plan, const lsf_light_tree_sample_params *params)
+{
+    lsf_scene_gpu_plan_triangles(plan);
+    if (!triangles_are_few(plan, params))
+        lsf_plan_remark(plan,
+                        "light_tree.sight=exact tries at most %d triangles, shared among "
+                        "light_tree.samples; the scene has %llu: voxels hide instead",
+                        TRIANGLES_MOST, (unsigned long long)plan->requirements.triangles);
+    else if (plan->transmission || plan->requirements.masked)
+        lsf_plan_remark(plan, "light_tree.sight=exact: masked and transparent surfaces hide "
+                              "nothing");
+}
+
 void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_params *params,
                                 bool covariance)
 {
@@ -66,8 +101,10 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     lsf_plan_pass_add(plan, "light_tree_sample", "%d sample%s of the cloud for each visible point",
                       params->samples, lsf_plural((uint64_t)params->samples));
     lsf_plan_reads(plan, "view points|gbuffer vpl_cloud light_tree");
-    if (params->sight == LSF_LIGHT_TREE_VOXELS)
+    if (params->sight != LSF_LIGHT_TREE_OPEN)
         lsf_plan_reads(plan, "voxelize");
+    if (params->sight == LSF_LIGHT_TREE_EXACT)
+        plan_triangles(plan, params);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SUBSTITUTE",
@@ -75,8 +112,8 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SAMPLES", params->samples, "light_tree.samples");
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SITES", params->node != LSF_LIGHT_TREE_VPL,
                         "light_tree.node is not vpl");
-    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SIGHT", params->sight == LSF_LIGHT_TREE_VOXELS,
-                        "light_tree.sight is voxels");
+    lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_SIGHT", sight_of(plan, params),
+                        "light_tree.sight is voxels: 1; exact: 2");
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_COVARIANCE", covariance, "light_tree.covariance");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
@@ -100,7 +137,8 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl",
                                          "passes/light_tree_sample.frag.glsl"};
-    *pass = (lsf_light_tree_sample){.context = context, .params = *params};
+    *pass = (lsf_light_tree_sample){
+        .context = context, .params = *params, .sight = sight_of(plan, params)};
     const lsf_split_light *out = &pass->light;
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         !lsf_plan_create_buffer(plan, context, "light_tree_sample.counts", NULL, 0,
@@ -132,6 +170,21 @@ static float square_or_any(float angle)
     return angle > 0.0f ? angle * angle : INFINITY;
 }
 
+static void bind_sight(const lsf_light_tree_sample *pass, const lsf_iteration *iteration,
+                       const lsf_light_tree_sample_inputs *inputs)
+{
+    if (pass->sight == 1) {
+        lsf_voxels_bind(inputs->voxels);
+        lsf_voxel_passage_bind(iteration);
+    }
+    if (pass->sight != 2)
+        return;
+    lsf_voxels_bind_grid(inputs->voxels);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_TRIANGLES,
+                     iteration->scene->triangles);
+    glUniform1ui(LOCATION_TRIANGLES, iteration->scene->triangle_count);
+}
+
 void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,
                                const lsf_light_tree_sample_inputs *inputs)
 {
@@ -142,10 +195,7 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
     lsf_surface_maps_bind(inputs->seen);
     lsf_light_tree_bind(inputs->tree);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_COUNTS, pass->count_buffer);
-    if (pass->params.sight == LSF_LIGHT_TREE_VOXELS) {
-        lsf_voxels_bind(inputs->voxels);
-        lsf_voxel_passage_bind(iteration);
-    }
+    bind_sight(pass, iteration, inputs);
     set_disc_scale(pass, iteration);
     glUniform1f(LOCATION_SPREAD, square_or_any(pass->params.angle));
     /* By luminance alone the root is as good as any cut. */

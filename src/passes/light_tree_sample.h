@@ -17,6 +17,7 @@ typedef enum lsf_light_tree_stop {
 
 typedef enum lsf_light_tree_sight {
     LSF_LIGHT_TREE_VOXELS, /* what is between is looked for among voxels */
+    LSF_LIGHT_TREE_EXACT,  /* ... among all triangles */
     LSF_LIGHT_TREE_OPEN,   /* light goes through everything */
 } lsf_light_tree_sight;
 
@@ -52,6 +53,7 @@ typedef struct lsf_light_tree_sample_inputs {
 typedef struct lsf_light_tree_sample {
     lsf_context *context;
     lsf_light_tree_sample_params params;
+    int sight; /* as LSF_LIGHT_TREE_SIGHT */
     /* Output, at the points' places. Alpha: luminance that the bound took away. */
     lsf_split_light light;
     GLuint count_buffer;

@@ -1,20 +1,23 @@
-/* Light from a cloud by way of its tree, against the sum over all of the cloud's VPLs, without
- * anything between. */
+/* Light from a cloud by way of its tree, against the sum over all of the cloud's VPLs, with nothing
+ * and with triangles between. */
 #include <math.h>
 
 #include "base/base.h"
 #include "light_tree_rig.h"
+#include "math/sampling.h"
 #include "passes/light_tree_sample.h"
 #include "shared/brdf.h"
 #include "surface_rig.h"
 
-enum { SIDE = 8, PIXELS = SIDE * SIDE, VPLS = 3000 };
+enum { SIDE = 8, PIXELS = SIDE * SIDE, VPLS = 3000, SHADES = 20 };
 
 typedef struct rig {
     surface_rig surfaces;
     lsf_light_tree tree;
     lsf_light_tree_sample sample;
+    lsf_voxels voxels;
     GLuint cloud;
+    lsf_float3 shades[SHADES][3]; /* triangles, where sight is exact */
     lsf_float3 positions[PIXELS], normal;
 } rig;
 
@@ -56,6 +59,32 @@ static void move_cloud(const rig *r, struct lsf_vpl_record *records, uint32_t co
                 (&view->start.x)[axis] + 0.75f * (&view->forward.x)[axis];
 }
 
+/* Triangles at random between the wall and most of the room, and a grid whose voxels are too small
+ * to lift anything above a surface. */
+static void hang_shades(rig *r)
+{
+    lsf_error error = {0};
+    const struct lsf_voxel_grid_data grid = {.origin = {.w = 1e-9f}, .size = {.w = 1e9f}};
+    surface_rig *s = &r->surfaces;
+    lsf_float3 eye = lsf_f3_load(&s->iteration.view.start.x);
+    for (uint32_t i = 0; i < SHADES; i++) {
+        lsf_float3 place = lsf_f3_mad(eye, surface_rig_ray(s, i % SIDE, i * 5 % SIDE), 0.6f);
+        for (uint32_t k = 0; k < 3; k++) {
+            uint64_t n = 9 * (uint64_t)i + 3 * k;
+            lsf_float3 offset = {lsf_random_float(3, n), lsf_random_float(3, n + 1),
+                                 lsf_random_float(3, n + 2)};
+            offset = lsf_f3_sub(offset, lsf_f3(0.5f, 0.5f, 0.5f));
+            r->shades[i][k] = lsf_f3_mad(place, offset, 0.2f);
+        }
+    }
+    s->scene_gpu.triangle_count = SHADES;
+    s->scene_gpu.triangles =
+        lsf_buffer_create(s->context, "shades", sizeof r->shades, r->shades, 0, &error);
+    r->voxels.grid_buffer = lsf_buffer_create(s->context, "grid", sizeof grid, &grid, 0, &error);
+    if (!s->scene_gpu.triangles || !r->voxels.grid_buffer)
+        fail_msg("%s", error.message);
+}
+
 static void rig_begin(rig *r, struct lsf_vpl_record *records, uint32_t count,
                       const lsf_light_tree_sample_params *params, bool covariance)
 {
@@ -75,6 +104,8 @@ static void rig_begin(rig *r, struct lsf_vpl_record *records, uint32_t count,
         !lsf_light_tree_sample_create(&r->sample, context, plan, params, &error))
         fail_msg("%s", error.message);
     see_wall(r);
+    if (params->sight == LSF_LIGHT_TREE_EXACT)
+        hang_shades(r);
     lsf_light_tree_run(&r->tree, &r->surfaces.iteration, r->cloud);
 }
 
@@ -82,6 +113,8 @@ static void rig_end(rig *r)
 {
     lsf_context *context = r->surfaces.context;
     lsf_buffer_destroy(context, &r->cloud);
+    lsf_buffer_destroy(context, &r->voxels.grid_buffer);
+    lsf_buffer_destroy(context, &r->surfaces.scene_gpu.triangles);
     lsf_light_tree_destroy(&r->tree);
     lsf_light_tree_sample_destroy(&r->sample);
     surface_rig_end(&r->surfaces);
@@ -89,8 +122,8 @@ static void rig_end(rig *r)
 
 static void run_once(rig *r, uint32_t index, float (*irradiance)[4], float (*specular)[4])
 {
-    const lsf_light_tree_sample_inputs inputs = {.seen = &r->surfaces.maps,
-                                                 .tree = &r->tree.outputs};
+    const lsf_light_tree_sample_inputs inputs = {
+        .seen = &r->surfaces.maps, .voxels = &r->voxels, .tree = &r->tree.outputs};
     r->surfaces.iteration.index = index;
     lsf_light_tree_sample_run(&r->sample, &r->surfaces.iteration, &inputs);
     surface_rig_read(r->sample.light.irradiance, SIDE, SIDE, irradiance[0]);
@@ -115,6 +148,42 @@ static void run(rig *r, uint32_t iterations, sums parts[2])
     }
 }
 
+/* Whether the way from x meets a triangle, in double precision: by the volumes of tetrahedra, whose
+ * signs say on which side what lies. */
+static double volume(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+static bool hidden(const rig *r, lsf_float3 x, lsf_float3 way)
+{
+    const double w[3] = {(double)way.x, (double)way.y, (double)way.z};
+    for (uint32_t i = 0; i < SHADES; i++) {
+        double q[3][3], e[2][3], n[3];
+        for (int k = 0; k < 3; k++) {
+            lsf_float3 p = r->shades[i][k];
+            q[k][0] = (double)p.x - (double)x.x;
+            q[k][1] = (double)p.y - (double)x.y;
+            q[k][2] = (double)p.z - (double)x.z;
+        }
+        double a = volume(w, q[0], q[1]), b = volume(w, q[1], q[2]), c = volume(w, q[2], q[0]);
+        if (!((a >= 0.0 && b >= 0.0 && c >= 0.0) || (a <= 0.0 && b <= 0.0 && c <= 0.0)))
+            continue;
+        for (int axis = 0; axis < 3; axis++)
+            for (int k = 0; k < 2; k++)
+                e[k][axis] = q[k + 1][axis] - q[0][axis];
+        for (int axis = 0; axis < 3; axis++)
+            n[axis] = e[0][(axis + 1) % 3] * e[1][(axis + 2) % 3] -
+                      e[0][(axis + 2) % 3] * e[1][(axis + 1) % 3];
+        double plane = n[0] * q[0][0] + n[1] * q[0][1] + n[2] * q[0][2];
+        double along = n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
+        if (plane * along > 0.0 && fabs(plane) < fabs(along))
+            return true;
+    }
+    return false;
+}
+
 /* The sum over all VPLs, of which each is no nearer than its disc's radius, in closed form: a rough
  * surface's. */
 static void sum_all(const rig *r, const struct lsf_vpl_record *records, uint32_t count,
@@ -136,6 +205,8 @@ static void sum_all(const rig *r, const struct lsf_vpl_record *records, uint32_t
             double leaves = -(double)lsf_f3_dot(cloud_normal(records[i].normal), w);
             float arrives = lsf_f3_dot(r->normal, w);
             if (leaves <= 0.0 || arrives <= 0.0f)
+                continue;
+            if (r->voxels.grid_buffer && hidden(r, x, way))
                 continue;
             lsf_float3 h = lsf_f3_normalize(lsf_f3_add(view, w));
             float fresnel = lsf_fresnel_schlick(F0, lsf_f3_dot(view, h));
@@ -185,7 +256,7 @@ static void print_counts(rig *r)
 
 /* Means against the sum, both parts. */
 static void measure(int32_t node, uint32_t count, uint32_t iterations, float cut, bool covariance,
-                    comparison c[2])
+                    lsf_light_tree_sight sight, comparison c[2])
 {
     static const char *const names[] = {"substitute", "lightcut", "vpl"};
     static const char *const parts[] = {"diffuse", "specular"};
@@ -197,7 +268,7 @@ static void measure(int32_t node, uint32_t count, uint32_t iterations, float cut
                                                  .cut = cut,
                                                  .samples = LSF_LIGHT_TREE_SAMPLE_MOST,
                                                  .bound = BOUND,
-                                                 .sight = LSF_LIGHT_TREE_OPEN};
+                                                 .sight = (int32_t)sight};
     struct lsf_vpl_record *records = cloud_make(CLOUD_ROOM, count, 5);
     rig_begin(&r, records, count, &params, covariance);
     sum_all(&r, records, count, (double)(BOUND * BOUND), expected[0], expected[1]);
@@ -205,10 +276,11 @@ static void measure(int32_t node, uint32_t count, uint32_t iterations, float cut
     for (int part = 0; part < 2; part++) {
         c[part] = compare(&s[part], expected[part], iterations, LSF_LIGHT_TREE_SAMPLE_MOST);
         print_message(
-            "%s, cut %.2g%s, %s: bias %.3f %%, deviation of a sample %.0f %%, errors %.2f "
+            "%s%s, cut %.2g%s, %s: bias %.3f %%, deviation of a sample %.0f %%, errors %.2f "
             "standard errors, %.2f at most\n",
-            names[node], (double)cut, covariance ? " with covariance" : "", parts[part],
-            100.0 * c[part].bias, 100.0 * c[part].deviation, c[part].spread, c[part].worst);
+            names[node], sight == LSF_LIGHT_TREE_EXACT ? " behind triangles" : "", (double)cut,
+            covariance ? " with covariance" : "", parts[part], 100.0 * c[part].bias,
+            100.0 * c[part].deviation, c[part].spread, c[part].worst);
     }
     print_counts(&r);
     free(records);
@@ -223,19 +295,26 @@ static void test_means(void **state)
         int32_t node;
         float cut;
         bool covariance;
+        lsf_light_tree_sight sight;
     } cases[] = {
-        {LSF_LIGHT_TREE_SUBSTITUTE, 0.0f, false}, {LSF_LIGHT_TREE_SUBSTITUTE, 0.5f, false},
-        {LSF_LIGHT_TREE_SUBSTITUTE, 0.5f, true},  {LSF_LIGHT_TREE_LIGHTCUT, 0.0f, false},
-        {LSF_LIGHT_TREE_LIGHTCUT, 0.5f, false},   {LSF_LIGHT_TREE_VPL, 0.0f, false},
+        {LSF_LIGHT_TREE_SUBSTITUTE, 0.0f, false, LSF_LIGHT_TREE_OPEN},
+        {LSF_LIGHT_TREE_SUBSTITUTE, 0.5f, false, LSF_LIGHT_TREE_OPEN},
+        {LSF_LIGHT_TREE_SUBSTITUTE, 0.5f, true, LSF_LIGHT_TREE_OPEN},
+        {LSF_LIGHT_TREE_LIGHTCUT, 0.0f, false, LSF_LIGHT_TREE_OPEN},
+        {LSF_LIGHT_TREE_LIGHTCUT, 0.5f, false, LSF_LIGHT_TREE_OPEN},
+        {LSF_LIGHT_TREE_VPL, 0.0f, false, LSF_LIGHT_TREE_OPEN},
+        {LSF_LIGHT_TREE_LIGHTCUT, 0.5f, false, LSF_LIGHT_TREE_EXACT},
     };
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
         int32_t node = cases[i].node;
-        measure(node, VPLS, 32, cases[i].cut, cases[i].covariance, c);
+        /* Where little is seen, errors of few samples are far from normal. */
+        uint32_t iterations = cases[i].sight == LSF_LIGHT_TREE_EXACT ? 96 : 32;
+        measure(node, VPLS, iterations, cases[i].cut, cases[i].covariance, cases[i].sight, c);
         for (int part = 0; part < 2; part++) {
             bool exact = node != LSF_LIGHT_TREE_SUBSTITUTE || part == 1;
             /* Four standard errors of all the samples' mean. */
-            double mean_error =
-                4.0 * c[part].deviation / sqrt(32.0 * LSF_LIGHT_TREE_SAMPLE_MOST * PIXELS);
+            double mean_error = 4.0 * c[part].deviation /
+                                sqrt((double)iterations * LSF_LIGHT_TREE_SAMPLE_MOST * PIXELS);
             assert_true(fabs(c[part].bias) < mean_error + (exact ? 0.0 : 0.01));
             assert_true(!exact || (c[part].worst < 4.5 && c[part].spread < 1.3));
         }
@@ -368,8 +447,9 @@ int main(int argc, char **argv)
         comparison c[2];
         for (int32_t node = LSF_LIGHT_TREE_SUBSTITUTE; node <= LSF_LIGHT_TREE_VPL; node++)
             for (int i = 0; i < (node == LSF_LIGHT_TREE_VPL ? 1 : 3); i++)
-                measure(node, (uint32_t)atoi(argv[1]), 32, cuts[i], false, c);
-        measure(LSF_LIGHT_TREE_SUBSTITUTE, (uint32_t)atoi(argv[1]), 32, cuts[1], true, c);
+                measure(node, (uint32_t)atoi(argv[1]), 32, cuts[i], false, LSF_LIGHT_TREE_OPEN, c);
+        measure(LSF_LIGHT_TREE_SUBSTITUTE, (uint32_t)atoi(argv[1]), 32, cuts[1], true,
+                LSF_LIGHT_TREE_OPEN, c);
         return 0;
     }
     const struct CMUnitTest tests[] = {
