@@ -58,16 +58,17 @@ static bool needed_together(const lsf_net_chain *chain, uint32_t map, uint32_t o
     return last_use(chain, other) >= map - 1 && last_use(chain, map) >= other - 1;
 }
 
-/* The lowest that is free for as long as the map is needed. */
-static uint64_t free_offset(const lsf_net_chain *chain, uint32_t map)
+/* The lowest that is free for as long as the map is needed, where those before it in `order` are.
+ */
+static uint64_t free_offset(const lsf_net_chain *chain, const uint32_t *order, uint32_t place)
 {
-    uint64_t at = 0;
+    uint64_t at = 0, bytes = chain->maps[order[place]].bytes;
     for (bool moved = true; moved;) {
         moved = false;
-        for (uint32_t other = 1; other < map; other++) {
-            const lsf_net_map *o = &chain->maps[other];
-            if (o->home == LSF_NET_SHARED && needed_together(chain, map, other) &&
-                at < o->offset + o->bytes && o->offset < at + chain->maps[map].bytes) {
+        for (uint32_t i = 0; i < place; i++) {
+            const lsf_net_map *o = &chain->maps[order[i]];
+            if (needed_together(chain, order[place], order[i]) && at < o->offset + o->bytes &&
+                o->offset < at + bytes) {
                 at = o->offset + o->bytes;
                 moved = true;
             }
@@ -76,19 +77,39 @@ static uint64_t free_offset(const lsf_net_chain *chain, uint32_t map)
     return at;
 }
 
+/* The largest of those that share bytes first, so that the small ones fill what these leave. */
+static uint32_t sort_shared(const lsf_net_chain *chain, uint32_t order[LSF_NET_MAPS_MAX])
+{
+    uint32_t count = 0;
+    for (uint32_t map = 1; map <= chain->step_count; map++) {
+        if (chain->maps[map].home != LSF_NET_SHARED)
+            continue;
+        uint32_t at = count++;
+        for (; at > 0 && chain->maps[order[at - 1]].bytes < chain->maps[map].bytes; at--)
+            order[at] = order[at - 1];
+        order[at] = map;
+    }
+    return count;
+}
+
 void lsf_net_chain_place(lsf_net_chain *chain, uint64_t alignment)
 {
+    uint32_t order[LSF_NET_MAPS_MAX];
     chain->shared_bytes = chain->state_bytes = 0;
     for (uint32_t i = 1; i <= chain->step_count; i++) {
         lsf_net_map *map = &chain->maps[i];
         map->bytes = (map->bytes + alignment - 1) / alignment * alignment;
+        map->offset = 0;
         if (map->home == LSF_NET_STATE) {
             map->offset = chain->state_bytes;
             chain->state_bytes += map->bytes;
-        } else if (map->home == LSF_NET_SHARED) {
-            map->offset = free_offset(chain, i);
-            if (map->offset + map->bytes > chain->shared_bytes)
-                chain->shared_bytes = map->offset + map->bytes;
         }
+    }
+    uint32_t count = sort_shared(chain, order);
+    for (uint32_t i = 0; i < count; i++) {
+        lsf_net_map *map = &chain->maps[order[i]];
+        map->offset = free_offset(chain, order, i);
+        if (map->offset + map->bytes > chain->shared_bytes)
+            chain->shared_bytes = map->offset + map->bytes;
     }
 }
