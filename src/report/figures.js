@@ -63,7 +63,8 @@ function convergenceFigure() {
       const fit = (configuration.fit || {}).relmse || {};
       const floor = (fit.floor || {}).value, noise = (fit.noise || {}).value, exponent = (fit.exponent || {}).value;
       const samples = points.filter((point) => point.configuration === index).map((point) => point.samples);
-      if (!samples.length || [floor, noise, exponent].some((value) => !Number.isFinite(value))) return {};
+      /* Noise that grows is none: too few seeds, or a default that changed on the way. */
+      if (!samples.length || [floor, noise, exponent].some((value) => !Number.isFinite(value)) || exponent <= 0) return {};
       const least = Math.min(...samples), most = Math.max(...samples);
       const curve = Array.from({ length: 41 }, (unused, i) => {
         const x = least * (most / least) ** (i / 40);

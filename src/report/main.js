@@ -26,9 +26,12 @@ function describe() {
   if (!answer) return;
   const asked = Number.isFinite(answer.budget_ms) ? `within ${number(answer.budget_ms)} ms`
     : `soonest to a relMSE of ${number(answer.budget_relmse)}`;
-  const best = `${nameOf(configurations[answer.configuration])}, ${answer.samples} samples`;
-  get("answer").append(element("strong", {}, `Best ${asked}: `), `${best}: relMSE ${interval(answer.relmse)} in ` +
-    `${number(answer.milliseconds)} ms. ${answer.met ? "" : "Nothing that was measured meets it. "}`,
+  const best = `${nameOf(configurations[answer.configuration])}, ${answer.samples} sample${answer.samples === 1 ? "" : "s"}`;
+  const sure = Number.isFinite(answer.confidence) && Number.isFinite(answer.budget_ms) &&
+    ` ${answer.candidates} candidates, ${answer.finalists} to the end: that none of these is better by 10 % has a ` +
+    `probability of ${Math.floor(100 * answer.confidence)} %.`;
+  get("answer").append(element("strong", {}, `Best ${data.interrupted ? "so far " : ""}${asked}: `), `${best}: relMSE ${interval(answer.relmse)} in ` +
+    `${number(answer.milliseconds)} ms. ${answer.met ? sure || "" : "Nothing that was measured meets it."}`,
   element("pre", {}, answer.command || ""));
   get("answer").hidden = false;
 }
@@ -79,6 +82,7 @@ configurations.forEach((configuration, index) => {
 });
 redraw();
 
+if (data.clock === "processor") get("pass-clock").textContent = ", by the clock on the wall";
 get("passes").hidden = !passBars(get("pass-bars"), (said) => { get("pass-readout").textContent = said; });
 if (data.prices && data.prices.features.length) {
   new Table(get("price-table"), priceColumns(), data.prices.features, null);

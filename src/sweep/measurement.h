@@ -128,7 +128,8 @@ typedef struct lsf_answer {
     uint32_t configuration, samples;
     lsf_estimate error; /* relMSE */
     double milliseconds;
-    double confidence; /* probability that no other candidate is better by 10 % */
+    double confidence; /* within a time: that no other candidate is better by 10 %; to an error:
+                        * that its own is no larger. NAN: nobody knows, as of half a search */
     uint32_t candidates, finalists;
     char *command; /* that renders it */
 } lsf_answer;

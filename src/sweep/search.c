@@ -337,7 +337,7 @@ static bool search_within(search_run *run, lsf_error *error)
         return false;
     const lsf_measured_point *best = best_within(run);
     if (best)
-        answer_with(run, best, true, confidence_in(run, best));
+        answer_with(run, best, true, run->stopped ? NAN : confidence_in(run, best));
     else
         answer_with(run, quickest(run->m), false, NAN);
     return true;

@@ -42,12 +42,13 @@ void lsf_measure_add_answer(lsf_string *text, const lsf_measurement *measurement
 {
     const lsf_answer *answer = &measurement->answer;
     if (answer->met) {
-        lsf_string_add(text, "Best for ");
+        lsf_string_add(text, measurement->interrupted ? "Best so far for " : "Best for ");
         add_question(text, answer);
         lsf_string_add(text, ": ");
         add_finding(text, answer);
         lsf_string_add(text, "\n");
-        add_certainty(text, answer);
+        if (!isnan(answer->confidence))
+            add_certainty(text, answer);
     } else {
         lsf_string_add(text, "Nothing that was measured gives ");
         add_question(text, answer);
@@ -56,7 +57,8 @@ void lsf_measure_add_answer(lsf_string *text, const lsf_measurement *measurement
         lsf_string_add(text, "\n");
     }
     if (measurement->interrupted)
-        lsf_string_add(text, "The search was interrupted; --resume goes on with it.\n");
+        lsf_string_add(text, "The search was interrupted before it was sure; --resume goes on with "
+                             "it.\n");
     lsf_string_add(text, "\n    %s\n", answer->command);
 }
 

@@ -242,6 +242,7 @@ static void test_failures_and_interrupts(void **state)
         w.stop_after = after;
         ask(&w, 300.0, NAN);
         assert_true(w.measurement.answer.given);
+        assert_true(isnan(w.measurement.answer.confidence)); /* of what has not been looked at */
         lsf_measurement_finish(&w.measurement);
     }
     w = new_world(crossing, 1);
