@@ -48,7 +48,7 @@ sanitize:  ## the tests once more, under AddressSanitizer and UndefinedBehaviorS
 	    -Dtest_shader_cache=$(abspath $(BUILD))/tests/shader-cache'
 
 .PHONY: figures
-figures: all  ## measure the tables of the pages anew, which takes an hour of an idle machine
+figures: all  ## measure the tables of the pages anew, which takes two hours of an idle machine
 	scripts/figures --build $(BUILD) $(FIGURES)
 
 .PHONY: install
