@@ -26,6 +26,7 @@ def arguments():
     parser.add_argument("--size", default="256,160", help="width,height in pixels")
     parser.add_argument("--reference-samples", default="128", help="of each half of the reference")
     parser.add_argument("--techniques", nargs="*", default=TECHNIQUES)
+    parser.add_argument("--variants", nargs="*", default=[name for name, _ in VARIANTS])
     return parser.parse_args()
 
 
@@ -72,13 +73,14 @@ def table(results, metric):
 
 def main():
     args = arguments()
-    path, results = args.out / "results.json", {}
+    path = args.out / "results.json"
+    results = json.loads(path.read_text()) if path.exists() else {}
     for name, *scene in args.scene:
         folder = args.out / name
         folder.mkdir(parents=True, exist_ok=True)
         reference(args, folder, scene)
         for technique in args.techniques:
-            for variant in VARIANTS:
+            for variant in (v for v in VARIANTS if v[0] in args.variants):
                 found = measure(args, folder, scene, technique, variant)
                 results.setdefault(name, {}).setdefault(technique, {})[variant[0]] = found
                 path.write_text(json.dumps(results, indent=1) + "\n")

@@ -17,7 +17,7 @@ class Frames:
             if file.read(4) != b"LSFT":
                 raise ValueError(f"{path}: not written by lightsheaf-light-data")
             version, textures, width, height, self.iterations, frames = struct.unpack("<6I", file.read(24))
-            if version != 1 or textures not in (NOISY, CLEAN):
+            if version != 2 or textures not in (NOISY, CLEAN):
                 raise ValueError(f"{path}: version {version} with {textures} textures")
             self.views, self.textures = [], []
             for _ in range(frames):
@@ -70,11 +70,11 @@ def view_depth(depth, view):
 def net_input(noisy, view):
     """(INPUTS, height, width), and the scale; None for a black picture."""
     diffuse, specular, told = parts(noisy[0:2])
-    filtered = [np.where(t[..., None], light, 0.0) for t, light in zip(told, parts(noisy[3:5])[:2])]
+    filtered = [np.where(t[..., None], light, 0.0) for t, light in zip(told, parts(noisy[2:4])[:2])]
     scale = scale_of(*filtered, told)
     if not scale > 0.0 or not np.isfinite(scale):
         return None, scale
-    guide, factor = noisy[5], noisy[7]
+    guide, factor = noisy[6], noisy[5]
     seen = guide[..., 3] != 0.0
     depth = np.zeros_like(guide[..., 3])
     depth[seen] = 1.0 / (1.0 + np.maximum(view_depth(guide[..., 3][seen], view), 0.0))
@@ -90,27 +90,61 @@ def net_input(noisy, view):
     return np.moveaxis(np.concatenate(planes, -1), -1, 0).astype(np.float32), scale
 
 
-def cleared(light, factor):
-    """Light without its tint, as glsl/lib/light_clear.glsl has it; and where that tells something."""
-    tint = luminance(factor)[..., None]
-    told = tint > 0.0
-    grey = luminance(light)[..., None] / np.where(told, tint, 1.0)
-    clear = np.where(factor > 0.0, light / np.where(factor > 0.0, factor, 1.0), grey)
-    return np.where(told, clear, 0.0), told[..., 0] & np.isfinite(clear).all(-1)
-
-
 def example(noisy, view, clean):
     """(CHANNELS, height, width) in half floats: what a frame teaches. None for one that teaches nothing."""
     x, scale = net_input(noisy, view)
     if x is None or not np.isfinite(x).all():
         return None
-    told, light, reflected = parts(noisy[0:2])[2], [], []
-    for part, unit in ((0, PI), (1, np.float32(1.0))):
-        clear, known = cleared(clean[part][..., :3], clean[2 + part][..., :3])
-        told[part] = told[part] & known
-        light.append(np.where(told[part][..., None], clear / unit, 0.0))
-        reflected.append(luminance(light[part] * clean[2 + part][..., :3]) * unit)
+    noisy_told, clean_told = parts(noisy[0:2])[2], parts(clean[0:2])[2]
+    told = [a & b for a, b in zip(noisy_told, clean_told)]
+    light = [np.where(t[..., None], part, 0.0) for t, part in zip(told, parts(clean[2:4])[:2])]
+    reflected = [luminance(part * factor[..., :3]) * unit
+                 for part, factor, unit in zip(light, noisy[4:6], (PI, np.float32(1.0)))]
     share = reflected[1] / np.maximum(reflected[0] + reflected[1], 1e-20)
     planes = [x] + [np.moveaxis(u_of(part, scale), -1, 0) for part in light]
     planes += [told[0][None], told[1][None], share[None]]
     return np.concatenate(planes, 0).astype(np.float16)
+
+
+def _soft(values, weight, radius=6, times=2):
+    """Weighted means over squares, as often; (..., height, width)."""
+    def box(x):
+        for axis in (-2, -1):
+            pad = [(0, 0)] * x.ndim
+            pad[axis] = (radius + 1, radius)
+            sums = np.cumsum(np.pad(x, pad, mode="edge"), axis, dtype=np.float64)
+            size, low, high = x.shape[axis], [slice(None)] * x.ndim, [slice(None)] * x.ndim
+            low[axis], high[axis] = slice(0, size), slice(2 * radius + 1, 2 * radius + 1 + size)
+            x = sums[tuple(high)] - sums[tuple(low)]
+        return x
+    for _ in range(times):
+        values = box(values * weight) / np.maximum(box(weight), 1e-6)
+    return values
+
+
+# Whose filtered light tells how bright it is. Lobes of cones are wide, and trees of lights seldom find what is seen
+# in a metal.
+TELLS = (("bidirectional", "cone", "voxel_path", "substitute_tree"), ("bidirectional", "voxel_path"))
+
+
+def agree(frames):
+    """Takes soft errors out of clean light: of few VPLs it has about as much as one filtered iteration of another
+    technique, of independent random numbers. So where it is soft, clean light becomes the median of itself and of
+    what the other techniques' iterations say; its edges and shadows stay. `frames`: technique -> (frames, CHANNELS,
+    height, width), changed in place."""
+    # Clean light is the same for all, but for the scale.
+    sums = {name: np.expm1(array[:, 20:26].astype(np.float32)).sum((1, 2, 3), dtype=np.float64)
+            for name, array in frames.items()}
+    clean = {name: array[:, 20:26].astype(np.float32) for name, array in frames.items()}
+    for name, array in frames.items():
+        for part, tells in enumerate(TELLS):
+            own, told = clean[name][:, 3 * part:3 * part + 3], array[:, 26 + part].astype(np.float32)
+            said = [own]
+            for other in tells:
+                if other in frames and other != name:
+                    ratio = (sums[name] / np.maximum(sums[other], 1e-20))[:, None, None, None]
+                    light = np.expm1(frames[other][:, 6 + 3 * part:9 + 3 * part].astype(np.float32))
+                    said.append(np.log1p(light * ratio))
+            off = np.median(np.stack(said), 0) - own
+            weight = np.broadcast_to(told[:, None], off.shape)
+            array[:, 20 + 3 * part:23 + 3 * part] = np.maximum(own + _soft(off, weight) * weight, 0.0)

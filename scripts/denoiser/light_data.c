@@ -14,7 +14,7 @@
 #include "tools/sequence.h"
 
 #define MAGIC "LSFT"
-enum { VERSION = 1, VIEW_FLOATS = 16, NOISY_TEXTURES = 9, CLEAN_TEXTURES = 4 };
+enum { VERSION = 2, VIEW_FLOATS = 16, NOISY_TEXTURES = 9, CLEAN_TEXTURES = 4 };
 
 /* --- the pixel's sample point, which noisy and clean light of a frame have to share --- */
 
@@ -103,66 +103,41 @@ static void write_view(light_job *job, const lsf_renderer *renderer)
     write_numbers(job, numbers, VIEW_FLOATS);
 }
 
-static bool write_textures(light_job *job, const GLuint *textures, int count, lsf_error *error)
-{
-    for (int i = 0; i < count; i++)
-        if (!write_texture(job, textures[i], error))
-            return false;
-    return true;
-}
-
-static bool write_noisy(light_job *job, lsf_renderer *renderer, lsf_error *error)
+/* Noisy light of one frame, or clean light, as the renderer's iterations left it. */
+static bool write_frame(light_job *job, lsf_renderer *renderer, bool noisy, lsf_error *error)
 {
     const lsf_light_filter *filter = &renderer->light_filter;
     const lsf_light_mean *mean = &renderer->light_mean;
+    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
+    if (!entered || !lsf_renderer_catch_up(renderer, true, error))
+        return false;
     if (!filter->timer)
         return lsf_error_set(error, LSF_ERROR_USAGE, "the plan has no light_filter");
     lsf_renderer_picture(renderer);
     const GLuint *filtered = filter->turns[(filter->params.steps - 1) % 2];
     const GLuint textures[NOISY_TEXTURES] = {
-        filter->light[0],     filter->light[1],      renderer->accumulate.means[0],
-        filtered[0],          filtered[1],           mean->guide,
-        mean->diffuse.factor, mean->specular.factor, filter->picture};
-    write_view(job, renderer);
-    return write_textures(job, textures, NOISY_TEXTURES, error);
-}
-
-static bool write_clean(light_job *job, lsf_renderer *renderer, lsf_error *error)
-{
-    const lsf_light_mean *mean = &renderer->light_mean;
-    const GLuint textures[CLEAN_TEXTURES] = {mean->diffuse.light, mean->specular.light,
-                                             mean->diffuse.factor, mean->specular.factor};
-    if (!mean->timer)
-        return lsf_error_set(error, LSF_ERROR_USAGE, "the plan has no light_mean");
-    return write_textures(job, textures, CLEAN_TEXTURES, error);
-}
-
-/* The light of one frame, its mean over the renderer's iterations. */
-static bool write_frame(light_job *job, lsf_renderer *renderer, bool noisy, lsf_error *error)
-{
-    LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, error);
-    return entered && lsf_renderer_catch_up(renderer, true, error) &&
-           (noisy ? write_noisy(job, renderer, error) : write_clean(job, renderer, error));
+        filter->light[0], filter->light[1],     filtered[0],
+        filtered[1],      mean->diffuse.factor, mean->specular.factor,
+        mean->guide,      filter->picture,      renderer->accumulate.means[0]};
+    if (noisy)
+        write_view(job, renderer);
+    for (int i = 0; i < (noisy ? NOISY_TEXTURES : CLEAN_TEXTURES); i++)
+        if (!write_texture(job, textures[i], error))
+            return false;
+    return true;
 }
 
 /* All frames of the sequence, by one technique, `iterations` each. Clean light takes random numbers
- * that noisy light does not. All its pixels take the same, for a pattern would stay in it; it is
- * the mean that the temporal pass, cut at each frame, would blend. */
+ * that noisy light does not. */
 static bool write_frames(light_job *job, const char *technique, uint32_t iterations, bool noisy,
                          lsf_error *error)
 {
-    static const char *const alike[] = {"interleave.size=1"};
     const lsf_sequence *sequence = &job->sequence;
     lsf_render_params params = lsf_settings_render_params(&job->settings);
     uint32_t own = params.samples, first_clean = (sequence->last + 1) * own;
     lsf_view camera, turned;
     params.samples = iterations;
     params.technique = technique;
-    if (!noisy) {
-        params.temporal = true;
-        params.options = alike;
-        params.option_count = 1;
-    }
     lsf_renderer *renderer = lsf_renderer_create(job->context, job->scene, &params, error);
     bool good = renderer && lsf_render_params_view(job->scene, &params, &camera, error);
     for (uint32_t number = sequence->first; good && number <= sequence->last; number++) {

@@ -32,16 +32,19 @@ def arguments():
 def prepare(raw, techniques, out, name):
     """Turns files of light into a .npy for each technique."""
     import numpy as np
-    from light import Frames, example
-    clean = Frames(f"{raw}_clean.light")
+    from light import Frames, agree, example
+    clean, sequences = Frames(f"{raw}_clean.light"), {}
     for technique in techniques:
         noisy = Frames(f"{raw}_{technique}.light")
         frames = [example(*frame) for frame in zip(noisy.textures, noisy.views, clean.textures)]
         if all(frame is not None for frame in frames):
-            folder = out / ("validation" if is_validation(name) else "train")
-            folder.mkdir(parents=True, exist_ok=True)
-            np.save(folder / f"{name}_{technique}.tmp.npy", np.stack(frames))
-            (folder / f"{name}_{technique}.tmp.npy").rename(folder / f"{name}_{technique}.npy")
+            sequences[technique] = np.stack(frames)
+    agree(sequences)
+    folder = out / ("validation" if is_validation(name) else "train")
+    folder.mkdir(parents=True, exist_ok=True)
+    for technique, sequence in sequences.items():
+        np.save(folder / f"{name}_{technique}.tmp.npy", sequence)
+        (folder / f"{name}_{technique}.tmp.npy").rename(folder / f"{name}_{technique}.npy")
 
 
 def is_validation(name):

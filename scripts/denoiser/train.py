@@ -11,6 +11,7 @@ import sys
 import time
 
 VALUE, GRADIENT, TEMPORAL, ENERGY = 0.7, 0.1, 0.1, 0.1  # weights of the losses
+TYPICAL = 0.1  # error that the filter leaves; where it leaves more, which nothing can tell, pixels count for less
 BLOCK = 8  # pixels; the energy is compared in blocks of that side
 
 
@@ -27,6 +28,7 @@ def arguments():
     parser.add_argument("--frames", type=int, default=2, help="frames of a sequence that a step takes")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--bfloat16", action="store_true", help="convolutions in bfloat16, which some processors do faster")
     parser.add_argument("--log", type=pathlib.Path, default=pathlib.Path("curves.json"), help="losses, as JSON")
     parser.add_argument("--every", type=int, default=100, help="steps between checkpoints")
     return parser.parse_args()
@@ -76,7 +78,7 @@ def draw(sequences, args, rng):
     return torch.from_numpy(np.stack(batch, 1))
 
 
-def losses(net, frames):
+def losses(net, frames, bfloat16=False):
     """The weighted sum, and each by itself, over a sequence."""
     import torch
     from torch.nn import functional
@@ -86,8 +88,11 @@ def losses(net, frames):
         target, told, share = x[:, 20:26], x[:, 26:28], x[:, 28:29]
         weight = torch.cat((told[:, :1] * (0.1 + 0.9 * (1 - share)), told[:, 1:] * (0.1 + 0.9 * share)), 1)
         weight = weight.repeat_interleave(3, 1)
-        change, state = net(x[:, :20], state)
-        u = corrected(x, change)
+        left = (weight * (x[:, 6:12] - target).abs()).sum((1, 2, 3)) / (weight.sum((1, 2, 3)) + 1.0)
+        weight = weight * (TYPICAL / (TYPICAL + left))[:, None, None, None]
+        with torch.autocast("cpu", torch.bfloat16, enabled=bfloat16):
+            change, state = net(x[:, :20], state)
+        u = corrected(x, change.float())
         off = (u - target) * (weight > 0)
         norm = weight.sum() + 1.0
         value = (weight * off.abs()).sum() / norm
@@ -124,7 +129,7 @@ def main():
     from net import Net
     torch.manual_seed(args.seed)
     torch.set_num_threads(args.threads)
-    net, rng = Net(), np.random.default_rng(args.seed)
+    net, rng = Net().to(memory_format=torch.channels_last), np.random.default_rng(args.seed)
     if args.start:
         from export import read
         read(net, args.start)
@@ -143,7 +148,7 @@ def main():
         for group in optimizer.param_groups:
             warm = min(1.0, (step + 1) / 100)
             group["lr"] = args.rate * warm * 0.5 * (1 + np.cos(np.pi * step / args.steps))
-        loss, each = losses(net, draw(training, args, rng))
+        loss, each = losses(net, draw(training, args, rng), args.bfloat16)
         optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(net.parameters(), 1.0)
