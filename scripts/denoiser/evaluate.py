@@ -45,7 +45,7 @@ def reference(args, folder, scene):
 
 
 def measure(args, folder, scene, technique, variant):
-    """Renders a variant and compares its last frame with the reference: SSIM, FLIP, relMSE, bias in per cent."""
+    """Renders a variant and compares its last frame with the reference: SSIM, FLIP, relMSE, and the error of the mean as a share of it."""
     name, options = variant
     path = folder / f"{technique}_{name}.exr"
     if not path.exists():

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes a checkpoint's weights as data/denoiser/weights.lsfd, and a small input with the net's answer for the test."""
+"""Writes a checkpoint's weights as data/denoiser/weights.lsfd."""
 import argparse
 import pathlib
 import struct
@@ -12,7 +12,6 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("checkpoint", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path, help="weights file to write")
-    parser.add_argument("--check", type=pathlib.Path, help="file for a small input and what the net makes of it")
     return parser.parse_args()
 
 
@@ -55,20 +54,6 @@ def read(net, path):
         at += 2 * count + 4 * layer.out_channels
 
 
-def write_check(net, path):
-    """Two frames of 32 x 32 pixels, so that the state counts: input and output, as little-endian floats."""
-    import numpy as np
-    import torch
-    from net import INPUTS
-    rng, state, data = np.random.default_rng(7), None, b""
-    for _ in range(2):
-        x = rng.random((1, INPUTS, 32, 32)).astype(np.float32)
-        with torch.no_grad():
-            change, state = net(torch.from_numpy(x), state)
-        data += x.astype("<f4").tobytes() + change.numpy().astype("<f4").tobytes()
-    path.write_bytes(data)
-
-
 def main():
     args = arguments()
     import torch
@@ -76,9 +61,6 @@ def main():
     net = Net()
     net.load_state_dict(torch.load(args.checkpoint)["net"])
     write(net, args.out)
-    read(net, args.out)  # what is left of the weights in half floats
-    if args.check:
-        write_check(net, args.check)
 
 
 if __name__ == "__main__":

@@ -167,8 +167,9 @@ def main():
             print(json.dumps(entry), f"{(time.time() - start) / (step + 1 - first):.2f} s a step", flush=True)
             torch.save({"net": net.state_dict(), "optimizer": optimizer.state_dict(), "step": step + 1, "log": log},
                        args.out)
-            args.log.write_text(json.dumps({"losses": ["value", "gradient", "temporal", "energy"], "curve": log},
-                                           indent=0) + "\n")
+            lines = ",\n".join(json.dumps(each) for each in log)
+            args.log.write_text('{"losses": ["value", "gradient", "temporal", "energy"], "curve": [\n' + lines
+                                + "\n]}\n")
 
 
 if __name__ == "__main__":
