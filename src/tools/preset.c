@@ -129,13 +129,13 @@ static bool read_file(lsf_settings *settings, const char *path, char **content, 
 
 int lsf_preset_number(const lsf_command_option *option, const char *text)
 {
-    const char *name = option->choices;
     size_t length = strlen(text);
-    for (int number = 0; name; number++) {
-        if (strncmp(name, text, length) == 0 && (name[length] == '|' || name[length] == '\0'))
+    int number = 0;
+    for (const char *name = option->choices; name; number++) {
+        size_t end = strcspn(name, "|");
+        if (end == length && strncmp(name, text, length) == 0)
             return number;
-        name = strchr(name, '|');
-        name += name != NULL;
+        name = name[end] ? name + end + 1 : NULL;
     }
     return LSF_PRESET_FILE;
 }
