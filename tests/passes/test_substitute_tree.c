@@ -235,6 +235,72 @@ static void extremes(void **unused)
     assert_finite_extremes(params_of(1, 2), 0.1f);
 }
 
+/* Of the corner: what a light of each intensity adds, with a second floor in the first one's place
+ * where asked for. */
+static void mean_of_lights(const float intensities[2], bool twin, float height, double rgb[3])
+{
+    static const float at[2] = {-0.4f, 0.4f};
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.7f, 0.6f, 0.5f);
+    build_floor(scene, 0.0f, 1.0f);
+    build_quad(scene, lsf_f3(-1, 0, -1), lsf_f3(1, 0, -1), lsf_f3(1, 2, -1), lsf_f3(-1, 2, -1));
+    if (twin) {
+        build_material(scene, 0.7f, 0.6f, 0.5f);
+        build_floor(scene, 0.0f, 1.0f);
+    }
+    for (int i = 0; i < 2; i++)
+        if (intensities[i] > 0.0f)
+            build_light(scene, LSF_LIGHT_POINT, lsf_f3(at[i], height, -0.2f), lsf_f3(0, -1, 0),
+                        intensities[i]);
+    scene->diffuse_only = true;
+    finish_gl_scene(scene);
+    lsf_image *image = render_corner(scene, params_of(8, 2), 24);
+    mean_rgb(image, 0, rgb);
+    lsf_image_destroy(image);
+    lsf_scene_destroy(scene);
+}
+
+static void assert_alike(const double rgb[3], const double expected[3])
+{
+    for (int c = 0; c < 3; c++) {
+        print_message("%.5g, expected %.5g\n", rgb[c], expected[c]);
+        assert_true(fabs(rgb[c] / expected[c] - 1.0) <= 0.02);
+    }
+}
+
+/* The light of two lamps is the sum of either's, whether they are alike or one is 10^6 times as
+ * bright; and a surface that is there twice is no other than one. */
+static void lights_add_up(void **unused)
+{
+    (void)unused;
+    static const float pairs[2][2] = {{2.0f, 3.0f}, {3e6f, 3.0f}};
+    for (int i = 0; i < 2; i++) {
+        double sum[3] = {0, 0, 0}, both[3], one[3];
+        for (int k = 0; k < 2; k++) {
+            mean_of_lights((float[2]){k == 0 ? pairs[i][0] : 0.0f, k == 1 ? pairs[i][1] : 0.0f},
+                           false, 0.7f, one);
+            for (int c = 0; c < 3; c++)
+                sum[c] += one[c];
+        }
+        mean_of_lights(pairs[i], false, 0.7f, both);
+        assert_alike(both, sum);
+        mean_of_lights(pairs[i], true, 0.7f, one);
+        assert_alike(one, both);
+    }
+}
+
+/* A light on a surface, and next to it. */
+static void lights_at_surfaces(void **unused)
+{
+    (void)unused;
+    static const float heights[] = {0.0f, 1e-6f, 1e-3f};
+    for (size_t i = 0; i < LSF_COUNT(heights); i++) {
+        double rgb[3];
+        mean_of_lights((float[2]){3.0f, 0.0f}, false, heights[i], rgb);
+        assert_true(isfinite(rgb[0]) && isfinite(rgb[1]) && isfinite(rgb[2]));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,6 +312,8 @@ int main(void)
         cmocka_unit_test(only_what_is_required),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(extremes),
+        cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(lights_at_surfaces),
     };
     return cmocka_run_group_tests_name("substitute_tree", tests, NULL, NULL);
 }
