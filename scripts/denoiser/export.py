@@ -12,6 +12,8 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("checkpoint", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path, help="weights file to write")
+    parser.add_argument("--without-state", action="store_true",
+                        help="weights of the state of the frame before are 0: for a network that learnt from few frames")
     return parser.parse_args()
 
 
@@ -30,6 +32,15 @@ def write(net, path):
             raise ValueError(f"{name}: weights beyond half floats")
         data += half.tobytes() + layer.bias.detach().numpy().astype("<f4").tobytes()
     path.write_bytes(data)
+
+
+def forget(net):
+    """Has the net take nothing from the frame before."""
+    import torch
+    from net import ENCODER
+    with torch.no_grad():
+        for i, width in enumerate(ENCODER, 1):
+            net.layers[f"enc{i}b"].weight[:, width:] = 0.0
 
 
 def read(net, path):
@@ -60,6 +71,8 @@ def main():
     from net import Net
     net = Net()
     net.load_state_dict(torch.load(args.checkpoint)["net"])
+    if args.without_state:
+        forget(net)
     write(net, args.out)
 
 
