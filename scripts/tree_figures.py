@@ -75,12 +75,12 @@ def flicker(bench):
     for count in [10000] if bench.quick else COUNTS[:3]:
         row = [f"{count:,}"]
         for words in (["--raw"], [], ["--temporal"]):
-            measured = bench.json("measure", scene, "-t", "substitute_tree", "-s", 1, "--seeds", 1,
+            measured = bench.json("measure", scene, "-t", "substitute_tree", "-s", 1, "--seeds", 2,
                                   "-r", "48,48", "--frames", f"0-{frames - 1}",
                                   "--reference-samples", 8 if bench.quick else 64,
                                   "--cache", bench.work, "-D", f"cloud.count={count}", *words)
-            point = measured["points"][0]
-            row.append([point["difference"], point["relmse"]])
+            path = measured["points"][0]["path"]
+            row.append([path["difference"]["value"], path["relmse"]["value"]])
         rows.append(row)
     return rows
 

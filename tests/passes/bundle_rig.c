@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "octahedral.h"
+
 static void read_back(bundle_rig *rig, GLuint hits)
 {
     const lsf_surface_maps *gbuffer = &rig->gbuffer.outputs.seen;
@@ -73,17 +75,6 @@ void bundle_rig_finish(bundle_rig *rig)
     free(rig->depth);
     free(rig->surface);
     free(rig->hits);
-}
-
-static lsf_float3 octahedral_decode(uint32_t bits)
-{
-    float x = (float)(int16_t)(bits & 0xffff) / 32767.0f;
-    float y = (float)(int16_t)(bits >> 16) / 32767.0f;
-    lsf_float3 n = lsf_f3(x, y, 1.0f - fabsf(x) - fabsf(y));
-    if (n.z < 0.0f)
-        n = lsf_f3((1.0f - fabsf(y)) * (x >= 0.0f ? 1.0f : -1.0f),
-                   (1.0f - fabsf(x)) * (y >= 0.0f ? 1.0f : -1.0f), n.z);
-    return lsf_f3_scale(n, 1.0f / lsf_f3_length(n));
 }
 
 bool bundle_rig_origin(const bundle_rig *rig, uint32_t x, uint32_t y, lsf_float3 *position,

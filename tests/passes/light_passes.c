@@ -242,16 +242,3 @@ void light_passes_random(uint64_t index, uint64_t dimension, float point[2])
     point[0] = lsf_random_float(2 * dimension + 100, index);
     point[1] = lsf_random_float(2 * dimension + 101, index);
 }
-
-lsf_float3 light_passes_decode_normal(uint32_t bits)
-{
-    float x = fmaxf((float)(int16_t)(bits & 0xffffu) / 32767.0f, -1.0f);
-    float y = fmaxf((float)(int16_t)(bits >> 16) / 32767.0f, -1.0f);
-    float z = 1.0f - fabsf(x) - fabsf(y);
-    if (z < 0.0f) {
-        float turned = (1.0f - fabsf(y)) * (x >= 0.0f ? 1.0f : -1.0f);
-        y = (1.0f - fabsf(x)) * (y >= 0.0f ? 1.0f : -1.0f);
-        x = turned;
-    }
-    return lsf_f3_normalize(lsf_f3(x, y, z));
-}

@@ -66,7 +66,4 @@ double light_passes_trace(const light_passes *p, lsf_float3 origin, lsf_float3 d
 /* Two numbers in [0, 1) of a sequence of the test's own. */
 void light_passes_random(uint64_t index, uint64_t dimension, float point[2]);
 
-/* The inverse of lib/octahedral.glsl's encoding. */
-lsf_float3 light_passes_decode_normal(uint32_t bits);
-
 #endif

@@ -5,35 +5,11 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "math/vector.h"
+#include "octahedral.h"
 
 static lsf_vec3 vec3_of(lsf_float3 v)
 {
     return (lsf_vec3){v.x, v.y, v.z};
-}
-
-uint32_t cloud_normal_bits(lsf_float3 n)
-{
-    float sum = fabsf(n.x) + fabsf(n.y) + fabsf(n.z);
-    float x = n.x / sum, y = n.y / sum;
-    if (n.z < 0.0f) {
-        float folded = (1.0f - fabsf(y)) * (x >= 0.0f ? 1.0f : -1.0f);
-        y = (1.0f - fabsf(x)) * (y >= 0.0f ? 1.0f : -1.0f);
-        x = folded;
-    }
-    return ((uint32_t)(int32_t)lrintf(x * 32767.0f) & 0xffffu) |
-           (uint32_t)(int32_t)lrintf(y * 32767.0f) << 16;
-}
-
-lsf_float3 cloud_normal(uint32_t bits)
-{
-    float x = fmaxf((float)(int16_t)(bits & 0xffffu) / 32767.0f, -1.0f);
-    float y = fmaxf((float)(int16_t)(bits >> 16) / 32767.0f, -1.0f);
-    lsf_float3 n = {x, y, 1.0f - fabsf(x) - fabsf(y)};
-    if (n.z < 0.0f) {
-        n.x = (1.0f - fabsf(y)) * (x >= 0.0f ? 1.0f : -1.0f);
-        n.y = (1.0f - fabsf(x)) * (y >= 0.0f ? 1.0f : -1.0f);
-    }
-    return lsf_f3_normalize(n);
 }
 
 float cloud_luminance(lsf_vec3 c)
@@ -75,7 +51,7 @@ static void in_room(struct lsf_vpl_record *r, const float u[4])
         position = lsf_f3_load(p);
     }
     r->position = vec3_of(position);
-    r->normal = cloud_normal_bits(normal);
+    r->normal = octahedral_encode(normal);
 }
 
 static void make_record(struct lsf_vpl_record *r, cloud_kind kind, uint32_t i, const float u[4])
@@ -85,14 +61,14 @@ static void make_record(struct lsf_vpl_record *r, cloud_kind kind, uint32_t i, c
     in_room(r, u);
     if (kind == CLOUD_POINT) {
         r->position = (lsf_vec3){0.25f, -0.125f, 0.5f};
-        r->normal = cloud_normal_bits(on_sphere(u[1], u[2]));
+        r->normal = octahedral_encode(on_sphere(u[1], u[2]));
     } else if (kind == CLOUD_PLANE) {
         lsf_basis basis = lsf_basis_about(tilted);
         r->position = vec3_of(lsf_basis_to_world(&basis, lsf_f3(u[0] - 0.5f, 0.3f * u[1], 0.1f)));
-        r->normal = cloud_normal_bits(tilted);
+        r->normal = octahedral_encode(tilted);
     } else if (kind == CLOUD_SAME) {
         r->position = (lsf_vec3){0.1f, 0.2f, 0.3f};
-        r->normal = cloud_normal_bits(tilted);
+        r->normal = octahedral_encode(tilted);
     } else if (kind == CLOUD_BRIGHT && i == 7) {
         r->intensity = (lsf_vec3){1e6f, 1e6f, 1e6f};
     } else if (kind == CLOUD_DEAD || (kind == CLOUD_DAMAGED && i % 3 == 0)) {

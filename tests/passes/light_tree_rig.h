@@ -19,8 +19,6 @@ typedef enum cloud_kind {
 struct lsf_vpl_record *cloud_make(cloud_kind kind, uint32_t count, uint32_t seed);
 bool cloud_shines(const struct lsf_vpl_record *record);
 float cloud_luminance(lsf_vec3 intensity);
-lsf_float3 cloud_normal(uint32_t bits);
-uint32_t cloud_normal_bits(lsf_float3 normal);
 
 typedef struct read_tree {
     struct lsf_light_tree_data data;

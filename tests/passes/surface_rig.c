@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/base.h"
+#include "octahedral.h"
 #include "passes/gbuffer.h"
 
 GLuint surface_rig_texture(surface_rig *r, GLenum format, uint32_t width, uint32_t height)
@@ -80,19 +81,6 @@ void surface_rig_end(surface_rig *r)
     free(r->glosses);
 }
 
-static uint32_t octahedral(lsf_float3 n)
-{
-    float sum = fabsf(n.x) + fabsf(n.y) + fabsf(n.z);
-    float x = n.x / sum, y = n.y / sum;
-    if (n.z < 0.0f) {
-        float folded = (1.0f - fabsf(y)) * (x >= 0.0f ? 1.0f : -1.0f);
-        y = (1.0f - fabsf(x)) * (y >= 0.0f ? 1.0f : -1.0f);
-        x = folded;
-    }
-    return ((uint32_t)(int32_t)lrintf(x * 32767.0f) & 0xffffu) |
-           (uint32_t)(int32_t)lrintf(y * 32767.0f) << 16;
-}
-
 /* origin + x dx + y dy at the pixel's sample. */
 static lsf_float3 at_sample(const surface_rig *r, uint32_t x, uint32_t y, const lsf_vec4 v[3])
 {
@@ -131,8 +119,8 @@ void surface_rig_see(surface_rig *r, uint32_t x, uint32_t y, const seen *s)
 {
     uint32_t i = y * r->width + x;
     r->depths[i] = s->background ? 0.0f : depth_of(r, x, y, s);
-    r->surfaces[i][0] = octahedral(s->plane);
-    r->surfaces[i][1] = octahedral(s->normal);
+    r->surfaces[i][0] = octahedral_encode(s->plane);
+    r->surfaces[i][1] = octahedral_encode(s->normal);
     r->surfaces[i][2] = i * 2654435761u; /* any colour */
     r->surfaces[i][3] = s->unlit ? 0x80000000u : 0u;
     r->glosses[i][0] = (uint32_t)lrintf(s->roughness * 65535.0f);

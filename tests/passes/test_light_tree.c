@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "light_tree_rig.h"
 #include "math/vector.h"
+#include "octahedral.h"
 #include "techniques/setup.h"
 
 typedef struct tree_case {
@@ -104,7 +105,7 @@ static void check_code(uint64_t code, const struct lsf_vpl_record *r, const code
         float width = b->side / 1024.0f, p = (&r->position.x)[axis] - b->low[axis];
         assert_true(p >= ((float)cell - 1e-3f) * width && p <= ((float)cell + 1.001f) * width);
     }
-    lsf_float3 n = cloud_normal(r->normal);
+    lsf_float3 n = octahedral_decode(r->normal);
     uint32_t octant = (uint32_t)(code >> 30) & 7u;
     assert_int_equal(octant, (n.x < 0.0f ? 4 : 0) | (n.y < 0.0f ? 2 : 0) | (n.z < 0.0f ? 1 : 0));
 }
@@ -145,7 +146,7 @@ static void test_normals(void **state)
     lsf_float3 first[CODES];
     for (uint32_t i = 0; i < COUNT; i++) {
         uint32_t code = (uint32_t)(codes[i] >> 24) & (CODES - 1);
-        lsf_float3 n = cloud_normal(records[codes[i] & 0xffffff].normal);
+        lsf_float3 n = octahedral_decode(records[codes[i] & 0xffffff].normal);
         if (used[code]++ == 0)
             first[code] = n;
         assert_true(lsf_f3_dot(n, first[code]) > cosf(0.32f));
@@ -185,7 +186,7 @@ static sums leaf_sums(const struct lsf_vpl_record *r)
               .similarity = 1.0,
               .normal = r->normal,
               .count = 1,
-              .n = cloud_normal(r->normal)};
+              .n = octahedral_decode(r->normal)};
     for (int a = 0; a < 3; a++) {
         double p = (double)(&r->position.x)[a];
         s.low[a] = s.high[a] = (&r->position.x)[a];
@@ -206,7 +207,7 @@ static void merge_normals(sums *s, const sums *a, const sums *b, uint32_t stored
     double cosine = a->normal == b->normal ? 1.0 : (double)lsf_f3_dot(a->n, b->n);
     s->similarity = a->similarity * b->similarity * fmin(fmax(cosine, 0.0), 1.0);
     s->normal = stored;
-    s->n = cloud_normal(stored);
+    s->n = octahedral_decode(stored);
     if (lsf_f3_length(mean) > 1e-3f)
         assert_true(lsf_f3_dot(lsf_f3_normalize(mean), s->n) > 1.0f - 1e-6f);
 }

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "light_tree_rig.h"
 #include "math/sampling.h"
+#include "octahedral.h"
 #include "passes/light_tree_sample.h"
 #include "shared/brdf.h"
 #include "surface_rig.h"
@@ -202,7 +203,7 @@ static void sum_all(const rig *r, const struct lsf_vpl_record *records, uint32_t
             lsf_float3 way = lsf_f3_sub(lsf_f3_load(&records[i].position.x), x);
             double distance2 = (double)lsf_f3_dot(way, way);
             lsf_float3 w = lsf_f3_normalize(way);
-            double leaves = -(double)lsf_f3_dot(cloud_normal(records[i].normal), w);
+            double leaves = -(double)lsf_f3_dot(octahedral_decode(records[i].normal), w);
             float arrives = lsf_f3_dot(r->normal, w);
             if (leaves <= 0.0 || arrives <= 0.0f)
                 continue;
@@ -403,7 +404,7 @@ static void test_on_points(void **state)
         for (uint32_t k = 0; k < PIXELS; k++) {
             lsf_float3 p = r.positions[k], n = lsf_f3_scale(r.normal, k % 2 ? 1.0f : -1.0f);
             records[k].position = (lsf_vec3){p.x, p.y, p.z};
-            records[k].normal = cloud_normal_bits(n);
+            records[k].normal = octahedral_encode(n);
         }
         lsf_error error = {0};
         lsf_buffer_destroy(r.surfaces.context, &r.cloud);

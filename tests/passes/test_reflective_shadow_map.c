@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "light_passes.h"
+#include "octahedral.h"
 
 enum { SIDE = 64, PLACES = 600 };
 
@@ -91,7 +92,7 @@ static void texels_hold_what_rays_meet(void **unused)
             double hit = light_passes_trace(&p, origin, direction, 0.0, &normal);
             double found = texel_distance(light, m.depth[at]);
             bool same = isinf(hit) ? isinf(found) : fabs(found - hit) < 1e-5 * hit + 1e-6;
-            lsf_float3 n = light_passes_decode_normal(m.surface[4 * at]);
+            lsf_float3 n = octahedral_decode(m.surface[4 * at]);
             depths += same;
             met += isfinite(hit);
             normals += same && isfinite(hit) && lsf_f3_dot(n, direction) < 0.0f &&
