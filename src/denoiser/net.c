@@ -172,6 +172,19 @@ static bool take_layer(reader *r, const lsf_net *net, uint32_t index)
     return true;
 }
 
+/* Whether a weight of what a second layer of a stage made in the frame before is not 0. */
+static bool is_recurrent(const lsf_net *net)
+{
+    for (uint32_t stage = 1; stage <= net->stages; stage++) {
+        const lsf_net_layer *layer = lsf_net_encode(net, stage, true);
+        for (uint32_t o = 0; o < layer->out; o++)
+            for (uint32_t i = layer->out * 9; i < layer->in * 9; i++)
+                if (layer->weights[(size_t)o * layer->in * 9 + i] != 0.0f)
+                    return true;
+    }
+    return false;
+}
+
 static bool take_net(reader *r, lsf_net *net)
 {
     char magic[4] = "";
@@ -193,6 +206,7 @@ static bool take_net(reader *r, lsf_net *net)
     for (uint32_t i = 0; i < net->layer_count; i++)
         if (!take_layer(r, net, i))
             return false;
+    net->recurrent = is_recurrent(net);
     return r->at == r->end || refuse(r, "bytes follow the last layer");
 }
 

@@ -25,7 +25,8 @@ typedef struct lsf_net_layer {
  * out. */
 typedef struct lsf_net {
     uint32_t stages, layer_count;
-    float leak; /* what negative numbers are multiplied by after a convolution; 0: rectified */
+    float leak;     /* what negative numbers are multiplied by after a convolution; 0: rectified */
+    bool recurrent; /* there are weights for what was made in the frame before */
     lsf_net_layer *layers;
 } lsf_net;
 

@@ -5,7 +5,7 @@
 
 #define FILE_BYTES_MAX ((uint64_t)64 << 20)
 
-/* Of the built-in file; both the same where there is none. */
+/* Of the built-in file. */
 extern const unsigned char lsf_net_built_in[], lsf_net_built_in_end[];
 
 __asm__(".pushsection .rodata\n"
@@ -15,9 +15,7 @@ __asm__(".pushsection .rodata\n"
         ".globl lsf_net_built_in\n"
         ".globl lsf_net_built_in_end\n"
         "lsf_net_built_in:\n"
-#ifdef LSF_NET_FILE
         ".incbin \"" LSF_NET_FILE "\"\n"
-#endif
         "lsf_net_built_in_end:\n"
         ".byte 0\n"
         ".popsection\n");
@@ -31,12 +29,6 @@ lsf_net *lsf_net_load(const char *path, lsf_error *error)
         free(bytes);
         return net;
     }
-    size_t length = (size_t)(lsf_net_built_in_end - lsf_net_built_in);
-    if (length == 0) {
-        lsf_error_set(error, LSF_ERROR_FILE,
-                      "the library was built without weights of the denoiser; name a file of them "
-                      "in LIGHTSHEAF_DENOISER_WEIGHTS, or use light_filter.kind=atrous");
-        return NULL;
-    }
-    return lsf_net_read(lsf_net_built_in, length, "the built-in weights", error);
+    return lsf_net_read(lsf_net_built_in, (size_t)(lsf_net_built_in_end - lsf_net_built_in),
+                        "the built-in weights", error);
 }

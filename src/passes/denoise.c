@@ -38,12 +38,13 @@ static void plan_network(lsf_plan *plan, const lsf_net *net, uint32_t width, uin
         plan->failed = true;
         return;
     }
-    lsf_denoise_layout_make(layout, net, width, height, plan->temporal);
+    bool recurrent = plan->temporal && net->recurrent;
+    lsf_denoise_layout_make(layout, net, width, height, recurrent);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
     lsf_plan_buffer_add(plan, "denoise.weights", layout->weight_bytes, "of the network");
     lsf_plan_buffer_add(plan, "denoise.features", layout->chain.shared_bytes,
                         "what its layers make, each while it is needed");
-    for (int i = 0; i < 2 && plan->temporal; i++)
+    for (int i = 0; i < 2 && recurrent; i++)
         lsf_plan_buffer_add(plan, i ? "denoise.state_1" : "denoise.state_0",
                             layout->chain.state_bytes, "what it keeps from frame to frame");
     free(layout);
@@ -172,7 +173,7 @@ bool lsf_denoise_create(lsf_denoise *pass, lsf_context *context, lsf_plan *plan,
                           .net = net,
                           .width = padded(plan->width, net),
                           .height = padded(plan->height, net),
-                          .recurrent = plan->temporal};
+                          .recurrent = plan->temporal && net && net->recurrent};
     if (!lsf_plan_create_buffer(plan, context, "denoise.exchange", NULL, GL_DYNAMIC_STORAGE_BIT,
                                 &pass->exchange, error) ||
         !lsf_plan_create_buffer(plan, context, "denoise.partial", NULL, 0, &pass->partial, error) ||

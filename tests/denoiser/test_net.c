@@ -41,11 +41,19 @@ static void good_files_are_read(void **unused)
         assert_non_null(net);
         assert_int_equal(net->stages, stages);
         assert_int_equal(lsf_net_granularity(net), 1u << (stages - 1));
+        assert_true(net->recurrent);
         assert_string_equal(lsf_net_out(net)->name, "out");
         if (stages > 1)
             assert_string_equal(lsf_net_decode(net, 1, true)->name, "dec1b");
         lsf_net_destroy(net);
     }
+    lsf_net *zeros = net_rig_make(2, 0.0f, 0.0f, 1.0f, 1);
+    assert_false(zeros->recurrent);
+    lsf_net_destroy(zeros);
+    lsf_error error = {0};
+    lsf_net *built_in = lsf_net_load(NULL, &error);
+    assert_non_null(built_in);
+    lsf_net_destroy(built_in);
 }
 
 static void assert_refused(const char *bytes, size_t length, const char *what)
