@@ -1,13 +1,14 @@
 /* Light that one light sends to the eye by one reflection: f V E, added to the target. Switches LSF_SHADOW_SKY: not
  * one light's, but that of a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: what else
  * finds the environment, and leaves a share of it; LSF_SKY_PATTERN: light of these directions stays split, and pixels
- * take turns at that for their diffuse lobes. */
+ * take turns at that for their diffuse lobes; LSF_SKY_CONTROL, lsf_sky_control: they are told by how much less comes
+ * from them than from an open sky, of which the light is known. */
 #include "lib/brdf.glsl"
-#if LSF_SKY_CHANCE
-#include "lib/brdf_sample.glsl"
-#endif
 #include "lib/gbuffer_textures.glsl"
+#include "lib/luminance.glsl"
 #include "lib/shadow.glsl"
+#include "lib/sky_chance.glsl"
+#include "lib/sky_control.glsl"
 #if !LSF_SHADOW_SKY
 #include "lib/light.glsl"
 #endif
@@ -38,47 +39,14 @@ bool takes_direction(ivec2 pixel, int direction)
 }
 #endif
 
-#if LSF_SKY_CHANCE
-#define LSF_SKY_CHANCE_PATHS 1
-#define LSF_SKY_CHANCE_LOBES 2
-
-/* Number of paths, or rays, of a pixel at roughness 0 and 1. */
-layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec2 sky_paths;
-
-/* Takes what is left to this light of the environment, which it has `density` of. */
-void share_sky(surface s, vec3 view_direction, vec3 direction, float density, inout brdf_value f)
-{
-    float count = floor(mix(sky_paths.x, sky_paths.y, surface_widest_roughness(s)) + 0.5);
-    brdf_sampler p = brdf_sampler_of(s, view_direction, true);
-#if LSF_SKY_CHANCE == LSF_SKY_CHANCE_PATHS
-    float left = density / (density + count * brdf_pdf(p, direction));
-    f.diffuse *= left;
-    f.specular *= left;
-#else
-    f.diffuse *= density / (density + count * dot(s.normal, direction) / LSF_PI);
-#if LSF_SPECULAR && LSF_SKY_CHANCE == LSF_SKY_CHANCE_LOBES
-    p.specular = 1.0;
-    f.specular *= density / (density + brdf_pdf(p, direction));
-#else
-    f.specular = vec3(0.0);
-#endif
-#endif
-}
-#endif
-
 struct light_parts {
     vec3 irradiance, specular;
 };
 
-/* What a visible point reflects of the light from a direction, `irradiance` on a plane that faces it. `density`: of
- * the environment's directions, 0: it is no part of it. */
-light_parts reflected(surface s, vec3 position, vec3 view_direction, vec3 direction, vec3 irradiance,
-               float density, float kernel)
+/* What surfaces leave of the light from a direction: visibility, and tint. */
+float passing(surface s, vec3 position, vec3 direction, out vec3 tint)
 {
-    float cosine = dot(s.normal, direction);
-    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0 ||
-        max(irradiance.r, max(irradiance.g, irradiance.b)) <= 0.0)
-        return light_parts(vec3(0.0), vec3(0.0));
+    tint = vec3(1.0);
     bool transmits = false;
 #if LSF_SHADOW_TINT
     transmits = s.transmission > 0.0;
@@ -87,21 +55,129 @@ light_parts reflected(surface s, vec3 position, vec3 view_direction, vec3 direct
 #endif
 #endif
     float visibility = shadow_visibility(position, s.geometric_normal, transmits);
-    if (visibility == 0.0)
-        return light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_TINT
-    irradiance *= shadow_tint(position, s.geometric_normal, straight_tint_or_one(s, direction));
+    if (visibility > 0.0)
+        tint = shadow_tint(position, s.geometric_normal, straight_tint_or_one(s, direction));
 #endif
+    return visibility;
+}
+
+/* `density`: of the environment's directions, 0: the light is no part of it. */
+brdf_value reflectance(surface s, vec3 view_direction, vec3 direction, float density, float kernel)
+{
 #if LSF_SKY_CHANCE
     brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
     if (density > 0.0)
         share_sky(s, view_direction, direction, density, f);
+    return f;
 #else
-    brdf_value f = brdf_evaluate(s, view_direction, direction, kernel);
+    return brdf_evaluate(s, view_direction, direction, kernel);
 #endif
-    irradiance *= cosine * visibility;
+}
+
+/* Whether light from a direction, `irradiance` on a plane that faces it, can be reflected. */
+bool reaches(surface s, vec3 direction, vec3 irradiance)
+{
+    return dot(s.normal, direction) > 0.0 && dot(s.geometric_normal, direction) > 0.0 &&
+           max(irradiance.r, max(irradiance.g, irradiance.b)) > 0.0;
+}
+
+/* What a visible point reflects of it. */
+light_parts reflected(surface s, vec3 position, vec3 view_direction, vec3 direction, vec3 irradiance,
+               float density, float kernel)
+{
+    vec3 tint;
+    if (!reaches(s, direction, irradiance))
+        return light_parts(vec3(0.0), vec3(0.0));
+    float visibility = passing(s, position, direction, tint);
+    if (visibility == 0.0)
+        return light_parts(vec3(0.0), vec3(0.0));
+    irradiance *= tint;
+    brdf_value f = reflectance(s, view_direction, direction, density, kernel);
+    irradiance *= dot(s.normal, direction) * visibility;
     return light_parts(f.diffuse * irradiance, f.specular * irradiance);
 }
+
+#if LSF_SKY_CONTROL
+layout(binding = 3) uniform sampler2D open_irradiance_texture;
+#if LSF_SPECULAR
+layout(binding = 4) uniform sampler2D open_specular_texture;
+#endif
+#if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+/* What directions of either sequence have found: in two layers sums, in two the largest squares. */
+layout(binding = 0, rgba32f) uniform image2DArray control_image;
+#endif
+layout(location = 3) uniform vec2 control; /* the share of one direction; of light, one over what it is about */
+layout(location = 4) uniform int sequence; /* of the first direction, 0 or 1 */
+
+/* Of directions of one sequence. */
+struct sky_part {
+    light_parts lit, open; /* the latter: were there no shadows */
+    int taken;             /* directions for the diffuse lobe */
+    sky_found found;
+};
+
+/* By one direction, of which surfaces on the way leave a part. */
+sky_found found_by(vec3 diffuse, vec3 specular, vec3 left)
+{
+    vec2 whole = control.y * vec2(luminance(diffuse), luminance(specular));
+    vec2 lit = control.y * vec2(luminance(diffuse * left), luminance(specular * left));
+    return sky_found(whole * lit, whole * whole, whole * whole);
+}
+
+/* The direction in turn. */
+void add_direction(surface s, vec3 position, vec3 view_direction, bool takes, inout sky_part part)
+{
+    vec3 direction = sky_maps[shadow_sky_map].to_sky.xyz, irradiance = sky_maps[shadow_sky_map].irradiance.rgb;
+    part.taken += int(takes);
+    if (!reaches(s, direction, irradiance))
+        return;
+    brdf_value f = reflectance(s, view_direction, direction, sky_maps[shadow_sky_map].to_sky.w,
+                               sky_maps[shadow_sky_map].irradiance.w);
+    irradiance *= dot(s.normal, direction);
+    vec3 tint, diffuse = f.diffuse * irradiance, specular = f.specular * irradiance;
+    vec3 left = passing(s, position, direction, tint) * tint;
+    part.found = sky_found_both(part.found, found_by(diffuse, specular, left));
+    part.lit.specular += specular * left;
+    part.open.specular += specular;
+    if (takes) {
+        part.lit.irradiance += diffuse * left;
+        part.open.irradiance += diffuse;
+    }
+}
+
+/* What they found, less the share that is counted on of what they would without shadows, and that share of what this
+ * is in the mean. */
+light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2 share)
+{
+    vec3 irradiance = control.x * float(part.taken) * open_sky.irradiance;
+    vec3 specular = control.x * float(directions) * open_sky.specular;
+    return light_parts(part.lit.irradiance + share.x * (irradiance - part.open.irradiance),
+                       part.lit.specular + share.y * (specular - part.open.specular));
+}
+
+/* Of the batch. Each sequence counts on the share that the other one has found: they are independent. */
+light_parts controlled_sum(ivec2 pixel, sky_part parts[2], ivec2 directions)
+{
+    light_parts open_sky = light_parts(texelFetch(open_irradiance_texture, pixel, 0).rgb, vec3(0.0));
+#if LSF_SPECULAR
+    open_sky.specular = texelFetch(open_specular_texture, pixel, 0).rgb;
+#endif
+#if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+    for (int i = 0; i < 2; i++) {
+        ivec3 sums = ivec3(pixel, i), most = ivec3(pixel, 2 + i);
+        vec4 before = imageLoad(control_image, sums);
+        vec2 largest_before = imageLoad(control_image, most).xy;
+        parts[i].found = sky_found_both(parts[i].found, sky_found(before.xy, before.zw, largest_before));
+        imageStore(control_image, sums, vec4(parts[i].found.lit, parts[i].found.whole));
+        imageStore(control_image, most, vec4(parts[i].found.most, 0.0, 0.0));
+    }
+#endif
+    light_parts one = controlled(parts[0], directions.x, open_sky, sky_control_share(parts[1].found));
+    light_parts other = controlled(parts[1], directions.y, open_sky, sky_control_share(parts[0].found));
+    return light_parts(one.irradiance + other.irradiance, one.specular + other.specular);
+}
+#endif
 
 void main()
 {
@@ -128,11 +204,22 @@ void main()
     vec3 view_direction = surface_view(s, -normalize(view_ray_direction(ndc)));
     light_parts sum = light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_SKY
+#if LSF_SKY_CONTROL
+    light_parts nothing = light_parts(vec3(0.0), vec3(0.0));
+    sky_part parts[2];
+    parts[0] = parts[1] = sky_part(nothing, nothing, 0, sky_found_nothing());
+#endif
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
         bool takes = true;
 #if LSF_SKY_PATTERN
         takes = takes_direction(pixel, sky_turn.x + shadow_sky_map);
 #endif
+#if LSF_SKY_CONTROL
+        if (((sequence + shadow_sky_map) & 1) == 0)
+            add_direction(s, position, view_direction, takes, parts[0]);
+        else
+            add_direction(s, position, view_direction, takes, parts[1]);
+#else
         if (!takes && LSF_SPECULAR == 0)
             continue;
         light_parts r = reflected(s, position, view_direction, sky_maps[shadow_sky_map].to_sky.xyz,
@@ -141,7 +228,12 @@ void main()
         sum.specular += r.specular;
         if (takes)
             sum.irradiance += r.irradiance;
+#endif
     }
+#if LSF_SKY_CONTROL
+    int others = (sky_map_count + sequence) / 2; /* of the second sequence */
+    sum = controlled_sum(pixel, parts, ivec2(sky_map_count - others, others));
+#endif
 #else
     vec3 irradiance;
     float distance2;

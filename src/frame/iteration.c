@@ -174,13 +174,25 @@ float lsf_iteration_expected(const lsf_iteration *iteration)
     return (float)own + iteration->kept;
 }
 
+/* Of all iterations of all frames. */
+static uint32_t sky_number(const lsf_iteration *iteration, uint32_t direction)
+{
+    return iteration->index * iteration->plan->sky_lights + direction;
+}
+
+uint32_t lsf_iteration_sky_sequence(const lsf_iteration *iteration, uint32_t direction)
+{
+    return sky_number(iteration, direction) % 2;
+}
+
 static void draw_sky_lights(lsf_iteration *iteration)
 {
     uint32_t count = iteration->plan->sky_lights;
     uint32_t first = iteration->light_count - count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t bits[2];
-        lsf_iteration_sample(iteration, iteration->index * count + i, LSF_PURPOSE_SKY, bits);
+        lsf_iteration_sample(iteration, sky_number(iteration, i) / 2,
+                             LSF_PURPOSE_SKY + lsf_iteration_sky_sequence(iteration, i), bits);
         const double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
         lsf_sky_share *share = &iteration->shares[first + i];
         lsf_sky_light_draw(&iteration->lights[first + i], share, &iteration->sky, u, count);

@@ -84,6 +84,10 @@ float lsf_iteration_expected(const lsf_iteration *iteration);
  * uniform over the sphere [sr]; 0: there are none. */
 float lsf_iteration_sky_angle(const lsf_iteration *iteration);
 
+/* Directions of the environment are drawn from two independent sequences in turn. Which one that of
+ * number `direction` of the iteration is from, 0 or 1. */
+uint32_t lsf_iteration_sky_sequence(const lsf_iteration *iteration, uint32_t direction);
+
 /* For lib/sky.glsl in the program in use. */
 void lsf_iteration_bind_sky(const lsf_iteration *iteration);
 

@@ -20,8 +20,8 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_CONE_TURN,
     LSF_PURPOSE_CONE_ELEVATION,
     LSF_PURPOSE_VOXEL_EMITTER,
-    LSF_PURPOSE_SKY,
-    LSF_PURPOSE_BLEND_VOXEL, /* whether blended surfaces are there */
+    LSF_PURPOSE_SKY,                               /* two */
+    LSF_PURPOSE_BLEND_VOXEL = LSF_PURPOSE_SKY + 2, /* whether blended surfaces are there */
     /* Whether surfaces that transmit, and blended ones, are hit; see lib/straight.glsl and
      * lib/alpha.glsl. */
     LSF_PURPOSE_STRAIGHT_PIXEL,
@@ -31,7 +31,8 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_VPL_CLOUD_DEAL, /* how many light paths each light has */
     LSF_PURPOSE_VPL_VIEW,       /* the visible points that VPLs are to light */
     LSF_PURPOSE_LIGHT_TREE,
-    LSF_PURPOSE_STRAIGHT_SHADOW_MAP = 0x80000,            /* one for each light */
+    LSF_PURPOSE_OPEN_SKY,                      /* directions whose light has no shadows */
+    LSF_PURPOSE_STRAIGHT_SHADOW_MAP = 0x80000, /* one for each light */
     LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP = 0xa0000, /* the same */
     LSF_PURPOSE_STRAIGHT_VPL = 0xc0000,                   /* one for each VPL of an iteration */
     LSF_PURPOSE_STRAIGHT_BUNDLE = 0xe0000,                /* one for each bundle of an iteration */

@@ -6,22 +6,12 @@
 #include "frame/light_walls.h"
 #include "frame/purpose.h"
 #include "math/sampling.h"
+#include "shared/brdf.h"
 #include "shared/scene_data.h"
 
 static void plan_switches(lsf_plan *plan, const lsf_direct_light_use *use)
 {
-    const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
-    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
-                        "some material is anisotropic");
-    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
-                        "light passes materials that transmit");
-    lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
-    lsf_scene_gpu_scatter_switch(plan);
-    lsf_scene_gpu_lobe_switches(plan, gloss);
+    lsf_sky_use_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->shadow_pcf ? 4 : 0, "shadow.filter");
 }
 
@@ -39,16 +29,25 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
     }
     if (plan->sky_lights > 0) {
         lsf_plan_pass_add(plan, "sky_light", "one reflection of the environment");
-        lsf_plan_reads(plan, "view gbuffer sky_map");
+        lsf_plan_reads(plan, "view gbuffer sky_map open_sky");
         lsf_plan_fills(plan, "direct_light");
         plan_switches(plan, use);
         lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_plan_find(plan, "sky_map.tint") != NULL,
                             "light passes materials that transmit");
         lsf_plan_switch_add(plan, "LSF_SHADOW_SKY", 1, "directions of the environment");
-        lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", (int)use->chance,
+        lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", (int)use->sky.chance,
                             "what else finds the environment");
         lsf_plan_switch_add(plan, "LSF_SKY_PATTERN", (int)plan->sky_pattern,
                             "their light is filtered: pixels of such a pattern take turns");
+    }
+    if (plan->sky_lights > 0)
+        lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", (int)use->sky.control,
+                            "their light is told by the open sky's");
+    if (use->sky.control == LSF_SKY_CONTROL_SHARE) {
+        const lsf_texture_desc desc = {
+            NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, plan->width, plan->height, 4, 1};
+        lsf_plan_texture_desc_add(plan, "direct_light.control", &desc,
+                                  "what directions of the environment have found");
     }
     if (plan->sky_pattern > 0)
         lsf_plan_texture_add(plan, "direct_light.sky_irradiance", GL_RGBA32F, plan->width,
@@ -75,6 +74,9 @@ static bool create_program(lsf_context *context, const lsf_plan *plan, const cha
 
 static bool create_sky(lsf_direct_light *pass, const lsf_plan *plan, lsf_error *error)
 {
+    if (!lsf_plan_create_texture_if_planned(plan, pass->context, "direct_light.control",
+                                            &pass->control, error))
+        return false;
     if (plan->sky_pattern == 0)
         return true;
     if (!lsf_plan_create_texture(plan, pass->context, "direct_light.sky_irradiance",
@@ -121,6 +123,22 @@ static GLint pattern_turn(const lsf_iteration *iteration)
     return (GLint)(lsf_hash(seed, iteration->index) % (side * side));
 }
 
+/* For directions that count on the light of an open sky. */
+static void set_control(const lsf_direct_light *pass, const lsf_iteration *iteration,
+                        const lsf_direct_light_inputs *inputs)
+{
+    float directions = (float)iteration->plan->sky_lights;
+    float fluence = 4.0f * LSF_PI * iteration->sky.mean;
+    glUniform2f(3, 1.0f / directions, fluence > 0.0f ? directions / fluence : 0.0f);
+    glUniform1i(4, (GLint)lsf_iteration_sky_sequence(iteration, inputs->first));
+    lsf_bind_texture(3, inputs->open->irradiance);
+    lsf_bind_texture(4, inputs->open->specular);
+    if (pass->control && iteration->done == 0 && inputs->first == 0)
+        glClearTexImage(pass->control, 0, GL_RGBA, GL_FLOAT, NULL);
+    if (pass->control)
+        glBindImageTexture(0, pass->control, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);
+}
+
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
                           const lsf_direct_light_inputs *inputs)
 {
@@ -139,9 +157,13 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
         glUniform1f(LSF_LOCATION_LOBE_ANGLE, inputs->lobe_angle);
     if (split)
         glUniform2i(2, (GLint)inputs->first, pattern_turn(iteration));
-    if (sky && pass->use.chance != LSF_SKY_CHANCE_NONE)
-        glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.paths);
+    if (sky && pass->use.sky.chance != LSF_SKY_CHANCE_NONE)
+        glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.sky.paths);
+    if (sky && inputs->open)
+        set_control(pass, iteration, inputs);
     lsf_draw_fullscreen(pass->context);
+    if (sky && pass->control)
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(timer);
 }
 
@@ -154,6 +176,7 @@ void lsf_direct_light_destroy(lsf_direct_light *pass)
     lsf_texture_destroy(pass->context, &pass->radiance);
     lsf_texture_destroy(pass->context, &pass->sky.irradiance);
     lsf_texture_destroy(pass->context, &pass->sky.specular);
+    lsf_texture_destroy(pass->context, &pass->control);
     lsf_timer_destroy(pass->timer);
     lsf_timer_destroy(pass->sky_timer);
     memset(pass, 0, sizeof *pass);

@@ -4,28 +4,20 @@
 
 #include "frame/light_map.h"
 #include "frame/maps.h"
+#include "frame/sky_use.h"
 
 typedef struct lsf_direct_light_inputs {
     const lsf_surface_maps *seen;
     const lsf_shadow *shadow;
-    uint32_t first;      /* of the directions, among those of the iteration */
-    uint32_t directions; /* of the environment that the shadow is of; 0: it is of a light */
-    float lobe_angle;    /* as the G-buffer has it */
+    uint32_t first;              /* of the directions, among those of the iteration */
+    uint32_t directions;         /* of the environment that the shadow is of; 0: it is of a light */
+    const lsf_split_light *open; /* the environment's without shadows; NULL: nobody counts on it */
+    float lobe_angle;            /* as the G-buffer has it */
 } lsf_direct_light_inputs;
-
-/* What else finds the environment from a visible point, by chance: its light is shared with that.
- */
-typedef enum lsf_sky_chance {
-    LSF_SKY_CHANCE_NONE,    /* nothing that the light's own share does not know of */
-    LSF_SKY_CHANCE_PATHS,   /* paths drawn by the whole BRDF */
-    LSF_SKY_CHANCE_LOBES,   /* diffuse rays by the cosine, and one by the specular lobe */
-    LSF_SKY_CHANCE_DIFFUSE, /* diffuse rays; the specular lobe does without this pass */
-} lsf_sky_chance;
 
 typedef struct lsf_direct_light_use {
     bool shadow_pcf; /* shadows are filtered by percentage-closer filtering */
-    lsf_sky_chance chance;
-    float paths[2]; /* of chance: their number at roughness 0 and 1, rounded between */
+    lsf_sky_use sky;
 } lsf_direct_light_use;
 
 typedef struct lsf_direct_light {
@@ -33,6 +25,8 @@ typedef struct lsf_direct_light {
     GLuint radiance;     /* output: RGBA32F, the sum over lights since lsf_direct_light_clear */
     lsf_split_light sky; /* output: light of the environment's directions where it is filtered, of
                           * which a pixel has its share of the pattern; else it is in `radiance` */
+    GLuint
+        control; /* RGBA32F array, what directions of either sequence have found; 0: nobody asks */
     GLuint sky_framebuffer;
     GLuint framebuffer, program, sky_program; /* 0: there are no such lights */
     lsf_direct_light_use use;

@@ -10,6 +10,14 @@ const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT] = {
      "drawn by the environment's radiance in an iteration, each with a shadow map; 0: bundles, "
      "cones "
      "and paths find the environment by chance, and the direct technique is not lit by it"},
+    {"environment.open", LSF_OPTION_INT, offsetof(lsf_sky_light_params, open), 0, 64, NULL,
+     "samples",
+     "of the environment's light as if nothing cast shadows, in a pixel and iteration, by its "
+     "radiance and by the surface each; 0: shadow maps alone tell what it lights"},
+    {"environment.control", LSF_OPTION_ENUM, offsetof(lsf_sky_light_params, control), 0, 0,
+     "share|whole", "",
+     "how much of that light a pixel counts on before shadow maps mend it: the share that "
+     "directions before found, or all"},
 };
 
 uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
@@ -17,6 +25,11 @@ uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
 {
     bool lit = requirements->environment && requirements->triangles > 0;
     return lit ? (uint32_t)params->directions : 0;
+}
+
+bool lsf_sky_light_is_controlled(uint32_t directions, const lsf_sky_light_params *params)
+{
+    return directions > 0 && params->open > 0;
 }
 
 void lsf_sky_light_draw(lsf_light_state *light, lsf_sky_share *share, const lsf_sky *sky,

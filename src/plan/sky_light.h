@@ -11,13 +11,21 @@
 #include "scene/sky.h"
 #include "scene/state.h"
 
+typedef enum lsf_sky_light_control {
+    LSF_SKY_LIGHT_SHARE,
+    LSF_SKY_LIGHT_WHOLE,
+} lsf_sky_light_control;
+
 typedef struct lsf_sky_light_params {
     int32_t directions; /* drawn an iteration; 0: the environment is found by chance alone */
+    int32_t open;       /* samples of its light without shadows, of each of two kinds in a pixel
+                         * and iteration; 0: none */
+    int32_t control;    /* lsf_sky_light_control: how much of that light directions count on */
 } lsf_sky_light_params;
 
-#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = 8
+#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = 8, .open = 32, .control = LSF_SKY_LIGHT_SHARE
 
-#define LSF_SKY_LIGHT_OPTION_COUNT 1
+#define LSF_SKY_LIGHT_OPTION_COUNT 3
 extern const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT];
 
 /* What a light is used for: light that visible points receive from it directly, or light that
@@ -38,6 +46,9 @@ typedef struct lsf_sky_share {
  * be lit. */
 uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
                              const lsf_sky_light_params *params);
+
+/* Whether `directions` of an iteration count on the environment's light without shadows. */
+bool lsf_sky_light_is_controlled(uint32_t directions, const lsf_sky_light_params *params);
 
 /* One of the `count` lights of an iteration, its direction drawn by `u`, two numbers in [0, 1). */
 void lsf_sky_light_draw(lsf_light_state *light, lsf_sky_share *share, const lsf_sky *sky,

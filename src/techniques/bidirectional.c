@@ -2,6 +2,7 @@
  * point lights, camera paths by ray-bundles, joined by multiple importance sampling.
  * Y. Tokuyoshi and S. Ogaki, "Real-Time Bidirectional Path Tracing via Rasterization", I3D 2012.
  * docs/bidirectional.md has the derivation. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/base.h"
@@ -185,7 +186,7 @@ static float sky_bundles(const lsf_bidirectional_sampling *s, bool deep)
 {
     if (deep)
         return s->segments > 1 ? 1.0f : 0.0f;
-    return s->emission ? (float)s->bundle_count / (float)s->tiles : 0.0f;
+    return s->emission && !s->sky_by_maps ? (float)s->bundle_count / (float)s->tiles : 0.0f;
 }
 
 /* The environment as light paths find it and as bundles do: what a light that stands for it keeps.
@@ -222,8 +223,11 @@ static void share_bundle(const bidirectional *b, const lsf_iteration *iteration,
             lsf_f3_scale(lsf_f3_load(b->aims[bundle].direction), side ? -1.0f : 1.0f);
         float drawn = lsf_sky_density(
             &iteration->sky, lsf_environment_radiance(iteration->sky.environment, direction));
-        sample->sky_pdf[side] = deep ? b->light_picks.sky_probability * drawn
-                                     : (float)iteration->plan->sky_lights * drawn / count;
+        if (deep)
+            sample->sky_pdf[side] = b->light_picks.sky_probability * drawn;
+        else
+            sample->sky_pdf[side] =
+                count > 0.0f ? (float)iteration->plan->sky_lights * drawn / count : INFINITY;
     }
 }
 

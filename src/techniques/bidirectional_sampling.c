@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "passes/compose.h"
+#include "plan/sky_light.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
 #include "techniques/sparse_chain.h"
@@ -43,7 +44,9 @@ lsf_bidirectional_sampling lsf_bidirectional_sampling_choose(const lsf_plan *pla
     s.bundle_light = mapped && strategy != LSF_BIDIRECTIONAL_VPL;
     s.vpl_emitter = r->emissive && strategy != LSF_BIDIRECTIONAL_BUNDLE && vpl_count > 0;
     s.bundle_emitter = r->emissive && !(s.vpl_emitter && strategy == LSF_BIDIRECTIONAL_VPL);
-    s.emission = s.bundle_emitter || r->unlit || r->environment;
+    s.sky_by_maps = lsf_sky_light_is_controlled(plan->sky_lights, &params->sky_light);
+    s.emission =
+        s.bundle_emitter || r->unlit || (r->environment && (plan->bounces > 0 || !s.sky_by_maps));
     if (s.emission)
         s.segments = plan->bounces + 1;
     else if (s.bundle_light || s.vpl_emitter)

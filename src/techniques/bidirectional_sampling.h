@@ -16,6 +16,8 @@ typedef struct lsf_bidirectional_sampling {
     bool vpl_emitter;    /* emissive surfaces shine as VPLs */
     bool bundle_emitter; /* and into bundles */
     bool emission;       /* surfaces or the environment shine into bundles */
+    bool sky_by_maps;    /* the environment lights visible points by its directions alone, which
+                          * count on its light without shadows */
     bool whole_scene;
     bool split_direct;
     uint32_t interleave, tiles;

@@ -2,14 +2,22 @@
 
 #include "base/base.h"
 
-static lsf_direct_light_use light_use(const lsf_pass_params *params,
+static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_params *params,
                                       const lsf_direct_chain_use *use)
 {
     lsf_direct_light_use light = {.shadow_pcf = params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
+    if (lsf_sky_light_is_controlled(plan->sky_lights, &params->sky_light)) {
+        light.sky.open_samples = 1;
+        light.sky.control = params->sky_light.control == LSF_SKY_LIGHT_WHOLE
+                                ? LSF_SKY_CONTROL_WHOLE
+                                : LSF_SKY_CONTROL_SHARE;
+        while (2 * light.sky.open_samples <= (uint32_t)params->sky_light.open)
+            light.sky.open_samples *= 2;
+    }
     if (use) {
-        light.chance = use->chance;
-        light.paths[0] = use->paths[0];
-        light.paths[1] = use->paths[1];
+        light.sky.chance = use->chance;
+        light.sky.paths[0] = use->paths[0];
+        light.sky.paths[1] = use->paths[1];
     }
     return light;
 }
@@ -26,7 +34,8 @@ void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const 
     if (sky)
         lsf_sky_map_plan(plan, lsf_shadow_map_cascade_side(plan, &params->shadow_map));
     if (lsf_light_any(plan, state)) {
-        lsf_direct_light_use light = light_use(params, use);
+        lsf_direct_light_use light = light_use(plan, params, use);
+        lsf_open_sky_plan(plan, &light.sky);
         lsf_direct_light_plan(plan, state->light_count, &light);
     } else {
         lsf_plan_omit(plan, "shadow_map", "no light but what surfaces emit");
@@ -38,13 +47,14 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
                              const lsf_direct_chain_use *use, lsf_error *error)
 {
-    lsf_direct_light_use light = light_use(params, use);
+    lsf_direct_light_use light = light_use(plan, params, use);
     chain->lit = lsf_plan_find(plan, "direct_light.radiance") != NULL;
     return lsf_gbuffer_create(&chain->gbuffer, context, plan, &params->gbuffer, scene, error) &&
            (!lsf_plan_find_pass(plan, "shadow_map") ||
             lsf_shadow_map_create(&chain->shadow_map, context, plan, error)) &&
            (!lsf_plan_find_pass(plan, "sky_map") ||
             lsf_sky_map_create(&chain->sky_map, context, plan, scene, error)) &&
+           lsf_open_sky_create(&chain->open_sky, context, plan, &light.sky, error) &&
            (!chain->lit ||
             lsf_direct_light_create(&chain->direct_light, context, plan, &light, error));
 }
@@ -72,10 +82,14 @@ void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteratio
     const lsf_sky_map_outputs *maps = &chain->sky_map.outputs;
     if (!chain->sky_map.timer)
         return;
+    lsf_open_sky_run(&chain->open_sky, iteration, &chain->gbuffer.outputs.seen,
+                     chain->direct_light.control);
     lsf_sky_map_begin(&chain->sky_map, iteration);
     while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(&chain->sky_map, iteration)) {
         lsf_direct_light_inputs inputs = {.seen = &chain->gbuffer.outputs.seen,
                                           .shadow = &maps->shadow,
+                                          .open =
+                                              chain->open_sky.timer ? &chain->open_sky.light : NULL,
                                           .first = maps->first,
                                           .directions = maps->count};
         lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
@@ -108,6 +122,7 @@ void lsf_direct_chain_destroy(lsf_direct_chain *chain)
     lsf_direct_light_destroy(&chain->direct_light);
     lsf_shadow_map_destroy(&chain->shadow_map);
     lsf_sky_map_destroy(&chain->sky_map);
+    lsf_open_sky_destroy(&chain->open_sky);
     lsf_gbuffer_destroy(&chain->gbuffer);
 }
 
@@ -119,6 +134,7 @@ uint32_t lsf_direct_chain_report(lsf_direct_chain *chain, lsf_pass_report *repor
     const lsf_pass_report candidates[] = {
         {chain->shadow_map.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, chain->shadow_map.counts},
         {.timer = chain->direct_light.timer},
+        {.timer = chain->open_sky.timer},
         {chain->sky_map.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, chain->sky_map.counts},
         {.timer = chain->direct_light.sky_timer},
     };

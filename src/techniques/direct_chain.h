@@ -4,6 +4,7 @@
 
 #include "passes/direct_light.h"
 #include "passes/gbuffer.h"
+#include "passes/open_sky.h"
 #include "passes/shadow_map.h"
 #include "passes/sky_map.h"
 #include "techniques/technique.h"
@@ -12,6 +13,7 @@ typedef struct lsf_direct_chain {
     lsf_gbuffer gbuffer;
     lsf_shadow_map shadow_map;
     lsf_sky_map sky_map;
+    lsf_open_sky open_sky;
     lsf_direct_light direct_light;
     bool lit; /* there are lights, punctual or of the environment */
 } lsf_direct_chain;

@@ -1,0 +1,144 @@
+/* Light of the environment that visible points would reflect to the eye if nothing stood before it; see
+ * src/passes/open_sky.md. Switches LSF_ENVIRONMENT_MAP, LSF_SKY_CHANCE, LSF_GLOSS, LSF_SPECULAR, LSF_TRANSMISSION and
+ * those of the libraries. */
+#include "lib/brdf_sample.glsl"
+#include "lib/environment.glsl"
+#include "lib/gbuffer_textures.glsl"
+#include "lib/path_random.glsl"
+#include "lib/sky.glsl"
+#include "lib/sky_chance.glsl"
+#include "lib/sky_control.glsl"
+#include "lib/view.glsl"
+#include "shared/open_sky_data.h"
+
+layout(std430, binding = LSF_BINDING_OPEN_SKY) readonly buffer lsf_open_sky_block
+{
+    lsf_open_sky_data drawn[LSF_OPEN_SKY_DRAWN];
+};
+#if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+layout(binding = 3) uniform sampler2DArray control_texture;
+#endif
+layout(location = 0) uniform ivec2 counts; /* samples of each kind, a power of two; the iteration's number */
+layout(location = 1) uniform uint seed;
+layout(location = 2) uniform bool told; /* there were iterations before */
+
+layout(location = 0) out vec4 irradiance_out;
+#if LSF_SPECULAR
+layout(location = 1) out vec4 specular_out;
+#endif
+
+surface s;
+vec3 view_direction;
+brdf_sampler p;
+int count; /* samples of each kind */
+vec3 irradiance = vec3(0.0), specular = vec3(0.0);
+
+/* Of one of the directions that the host draws, by the radiance alone [1/sr]. */
+float drawn_density(vec3 radiance)
+{
+    return sky_density(radiance) / sky_sampling.w;
+}
+
+/* `weight`: one over the density with which samples of both kinds find the direction; what `radiance` is may hold a
+ * part of that. */
+void add(vec3 direction, vec3 radiance, float density, float weight)
+{
+    brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
+#if LSF_SKY_CHANCE
+    share_sky(s, view_direction, direction, density * sky_sampling.w, f);
+#endif
+    vec3 arriving = radiance * (weight * dot(s.normal, direction));
+    irradiance += f.diffuse * arriving;
+    specular += f.specular * arriving;
+}
+
+bool above(vec3 direction)
+{
+    return dot(s.normal, direction) > 0.0 && dot(s.geometric_normal, direction) > 0.0;
+}
+
+void add_drawn(int index)
+{
+    vec3 direction = drawn[index].direction.xyz;
+    float density = drawn[index].direction.w;
+    if (!above(direction) || density <= 0.0)
+        return;
+    float both = density + brdf_pdf(p, direction);
+    add(direction, drawn[index].radiance.rgb, density, density / (float(count) * both));
+}
+
+void add_reflected(vec3 u)
+{
+    vec3 direction;
+#if LSF_TRANSMISSION
+    vec3 through;
+    if (brdf_pass(p, s, u, direction, through))
+        return;
+#endif
+    direction = brdf_draw(p, u);
+    if (!above(direction))
+        return;
+    vec3 radiance = environment_radiance(direction);
+    float density = drawn_density(radiance);
+    add(direction, radiance, density, 1.0 / (float(count) * (density + brdf_pdf(p, direction))));
+}
+
+#if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+vec2 share_before(ivec2 pixel, int sequence)
+{
+    vec4 sums = texelFetch(control_texture, ivec3(pixel, sequence), 0);
+    vec2 most = texelFetch(control_texture, ivec3(pixel, 2 + sequence), 0).xy;
+    if (sums.z + sums.w == 0.0)
+        return vec2(1.0); /* nothing is known yet */
+    return sky_control_share(sky_found(sums.xy, sums.zw, most));
+}
+#endif
+
+/* What is not counted on need not be known well: samples by the share that directions before this iteration tell. */
+int samples_of(ivec2 pixel)
+{
+#if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+    if (told) {
+        vec2 share = max(share_before(pixel, 0), share_before(pixel, 1));
+        float wanted = float(counts.x) * max(share.x, share.y);
+        return int(exp2(ceil(log2(clamp(wanted, 1.0, float(counts.x))))));
+    }
+#endif
+    return counts.x;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    irradiance_out = vec4(0.0);
+#if LSF_SPECULAR
+    specular_out = vec4(0.0);
+#endif
+    float depth = texelFetch(depth_texture, pixel, 0).r;
+    if (depth == 0.0)
+        return;
+    s = surface_unpack(texelFetch(surface_texture, pixel, 0));
+    if (s.unlit)
+        return;
+#if LSF_GLOSS
+    gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+#endif
+    view_direction = surface_view(s, -normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy))));
+    p = brdf_sampler_of(s, view_direction, true);
+    path_random_key key;
+    key.pixel = uint(pixel.x) | uint(pixel.y) << 16;
+    key.seed = seed;
+    key.place = pixel;
+    /* A part of a sequence that begins at a multiple of its length. */
+    count = samples_of(pixel);
+    int parts = LSF_OPEN_SKY_DRAWN / count;
+    int first = int(hash(uvec3(key.pixel, seed, counts.y)).x % uint(parts)) * count;
+    for (int i = 0; i < count; i++) {
+        add_drawn(first + i);
+        add_reflected(path_random(key, uint(counts.y * counts.x + i), 0u));
+    }
+    irradiance_out.rgb = irradiance;
+#if LSF_SPECULAR
+    specular_out.rgb = specular;
+#endif
+}

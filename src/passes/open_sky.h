@@ -1,0 +1,31 @@
+/* Light of the environment as if nothing stood before it, for sky_light to count on. See
+ * open_sky.md. */
+#ifndef LSF_PASSES_OPEN_SKY_H
+#define LSF_PASSES_OPEN_SKY_H
+
+#include "frame/iteration.h"
+#include "frame/maps.h"
+#include "frame/sky_use.h"
+#include "shared/open_sky_data.h"
+
+typedef struct lsf_open_sky {
+    lsf_context *context;
+    lsf_split_light light; /* output: of the iteration */
+    lsf_open_sky_data *drawn;
+    uint32_t samples; /* of each kind */
+    lsf_sky_use use;
+    GLuint framebuffer, program, buffer;
+    lsf_timer *timer; /* NULL: there is no such pass */
+} lsf_open_sky;
+
+/* Nothing without directions of the environment, or where `samples`, of each kind in a pixel and
+ * iteration, are 0. `use` is that of the light that they share. */
+void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use);
+bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_plan *plan,
+                         const lsf_sky_use *use, lsf_error *error);
+/* `control`: lsf_direct_light's. */
+void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
+                      const lsf_surface_maps *seen, GLuint control);
+void lsf_open_sky_destroy(lsf_open_sky *pass);
+
+#endif
