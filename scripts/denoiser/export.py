@@ -14,6 +14,7 @@ def arguments():
     parser.add_argument("out", type=pathlib.Path, help="weights file to write")
     parser.add_argument("--without-state", action="store_true",
                         help="weights of the state of the frame before are 0: for a network that learnt from few frames")
+    parser.add_argument("--diffuse-only", action="store_true", help="specular light stays as the filter leaves it")
     return parser.parse_args()
 
 
@@ -41,6 +42,14 @@ def forget(net):
     with torch.no_grad():
         for i, width in enumerate(ENCODER, 1):
             net.layers[f"enc{i}b"].weight[:, width:] = 0.0
+
+
+def leave_specular(net):
+    """Has the net change diffuse light alone."""
+    import torch
+    with torch.no_grad():
+        net.layers["out"].weight[3:] = 0.0
+        net.layers["out"].bias[3:] = 0.0
 
 
 def read(net, path):
@@ -73,6 +82,8 @@ def main():
     net.load_state_dict(torch.load(args.checkpoint)["net"])
     if args.without_state:
         forget(net)
+    if args.diffuse_only:
+        leave_specular(net)
     write(net, args.out)
 
 
