@@ -1,8 +1,9 @@
 /* Tint of light that has passed the thin walls before what its map shows: of all of them the product, in any
- * order. Switches of lib/material.glsl. */
+ * order. Switches LSF_ABSORPTION (there are media) and those of lib/material.glsl. */
 #include "lib/light_map.glsl"
 #include "lib/material.glsl"
 #include "lib/straight.glsl"
+#include "lib/map_absorption.glsl"
 
 layout(location = 0) uniform int face;
 layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2DArray depth_texture;
@@ -16,8 +17,11 @@ void main()
     vec3 emission;
     bool front;
     bool present = material_evaluate(to_light, s, emission, front);
-    if (!present ||
-        gl_FragCoord.z <= texelFetch(depth_texture, ivec3(gl_FragCoord.xy, face), 0).r)
+    bool enters = map_light_enters(front, to_light);
+    float shown = texelFetch(depth_texture, ivec3(gl_FragCoord.xy, face), 0).r;
+    if (!present || gl_FragCoord.z <= shown)
         discard;
-    tint_out = vec4(straight_tint(s, to_light), 1.0);
+    /* Media let light of the sky through alone, whose maps are parallel. */
+    float way = (gl_FragCoord.z - shown) * (light.map_shape.y - light.map_shape.x);
+    tint_out = vec4(straight_tint(s, to_light) * map_absorption(s, enters, way), 1.0);
 }

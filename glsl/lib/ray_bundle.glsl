@@ -223,6 +223,9 @@ vec3 bundle_emission_unpack(uvec2 bits, out uint sides)
     return ldexp(vec3(m), ivec3(int(bits.y >> 22 & 0xffu) - 126 - 18));
 }
 
+#ifndef LSF_ABSORPTION
+#define LSF_ABSORPTION 0
+#endif
 #if LSF_STRAIGHT
 /* --- veils: surfaces that let light straight through, and are not there. Rays meet none of them; what lies
  * behind is tinted. In the key the slope along x is -128, which no plane has; its bits lie with the rest, in the
@@ -267,6 +270,31 @@ uvec3 bundle_tint_steps(uint bits)
     return uvec3(bits & 0x7ffu, bits >> 11 & 0x7ffu, bits >> 22);
 }
 
+#if LSF_ABSORPTION
+/* Of a medium, in the place of a veil's normal: 8 bits a channel, in 255ths of the largest; the largest's exponent; whether
+ * the bundle comes into the medium here. */
+uint bundle_absorption_pack(vec3 absorption, bool enters)
+{
+    float most = max(absorption.r, max(absorption.g, absorption.b));
+    int exponent = most > 0.0 ? clamp(int(ceil(log2(most))), -63, 63) : -63;
+    uvec3 m = uvec3(clamp(ldexp(absorption, ivec3(-exponent)), 0.0, 1.0) * 255.0 + 0.5);
+    return m.r | m.g << 8 | m.b << 16 | uint(exponent + 64) << 24 | (enters ? 0x80000000u : 0u);
+}
+
+vec3 bundle_absorption_unpack(uint bits, out bool enters)
+{
+    enters = (bits & 0x80000000u) != 0u;
+    vec3 m = vec3(uvec3(bits, bits >> 8, bits >> 16) & 255u) / 255.0;
+    return ldexp(m, ivec3(int(bits >> 24 & 127u) - 64));
+}
+
+/* Over a way, in steps as those of tints, whole numbers. */
+ivec3 bundle_absorption_steps(vec3 absorption, float way)
+{
+    return ivec3(min(absorption * (way / log(2.0)) * BUNDLE_TINT_STEPS, vec3(1e6)) + 0.5);
+}
+#endif
+
 /* What veils leave of light that comes from `far` along a ray, to its origin. */
 vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
 {
@@ -282,6 +310,9 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
     float self = LSF_BUNDLE_SELF_TEXELS * max(size.x, size.y) +
                  0.5 * bundle.range.y / LSF_BUNDLE_DEPTH_STEPS;
     uvec3 steps = uvec3(0u);
+#if LSF_ABSORPTION
+    ivec3 within = ivec3(0), beyond = ivec3(0); /* on the way up to the last surfaces, and from there to `far` */
+#endif
     for (uint i = 0u; i < count; i++) {
         uint node = bundle_slice_node(texel, i);
         if (i >= uint(LSF_BUNDLE_SLICES)) {
@@ -295,9 +326,21 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
         vec3 plane = bundle_veil_plane(node, key);
         float z = bundle.range.x + bundle.range.y * plane.x;
         float t = side * (z + dot(plane.yz, from_center) - q.z + bundle_gaps_between(q.z, z));
-        if (t > 0.0 && t < far && t * t > self * self * (1.0 + dot(plane.yz, plane.yz)))
-            steps += bundle_tint_steps(bundle_surfaces[3u * node + 1u]);
+        if (!(t > 0.0 && t < far && t * t > self * self * (1.0 + dot(plane.yz, plane.yz))))
+            continue;
+        steps += bundle_tint_steps(bundle_surfaces[3u * node + 1u]);
+#if LSF_ABSORPTION
+        bool enters;
+        vec3 absorption = bundle_absorption_unpack(bundle_surfaces[3u * node], enters);
+        int into = enters == (side > 0.0) ? 1 : -1;
+        within -= into * bundle_absorption_steps(absorption, t);
+        beyond += far < 1e30 ? into * bundle_absorption_steps(absorption, far) : ivec3(0);
+#endif
     }
+#if LSF_ABSORPTION
+    /* A ray that starts in a medium leaves it without having come in; one that ends there is in it up to its end. */
+    steps += uvec3(max(within + max(beyond, 0), 0));
+#endif
     return exp2(-vec3(steps) / BUNDLE_TINT_STEPS);
 }
 #endif

@@ -267,7 +267,7 @@ vec3 shadow_tint(vec3 position, vec3 normal, vec3 own)
     vec3 tint = texelFetch(shadow_tint_texture, ivec3(r.at, r.face), 0).rgb;
 #endif
     float here = r.depth + dot(r.gradient, vec2(r.at) + 0.5 - r.texel);
-    return shown < here - r.error ? min(tint / max(own, LSF_SHADOW_TINT_STEP), 1.0) : tint;
+    return min(shown < here - r.error ? tint / max(own, LSF_SHADOW_TINT_STEP) : tint, 1.0);
 #else
     return vec3(1.0);
 #endif

@@ -1,5 +1,5 @@
 /* Appends nodes to the texels' lists, for both ways to rasterise. Switches of
- * lib/ray_bundle.glsl, and LSF_BUNDLE_SURFACES: not only distances are asked for. */
+ * lib/ray_bundle.glsl, LSF_BUNDLE_SURFACES: not only distances are asked for, and LSF_ABSORPTION: there are media. */
 #ifndef LSF_PASSES_RAY_BUNDLE_APPEND
 #define LSF_PASSES_RAY_BUNDLE_APPEND
 
@@ -35,19 +35,22 @@ uint append_node(uint texel, uint key)
 /* `sides`: LSF_BUNDLE_EMITS_BACK and LSF_BUNDLE_EMITS_AHEAD. */
 void append_surface(uint texel, bundle_plane_bits plane, surface s, vec3 emission, uint sides)
 {
-    uint color = bundle_color_pack(s.base_color);
+    uint color = bundle_color_pack(s.base_color), normal = octahedral_encode(s.normal);
 #if LSF_BUNDLE_SURFACES && LSF_STRAIGHT
     float passes = straight_chance(straight_transmittance(s, bundle.forward.xyz));
     if (passes > 0.0 && chance_number(uvec3(plane.key, plane.rest, texel)) < passes) {
         plane = bundle_veil_pack(plane);
         color = bundle_tint_pack(straight_tint(s, bundle.forward.xyz));
+#if LSF_ABSORPTION
+        normal = bundle_absorption_pack(s.volume ? materials[s.material].absorption.rgb : vec3(0.0), s.front);
+#endif
     }
 #endif
     uint node = append_node(texel, plane.key);
     if (node == LSF_NO_NODE)
         return;
 #if LSF_BUNDLE_SURFACES
-    bundle_surfaces[3u * node] = octahedral_encode(s.normal);
+    bundle_surfaces[3u * node] = normal;
     bundle_surfaces[3u * node + 1u] = color;
     bundle_surfaces[3u * node + 2u] = plane.rest;
 #if LSF_BUNDLE_ANISOTROPY

@@ -28,9 +28,9 @@ typedef struct lsf_shadow {
     GLuint depth;    /* DEPTH_COMPONENT32F; or R32UI with keys of lib/hemisphere.glsl,
                       * lib/sky_map.glsl */
     GLuint gradient; /* RG16F; 0: such maps have none */
-    GLuint tint;     /* RGB10_A2, tint of light that passes transmitting surfaces; 0: there are
-                      * none */
-    GLuint light;    /* buffer of struct lsf_light_data or lsf_sky_map_data; 0: there is no light */
+    GLuint tint;  /* RGB10_A2 or RGBA32F, tint of light that passes transmitting surfaces; 0: there
+                   * are none */
+    GLuint light; /* buffer of struct lsf_light_data or lsf_sky_map_data; 0: there is no light */
     GLintptr offset; /* offset of that struct in the buffer */
     GLsizeiptr size;
 } lsf_shadow;

@@ -25,6 +25,11 @@ lsf_light_passage lsf_light_passage_of(const lsf_iteration *iteration, uint32_t 
     return (lsf_light_passage){true, LSF_DRAW_BUT_WALLS, LSF_DRAW_WALLS};
 }
 
+GLenum lsf_light_tint_format(const lsf_plan *plan)
+{
+    return plan->straight && plan->requirements.refractive ? GL_RGBA32F : GL_RGB10_A2;
+}
+
 void lsf_light_walls_plan(lsf_plan *plan, const char *name, bool gradient)
 {
     if (!lsf_light_walls_needed(plan)) {
@@ -35,6 +40,7 @@ void lsf_light_walls_plan(lsf_plan *plan, const char *name, bool gradient)
     lsf_plan_reads(plan, "scene");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", gradient, "planes are compared");
     lsf_scene_gpu_material_switches(plan, true, false);
+    lsf_scene_gpu_media_switch(plan);
 }
 
 bool lsf_light_walls_create(lsf_light_walls *walls, lsf_context *context, const lsf_plan *plan,

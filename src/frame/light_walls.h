@@ -6,8 +6,9 @@
 
 #include "frame/iteration.h"
 
-/* Of a light's map: unit-range colours, 10 bits each. */
-#define LSF_LIGHT_TINT_FORMAT GL_RGB10_A2
+/* Of the tint in a light's map: unit-range colours of 10 bits, with media floats, for their
+ * surfaces each multiply by much and by little. */
+GLenum lsf_light_tint_format(const lsf_plan *plan);
 
 typedef struct lsf_light_walls {
     lsf_context *context;

@@ -48,6 +48,12 @@ void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss)
     lsf_scene_gpu_word_switches(plan, gloss);
 }
 
+void lsf_scene_gpu_media_switch(lsf_plan *plan)
+{
+    if (plan->straight && plan->requirements.refractive)
+        lsf_plan_switch_add(plan, "LSF_ABSORPTION", true, "there are media");
+}
+
 void lsf_scene_gpu_scatter_switch(lsf_plan *plan)
 {
     if (plan->scattered)

@@ -59,6 +59,8 @@ void lsf_scene_gpu_fold_lobes(lsf_plan *plan);
 
 /* Adds switches to a pass that reads the G-buffer's gloss, which say what lobes it holds. */
 void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss);
+/* Adds the switch of media that light goes straight through, where there are such. */
+void lsf_scene_gpu_media_switch(lsf_plan *plan);
 /* Adds the switch of rough thin walls, where the camera sees some that scatter light. */
 void lsf_scene_gpu_scatter_switch(lsf_plan *plan);
 /* The same with the switches that it needs, for a pass that handles no other transmission. */

@@ -122,6 +122,7 @@ static void plan_hit(lsf_plan *plan, const lsf_bidirectional_shade_params *param
     lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE", lsf_light_emission_is_adaptive(plan),
                         "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_PUNCTUAL", use->hit_light, "hits reflect punctual lights");
+    lsf_scene_gpu_media_switch(plan);
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct && !deep,
                         "direct light is asked for apart");

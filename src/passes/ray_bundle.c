@@ -79,6 +79,8 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_scene_gpu_material_switches(plan, lsf_plan_surfaces_differ(plan) && !use->distances_only,
                                     lsf_plan_surfaces_shine(plan) && !use->distances_only);
     lsf_scene_gpu_fold_lobes(plan);
+    if (!use->distances_only)
+        lsf_scene_gpu_media_switch(plan);
     lsf_ray_bundle_raster_plan(plan, params);
     lsf_ray_bundle_nodes_plan(plan, params, use);
     lsf_ray_bundle_tally_plan(plan);

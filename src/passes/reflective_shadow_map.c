@@ -46,7 +46,7 @@ static const struct {
     [SURFACE] = {"surface", GL_RGBA32UI, "normals, base colour, metallic"},
     [GLOSS] = {"gloss", GL_R32UI, "roughness and f0"},
     [IMPORTANCE] = {"importance", GL_R32F, "the flux that each texel reflects to what is seen"},
-    [TINT] = {"tint", LSF_LIGHT_TINT_FORMAT, "light passes thin walls"},
+    [TINT] = {"tint", GL_RGB10_A2, "light passes thin walls"},
     [DEPTH] = {"depth", GL_DEPTH_COMPONENT32F, "rsm.resolution texels a side"},
 };
 
@@ -88,6 +88,8 @@ static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_p
             desc.internal_format = GL_RG32UI;
         if (layer == GLOSS && plan->transmission)
             desc.internal_format = GL_RGBA32UI;
+        if (layer == TINT)
+            desc.internal_format = lsf_light_tint_format(plan);
         lsf_plan_texture_desc_add(plan, name, &desc, "%s", layers[layer].why);
     }
 }

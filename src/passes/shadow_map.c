@@ -63,7 +63,7 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
     if (!lsf_light_walls_needed(plan))
         return;
     snprintf(full_name, sizeof full_name, "shadow_map.%s_tint", name);
-    desc.internal_format = LSF_LIGHT_TINT_FORMAT;
+    desc.internal_format = lsf_light_tint_format(plan);
     lsf_plan_texture_desc_add(plan, full_name, &desc, "light passes thin walls");
 }
 

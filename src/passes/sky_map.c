@@ -57,7 +57,8 @@ void lsf_sky_map_plan(lsf_plan *plan, uint32_t side)
     lsf_plan_pass_add(plan, "sky_map_straight", "light passes materials that transmit");
     lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_material_switches(plan, true, false);
-    desc.internal_format = LSF_LIGHT_TINT_FORMAT;
+    lsf_scene_gpu_media_switch(plan);
+    desc.internal_format = lsf_light_tint_format(plan);
     desc.depth = batch;
     lsf_plan_texture_desc_add(plan, "sky_map.tint", &desc, "what it leaves of the light");
 }

@@ -64,11 +64,12 @@ static void plan_straight(lsf_plan *plan, const lsf_vpl_use *use, uint32_t side)
     lsf_plan_pass_add(plan, "vpl_straight", "light passes materials that transmit");
     lsf_plan_reads(plan, "scene");
     lsf_scene_gpu_material_switches(plan, true, false);
+    lsf_scene_gpu_media_switch(plan);
     if (use->lights)
-        lsf_plan_texture_add(plan, "vpl.shadow_tint", LSF_LIGHT_TINT_FORMAT, side, side,
+        lsf_plan_texture_add(plan, "vpl.shadow_tint", lsf_light_tint_format(plan), side, side,
                              "what it leaves of the light");
     if (use->emitters)
-        lsf_plan_texture_add(plan, "vpl.emitter_tint", LSF_LIGHT_TINT_FORMAT, side, side,
+        lsf_plan_texture_add(plan, "vpl.emitter_tint", lsf_light_tint_format(plan), side, side,
                              "what it leaves of the light");
 }
 

@@ -37,7 +37,8 @@ typedef struct lsf_vpl_outputs {
     GLuint maps; /* struct lsf_light_data each, 512 bytes apart */
     GLuint shadow_map,
         emitter_map; /* R32UI, lib/hemisphere.glsl; of the VPL of each kind in turn */
-    GLuint shadow_tint, emitter_tint; /* RGB10_A2, of light that passes what transmits; or 0 */
+    GLuint shadow_tint,
+        emitter_tint; /* RGB10_A2 or RGBA32F, of light that passes what transmits; or 0 */
 } lsf_vpl_outputs;
 
 typedef struct lsf_vpl {
