@@ -272,7 +272,7 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
 #if LSF_ANISOTROPY
         vec3 basis_t, basis_b;
         orthonormal_basis(s.normal, basis_t, basis_b);
-        float angle = 2.0 * LSF_PI * s.anisotropy_turn;
+        float angle = 2.0 * LSF_PI * s.anisotropy_angle;
         l.tangent = cos(angle) * basis_t + sin(angle) * basis_b;
         l.bitangent = cross(s.normal, l.tangent);
         alpha_t = lsf_alpha_along_tangent(alpha, s.anisotropy);

@@ -57,7 +57,7 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
 #if LSF_SPECULAR
     p.alpha = p.alpha_t = lsf_alpha_from_roughness(s.roughness);
 #if LSF_ANISOTROPY
-    float angle = 2.0 * LSF_PI * s.anisotropy_turn;
+    float angle = 2.0 * LSF_PI * s.anisotropy_angle;
     p.tangent = cos(angle) * p.tangent + sin(angle) * p.bitangent;
     p.bitangent = cross(p.normal, p.tangent);
     p.alpha_t = lsf_alpha_along_tangent(p.alpha, s.anisotropy);

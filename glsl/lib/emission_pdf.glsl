@@ -5,7 +5,7 @@
 #ifndef LSF_LIB_EMISSION_PDF
 #define LSF_LIB_EMISSION_PDF
 
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #include "shared/brdf.h"
 #include "shared/light.h"
 
@@ -15,9 +15,9 @@
 float emission_place_density(int face, vec3 position)
 {
     vec2 extent = light.map_window[face].zw;
-    if (!light_map_perspective())
+    if (!light_projection_perspective())
         return 1.0 / (extent.x * extent.y);
-    vec3 q = light_map_coordinates(face, position);
+    vec3 q = light_projection_coordinates(face, position);
     float secant2 = dot(q, q) / (q.z * q.z);
     return secant2 * sqrt(secant2) / (extent.x * extent.y);
 }
@@ -28,7 +28,7 @@ float emission_pdf_uniform(vec3 position)
     float type = light.attenuation.w;
 #if LSF_DIRECTIONAL_LIGHT
     if (type == LSF_LIGHT_TYPE_DIRECTIONAL) {
-        vec2 place = abs(light_map_place(0, light_map_coordinates(0, position)));
+        vec2 place = abs(light_projection_place(0, light_projection_coordinates(0, position)));
         return max(place.x, place.y) <= 1.0 ? 0.25 * emission_place_density(0, position) : 0.0;
     }
 #endif
@@ -58,10 +58,10 @@ float emission_pdf(vec3 position)
     float uniform_pdf = emission_pdf_uniform(position);
     if (light.position.w == 0.0)
         return uniform_pdf; /* the light meets nothing */
-    int face = light_map_face(position);
-    vec3 q = light_map_coordinates(face, position);
-    vec2 place = light_map_place(face, q);
-    if ((light_map_perspective() && q.z <= 0.0) || max(abs(place.x), abs(place.y)) > 1.0)
+    int face = light_projection_face(position);
+    vec3 q = light_projection_coordinates(face, position);
+    vec2 place = light_projection_place(face, q);
+    if ((light_projection_perspective() && q.z <= 0.0) || max(abs(place.x), abs(place.y)) > 1.0)
         return EMISSION_DEFENSIVE * uniform_pdf; /* beside the map */
     ivec2 last = ivec2(int(light.map_shape.z) - 1);
     ivec2 at = clamp(ivec2((place * 0.5 + 0.5) * light.map_shape.z), ivec2(0), last);

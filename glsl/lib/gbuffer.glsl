@@ -50,7 +50,7 @@ struct surface {
     vec3 base_color;
     float metallic, roughness, f0;
     float anisotropy;      /* strength, 0..1 */
-    float anisotropy_turn; /* tangent's angle in orthonormal_basis(normal), 0..1 of a turn */
+    float anisotropy_angle; /* tangent's angle in orthonormal_basis(normal), 0..1 of a turn */
     bool unlit;
 #if LSF_SPECULAR_TINT
     vec3 f0_tint;          /* dielectrics reflect f0 times this ... */
@@ -197,7 +197,7 @@ uvec4 surface_pack(surface s)
 uvec4 gloss_pack(surface s)
 {
     uvec4 texel = uvec4(packUnorm2x16(vec2(s.roughness, s.f0)),
-                        packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn)), 0u, 0u);
+                        packUnorm2x16(vec2(s.anisotropy, s.anisotropy_angle)), 0u, 0u);
 #if LSF_TRANSMISSION
     texel.z = transmission_pack(s);
 #endif
@@ -229,7 +229,7 @@ surface surface_unpack(uvec4 texel)
     s.roughness = 1.0;
     s.f0 = 0.04; /* ior 1.5 */
     s.anisotropy = 0.0;
-    s.anisotropy_turn = 0.0;
+    s.anisotropy_angle = 0.0;
     lobes_none(s);
 #if LSF_TRANSMISSION
     transmission_unpack(0u, s);
@@ -244,7 +244,7 @@ void gloss_unpack(uvec4 texel, inout surface s)
     s.f0 = gloss.y;
     vec2 anisotropy = unpackUnorm2x16(texel.y);
     s.anisotropy = anisotropy.x;
-    s.anisotropy_turn = anisotropy.y;
+    s.anisotropy_angle = anisotropy.y;
 #if LSF_SPECULAR_TINT
     vec4 tint = unpackUnorm4x8(texel.w);
     s.f0_tint = tint.rgb;

@@ -9,7 +9,7 @@
 #ifndef LSF_LIB_HEMISPHERE
 #define LSF_LIB_HEMISPHERE
 
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 
 /* The octants meet on the map's diagonals, on which texel centres lie: they are shifted by this
  * many texels, so that each centre is in one. */

@@ -2,7 +2,7 @@
 #ifndef LSF_LIB_LIGHT
 #define LSF_LIB_LIGHT
 
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #include "shared/light.h"
 
 /* Direction to the light and the irradiance [W/m^2] on a plane that faces it. `distance2` is 1 for

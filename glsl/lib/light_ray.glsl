@@ -40,9 +40,9 @@ ray ray_through(vec3 origin, vec3 direction)
     ray r;
     r.origin = origin;
     r.direction = direction;
-    r.face = light_map_perspective() ? light_map_face(origin + direction) : 0;
-    vec3 q = light_map_coordinates(r.face, origin + direction);
-    r.texel = (light_map_place(r.face, q) * 0.5 + 0.5) * light.map_shape.z;
+    r.face = light_projection_perspective() ? light_projection_face(origin + direction) : 0;
+    vec3 q = light_projection_coordinates(r.face, origin + direction);
+    r.texel = (light_projection_place(r.face, q) * 0.5 + 0.5) * light.map_shape.z;
     return r;
 }
 
@@ -51,7 +51,7 @@ ray emit_ray_uniform(vec2 u)
 {
 #if LSF_DIRECTIONAL_LIGHT
     if (light.attenuation.w == LSF_LIGHT_TYPE_DIRECTIONAL)
-        return ray_through(light_map_position(0, 2.0 * u - 1.0, 1.0), light.direction.xyz);
+        return ray_through(light_projection_position(0, 2.0 * u - 1.0, 1.0), light.direction.xyz);
 #endif
     float cosine = 1.0 - 2.0 * u.x;
     vec3 axis = vec3(0.0, 0.0, 1.0);
@@ -71,8 +71,8 @@ ray emit_ray_uniform(vec2 u)
 
 ray ray_of_place(int face, vec2 place)
 {
-    vec3 point = light_map_position(face, place, 1.0);
-    return light_map_perspective()
+    vec3 point = light_projection_position(face, place, 1.0);
+    return light_projection_perspective()
                ? ray_through(light.map_origin.xyz, normalize(point - light.map_origin.xyz))
                : ray_through(point, light.direction.xyz);
 }
@@ -144,7 +144,7 @@ met_plane plane_at(int face, ivec2 at)
         return p;
     vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
     p.exists = true;
-    p.point = light_map_position(face, place, depth);
+    p.point = light_projection_position(face, place, depth);
     p.normal = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0)).geometric_normal;
     return p;
 }
@@ -154,7 +154,7 @@ met_plane plane_at(int face, ivec2 at)
 float distance_to(ray r, met_plane p)
 {
     float along = dot(p.point - r.origin, r.direction);
-    float bound = 0.5 * (light_map_perspective() ? along : light.map_shape.y);
+    float bound = 0.5 * (light_projection_perspective() ? along : light.map_shape.y);
     float towards = dot(p.normal, r.direction);
     if (towards >= 0.0)
         return along + bound;
@@ -234,7 +234,7 @@ light_hit light_ray_draw(vec2 u)
     h.position = r.origin + h.distance * r.direction;
     h.apart = h.position - met.point;
     h.intensity = light.intensity.rgb;
-    bool directional = !light_map_perspective();
+    bool directional = !light_projection_perspective();
     if (!directional) {
         float distance2 = max(h.distance * h.distance, LSF_LIGHT_DISTANCE2_MIN);
         h.intensity *= lsf_distance_attenuation(distance2, light.attenuation.x) * distance2;

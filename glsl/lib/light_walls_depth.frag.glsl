@@ -1,6 +1,6 @@
 /* Depth of the thin walls that are there for a light's map. Switches LSF_GRADIENT and those of lib/material.glsl. */
 #include "lib/chance.glsl"
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #include "lib/material.glsl"
 #include "lib/straight.glsl"
 
@@ -10,11 +10,11 @@ layout(location = 0) out vec2 gradient;
 
 void main()
 {
-    vec3 to_light = light_map_perspective() ? -vertex_position : -light.direction.xyz;
+    vec3 to_light = light_projection_perspective() ? -vertex_position : -light.direction.xyz;
 #if LSF_GRADIENT
     /* Before any discard, while the whole quad is alive. */
     float z = gl_FragCoord.z;
-    gradient = vec2(dFdx(z), dFdy(z)) / light_map_depth_unit(z);
+    gradient = vec2(dFdx(z), dFdy(z)) / light_projection_depth_unit(z);
 #endif
     surface s;
     vec3 emission;

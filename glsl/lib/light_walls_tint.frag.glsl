@@ -1,6 +1,6 @@
 /* Tint of light that has passed the thin walls before what its map shows: of all of them the product, in any
  * order. Switches LSF_ABSORPTION (there are media) and those of lib/material.glsl. */
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #include "lib/material.glsl"
 #include "lib/straight.glsl"
 #include "lib/map_absorption.glsl"
@@ -12,7 +12,7 @@ layout(location = 0) out vec4 tint_out; /* multiplied */
 
 void main()
 {
-    vec3 to_light = light_map_perspective() ? -vertex_position : -light.direction.xyz;
+    vec3 to_light = light_projection_perspective() ? -vertex_position : -light.direction.xyz;
     surface s;
     vec3 emission;
     bool front;

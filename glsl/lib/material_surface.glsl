@@ -216,7 +216,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     s.f0 = material.surface.w;
     lobes_none(s);
     s.anisotropy = 0.0;
-    s.anisotropy_turn = 0.0;
+    s.anisotropy_angle = 0.0;
     s.unlit = material.flags.y != 0.0;
 #if LSF_GLOSS
     s.metallic = material.surface.x;
@@ -256,7 +256,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     vec3 basis_t, basis_b;
     orthonormal_basis(s.normal, basis_t, basis_b);
     float angle = atan(dot(along, basis_b), dot(along, basis_t));
-    s.anisotropy_turn = fract(angle / (2.0 * LSF_PI));
+    s.anisotropy_angle = fract(angle / (2.0 * LSF_PI));
 #endif
 #endif
 #if LSF_TRANSMISSION

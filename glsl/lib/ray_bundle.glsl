@@ -379,7 +379,7 @@ surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
     s.roughness = 1.0;
     s.f0 = 0.04; /* ior 1.5 */
     s.anisotropy = 0.0;
-    s.anisotropy_turn = 0.0;
+    s.anisotropy_angle = 0.0;
     s.unlit = false;
     emission = vec3(0.0);
     lobes_none(s);
@@ -395,14 +395,14 @@ surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
     s.transmission = float(gloss.y >> 24) / 255.0;
 #endif
     s.anisotropy = anisotropy.x;
-    s.anisotropy_turn = anisotropy.y;
+    s.anisotropy_angle = anisotropy.y;
     if (side < 0.0) { /* the same tangent in the basis of the turned normal */
         vec3 t, b, turned_t, turned_b;
         orthonormal_basis(normal, t, b);
         orthonormal_basis(s.normal, turned_t, turned_b);
         float angle = anisotropy.y * 2.0 * LSF_PI;
         vec3 along = cos(angle) * t + sin(angle) * b;
-        s.anisotropy_turn =
+        s.anisotropy_angle =
             fract(atan(dot(along, turned_b), dot(along, turned_t)) / (2.0 * LSF_PI));
     }
 #elif LSF_BUNDLE_GLOSS

@@ -19,7 +19,7 @@
 #include "lib/sky_map.glsl"
 #else
 #include "lib/hemisphere.glsl"
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #endif
 
 #if LSF_SHADOW_HEMISPHERE
@@ -118,12 +118,12 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
 shadow_receiver shadow_project(vec3 position, vec3 normal)
 {
     shadow_receiver r;
-    r.face = light_map_face(position);
-    vec3 q = light_map_coordinates(r.face, position);
+    r.face = light_projection_face(position);
+    vec3 q = light_projection_coordinates(r.face, position);
     vec3 n = vec3(dot(light.map_right[r.face].xyz, normal), dot(light.map_up[r.face].xyz, normal),
                   dot(light.map_forward[r.face].xyz, normal));
     vec2 extent = light.map_window[r.face].zw;
-    if (light_map_perspective()) {
+    if (light_projection_perspective()) {
         /* On the plane n.q = c, near / q.z = near / c (n.z + n.xy extent (x, y)). */
         float c = dot(n, q);
         r.depth = light.map_shape.x / q.z;
@@ -139,7 +139,7 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
                    light.map_offset.z / abs(n.z)) / range;
     }
     float texels = light.map_shape.z;
-    r.texel = (light_map_place(r.face, q) * 0.5 + 0.5) * texels;
+    r.texel = (light_projection_place(r.face, q) * 0.5 + 0.5) * texels;
     r.gradient *= 2.0 / texels;
     r.at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(int(texels) - 1));
     return r;
@@ -207,7 +207,7 @@ int shadow_order(shadow_receiver r, ivec2 at)
     float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
     vec2 gradient = vec2(0.0);
     if (depth > 0.0) /* nothing writes the gradient where nothing is shown */
-        gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_map_depth_unit(depth);
+        gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_projection_depth_unit(depth);
 #endif
     float at_receiver = depth - dot(gradient, to_center) - r.depth;
     float at_center = depth - r.depth - dot(r.gradient, to_center);

@@ -110,9 +110,9 @@ void surface_look_through(inout surface s)
     vec3 basis_t, basis_b, other_t, other_b;
     orthonormal_basis(s.normal, basis_t, basis_b);
     orthonormal_basis(-s.normal, other_t, other_b);
-    float angle = 2.0 * LSF_PI * s.anisotropy_turn;
+    float angle = 2.0 * LSF_PI * s.anisotropy_angle;
     vec3 along = cos(angle) * basis_t + sin(angle) * basis_b;
-    s.anisotropy_turn = fract(atan(dot(along, other_b), dot(along, other_t)) / (2.0 * LSF_PI));
+    s.anisotropy_angle = fract(atan(dot(along, other_b), dot(along, other_t)) / (2.0 * LSF_PI));
 #endif
     s.geometric_normal = -s.geometric_normal;
     s.normal = -s.normal;

@@ -75,7 +75,7 @@ light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3,
                         bundle_pdf(direction) * suppression.w);
     float density = p.vpl + p.bundle;
     float kernel_3 = suppression_kernel(density, cosine_3, distance2_3);
-    float kernel_0 = light_map_perspective()
+    float kernel_0 = light_projection_perspective()
                          ? suppression_kernel(density, cosine_0, distance2_0)
                          : 0.0;
     brdf_value f_2 = brdf_evaluate(x2, -direction, to_light, kernel_0 + kernel_3);

@@ -40,7 +40,7 @@ surface vpl_surface(lsf_vpl_data vpl)
     s.roughness = vpl.gloss.x;
     s.f0 = vpl.gloss.y;
     s.anisotropy = vpl.gloss.z;
-    s.anisotropy_turn = vpl.gloss.w;
+    s.anisotropy_angle = vpl.gloss.w;
     s.unlit = false;
     lobes_none(s);
 #if LSF_TRANSMISSION

@@ -55,11 +55,11 @@ void append_surface(uint texel, bundle_plane_bits plane, surface s, vec3 emissio
     bundle_surfaces[3u * node + 2u] = plane.rest;
 #if LSF_BUNDLE_ANISOTROPY
 #if LSF_STRAIGHT
-    uvec3 more = uvec3(clamp(vec3(s.anisotropy, s.anisotropy_turn, s.transmission), 0.0, 1.0) *
+    uvec3 more = uvec3(clamp(vec3(s.anisotropy, s.anisotropy_angle, s.transmission), 0.0, 1.0) *
                            vec3(4095.0, 4095.0, 255.0) + 0.5);
     uint rest = more.x | more.y << 12 | more.z << 24;
 #else
-    uint rest = packUnorm2x16(vec2(s.anisotropy, s.anisotropy_turn));
+    uint rest = packUnorm2x16(vec2(s.anisotropy, s.anisotropy_angle));
 #endif
     bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0), rest);
 #elif LSF_BUNDLE_GLOSS

@@ -1,6 +1,6 @@
 /* Switches LSF_THIN_WALLS, where some transmit, and those of lib/material.glsl. */
 #include "lib/chance.glsl"
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #include "lib/material.glsl"
 #include "lib/straight.glsl"
 
@@ -14,11 +14,11 @@ void main()
 {
     /* Before any discard, while the whole quad is alive. */
     float z = gl_FragCoord.z;
-    gradient_out = vec2(dFdx(z), dFdy(z)) / light_map_depth_unit(z);
+    gradient_out = vec2(dFdx(z), dFdy(z)) / light_projection_depth_unit(z);
     surface s;
     vec3 emission;
     bool front;
-    vec3 to_light = light_map_perspective() ? -vertex_position : -light.direction.xyz;
+    vec3 to_light = light_projection_perspective() ? -vertex_position : -light.direction.xyz;
     if (!material_evaluate(to_light, s, emission, front))
         discard;
 #if LSF_THIN_WALLS

@@ -1,4 +1,4 @@
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #include "lib/material_vertex.glsl"
 
 layout(location = 0) uniform int face;
@@ -9,6 +9,6 @@ invariant gl_Position;
 void main()
 {
     vec3 p = instance_position(position);
-    gl_Position = light_map_clip(face, p);
+    gl_Position = light_projection_clip(face, p);
     material_vertex(p - light.map_origin.xyz);
 }

@@ -75,13 +75,13 @@ float importance(int face, ivec2 at)
     surface s = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0));
     if (depth == 0.0 || s.unlit)
         return 0.0;
-    vec3 position = light_map_position(face, place, depth);
+    vec3 position = light_projection_position(face, place, depth);
     vec3 reflectance = s.base_color;
 #if LSF_SPECULAR
     reflectance = max(reflectance, vec3(s.f0));
 #endif
     vec3 flux = light.intensity.rgb * reflectance;
-    if (light_map_perspective()) {
+    if (light_projection_perspective()) {
         /* Texels are alike but for the place's solid angle. */
         vec3 to_point = position - light.position.xyz;
         float distance2 = max(dot(to_point, to_point), LSF_LIGHT_DISTANCE2_MIN);

@@ -1,4 +1,4 @@
-#include "lib/light_map.glsl"
+#include "lib/light_projection.glsl"
 #include "lib/mask.glsl"
 
 #if LSF_GRADIENT
@@ -10,7 +10,7 @@ void main()
 #if LSF_GRADIENT
     /* Before any discard, while the whole quad is alive. */
     float z = gl_FragCoord.z;
-    gradient = vec2(dFdx(z), dFdy(z)) / light_map_depth_unit(z);
+    gradient = vec2(dFdx(z), dFdy(z)) / light_projection_depth_unit(z);
 #endif
     if (masked_out())
         discard;

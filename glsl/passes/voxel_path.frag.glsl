@@ -121,7 +121,7 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     v.s.f0 = 0.04; /* ior 1.5 */
     lobes_none(v.s);
     v.s.anisotropy = 0.0;
-    v.s.anisotropy_turn = 0.0;
+    v.s.anisotropy_angle = 0.0;
 #if LSF_VOXEL_GLOSS
     vec4 gloss = unpackUnorm4x8(texelFetch(voxel_gloss, cell, 0).r);
     v.s.roughness = gloss.y;
@@ -136,7 +136,7 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     orthonormal_basis(v.s.normal, own_t, own_b);
     float angle = 2.0 * LSF_PI * voxel_turn_unpack(shading_bits);
     vec3 along = cos(angle) * t + sin(angle) * b;
-    v.s.anisotropy_turn = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
+    v.s.anisotropy_angle = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
 #endif
 #endif
 #if LSF_TRANSMISSION

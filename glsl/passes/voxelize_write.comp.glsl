@@ -55,7 +55,7 @@ void write_surface(voxel_triangle t, ivec3 cell)
 #if LSF_ANISOTROPY
     vec3 basis_t, basis_b, along_t, along_b;
     orthonormal_basis(s.normal, basis_t, basis_b);
-    float angle = 2.0 * LSF_PI * s.anisotropy_turn;
+    float angle = 2.0 * LSF_PI * s.anisotropy_angle;
     vec3 along = cos(angle) * basis_t + sin(angle) * basis_b;
     orthonormal_basis(n, along_t, along_b);
     shading |= voxel_turn_pack(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));

@@ -27,7 +27,7 @@ void main()
     vec4 drawn = random[index];
     light_hit h = light_ray_draw(drawn.xy);
     surface s = h.s;
-    bool directional = !light_map_perspective();
+    bool directional = !light_projection_perspective();
     float distance2 = directional ? 1.0 : max(h.distance * h.distance, LSF_LIGHT_DISTANCE2_MIN);
     float transmission = 0.0;
 #if LSF_TRANSMISSION
@@ -36,7 +36,7 @@ void main()
     vpls[index] = lsf_vpl_data(
         vec4(h.position, h.lit ? LSF_VPL_REFLECTS : LSF_VPL_DARK), vec4(s.geometric_normal, h.pdf * drawn.w),
         vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
-        vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_turn), vec4(-h.direction, distance2),
+        vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_angle), vec4(-h.direction, distance2),
         vec4(h.intensity, transmission));
     float error = NORMAL_ERROR * length(h.apart) + DISTANCE_ERROR * h.distance;
     vpl_map_write(index, h.position, s.geometric_normal, error, drawn.z, map_shape);

@@ -24,7 +24,7 @@ bool lsf_reflective(ivec3 texel, out vec3 position, out surface s)
 #if LSF_GLOSS
     gloss_unpack(texelFetch(reflective_gloss, texel, 0), s);
 #endif
-    position = light_map_position(texel.z, place, depth);
+    position = light_projection_position(texel.z, place, depth);
     return depth > 0.0;
 }
 

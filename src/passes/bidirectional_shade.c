@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/light_walls.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
@@ -55,7 +55,7 @@ static const lsf_texture_row textures[] = {
     {"bidirectional_shade.gloss", GL_NONE, AT(outputs.gloss), DEEP, "roughness of vertices"},
 };
 
-/* Of lib/ray_bundle.glsl. */
+/* Uniforms of lib/ray_bundle.glsl. */
 static const char *const bundle_switches[] = {"LSF_BUNDLE_SIDE",     "LSF_BUNDLE_SLICES",
                                               "LSF_BUNDLE_GLOSS",    "LSF_BUNDLE_ANISOTROPY",
                                               "LSF_BUNDLE_EMISSION", "LSF_BUNDLE_GAPS"};

@@ -4,7 +4,7 @@
 #define LSF_PASSES_BIDIRECTIONAL_SHADE_H
 
 #include "frame/bundle_nodes.h"
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/maps.h"
 #include "plan/option.h"
 
@@ -43,7 +43,7 @@ typedef struct lsf_bidirectional_shade_params {
 #define LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT 6
 extern const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT];
 
-/* What the technique needs of it. */
+/* The parts of the pass that the technique uses. */
 typedef struct lsf_bidirectional_shade_use {
     uint32_t segments;   /* ray-bundles along a path; 0: VPLs light visible points only */
     uint32_t vertices;   /* segments whose hits become vertices */
@@ -51,36 +51,37 @@ typedef struct lsf_bidirectional_shade_use {
     bool vpl_emitter;    /* there are VPLs on emissive surfaces */
     bool hit_light;      /* hits of bundles reflect punctual lights */
     bool deep_vpl;       /* VPLs are connected to vertices beyond the visible one */
-    bool split_direct;   /* what they shed on visible points is asked for apart */
+    bool split_direct;   /* their light on visible points is asked for apart */
     uint32_t interleave; /* size of the pattern, 1: none */
 } lsf_bidirectional_shade_use;
 
-/* How a draw's samples count; see lib/mis.glsl. */
+/* Weights of a draw's samples; see lib/mis.glsl. */
 typedef struct lsf_bidirectional_sample {
-    float vpl_count, bundle_count; /* that share a vertex's light by MIS; 0: not in use */
-    float weight;                  /* 1 / number of samples of the strategy in turn */
-    float path_count;              /* bundles that begin a path at a visible point */
-    float iterations;              /* that the picture will have, for suppression; 0: it is off */
-    float light_probability;       /* of having picked the light in turn */
+    float vpl_count, bundle_count; /* numbers that share a vertex's light by MIS; 0: not in use */
+    float weight;                  /* 1 / number of samples of the current strategy */
+    float path_count;              /* number of bundles that begin a path at a visible point */
+    float iterations;              /* number that the picture will have, for suppression; 0: it
+                                    * is off */
+    float light_probability;       /* probability of having picked the current light */
     float emitter_weight; /* hits: density by area, for weights, with which VPLs find what emits,
                            * for each unit of its luminance; 0: they do not */
-    bool emitter;         /* VPLs: the one in turn is on an emissive surface */
+    bool emitter;         /* VPLs: the current one is on an emissive surface */
     float bound; /* squared distance below which 1/d^2 is held times the VPLs' density by area; 0:
                     never */
     /* Hits: densities with which directions drawn by the environment's radiance join the vertex to
      * it along the bundle and against it, and that of the bundle [1/sr], per path. */
     float sky_pdf[2], bundle_pdf;
-    /* The bundle that found the vertices, for deep ones: its direction and density [1/sr]. */
+    /* The bundle that found the deep vertices: its direction and density [1/sr]. */
     const float *arrival;
     float arrival_pdf;
 } lsf_bidirectional_sample;
 
 typedef struct lsf_bidirectional_shade_inputs {
-    const lsf_surface_maps *seen; /* or the same split; not read for deep vertices */
-    const lsf_shadow *shadow;     /* of the VPL in turn, or of the light that hits reflect */
+    const lsf_surface_maps *seen; /* visible points, maybe split; not read for deep vertices */
+    const lsf_shadow *shadow;     /* of the current VPL, or of the light that hits reflect */
     GLuint vpls;                  /* buffer; VPLs only */
-    lsf_bundle_nodes nodes;       /* of the bundle in turn; hits only */
-    GLuint hits;                  /* on them, as ray_bundle finds them; hits only */
+    lsf_bundle_nodes nodes;       /* of the current bundle; hits only */
+    GLuint hits;                  /* nodes found by ray_bundle; hits only */
     GLuint importance;            /* of the light's map, with adaptive emission */
     GLuint bundle_pdf;            /* 0: uniform */
 } lsf_bidirectional_shade_inputs;
@@ -112,13 +113,13 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
                                     const lsf_bidirectional_shade_params *params, lsf_error *error);
 /* Empties the sums. */
 void lsf_bidirectional_shade_clear(lsf_bidirectional_shade *pass);
-/* Adds what VPL `vpl` sheds on the vertices of `region`: visible points, or deep ones. */
+/* Adds the light of VPL `vpl` at the vertices of `region`: visible points, or deep ones. */
 void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
                                  const lsf_bidirectional_shade_inputs *inputs,
                                  const lsf_bidirectional_sample *sample, bool deep, uint32_t vpl,
                                  const lsf_region *region);
-/* Adds what the bundle in turn brings to the vertices of `region`: `emission` of what it met, and
- * the `light` that this reflects. The hits then become the vertices. */
+/* Adds the light that the current bundle brings to the vertices of `region`: `emission` of the
+ * surfaces that it met, and the `light` that these reflect. The hits then become the vertices. */
 void lsf_bidirectional_shade_hit(lsf_bidirectional_shade *pass, const lsf_iteration *iteration,
                                  const lsf_bidirectional_shade_inputs *inputs,
                                  const lsf_bidirectional_sample *sample, bool deep, bool emission,

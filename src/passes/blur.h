@@ -1,4 +1,4 @@
-/* Blurs light that was traced with few samples, the rougher the surface the wider. See blur.md. */
+/* Blurs light that was traced with few samples, more on rougher surfaces. See blur.md. */
 #ifndef LSF_PASSES_BLUR_H
 #define LSF_PASSES_BLUR_H
 
@@ -7,13 +7,15 @@
 #include "plan/option.h"
 
 typedef struct lsf_blur_params {
-    int32_t phases; /* 0: no blur */
-    float step;     /* between the taps of the first phase at the viewer [texels] */
-    float ratio;    /* of a phase's step to that of the one before */
-    float growth;   /* of the last phase's step for each half extent of the scene from the viewer */
+    int32_t phases;      /* 0: no blur */
+    float step;          /* between the taps of the first phase at the viewer [texels] */
+    float ratio;         /* ratio of a phase's step to the one before */
+    float growth;        /* growth of the last phase's step with each half extent of the scene from
+                          * the viewer */
     float min_roughness; /* below it the specular part is left alone */
     float cutoff;        /* taps further than this many steps in space are dropped */
-    float slope; /* and those that rise from the surface by more than this for their length */
+    float slope; /* taps that rise from the surface by more than this share of their distance are
+                  * dropped as well */
     float normal_weight; /* exponent of the cosine between normals */
 } lsf_blur_params;
 
@@ -24,7 +26,7 @@ typedef struct lsf_blur_params {
 #define LSF_BLUR_OPTION_COUNT 1
 extern const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT];
 
-/* Whether light is to be blurred; says so where it is a bias. */
+/* Whether light is to be blurred; notes in the plan where that is a bias. */
 bool lsf_blur_wanted(const lsf_blur_params *params);
 void lsf_blur_remark(lsf_plan *plan, const lsf_blur_params *params);
 
@@ -44,8 +46,8 @@ typedef struct lsf_blur {
     lsf_timer *timer;
 } lsf_blur;
 
-/* Lists "blur_guide" and "blur" for light of the plan's points; leaves them out where it is not
- * wanted. Needs the G-buffer's plan. */
+/* Lists "blur_guide" and "blur" for light of the plan's points, where it is to be blurred. Needs
+ * the G-buffer's plan. */
 void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params);
 bool lsf_blur_create(lsf_blur *pass, lsf_context *context, const lsf_plan *plan,
                      const lsf_blur_params *params, lsf_error *error);

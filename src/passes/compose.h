@@ -1,22 +1,22 @@
-/* The picture as the sum of what is seen itself and what is reflected. See compose.md. */
+/* The picture as the sum of emission and reflected light. See compose.md. */
 #ifndef LSF_PASSES_COMPOSE_H
 #define LSF_PASSES_COMPOSE_H
 
 #include "frame/iteration.h"
 #include "frame/maps.h"
 
-/* What there is to add up. */
+/* The parts to add up. */
 typedef struct lsf_compose_use {
     bool direct;       /* radiance of punctual lights */
     bool indirect;     /* irradiance, and with specular lobes their radiance */
     bool split_direct; /* the same of direct light apart */
 } lsf_compose_use;
 
-/* RGBA32F; but for the picture 0 unless asked for. */
+/* RGBA32F; all but the picture are 0 unless asked for. */
 typedef struct lsf_composed {
     GLuint picture;
     GLuint coverage;          /* 1 where a surface is, else 0 */
-    GLuint emission;          /* with the environment: what is seen itself */
+    GLuint emission;          /* emission of visible surfaces and the environment */
     GLuint direct;            /* all kinds of direct light */
     GLuint indirect_diffuse;  /* irradiance reflected */
     GLuint indirect_specular; /* tinted */
@@ -24,7 +24,8 @@ typedef struct lsf_composed {
 
 typedef struct lsf_compose {
     lsf_context *context;
-    lsf_composed outputs; /* of the last run: textures of its own, and parts that are a layer */
+    lsf_composed outputs; /* outputs of the last run: textures of its own, and inputs that are a
+                           * layer */
     lsf_composed own;
     GLuint framebuffer, program;
     lsf_timer *timer;

@@ -2,17 +2,18 @@
 #ifndef LSF_PASSES_DIRECT_LIGHT_H
 #define LSF_PASSES_DIRECT_LIGHT_H
 
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/maps.h"
 #include "frame/sky_use.h"
 
 typedef struct lsf_direct_light_inputs {
     const lsf_surface_maps *seen;
     const lsf_shadow *shadow;
-    uint32_t first;              /* of the directions, among those of the iteration */
-    uint32_t directions;         /* of the environment that the shadow is of; 0: it is of a light */
+    uint32_t first;              /* first of the directions, among those of the iteration */
+    uint32_t directions;         /* number of the environment's directions in the shadow; 0: it
+                                  * is a light's */
     const lsf_split_light *open; /* the environment's without shadows; NULL: nobody counts on it */
-    float lobe_angle;            /* as the G-buffer has it */
+    float lobe_angle;            /* as in the G-buffer */
 } lsf_direct_light_inputs;
 
 typedef struct lsf_direct_light_use {
@@ -33,12 +34,12 @@ typedef struct lsf_direct_light {
     lsf_timer *timer, *sky_timer;
 } lsf_direct_light;
 
-/* Beside `lights` punctual ones, the plan's directions of the environment. */
+/* Plans `lights` punctual lights, and the plan's directions of the environment. */
 void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_light_use *use);
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_direct_light_use *use, lsf_error *error);
 void lsf_direct_light_clear(lsf_direct_light *pass);
-/* Adds the light, or the directions. */
+/* Adds the light of the shadow: a punctual light's, or that of the directions. */
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,
                           const lsf_direct_light_inputs *inputs);
 void lsf_direct_light_destroy(lsf_direct_light *pass);

@@ -46,7 +46,7 @@ static void plan_switches(lsf_plan *plan)
     }
 }
 
-/* What light loses and takes on between the surface that is seen and the eye. */
+/* The light that is absorbed and emitted between the visible surface and the eye. */
 static void plan_way(lsf_plan *plan)
 {
     uint32_t w = plan->width, h = plan->height;
@@ -157,7 +157,7 @@ static void set_lobe_angle(const lsf_gbuffer *pass, const lsf_iteration *iterati
         glUniform1f(LSF_LOCATION_LOBE_ANGLE, pass->lobe_angle);
 }
 
-/* What transmits and what is blended is there by chance: for both programs alike. */
+/* Surfaces that transmit or are blended are hit by chance: alike in both programs. */
 static void set_chance(const lsf_gbuffer *pass, const lsf_iteration *iteration)
 {
     if (pass->outputs.tint || iteration->plan->requirements.blended)
@@ -165,7 +165,7 @@ static void set_chance(const lsf_gbuffer *pass, const lsf_iteration *iteration)
     set_lobe_angle(pass, iteration);
 }
 
-/* Draws once more what transmits: all that lies before the seen surface has let light pass. */
+/* Draws transmitting surfaces once more: all that lie before the visible surface let light pass. */
 static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_draw_region *region)
 {
     static const GLfloat zero[4] = {0};

@@ -1,4 +1,4 @@
-/* G-buffer: what each pixel sees. See gbuffer.md. */
+/* G-buffer: the surface in each pixel. See gbuffer.md. */
 #ifndef LSF_PASSES_GBUFFER_H
 #define LSF_PASSES_GBUFFER_H
 
@@ -21,8 +21,8 @@ typedef struct lsf_gbuffer {
     lsf_gbuffer_maps outputs; /* of the plan's size, valid until the next run */
     GLuint framebuffer, program;
     GLuint tint_framebuffer, tint_program; /* 0: nothing transmits */
-    float lobe_angle; /* that the technique spreads a lobe over [sr]; 0: none is spread. It says how
-                         much rough walls scatter (lib/straight.glsl) */
+    float lobe_angle; /* solid angle that the technique spreads a lobe over [sr]; 0: it spreads
+                       * none. It decides how much rough walls scatter (lib/straight.glsl) */
     uint64_t counts[LSF_DRAW_COUNTS];
     lsf_timer *timer;
 } lsf_gbuffer;

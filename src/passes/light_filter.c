@@ -118,7 +118,7 @@ static void bind_parts(GLuint binding, const GLuint parts[2])
     lsf_bind_texture(binding + 1, parts[1]);
 }
 
-/* What programs with a guide have in common. */
+/* Uniforms that programs with a guide share. */
 static void set_guide(const lsf_light_filter *pass)
 {
     glUniform2f(0, pass->params.depth_weight, pass->params.normal_weight);
@@ -199,7 +199,7 @@ static void run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterat
     memcpy(pass->filtered, light, sizeof pass->filtered);
 }
 
-/* Adds to the picture what the filter changes. */
+/* Adds to the picture the change made by the filter. */
 static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iterations,
                   const lsf_light_filter_inputs *inputs, const GLuint filtered[2])
 {

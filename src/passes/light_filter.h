@@ -7,7 +7,7 @@
 #include "frame/maps.h"
 #include "plan/option.h"
 
-/* What takes the noise out of light. */
+/* The filter that removes noise from light. */
 typedef enum lsf_light_filter_kind {
     LSF_LIGHT_FILTER_ATROUS,
     LSF_LIGHT_FILTER_NETWORK, /* goes on from there (passes/denoise.h) */
@@ -20,7 +20,7 @@ typedef struct lsf_light_filter_params {
     float depth_weight; /* pixels that a neighbour may be off the pixel's plane, for each pixel
                          * that it is away */
     float normal_weight; /* exponent of the cosine between normals */
-    int32_t limit;       /* bool: no more is changed than noise explains */
+    int32_t limit;       /* bool: the change is limited to what noise explains */
 } lsf_light_filter_params;
 
 #define LSF_LIGHT_FILTER_PARAMS_DEFAULTS                                                           \
@@ -30,7 +30,7 @@ typedef struct lsf_light_filter_params {
 #define LSF_LIGHT_FILTER_OPTION_COUNT 6
 extern const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT];
 
-/* Mean light and what it is multiplied by, as lsf_light_mean_part. */
+/* Mean light and its factors, as in lsf_light_mean_part. */
 typedef struct lsf_light_filter_part {
     GLuint light, factor;
 } lsf_light_filter_part;
@@ -59,11 +59,11 @@ typedef struct lsf_light_filter {
 void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params);
 bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_light_filter_params *params, lsf_error *error);
-/* Filters the mean of `iterations` iterations, of which `iteration` was the last: light without
+/* Filters the mean of `iterations` iterations, the last of which was `iteration`: light without
  * tint. */
 void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration,
                           uint32_t iterations, const lsf_light_filter_inputs *inputs);
-/* Makes the picture of it, or of what another pass has made of `filtered`. */
+/* Makes the picture of it, or of `filtered` as another pass has changed it. */
 void lsf_light_filter_finish(lsf_light_filter *pass, const lsf_iteration *iteration,
                              uint32_t iterations, const lsf_light_filter_inputs *inputs,
                              const GLuint filtered[2]);

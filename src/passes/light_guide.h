@@ -1,5 +1,5 @@
-/* What filters of light go by to stay on one surface: normals, depths and their slopes, and the
- * width of lobes, once a picture from the means of light_mean. See light_guide.md. */
+/* Guides of filters of light, which keep them on one surface: normals, depths and their slopes,
+ * and the width of lobes, made once a picture from the means of light_mean. See light_guide.md. */
 #ifndef LSF_PASSES_LIGHT_GUIDE_H
 #define LSF_PASSES_LIGHT_GUIDE_H
 
@@ -23,7 +23,7 @@ typedef struct lsf_light_guide {
 void lsf_light_guide_plan(lsf_plan *plan);
 bool lsf_light_guide_create(lsf_light_guide *pass, lsf_context *context, const lsf_plan *plan,
                             lsf_error *error);
-/* Of the means of so many iterations. */
+/* Makes the guides from means of so many iterations. */
 void lsf_light_guide_run(lsf_light_guide *pass, const lsf_plan *plan, uint32_t iterations,
                          const lsf_light_guide_inputs *inputs);
 void lsf_light_guide_destroy(lsf_light_guide *pass);

@@ -123,8 +123,8 @@ static void bind(GLuint binding, GLuint buffer)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
 
-/* With the uniforms that the caller has set beside the number of records. (One driver has it that
- * some storage blocks' arrays are empty, so that their length is not asked.) */
+/* Dispatches with the uniforms that the caller has set, and the number of records. (One driver
+ * reports the length of some storage blocks' arrays as 0, so that shaders do not ask for it.) */
 static void dispatch(const lsf_light_tree *pass, int program, uint32_t groups)
 {
     glUseProgram(pass->programs[program]);
@@ -138,7 +138,7 @@ static uint32_t groups_of(uint32_t invocations)
     return (invocations + LSF_LIGHT_TREE_GROUP - 1) / LSF_LIGHT_TREE_GROUP;
 }
 
-/* As of no VPL: bounds whose least is above their most. */
+/* Bounds of no VPL: their least is above their most. */
 static void clear_tree(const lsf_light_tree *pass)
 {
     const struct lsf_light_tree_data none = {
@@ -182,7 +182,7 @@ static float longest_side(const lsf_state *state)
     return side;
 }
 
-/* From the leaves up, all nodes at once that are ready. */
+/* From the leaves up: in each dispatch all nodes whose children are done. */
 static void merge(const lsf_light_tree *pass, float side)
 {
     const lsf_light_tree_params *params = &pass->params;

@@ -1,4 +1,4 @@
-/* A tree over a cloud of VPLs, whose inner nodes may stand for what is below them. See
+/* A tree over a cloud of VPLs, whose inner nodes may stand for the VPLs below them. See
  * light_tree.md. */
 #ifndef LSF_PASSES_LIGHT_TREE_H
 #define LSF_PASSES_LIGHT_TREE_H
@@ -8,9 +8,9 @@
 #include "plan/option.h"
 
 typedef struct lsf_light_tree_params {
-    float similarity; /* of the normals below a node that stands for them, at least */
-    float spread;     /* of positions along its normal, at most [longest side of the scene] */
-    float diagonal;   /* of its box, at most [the same]; 0: any */
+    float similarity; /* least similarity of the normals below a node that stands for them */
+    float spread;     /* largest spread of positions along its normal [longest side of the scene] */
+    float diagonal;   /* largest diagonal of its box [the same]; 0: any */
     bool covariance;  /* nodes keep all of their positions' covariance, not three variances */
 } lsf_light_tree_params;
 
@@ -20,7 +20,7 @@ typedef struct lsf_light_tree_params {
 #define LSF_LIGHT_TREE_OPTION_COUNT 4
 extern const lsf_option_row lsf_light_tree_options[LSF_LIGHT_TREE_OPTION_COUNT];
 
-/* VPLs of a cloud, at most: every device can read as many nodes. */
+/* The most VPLs of a cloud: every device can read as many nodes. */
 #define LSF_LIGHT_TREE_MOST                                                                        \
     ((uint32_t)(LSF_STORAGE_BLOCK_BYTES / sizeof(struct lsf_light_tree_node)))
 
@@ -54,7 +54,7 @@ void lsf_light_tree_plan(lsf_plan *plan, const lsf_light_tree_params *params, ui
 bool lsf_light_tree_create(lsf_light_tree *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_light_tree_params *params, uint32_t capacity,
                            lsf_error *error);
-/* Of a cloud whose buffer holds `capacity` records and nothing else. */
+/* Builds the tree over a cloud whose buffer holds `capacity` records and nothing else. */
 void lsf_light_tree_run(lsf_light_tree *pass, const lsf_iteration *iteration, GLuint cloud);
 void lsf_light_tree_destroy(lsf_light_tree *pass);
 

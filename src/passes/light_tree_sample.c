@@ -155,8 +155,8 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
     return pass->framebuffer && pass->program && pass->timer;
 }
 
-/* Of discs: all the clouds of so many iterations are as one, each of whose VPLs stands for as much
- * less. */
+/* Areas of discs: the clouds of so many iterations count as one, each of whose VPLs stands for
+ * as much less. */
 static void set_disc_scale(const lsf_light_tree_sample *pass, const lsf_iteration *iteration)
 {
     float clouds = lsf_iteration_expected(iteration), bound = pass->params.bound;

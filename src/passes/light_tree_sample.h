@@ -10,24 +10,28 @@
 #include "plan/option.h"
 
 typedef enum lsf_light_tree_stop {
-    LSF_LIGHT_TREE_SUBSTITUTE, /* at a node that stands for all below it, for the diffuse lobe */
+    LSF_LIGHT_TREE_SUBSTITUTE, /* at a node that stands for all VPLs below it, for the diffuse
+                                * lobe */
     LSF_LIGHT_TREE_LIGHTCUT,   /* at a VPL */
     LSF_LIGHT_TREE_VPL,        /* at a VPL, drawn by its luminance alone */
 } lsf_light_tree_stop;
 
 typedef enum lsf_light_tree_sight {
-    LSF_LIGHT_TREE_VOXELS, /* what is between is looked for among voxels */
+    LSF_LIGHT_TREE_VOXELS, /* occluders are searched among voxels */
     LSF_LIGHT_TREE_EXACT,  /* ... among all triangles */
-    LSF_LIGHT_TREE_OPEN,   /* light goes through everything */
+    LSF_LIGHT_TREE_OPEN,   /* nothing occludes light */
 } lsf_light_tree_sight;
 
 typedef struct lsf_light_tree_sample_params {
     int32_t node;    /* lsf_light_tree_stop */
-    float angle;     /* under which a node that stands for VPLs is seen, at most [rad]; 0: any */
+    float angle;     /* largest angle under which a node that stands for VPLs may be seen [rad];
+                      * 0: any */
     float cut;       /* under which nodes where ways begin are seen, at most [rad]; 0: any */
-    int32_t samples; /* of a point in an iteration */
-    float bound; /* VPLs are no nearer than this [radii of their discs]; 0: as near as they are */
-    float kernel_samples; /* that a glossy lobe is spread over, at least; 0: it is not */
+    int32_t samples; /* samples of a point in an iteration */
+    float bound;     /* least distance that VPLs count with [radii of their discs]; 0: the true
+                      * distance */
+    float kernel_samples; /* least number of samples that a glossy lobe is spread over; 0: it is
+                           * not */
     int32_t sight;        /* lsf_light_tree_sight */
 } lsf_light_tree_sample_params;
 
@@ -46,7 +50,7 @@ extern const char *const lsf_light_tree_sample_count_names[LSF_LIGHT_TREE_SAMPLE
 
 typedef struct lsf_light_tree_sample_inputs {
     const lsf_surface_maps *seen; /* by points */
-    const lsf_voxels *voxels;     /* NULL allowed where light goes through everything */
+    const lsf_voxels *voxels;     /* NULL allowed where nothing occludes */
     const lsf_light_tree_buffers *tree;
 } lsf_light_tree_sample_inputs;
 
@@ -62,8 +66,8 @@ typedef struct lsf_light_tree_sample {
     lsf_timer *timer;
 } lsf_light_tree_sample;
 
-/* `covariance`: what nodes of the tree keep. Needs the G-buffer's plan, that of the tree and, for
- * what is between, that of the voxels. */
+/* `covariance`: as for the tree. Needs the G-buffer's plan, that of the tree and, where voxels
+ * occlude, that of the voxels. */
 void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_params *params,
                                 bool covariance);
 bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *context,
@@ -71,7 +75,7 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
                                   lsf_error *error);
 void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,
                                const lsf_light_tree_sample_inputs *inputs);
-/* Of all runs; waits for them. */
+/* Counts of all runs; it waits for them. */
 const uint64_t *lsf_light_tree_sample_counts(lsf_light_tree_sample *pass);
 void lsf_light_tree_sample_destroy(lsf_light_tree_sample *pass);
 

@@ -175,7 +175,7 @@ static void bind_nodes(const lsf_ray_bundle *pass, uint32_t bundle)
     lsf_bundle_nodes_bind(&nodes);
 }
 
-/* No fragments in any texel. */
+/* Clears the lists of all texels. */
 static void clear_lists(const lsf_ray_bundle *pass, const lsf_ray_bundle_slot *slot)
 {
     static const GLuint zero = 0;

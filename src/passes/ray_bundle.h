@@ -9,8 +9,8 @@
 #include "shared/bundle_data.h"
 
 typedef enum lsf_ray_bundle_window {
-    LSF_RAY_BUNDLE_WINDOW_AUTO, /* the scene's when bundles are continued with, else the view's */
-    LSF_RAY_BUNDLE_WINDOW_VISIBLE, /* fitted to the visible points: no continuing */
+    LSF_RAY_BUNDLE_WINDOW_AUTO, /* the whole scene where paths go on along bundles, else the view */
+    LSF_RAY_BUNDLE_WINDOW_VISIBLE, /* fitted to the visible points: paths cannot go on */
     LSF_RAY_BUNDLE_WINDOW_SCENE,   /* all of the scene */
 } lsf_ray_bundle_window;
 
@@ -23,10 +23,12 @@ typedef struct lsf_ray_bundle_params {
     int32_t count;            /* bundles an iteration */
     int32_t resolution;       /* texels along a map's side */
     int32_t window;           /* lsf_ray_bundle_window */
-    int32_t slices;           /* fragments of a texel with a place of their own; more are chained */
-    float room;               /* for chained fragments at first, for each texel; it grows */
+    int32_t slices;           /* number of a texel's fragments that are stored in order; more are
+                               * chained */
+    float room;               /* initial number of chained fragments for each texel; it grows
+                               * when they do not fit */
     int32_t raster;           /* lsf_ray_bundle_raster */
-    float environment_offset; /* L_u, in mean luminances of the environment */
+    float environment_offset; /* L_u, relative to the mean luminance of the environment */
 } lsf_ray_bundle_params;
 
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
@@ -36,7 +38,7 @@ typedef struct lsf_ray_bundle_params {
 #define LSF_RAY_BUNDLE_OPTION_COUNT 7
 extern const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT];
 
-/* What the technique needs of it. */
+/* The parts of the pass that the technique uses. */
 typedef struct lsf_ray_bundle_use {
     uint32_t count;      /* bundles aimed at once */
     uint32_t slots;      /* bundles held at once; bundle i is held in slot i % slots */
@@ -51,8 +53,8 @@ typedef struct lsf_ray_bundle_direction {
     float pdf;          /* [1/sr], p_r */
 } lsf_ray_bundle_direction;
 
-/* Where rays start. From the G-buffer: depth and surface. From other vertices: position and
- * surface; surfaces are as in lib/gbuffer.glsl. */
+/* The points where rays start. From the G-buffer: depth and surface. From other vertices:
+ * position and surface; surfaces are as in lib/gbuffer.glsl. */
 typedef struct lsf_ray_bundle_origins {
     GLuint depth;    /* G-buffer depth, or its split copy (R32F); 0: position is used */
     GLuint position; /* RGBA32F: xyz; w 0: no vertex */
@@ -82,9 +84,9 @@ bool lsf_ray_bundle_create(lsf_ray_bundle **pass, lsf_context *context, const ls
  * G-buffer, not split) shows. */
 void lsf_ray_bundle_aim(lsf_ray_bundle *pass, const lsf_iteration *iteration,
                         const lsf_ray_bundle_direction *directions, GLuint depth);
-/* Draws the scene into the lists of a bundle. */
+/* Draws the scene into a bundle's lists. */
 void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle);
-/* What a bundle has met, until its slot is built again. */
+/* A bundle's nodes, valid until its slot is built again. */
 lsf_bundle_nodes lsf_ray_bundle_nodes(const lsf_ray_bundle *pass, uint32_t bundle);
 /* The nearest fragment beyond each origin in the region. RG32UI of the picture's size, valid until
  * the next search: x the distance as float bits, y the node, LSF_NO_NODE when the ray leaves the
@@ -94,22 +96,21 @@ GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteratio
 /* Ends the iteration: its picture may be kept if all of its bundles had room, and so those before.
  */
 void lsf_ray_bundle_end(lsf_ray_bundle *pass, const lsf_iteration *iteration);
-/* A buffer that begins with the DrawArraysIndirectCommand of three vertices for what keeps the
- * picture of the iteration that ended, of none when the picture lacks nodes, and those that follow.
- */
+/* A buffer that begins with a DrawArraysIndirectCommand: of three vertices if the picture of the
+ * iteration that ended may be kept, of none when it or one before it lacks nodes. */
 GLuint lsf_ray_bundle_gate(const lsf_ray_bundle *pass);
-/* Makes more room when some bundle had too little, as far as the host knows; it knows all only with
- * `wait`. False: there is more now, and iterations are to be run again from `iterations_done` on.
- */
+/* Makes more space when some bundle had too little, as far as the host knows; it knows
+ * everything only with `wait`. False: there is more now, and iterations are to be run again from
+ * `iterations_done` on. */
 bool lsf_ray_bundle_settle(lsf_ray_bundle *pass, const lsf_iteration *iteration, bool wait,
                            uint32_t *iterations_done);
-/* Adds to the pass in turn the switches of lib/ray_bundle.glsl, for passes that read nodes. */
+/* Adds the switches of lib/ray_bundle.glsl to the current pass, which reads nodes. */
 void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params);
 void lsf_ray_bundle_destroy(lsf_ray_bundle *pass); /* NULL allowed */
 
 /* Timers of bounds (NULL where there are none), build and search, in this order. */
 void lsf_ray_bundle_timers(const lsf_ray_bundle *pass, lsf_timer *timers[3]);
-/* As of the last lsf_ray_bundle_settle. */
+/* Counts as of the last lsf_ray_bundle_settle. */
 const uint64_t *lsf_ray_bundle_counts(const lsf_ray_bundle *pass);
 
 #endif

@@ -1,4 +1,4 @@
-/* Where the bundles of an iteration look: axes, windows, depth ranges. */
+/* The projections of an iteration's bundles: axes, windows, depth ranges. */
 #include <math.h>
 #include <string.h>
 
@@ -49,7 +49,7 @@ static lsf_vec4 vec4_from(lsf_float3 v, float w)
 
 /* right and up of a map seen along the unit vector `forward`, turned by `angle` about it; the basis
  * is that of lib/octahedral.glsl. */
-static void turned_axes(lsf_float3 forward, float angle, lsf_float3 *right, lsf_float3 *up)
+static void rotated_axes(lsf_float3 forward, float angle, lsf_float3 *right, lsf_float3 *up)
 {
     float s = forward.z >= 0.0f ? 1.0f : -1.0f;
     float a = -1.0f / (s + forward.z), c = forward.x * forward.y * a;
@@ -77,7 +77,7 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
         shift[axis] = lsf_unit_float(shifted[axis] ^ number.shift[axis]);
     lsf_float3 axes[3];
     axes[2] = lsf_f3_load(direction->direction);
-    turned_axes(axes[2], turn * 2.0f * LSF_PI, &axes[0], &axes[1]);
+    rotated_axes(axes[2], turn * 2.0f * LSF_PI, &axes[0], &axes[1]);
     float low[3] = {0}, high[3] = {0};
     lsf_ray_bundle_gaps gaps = {0};
     if (islands->count > 1)

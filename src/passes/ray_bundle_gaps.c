@@ -1,4 +1,4 @@
-/* Takes what is empty between a scene's islands out of a bundle's map, along each of its axes. */
+/* Removes the empty space between a scene's islands from a bundle's map, along each of its axes. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,7 +21,8 @@ static int by_low(const void *a, const void *b)
     return (left > right) - (left < right);
 }
 
-/* What islands cover along an axis, in ascending order and merged. Returns how many pieces. */
+/* The intervals that islands cover along an axis, in ascending order and merged. Returns their
+ * number. */
 static uint32_t cover(const lsf_islands *islands, lsf_float3 axis, interval pieces[LSF_ISLANDS_MAX])
 {
     uint32_t last = 0;

@@ -7,7 +7,8 @@
 #include "passes/ray_bundle_parts.h"
 #include "shared/scene_data.h"
 
-/* Slots that were too small get a quarter more than was needed: directions differ. */
+/* Slots that were too small get a quarter more than was needed, as needs differ from direction
+ * to direction. */
 #define GROWTH_MARGIN 4
 
 #define SURFACE_BYTES 12
@@ -39,7 +40,7 @@ int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
     return params->slices > 0 && places > 0 ? (int32_t)places - 1 : 0;
 }
 
-/* A texel's places in slices, of which one is its counter's. */
+/* The entries of a texel in slices, one of which is its counter's. */
 static uint64_t places(const lsf_ray_bundle_params *params)
 {
     return ((uint64_t)lsf_ray_bundle_slices(params) + 4) / 4 * 4;
@@ -50,7 +51,7 @@ bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan)
     return lsf_plan_surfaces_differ(plan) && (plan->requirements.anisotropic || plan->straight);
 }
 
-/* Bytes of an array with room for `room` chained nodes; 0 when the scene does not need it. */
+/* Bytes of an array for `room` chained nodes; 0 when the scene does not need it. */
 static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *params,
                             bool distances_only, int array, uint64_t room)
 {
@@ -117,7 +118,7 @@ static uint64_t block_size(void)
     return (uint64_t)bytes;
 }
 
-/* Chained nodes for which storage blocks have room. */
+/* The number of chained nodes that storage blocks can hold. */
 static uint32_t most_room(const lsf_ray_bundle *pass, const lsf_plan *plan)
 {
     uint64_t most = UINT32_MAX - 1, block = block_size();

@@ -1,4 +1,4 @@
-/* What the files of the ray-bundle pass share. */
+/* Declarations that the files of the ray-bundle pass share. */
 #ifndef LSF_PASSES_RAY_BUNDLE_PARTS_H
 #define LSF_PASSES_RAY_BUNDLE_PARTS_H
 
@@ -27,7 +27,7 @@ struct lsf_ray_bundle {
     struct lsf_bundle_slot_data *projections; /* of this iteration's bundles */
     GLuint projection_buffer;
     lsf_ray_bundle_slot *slots;
-    uint32_t room;                        /* for chained nodes, in each slot */
+    uint32_t room;                        /* number of chained nodes that each slot can hold */
     uint32_t side;                        /* texels of a map that are in use, along a side */
     GLuint status, readback;              /* lsf_bundle_status, and a copy on its way to the host */
     const struct lsf_bundle_status *read; /* mapped */
@@ -58,13 +58,13 @@ void lsf_ray_bundle_gap_switch(lsf_plan *plan);
 uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params);
 /* bundle.slices as a multiple of 4 less one, and no more than a storage block holds; or 0. */
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
-/* With anisotropy or transmission. */
+/* Whether nodes hold anisotropy or transmission. */
 bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use);
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
-/* Room for `needed` chained nodes and some more. Where the device cannot hold that many, later
- * bundles use fewer texels. On failure there are no nodes at all. */
+/* Makes space for `needed` chained nodes and some more. Where the device cannot hold that many,
+ * later bundles use fewer texels. On failure there are no nodes at all. */
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
                                lsf_error *error);
 void lsf_ray_bundle_nodes_bind_textures(const lsf_ray_bundle_slot *slot);
@@ -74,11 +74,11 @@ void lsf_ray_bundle_nodes_destroy(lsf_ray_bundle *pass);
 
 void lsf_ray_bundle_raster_plan(lsf_plan *plan, const lsf_ray_bundle_params *params);
 bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);
-/* Appends all of the scene to the bundle that is bound, number `bundle` of the iteration. */
+/* Appends the whole scene to the bound bundle, number `bundle` of the iteration. */
 void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iteration,
                                uint32_t bundle);
-/* What decides whether surfaces that let light straight through, or are blended, are in the bundle,
- * for the program in use. */
+/* Sets the random numbers, for the program in use, by which surfaces that let light straight
+ * through or are blended are in the bundle. */
 void lsf_ray_bundle_set_chance(const lsf_ray_bundle *pass, const lsf_iteration *iteration,
                                uint32_t bundle);
 void lsf_ray_bundle_raster_destroy(lsf_ray_bundle *pass);
@@ -93,13 +93,13 @@ void lsf_ray_bundle_tally_destroy(lsf_ray_bundle *pass);
 
 /* --- ray_bundle_gaps.c */
 
-/* As in lsf_bundle_data. */
+/* The same as in lsf_bundle_data. */
 typedef struct lsf_ray_bundle_gaps {
     lsf_vec4 starts[3], lengths[3];
 } lsf_ray_bundle_gaps;
 
-/* What is empty between islands along a bundle's axes, for a map of `texels` a side. Sets low and
- * high to the bounds of all of the scene without it. */
+/* Finds the empty space between islands along a bundle's axes, for a map of `texels` a side.
+ * Sets low and high to the bounds of the whole scene without it. */
 lsf_ray_bundle_gaps lsf_ray_bundle_close_gaps(const lsf_islands *islands, const lsf_float3 axes[3],
                                               float texels, float low[3], float high[3]);
 

@@ -1,6 +1,6 @@
-/* Whether the nodes had room: the GPU keeps account and lets no picture through that lacks some,
- * the host learns of it later and makes room. Nobody waits for anybody until the picture is read.
- */
+/* Counts the nodes that were needed: the GPU drops the pictures of iterations whose nodes did
+ * not fit; the host learns of it later and makes more space. Neither waits for the other until
+ * the picture is read. */
 #include <string.h>
 
 #include "passes/ray_bundle_parts.h"
@@ -51,7 +51,7 @@ void lsf_ray_bundle_tally_build(const lsf_ray_bundle *pass)
     tally(pass, false, 0);
 }
 
-/* Sends the account to the host. */
+/* Sends the counts to the host. */
 static void send(lsf_ray_bundle *pass)
 {
     glCopyNamedBufferSubData(pass->status, pass->readback, 0, 0, sizeof(struct lsf_bundle_status));
@@ -70,7 +70,7 @@ GLuint lsf_ray_bundle_gate(const lsf_ray_bundle *pass)
     return pass->status;
 }
 
-/* What was sent has arrived. With `wait`, all that was built counts. */
+/* Reads the counts that have arrived. With `wait`, those of all bundles that were built. */
 static bool receive(lsf_ray_bundle *pass, bool wait, struct lsf_bundle_status *status)
 {
     const GLuint64 second = UINT64_C(1000000000);

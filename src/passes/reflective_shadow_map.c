@@ -8,7 +8,7 @@
 #include "math/vector.h"
 #include "shared/scene_data.h"
 
-/* Of the rows' shader: an invocation a row. */
+/* Local size of the rows' shader: one invocation a row. */
 #define GROUP_SIZE 64
 
 /* Storage buffers of the shaders that sum importance. */
@@ -28,7 +28,7 @@ static const struct {
     const char *name;
     uint32_t faces;
     const char *omitted;
-} kinds[LSF_LIGHT_MAP_KINDS] = {
+} kinds[LSF_LIGHT_PROJECTION_KINDS] = {
     {"cube", 6, "no point light and no wide spot"},
     {"spot", 1, "no narrow spot"},
     {"window", 1, "no directional light"},
@@ -62,7 +62,8 @@ static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_pa
 {
     return !plan->requirements.blended && !lsf_light_walls_needed(plan) &&
            (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE ||
-            (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO && kind == LSF_LIGHT_MAP_WINDOWS));
+            (params->pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO &&
+             kind == LSF_LIGHT_PROJECTION_WINDOWS));
 }
 
 static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_params *params,
@@ -123,10 +124,10 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     if (chosen.pdf == LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO && !use->few_vpls)
         chosen.pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM;
     params = &chosen;
-    bool needed[LSF_LIGHT_MAP_KINDS];
-    lsf_light_map_kinds(plan, state, needed);
+    bool needed[LSF_LIGHT_PROJECTION_KINDS];
+    lsf_light_projection_kinds(plan, state, needed);
     if (use->sky)
-        needed[LSF_LIGHT_MAP_WINDOWS] = true;
+        needed[LSF_LIGHT_PROJECTION_WINDOWS] = true;
     bool gloss = lsf_plan_surfaces_differ(plan);
     uint32_t adaptive_faces = 0;
     lsf_plan_pass_add(plan, "reflective_shadow_map",
@@ -138,7 +139,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     lsf_scene_gpu_fold_lobes(plan);
     lsf_plan_switch_add(plan, "LSF_THIN_WALLS", lsf_light_walls_needed(plan),
                         "light passes thin walls");
-    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "reflective_shadow_map.%s", kinds[kind].name);
         if (!needed[kind]) {
@@ -219,7 +220,7 @@ bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_conte
                                          "passes/reflective_shadow_map.frag.glsl"};
     *pass = (lsf_reflective_shadow_map){.context = context,
                                         .outputs.shadow.size = sizeof(struct lsf_light_data)};
-    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++)
         if (!create_target(&pass->targets[kind], context, plan, kind, error))
             return false;
     if (!lsf_plan_create_buffer(plan, context, "reflective_shadow_map.light", NULL,
@@ -270,19 +271,20 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
 {
     static const GLfloat zero[4] = {0};
     const lsf_light_state *light = &iteration->lights[light_index];
-    const lsf_reflective_shadow_map_target *target = &pass->targets[lsf_light_map_kind_of(light)];
-    const lsf_light_map_layout layout = {.faces = target->faces,
-                                         .resolution = target->resolution,
-                                         .purpose = LSF_PURPOSE_REFLECTIVE_SHADOW_MAP,
-                                         .use = LSF_LIGHT_BOUNCED};
+    const lsf_reflective_shadow_map_target *target =
+        &pass->targets[lsf_light_projection_kind_of(light)];
+    const lsf_light_projection_layout layout = {.faces = target->faces,
+                                                .resolution = target->resolution,
+                                                .purpose = LSF_PURPOSE_REFLECTIVE_SHADOW_MAP,
+                                                .use = LSF_LIGHT_BOUNCED};
     lsf_reflective_shadow_map_outputs *out = &pass->outputs;
     lsf_timer_begin(pass->timer);
-    lsf_light_map_project(&out->light, iteration, light_index, &layout);
+    lsf_light_projection_project(&out->light, iteration, light_index, &layout);
     glNamedBufferSubData(out->shadow.light, 0, sizeof out->light, &out->light);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, out->shadow.light);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
-        lsf_light_map_region(&out->light, face, &region);
+        lsf_light_projection_region(&out->light, face, &region);
         lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
         glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[face]);
         /* Colours of texels without depth are never read. */
@@ -329,7 +331,7 @@ void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass)
 {
     if (!pass->context)
         return;
-    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
     lsf_buffer_destroy(pass->context, &pass->outputs.shadow.light);
     lsf_buffer_destroy(pass->context, &pass->outputs.sums);

@@ -1,17 +1,17 @@
-/* What punctual lights see and which surface reflects it: where virtual point lights are drawn
- * from. See reflective_shadow_map.md. */
+/* The surfaces that punctual lights reach, which virtual point lights are drawn from. See
+ * reflective_shadow_map.md. */
 #ifndef LSF_PASSES_REFLECTIVE_SHADOW_MAP_H
 #define LSF_PASSES_REFLECTIVE_SHADOW_MAP_H
 
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/light_walls.h"
 #include "frame/maps.h"
 #include "plan/option.h"
 
 typedef enum lsf_reflective_shadow_map_pdf {
     LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO,     /* adaptive of directional lights, for few VPLs */
-    LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM,  /* as the light shines */
-    LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE, /* as what it meets reflects to visible points */
+    LSF_REFLECTIVE_SHADOW_MAP_PDF_UNIFORM,  /* by the light's emission */
+    LSF_REFLECTIVE_SHADOW_MAP_PDF_ADAPTIVE, /* by what the surface reflects to visible points */
 } lsf_reflective_shadow_map_pdf;
 
 typedef struct lsf_reflective_shadow_map_params {
@@ -26,10 +26,10 @@ typedef struct lsf_reflective_shadow_map_params {
 extern const lsf_option_row
     lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT];
 
-/* What the maps are for. */
+/* The uses of the maps. */
 typedef struct lsf_reflective_shadow_map_use {
     bool sky;      /* environment directions have maps, too */
-    bool few_vpls; /* so few are drawn that each had better light what is seen */
+    bool few_vpls; /* so few are drawn that each should light visible points */
 } lsf_reflective_shadow_map_use;
 
 /* Valid until the next run. 2D arrays with a layer for each face. */
@@ -42,7 +42,7 @@ typedef struct lsf_reflective_shadow_map_outputs {
     struct lsf_light_data light;
 } lsf_reflective_shadow_map_outputs;
 
-/* One set of textures for maps of the same shape; lights take turns. */
+/* One set of textures for maps of the same shape, which lights use in turn. */
 typedef struct lsf_reflective_shadow_map_target {
     GLuint depth, gradient, surface, gloss, importance, tint;
     GLuint framebuffers[6], tint_framebuffers[6];
@@ -52,7 +52,7 @@ typedef struct lsf_reflective_shadow_map_target {
 typedef struct lsf_reflective_shadow_map {
     lsf_context *context;
     lsf_reflective_shadow_map_outputs outputs;
-    lsf_reflective_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
+    lsf_reflective_shadow_map_target targets[LSF_LIGHT_PROJECTION_KINDS];
     GLuint program, rows_program, scan_program;
     lsf_light_walls walls;
     uint64_t counts[LSF_DRAW_COUNTS];
@@ -66,8 +66,8 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
                                     const lsf_reflective_shadow_map_use *use);
 bool lsf_reflective_shadow_map_create(lsf_reflective_shadow_map *pass, lsf_context *context,
                                       const lsf_plan *plan, lsf_error *error);
-/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration.
- * `viewed`: visible points, which adaptive emission is to light; NULL: any. */
+/* Draws the map of iteration->lights[light_index], rotated and moved at random for this
+ * iteration. `viewed`: visible points, which adaptive emission is to light; NULL: any. */
 void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_iteration *iteration,
                                    uint32_t light_index, const lsf_surface_maps *viewed);
 void lsf_reflective_shadow_map_destroy(lsf_reflective_shadow_map *pass);

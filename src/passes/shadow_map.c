@@ -27,7 +27,7 @@ static const struct {
     const char *name;
     uint32_t faces;
     const char *omitted;
-} kinds[LSF_LIGHT_MAP_KINDS] = {
+} kinds[LSF_LIGHT_PROJECTION_KINDS] = {
     {"cube", 6, "no point light and no wide spot"},
     {"spot", 1, "no narrow spot"},
     {"cascades", CASCADES, "no directional light"},
@@ -70,9 +70,9 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
 void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                          const lsf_state *state)
 {
-    bool needed[LSF_LIGHT_MAP_KINDS] = {false};
+    bool needed[LSF_LIGHT_PROJECTION_KINDS] = {false};
     for (uint32_t i = 0; i < state->light_count; i++)
-        needed[lsf_light_map_kind_of(&state->lights[i])] = true;
+        needed[lsf_light_projection_kind_of(&state->lights[i])] = true;
     lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s%s see", state->light_count,
                       lsf_plural(state->light_count),
                       plan->sky_lights > 0 ? " and directions of the environment" : "");
@@ -82,7 +82,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
     lsf_scene_gpu_mask_switches(plan);
     char why[64];
     lsf_print(why, sizeof why, "%g texels a pixel", (double)params->texels_per_pixel);
-    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++) {
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "shadow_map.%s", kinds[kind].name);
         if (needed[kind])
@@ -99,9 +99,9 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
 void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *params,
                                const lsf_state *state, uint32_t resolution)
 {
-    bool needed[LSF_LIGHT_MAP_KINDS];
-    lsf_light_map_kinds(plan, state, needed);
-    if (needed[LSF_LIGHT_MAP_WINDOWS])
+    bool needed[LSF_LIGHT_PROJECTION_KINDS];
+    lsf_light_projection_kinds(plan, state, needed);
+    if (needed[LSF_LIGHT_PROJECTION_WINDOWS])
         plan_map(plan, params, "scene", 1, resolution, "the whole scene, for voxels");
     else
         lsf_plan_omit(plan, "shadow_map.scene", "no directional light");
@@ -149,7 +149,7 @@ bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf
                                          "passes/shadow_map.frag.glsl"};
     *pass =
         (lsf_shadow_map){.context = context, .outputs.shadow.size = sizeof(struct lsf_light_data)};
-    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++)
         if (!create_target(&pass->targets[kind], context, plan, kinds[kind].name, error))
             return false;
     if (!create_target(&pass->scene, context, plan, "scene", error) ||
@@ -166,19 +166,19 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
                      const lsf_iteration *iteration, uint32_t light_index)
 {
     static const GLfloat zero[4] = {0};
-    const lsf_light_map_layout layout = {.faces = target->faces,
-                                         .view = target != &pass->scene,
-                                         .resolution = target->resolution,
-                                         .purpose = LSF_PURPOSE_SHADOW_MAP,
-                                         .use = LSF_LIGHT_STRAIGHT};
+    const lsf_light_projection_layout layout = {.faces = target->faces,
+                                                .view = target != &pass->scene,
+                                                .resolution = target->resolution,
+                                                .purpose = LSF_PURPOSE_SHADOW_MAP,
+                                                .use = LSF_LIGHT_STRAIGHT};
     struct lsf_light_data *data = &pass->outputs.light;
     lsf_timer_begin(pass->timer);
-    lsf_light_map_project(data, iteration, light_index, &layout);
+    lsf_light_projection_project(data, iteration, light_index, &layout);
     glNamedBufferSubData(pass->outputs.shadow.light, 0, sizeof *data, data);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, pass->outputs.shadow.light);
     for (uint32_t face = 0; face < target->faces; face++) {
         lsf_draw_region region;
-        lsf_light_map_region(data, face, &region);
+        lsf_light_projection_region(data, face, &region);
         lsf_begin_surfaces(target->resolution, target->resolution, pass->program);
         lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_SHADOW_MAP, light_index);
         glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffers[face]);
@@ -204,7 +204,7 @@ static void draw_map(lsf_shadow_map *pass, const lsf_shadow_map_target *target,
 static const lsf_shadow_map_target *target_of(const lsf_shadow_map *pass,
                                               const lsf_iteration *iteration, uint32_t light_index)
 {
-    return &pass->targets[lsf_light_map_kind_of(&iteration->lights[light_index])];
+    return &pass->targets[lsf_light_projection_kind_of(&iteration->lights[light_index])];
 }
 
 void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index)
@@ -235,7 +235,7 @@ void lsf_shadow_map_destroy(lsf_shadow_map *pass)
 {
     if (!pass->context)
         return;
-    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++)
         destroy_target(pass->context, &pass->targets[kind]);
     destroy_target(pass->context, &pass->scene);
     lsf_buffer_destroy(pass->context, &pass->outputs.shadow.light);

@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_SHADOW_MAP_H
 #define LSF_PASSES_SHADOW_MAP_H
 
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/light_walls.h"
 #include "plan/option.h"
 
@@ -33,7 +33,7 @@ typedef struct lsf_shadow_map_outputs {
     struct lsf_light_data light;
 } lsf_shadow_map_outputs;
 
-/* One set of textures for maps of the same shape; lights take turns. */
+/* One set of textures for maps of the same shape, which lights use in turn. */
 typedef struct lsf_shadow_map_target {
     GLuint depth, gradient, tint;
     GLuint framebuffers[6], tint_framebuffers[6];
@@ -43,8 +43,8 @@ typedef struct lsf_shadow_map_target {
 typedef struct lsf_shadow_map {
     lsf_context *context;
     lsf_shadow_map_outputs outputs;
-    lsf_shadow_map_target targets[LSF_LIGHT_MAP_KINDS];
-    /* Of directional lights, for points that the camera does not see. */
+    lsf_shadow_map_target targets[LSF_LIGHT_PROJECTION_KINDS];
+    /* Map of directional lights for points that the camera does not see. */
     lsf_shadow_map_target scene;
     GLuint program;
     lsf_light_walls walls;
@@ -63,8 +63,8 @@ void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *para
                                const lsf_state *state, uint32_t resolution);
 bool lsf_shadow_map_create(lsf_shadow_map *pass, lsf_context *context, const lsf_plan *plan,
                            lsf_error *error);
-/* Draws the map of iteration->lights[light_index], randomly turned and shifted for this iteration.
- */
+/* Draws the map of iteration->lights[light_index], rotated and moved at random for this
+ * iteration. */
 void lsf_shadow_map_run(lsf_shadow_map *pass, const lsf_iteration *iteration, uint32_t light_index);
 /* The same, where the light is directional, with the map that holds the whole scene. */
 void lsf_shadow_map_run_scene(lsf_shadow_map *pass, const lsf_iteration *iteration,

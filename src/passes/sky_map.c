@@ -133,7 +133,7 @@ bool lsf_sky_map_create(lsf_sky_map *pass, lsf_context *context, const lsf_plan 
         return false;
     if (scene->triangle_count > 0)
         create_array(pass, scene);
-    /* Maps take turns in it. */
+    /* Layers of both are drawn to one after the other. */
     lsf_framebuffer_desc desc = {.label = "sky_map",
                                  .color_count = 1,
                                  .colors = {pass->outputs.shadow.depth},
@@ -183,17 +183,17 @@ static struct lsf_sky_map_data map_of(const struct lsf_light_data *light)
 
 void lsf_sky_map_begin(lsf_sky_map *pass, const lsf_iteration *iteration)
 {
-    const lsf_light_map_layout layout = {.faces = 1,
-                                         .view = true,
-                                         .fitted = true,
-                                         .resolution = pass->side,
-                                         .purpose = LSF_PURPOSE_SHADOW_MAP,
-                                         .use = LSF_LIGHT_STRAIGHT};
+    const lsf_light_projection_layout layout = {.faces = 1,
+                                                .view = true,
+                                                .fitted = true,
+                                                .resolution = pass->side,
+                                                .purpose = LSF_PURPOSE_SHADOW_MAP,
+                                                .use = LSF_LIGHT_STRAIGHT};
     uint32_t first = iteration->state->light_count, count = iteration->light_count - first;
     for (uint32_t i = 0; i < count; i++) {
         struct lsf_light_data data;
-        lsf_light_map_project(&data, iteration, first + i, &layout);
-        lsf_light_map_region(&data, 0, &pass->regions[i]);
+        lsf_light_projection_project(&data, iteration, first + i, &layout);
+        lsf_light_projection_region(&data, 0, &pass->regions[i]);
         pass->maps[i] = map_of(&data);
     }
     glNamedBufferSubData(pass->outputs.shadow.light, 0, (GLsizeiptr)(count * sizeof *pass->maps),

@@ -2,7 +2,7 @@
 #ifndef LSF_PASSES_SKY_MAP_H
 #define LSF_PASSES_SKY_MAP_H
 
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/light_walls.h"
 #include "shared/sky_map_data.h"
 
@@ -30,8 +30,8 @@ typedef struct lsf_sky_map {
 void lsf_sky_map_plan(lsf_plan *plan, uint32_t side);
 bool lsf_sky_map_create(lsf_sky_map *pass, lsf_context *context, const lsf_plan *plan,
                         const lsf_scene_gpu *scene, lsf_error *error);
-/* Before the first batch of an iteration: projects its directions, each map randomly turned and
- * shifted. */
+/* To be called before the first batch of an iteration: projects its directions, each map rotated
+ * and moved at random. */
 void lsf_sky_map_begin(lsf_sky_map *pass, const lsf_iteration *iteration);
 /* Draws the next batch; false when there is none. */
 bool lsf_sky_map_next(lsf_sky_map *pass, const lsf_iteration *iteration);

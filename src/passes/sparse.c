@@ -79,7 +79,7 @@ static const lsf_texture_row pixels[] = {
      "of all pixels"},
 };
 
-/* Those of the pass added last. */
+/* The switches of the pass added last. */
 static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -99,7 +99,7 @@ static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
     lsf_scene_gpu_lobe_switches(plan, gloss);
 }
 
-/* Which of the textures there are. */
+/* The conditions of textures that hold. */
 static uint32_t given(const lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
 {
     bool sparse = lsf_sparse_grid_is_sparse(plan), split = sparse || interleave > 1;

@@ -1,6 +1,6 @@
-/* Indirect light at fewer points than there are pixels: splits what the picture's pixels see into
- * what these points see, which may each take samples of their own, brings light that was gathered
- * there back in order, and on to every pixel. See sparse.md. */
+/* Indirect light at fewer points than there are pixels: splits the picture's visible points into
+ * these points, which may each take samples of their own, brings light that was gathered there
+ * back in order, and upsamples it to every pixel. See sparse.md. */
 #ifndef LSF_PASSES_SPARSE_H
 #define LSF_PASSES_SPARSE_H
 
@@ -12,7 +12,7 @@ typedef struct lsf_sparse_params {
     int32_t grid;        /* 0: by the plan; else one more than the stride's logarithm */
     int32_t interleave;  /* tiles along a side of the pattern in which points take different
                           * samples; 1: none; 0: by the plan */
-    int32_t radius;      /* of the search for points of a pixel's surface [points] */
+    int32_t radius;      /* radius of the search for points of a pixel's surface [points] */
     float slope;         /* at which a point's light counts half, by how far it rises from the plane
                           * for its distance */
     float normal_weight; /* exponent of the cosine between normals */
@@ -41,7 +41,7 @@ typedef struct lsf_sparse {
     lsf_split_light gathered; /* output of gather: of points; and a second layer above these. Where
                                * the plan is sparse, the specular part is without its tint */
     lsf_split_light light;    /* output of upsample, of the picture's size */
-    GLuint source;            /* of each pixel's light */
+    GLuint source;            /* the points that each pixel's light comes from */
     GLuint source_framebuffer, split_framebuffer, gathered_framebuffer, light_framebuffer;
     GLuint fit_program, split_program, gather_program, upsample_program;
     GLuint count_buffer;
@@ -60,10 +60,10 @@ lsf_region lsf_sparse_region(const lsf_sparse_grid *grid, uint32_t size, uint32_
 void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave);
 void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave);
 void lsf_sparse_plan_upsample(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave);
-/* Creates what is listed. */
+/* Creates the listed resources. */
 bool lsf_sparse_create(lsf_sparse *pass, lsf_context *context, const lsf_plan *plan,
                        const lsf_sparse_params *params, lsf_error *error);
-/* Sets `split` from what the picture's pixels see. */
+/* Sets `split` from the picture's visible points. */
 void lsf_sparse_split(lsf_sparse *pass, const lsf_iteration *iteration,
                       const lsf_surface_maps *seen);
 /* Sets `gathered` from light in split order. */
@@ -73,7 +73,7 @@ void lsf_sparse_gather(lsf_sparse *pass, const lsf_iteration *iteration,
  * layer of `gathered`. */
 void lsf_sparse_upsample(lsf_sparse *pass, const lsf_iteration *iteration,
                          const lsf_surface_maps *seen, const lsf_split_light *points);
-/* Up to now, which waits for the GPU. */
+/* Counts up to now; it waits for the GPU. */
 const uint64_t *lsf_sparse_counts(lsf_sparse *pass);
 void lsf_sparse_destroy(lsf_sparse *pass);
 

@@ -135,8 +135,9 @@ static bool lags(const lsf_temporal *pass, uint32_t frames)
     return frames < (uint32_t)pass->params.lag;
 }
 
-/* Left of changed lights after `lag` frames, by light and by the picture each. Each frame leaves w
- * of both, w^lag = x, and the two in turn x (1 + lag (1 - w)) < x (1 - ln x): 1 %. */
+/* The share of changed lights that is left after `lag` frames, in light and in the picture each.
+ * Each frame keeps w of both, w^lag = x, and the two in turn keep x (1 + lag (1 - w)) < x (1 -
+ * ln x): 1 %. */
 #define LEFT 0.0013f
 
 /* Samples that the history may stand for, for each of the frame's. */
@@ -169,7 +170,7 @@ float lsf_temporal_begin(lsf_temporal *pass, const lsf_temporal_change *change, 
 
 /* --- runs --- */
 
-/* What all programs read. */
+/* Binds the inputs of all programs. */
 static void begin(const lsf_plan *plan, GLuint framebuffer, GLuint program,
                   const lsf_temporal_inputs *inputs)
 {
@@ -222,7 +223,7 @@ static void bind_parts(GLuint binding, GLuint diffuse, GLuint specular)
     lsf_bind_texture(binding + 1, specular);
 }
 
-/* What compare and blend read. */
+/* Binds the inputs of compare and blend. */
 static void bind_light(const lsf_temporal *pass, const lsf_temporal_inputs *inputs)
 {
     const lsf_temporal_light *now = inputs->parts;

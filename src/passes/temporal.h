@@ -1,5 +1,5 @@
-/* Light of the frames before, carried along with what it fell on and blended with a frame's own.
- * See temporal.md. */
+/* Light of earlier frames, carried along with the surfaces that it fell on and blended with a
+ * frame's own. See temporal.md. */
 #ifndef LSF_PASSES_TEMPORAL_H
 #define LSF_PASSES_TEMPORAL_H
 
@@ -8,7 +8,7 @@
 #include "plan/option.h"
 
 typedef struct lsf_temporal_params {
-    int32_t frames; /* that light of the frames before counts for at most */
+    int32_t frames; /* most frames that light of earlier frames counts for */
     int32_t lag;    /* frames after which 1 % is left of lights that were changed */
 } lsf_temporal_params;
 
@@ -31,9 +31,9 @@ typedef struct lsf_temporal_inputs {
 
 /* How a frame differs from the one before. */
 typedef struct lsf_temporal_change {
-    bool cut;    /* nothing is kept of those before */
-    bool moved;  /* something else than the camera */
-    bool lights; /* or materials are others */
+    bool cut;    /* nothing is kept of earlier frames */
+    bool moved;  /* something other than the camera */
+    bool lights; /* lights or materials have changed */
 } lsf_temporal_change;
 
 typedef struct lsf_temporal_part {
@@ -61,9 +61,9 @@ typedef struct lsf_temporal {
     lsf_camera_state camera; /* of the history, and of the frame in progress */
     lsf_camera_state next_camera;
     bool kept;              /* there is a history */
-    float samples, carried; /* that it stands for at most, and of those that it did before */
+    float samples, carried; /* most samples that it stands for, now and in the frame before */
     uint32_t frames_since_lights, frames_since_change; /* 0: the frame in progress */
-    uint32_t still_frames;                             /* that the mean goes on for */
+    uint32_t still_frames;                             /* frames that the mean has gone on for */
     lsf_timer *timer;
 } lsf_temporal;
 
@@ -75,9 +75,9 @@ bool lsf_temporal_create(lsf_temporal *pass, lsf_context *context, const lsf_pla
  * that the history will stand for in it, at most. */
 float lsf_temporal_begin(lsf_temporal *pass, const lsf_temporal_change *change, uint32_t iterations,
                          const lsf_camera_state *camera);
-/* Goes over to a frame in which nothing is otherwise: the mean goes on. */
+/* Goes over to a frame in which nothing has changed: the mean goes on. */
 void lsf_temporal_go_on(lsf_temporal *pass);
-/* Carries the history to where things are now; after a frame's first iteration. */
+/* Carries the history to the current positions; to be called after a frame's first iteration. */
 void lsf_temporal_carry(lsf_temporal *pass, const lsf_iteration *iteration,
                         const lsf_temporal_inputs *inputs);
 /* Blends it with the mean of the frame's `iterations`, which becomes the history of the next one.

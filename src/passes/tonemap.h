@@ -19,7 +19,7 @@ bool lsf_tonemap_create(lsf_tonemap *pass, lsf_context *context, const lsf_plan 
                         lsf_error *error);
 /* `exposure` in EV; `radiance` is a float texture of the plan's size. */
 void lsf_tonemap_run(lsf_tonemap *pass, GLuint radiance, float exposure, lsf_tone_curve curve);
-/* ... to a framebuffer that somebody else made, scaled to a part of it: x, y, width and height in
+/* The same to a framebuffer of the caller's, scaled to a part of it: x, y, width and height in
  * pixels from its lower left corner. */
 void lsf_tonemap_present(lsf_tonemap *pass, GLuint radiance, GLuint framebuffer,
                          const int32_t viewport[4], float exposure, lsf_tone_curve curve);

@@ -1,16 +1,15 @@
-/* Light from voxel to voxel: what each one reflects of the others and of the environment. See
- * voxel_bounce.md. */
+/* Light from voxel to voxel: the light of others and of the environment that each one reflects.
+ * See voxel_bounce.md. */
 #ifndef LSF_PASSES_VOXEL_BOUNCE_H
 #define LSF_PASSES_VOXEL_BOUNCE_H
 
 #include "frame/cone.h"
 
-/* What becomes of radiance, pyramids as of voxel_light.h. */
+/* The terms of the sum; pyramids as of voxel_light.h. */
 typedef struct lsf_voxel_bounce_sum {
-    GLuint base;   /* what is added to it, as it is; 0: nothing */
-    GLuint source; /* what is added to it once reflected; 0: nothing. It may be what the last run
-                    * wrote */
-    bool keep;     /* what the last run wrote is a part of the sum; not with a source */
+    GLuint base;   /* added unchanged; 0: nothing */
+    GLuint source; /* added after reflection; 0: nothing. It may be the output of the last run */
+    bool keep;     /* the output of the last run is a part of the sum; not with a source */
 } lsf_voxel_bounce_sum;
 
 typedef struct lsf_voxel_bounce {
@@ -25,13 +24,13 @@ typedef struct lsf_voxel_bounce {
     lsf_timer *timer;
 } lsf_voxel_bounce;
 
-/* `of_own`: some source will be what the pass has written. */
+/* `of_own`: some source will be an output of the pass. */
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
                            const lsf_voxel_grid *grid, bool of_own);
 bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_cone_params *params, const lsf_voxel_grid *grid,
                              lsf_error *error);
-/* Empties what the run before left. Call it once an iteration. */
+/* Clears the output of the run before. To be called once an iteration. */
 void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxels *voxels);
 /* Returns the sum. */
 GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,

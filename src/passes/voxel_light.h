@@ -1,9 +1,9 @@
-/* Light that voxels send out: what they emit, and what they reflect of punctual lights. See
- * voxel_light.md. */
+/* Light that voxels send out: their emission, and the light of punctual lights that they
+ * reflect. See voxel_light.md. */
 #ifndef LSF_PASSES_VOXEL_LIGHT_H
 #define LSF_PASSES_VOXEL_LIGHT_H
 
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/voxel_grid.h"
 
 typedef struct lsf_voxel_light_use {
@@ -11,7 +11,8 @@ typedef struct lsf_voxel_light_use {
     uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and
                       * texels of empty voxels mean nothing */
     bool pcf;        /* maps have no gradients */
-    float sky_rays;  /* that find the environment from a voxel by chance, drawn by the cosine */
+    float sky_rays;  /* number of rays that find the environment from a voxel by chance, drawn by
+                      * the cosine */
 } lsf_voxel_light_use;
 
 typedef struct lsf_voxel_light {
@@ -29,11 +30,11 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
                           const lsf_voxel_light_use *use);
 bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const lsf_plan *plan,
                             const lsf_voxel_light_use *use, lsf_error *error);
-/* Empties what the run before left. */
+/* Clears the output of the run before. */
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxels *voxels);
-/* What voxels emit, for whom wants it alone or knows of no light; nothing to do after others. */
+/* Writes the voxels' emission where no light was added; does nothing after lights. */
 void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels);
-/* Adds a light's, as shadow_map shows it, to what voxels emit. */
+/* Adds the reflected light of a light, by its shadow map, to the voxels' emission. */
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxels *voxels, const lsf_shadow *shadow);
 void lsf_voxel_light_destroy(lsf_voxel_light *pass);
 

@@ -1,4 +1,4 @@
-/* The pyramid of radiance over the voxels: what cones see at a distance. See voxel_mip.md. */
+/* The pyramid of radiance over the voxels, which cones read at a distance. See voxel_mip.md. */
 #ifndef LSF_PASSES_VOXEL_MIP_H
 #define LSF_PASSES_VOXEL_MIP_H
 

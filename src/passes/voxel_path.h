@@ -15,7 +15,7 @@ typedef enum lsf_voxel_path_sequence {
 
 typedef struct lsf_voxel_path_params {
     int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1 */
-    int32_t emitters; /* points that are drawn on emissive surfaces at each vertex; 0: none */
+    int32_t emitters; /* points on emissive surfaces that each vertex is joined to; 0: none */
     int32_t sequence; /* lsf_voxel_path_sequence */
 } lsf_voxel_path_params;
 
@@ -35,7 +35,7 @@ uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual);
 
 typedef struct lsf_voxel_path_use {
     uint32_t segments;
-    bool split_direct; /* what the first segment finds to shine is asked for apart */
+    bool split_direct; /* emission that the first segment finds is asked for apart */
 } lsf_voxel_path_use;
 
 typedef struct lsf_voxel_path_inputs {
@@ -55,7 +55,7 @@ typedef struct lsf_voxel_path {
     lsf_voxel_path_params params;
     lsf_voxel_path_outputs outputs;
     uint32_t segments;
-    lsf_emitter_points emitters; /* that its vertices are joined to */
+    lsf_emitter_points emitters; /* points that its vertices are joined to */
     GLuint random;               /* 0 with Sobol points */
     GLuint framebuffer, program;
     lsf_timer *timer;
@@ -67,7 +67,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
 bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_voxel_path_params *params, const lsf_voxel_path_use *use,
                            const lsf_scene *scene, const lsf_state *state, lsf_error *error);
-/* Follows emitters to what the state has become. False without memory. */
+/* Updates the emitters to the current state. False without memory. */
 bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited);
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
                         const lsf_voxel_path_inputs *inputs);

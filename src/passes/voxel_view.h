@@ -1,4 +1,4 @@
-/* The voxels themselves, as the camera sees them: layers to look at. See voxel_view.md. */
+/* The voxels as the camera sees them: layers to look at. See voxel_view.md. */
 #ifndef LSF_PASSES_VOXEL_VIEW_H
 #define LSF_PASSES_VOXEL_VIEW_H
 

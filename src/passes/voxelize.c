@@ -36,8 +36,9 @@
 #define LOCATION_SIDE 27
 #define LOCATION_DRAW 28
 
-/* Room for voxels that are won: a storage block of 128 MiB. A grid of more voxels than this of
- * which more are occupied, a quarter of all at 512^3, would leave the rest without a surface. */
+/* Capacity for voxels that instances win: a storage block of 128 MiB. In a grid of more voxels
+ * than this of which more are occupied, a quarter of all at 512^3, the rest would have no
+ * surface. */
 #define MAX_WON ((uint64_t)1 << 25)
 
 /* struct voxelize_draw in voxelize_list.glsl. */
@@ -480,7 +481,7 @@ static void add_group(lsf_voxelize *pass, const lsf_iteration *iteration, instan
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-/* What spares rays work. */
+/* Levels that let rays skip empty space. */
 static void look_beside(lsf_voxelize *pass)
 {
     const lsf_voxels *o = &pass->outputs;
@@ -511,7 +512,7 @@ static void upload_draws(lsf_voxelize *pass, const lsf_iteration *iteration)
     }
 }
 
-/* The lists change places; what the last one lists is emptied. */
+/* The lists are swapped; the bricks of the last one are cleared. */
 static void begin_run(lsf_voxelize *pass)
 {
     lsf_voxels *o = &pass->outputs;

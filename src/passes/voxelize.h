@@ -24,19 +24,18 @@ extern const char *const lsf_voxelize_count_names[LSF_VOXELIZE_COUNTS];
 
 typedef struct lsf_voxelize lsf_voxelize;
 
-/* What a voxel takes in this pass's textures, for lsf_voxel_grid_fit [bytes]. `jitter`: the grid
- * moves. */
+/* Bytes of a voxel in this pass's textures, for lsf_voxel_grid_fit. `jitter`: the grid moves. */
 uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter);
 void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
                        const lsf_voxel_grid *grid);
-/* On failure *pass is what is to be destroyed. */
+/* On failure *pass is to be destroyed. */
 bool lsf_voxelize_create(lsf_voxelize **pass, lsf_context *context, const lsf_plan *plan,
                          const lsf_voxelize_params *params, const lsf_voxel_grid *grid,
                          const lsf_scene *scene, lsf_error *error);
-/* Goes over to a grid of the same size and, with `anew`, to what materials have become. */
+/* Goes over to a grid of the same size and, with `anew`, to changed materials. */
 void lsf_voxelize_follow(lsf_voxelize *pass, const lsf_voxel_grid *grid, bool anew);
-/* Voxelises what moved since the last run, and with a grid that is shifted all. What it
- * returns is valid until the next run. */
+/* Voxelises the instances that moved since the last run, and with a grid that is shifted all of
+ * them. Its outputs are valid until the next run. */
 const lsf_voxels *lsf_voxelize_run(lsf_voxelize *pass, const lsf_iteration *iteration);
 lsf_timer *lsf_voxelize_timer(lsf_voxelize *pass);
 const uint64_t *lsf_voxelize_counts(const lsf_voxelize *pass);

@@ -1,4 +1,4 @@
-/* What the files of voxelize share. */
+/* Declarations that the files of voxelize share. */
 #ifndef LSF_PASSES_VOXELIZE_PARTS_H
 #define LSF_PASSES_VOXELIZE_PARTS_H
 
@@ -7,11 +7,12 @@
 
 #define LSF_VOXELIZE_TEXTURES 11
 
-/* The grid with what stands still, where something moves: each run begins with a copy of it. */
+/* The grid with the instances that stand still, where others move: each run begins with a copy
+ * of it. */
 typedef struct lsf_voxelize_still {
     bool *moves;             /* of each instance; NULL: nothing is kept */
     float (*transforms)[12]; /* of each instance, as of the last run */
-    bool *drawn;             /* whether it was there then */
+    bool *drawn;             /* whether it was drawn then */
     uint32_t instance_count;
     const lsf_scene *scene;
     float *values;                          /* of the pose, as of the last run */
@@ -29,7 +30,7 @@ struct lsf_voxelize {
     GLuint draws, won;  /* the same with the voxels that they have won, and these */
     GLuint bricks[2];   /* lists of this run and of the run before */
     uint32_t runs;
-    bool stale; /* what stands still is otherwise than in the run before */
+    bool stale; /* instances that stand still have changed since the run before */
     GLuint clear_program, count_program, sum_program, place_program, write_program, beside_program;
     /* Bids: an instance's small triangles, then its large ones; or all on the raster pipeline. */
     GLuint small_program, large_program, raster_program;
@@ -64,7 +65,7 @@ bool lsf_voxelize_still_create(lsf_voxelize *pass, const lsf_plan *plan, const l
                                lsf_error *error);
 /* Whether an instance moved since this was asked last. */
 bool lsf_voxelize_still_moved(lsf_voxelize *pass, const lsf_state *state);
-/* Takes the copy; makes it the grid. */
+/* Copies the grid to the kept one; copies the kept one to the grid. */
 void lsf_voxelize_still_keep(lsf_voxelize *pass);
 void lsf_voxelize_still_restore(lsf_voxelize *pass);
 void lsf_voxelize_still_destroy(lsf_voxelize *pass);

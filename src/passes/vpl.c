@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/base.h"
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/light_walls.h"
 #include "math/sampling.h"
 #include "shared/light_data.h"
@@ -22,7 +22,7 @@ _Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_draw.c
 #define BINDING_RANDOM 3
 #define BINDING_SUMS 4
 
-/* Of vpl_small and vpl_large. */
+/* Uniforms of vpl_small and vpl_large. */
 #define BINDING_LARGE 1
 #define BINDING_COMMAND 2
 #define BINDING_TRIANGLES 3
@@ -56,7 +56,7 @@ static void plan_draw(lsf_plan *plan, uint64_t count)
                         "what the host draws for each");
 }
 
-/* What transmits is drawn apart. */
+/* Transmitting surfaces are drawn apart. */
 static void plan_straight(lsf_plan *plan, const lsf_vpl_use *use, uint32_t side)
 {
     if (!plan->straight)
@@ -343,7 +343,7 @@ void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t 
     lsf_timer_begin(pass->map_timer);
     glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_LIGHT, shadow.light, shadow.offset,
                       shadow.size);
-    /* Whoever reads the map before this one is done with it. */
+    /* Reads of the map that was here before come first. */
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glClearTexImage(shadow.depth, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
     glBindImageTexture(0, shadow.depth, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);

@@ -3,7 +3,7 @@
 #ifndef LSF_PASSES_VPL_H
 #define LSF_PASSES_VPL_H
 
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/maps.h"
 #include "plan/option.h"
 #include "scene/emitters.h"
@@ -19,7 +19,7 @@ typedef struct lsf_vpl_params {
 #define LSF_VPL_OPTION_COUNT 2
 extern const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT];
 
-/* Where they come from. */
+/* The origins of VPLs. */
 typedef struct lsf_vpl_use {
     bool lights;   /* reflective shadow maps of punctual lights */
     bool emitters; /* emissive surfaces */
@@ -51,7 +51,7 @@ typedef struct lsf_vpl {
     GLuint large, command; /* triangles that the pipeline draws, and the command that draws them */
     GLuint framebuffer, vertex_array; /* without attachments, without attributes */
     GLuint draw_program, emitter_program, small_program, large_program, map_program;
-    GLuint straight_program, tint_program; /* of what transmits; 0: nothing does */
+    GLuint straight_program, tint_program; /* for transmitting surfaces; 0: there are none */
     GLuint tint_framebuffers[2];           /* of shadow_tint and emitter_tint */
     bool masked;
     uint64_t counts[LSF_DRAW_COUNTS];
@@ -70,10 +70,10 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
 /* Places VPL `index` of the iteration, from first_emitter on, on an emissive surface. */
 void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
                   const lsf_emitter_sample *sample);
-/* Draws the map of one of them. */
+/* Draws the shadow map of one of them. */
 void lsf_vpl_shadow_map(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index);
-/* VPL `index` as a light with its map, where that was drawn last of its kind; for lib/shadow.glsl
- * with LSF_SHADOW_HEMISPHERE. */
+/* VPL `index` as a light with its map, if that is the last one drawn of its kind; for
+ * lib/shadow.glsl with LSF_SHADOW_HEMISPHERE. */
 lsf_shadow lsf_vpl_shadow(const lsf_vpl *pass, uint32_t index);
 void lsf_vpl_destroy(lsf_vpl *pass);
 

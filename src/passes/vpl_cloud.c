@@ -151,7 +151,8 @@ bool lsf_vpl_cloud_follow(lsf_vpl_cloud *pass, bool materials_edited)
     return !pass->use.emitters || lsf_emitters_update(&pass->emitters.list, materials_edited);
 }
 
-/* Paths at lights, of all: half by power, and half evenly, as among lights themselves. */
+/* The share of all paths that begin at lights: half by power, and half evenly, as among lights
+ * themselves. */
 static uint32_t paths_at_lights(const lsf_vpl_cloud *pass, float light_power)
 {
     float emitter_power = pass->use.emitters ? lsf_emitters_power(&pass->emitters.list) : 0.0f;
@@ -163,7 +164,7 @@ static uint32_t paths_at_lights(const lsf_vpl_cloud *pass, float light_power)
     return (uint32_t)(share * (float)pass->shape.paths);
 }
 
-/* Of the program in use. */
+/* Sets uniforms of the program in use. */
 static void set_shape(const lsf_vpl_cloud *pass, const lsf_iteration *iteration, uint32_t light,
                       uint32_t first, uint32_t count)
 {

@@ -4,7 +4,7 @@
 #define LSF_PASSES_VPL_CLOUD_H
 
 #include "frame/emitter_points.h"
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 #include "frame/maps.h"
 #include "frame/voxel_grid.h"
 #include "math/distribution.h"
@@ -19,7 +19,7 @@ typedef struct lsf_vpl_cloud_params {
 #define LSF_VPL_CLOUD_OPTION_COUNT 1
 extern const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT];
 
-/* Where light paths begin, and how often surfaces may reflect them. */
+/* The kinds of lights at which light paths begin, and how often surfaces may reflect them. */
 typedef struct lsf_vpl_cloud_use {
     bool lights;   /* at lights with reflective shadow maps */
     bool emitters; /* on emissive surfaces */
@@ -39,10 +39,10 @@ typedef struct lsf_vpl_cloud_inputs {
     GLuint importance, sums;      /* with adaptive emission */
 } lsf_vpl_cloud_inputs;
 
-/* Of an iteration's paths, those that begin at one light. */
+/* The paths of an iteration that begin at one light. */
 typedef struct lsf_vpl_cloud_run {
     uint32_t light, first, count;
-    float share; /* of the light's flux that each stands for */
+    float share; /* share of the light's flux that each path carries */
 } lsf_vpl_cloud_run;
 
 typedef struct lsf_vpl_cloud {
@@ -56,7 +56,7 @@ typedef struct lsf_vpl_cloud {
     lsf_timer *light_timer, *emitter_timer, *bounce_timer;
 } lsf_vpl_cloud;
 
-/* What `use` leaves of them: 0 where nothing begins. */
+/* The most records for `use`: 0 where no path begins. */
 lsf_vpl_cloud_shape lsf_vpl_cloud_shape_of(const lsf_vpl_cloud_params *params,
                                            const lsf_vpl_cloud_use *use);
 uint32_t lsf_vpl_cloud_records(const lsf_vpl_cloud_shape *shape);
@@ -67,7 +67,7 @@ void lsf_vpl_cloud_plan(lsf_plan *plan, const lsf_vpl_cloud_params *params,
 bool lsf_vpl_cloud_create(lsf_vpl_cloud *pass, lsf_context *context, const lsf_plan *plan,
                           const lsf_vpl_cloud_params *params, const lsf_vpl_cloud_use *use,
                           const lsf_scene *scene, const lsf_state *state, lsf_error *error);
-/* Follows emitters to what the state has become. False without memory. */
+/* Updates the emitters to the current state. False without memory. */
 bool lsf_vpl_cloud_follow(lsf_vpl_cloud *pass, bool materials_edited);
 /* Empties the cloud and draws the iteration's points on emitters. `light_power`: of all lights
  * together, as lsf_light_power states it. */

@@ -204,7 +204,7 @@ static const struct {
       {LSF_NEED_VIEW, "lib/view.glsl"},
       {LSF_NEED_GBUFFER, "lib/gbuffer_textures.glsl"},
       {LSF_NEED_LIGHTS | LSF_NEED_SHADOW, "lib/light.glsl"},
-      {LSF_NEED_LIGHTS | LSF_NEED_SHADOW, "lib/light_map.glsl"},
+      {LSF_NEED_LIGHTS | LSF_NEED_SHADOW, "lib/light_projection.glsl"},
       {LSF_NEED_LIGHTS | LSF_NEED_SHADOW, "lib/shadow.glsl"},
       {LSF_NEED_ENVIRONMENT, "lib/environment.glsl"},
       {LSF_NEED_VOXELS, "lib/voxel.glsl"},

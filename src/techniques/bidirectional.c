@@ -41,7 +41,7 @@ typedef struct bidirectional {
     lsf_bidirectional_shade_params shade_params;
 } bidirectional;
 
-/* Of an iteration: a VPL of each kind, a path along bundles, or some of these. */
+/* The samples of an iteration: a VPL of each kind, a path along bundles, or some of these. */
 static uint32_t sample_count(const lsf_bidirectional_sampling *s)
 {
     uint32_t count = s->vpl_count > s->bundle_count ? s->vpl_count : s->bundle_count;
@@ -56,7 +56,7 @@ static bool create_emitters(bidirectional *b, const lsf_scene *scene, const lsf_
                          (unsigned long long)scene->requirements.triangles);
 }
 
-/* By the environment as it now is. */
+/* Makes the directions of bundles anew from the current environment. */
 static bool aim_bundles(bidirectional *b, const lsf_ray_bundle_params *params,
                         const lsf_scene *scene, lsf_error *error)
 {
@@ -151,14 +151,14 @@ static float dealt(uint32_t count, uint32_t tiles, uint32_t tile)
     return (float)(count / tiles + (tile < count % tiles));
 }
 
-/* Tiles of whose samples a filter makes one pool. */
+/* The number of tiles whose samples a filter pools. */
 static float tiles_pooled(const bidirectional *b, const lsf_iteration *iteration)
 {
     return iteration->plan->filtered ? (float)b->sampling.tiles : 1.0f;
 }
 
-/* Iterations that suppression may count on; 0: there is none. A filter shares what the tiles of a
- * pattern find, as if each had as many more. */
+/* Iterations that suppression may count on; 0: it is off. A filter shares the samples of a
+ * pattern's tiles, as if each tile had as many more. */
 static float suppressed_iterations(const bidirectional *b, const lsf_iteration *iteration)
 {
     if (b->shade_params.suppression == LSF_GLOSSY_SUPPRESSION_NONE)
@@ -181,7 +181,8 @@ static float light_probability(const bidirectional *b, uint32_t light)
     return (float)lsf_distribution_probability(&b->light_picks.distribution, light);
 }
 
-/* Bundles at a visible point that may find the environment, and at a vertex beyond it. */
+/* The number of bundles that may find the environment at a visible point, and at a vertex beyond
+ * it. */
 static float sky_bundles(const lsf_bidirectional_sampling *s, bool deep)
 {
     if (deep)
@@ -189,8 +190,8 @@ static float sky_bundles(const lsf_bidirectional_sampling *s, bool deep)
     return s->emission && !s->sky_by_maps ? (float)s->bundle_count / (float)s->tiles : 0.0f;
 }
 
-/* The environment as light paths find it and as bundles do: what a light that stands for it keeps.
- * Deep vertices have one light each, `light_picks` says which. */
+/* The share that is left to a light that stands for the environment, which light paths find as
+ * well as bundles. Deep vertices have one light each, as `light_picks` says. */
 static void share_sky(bidirectional *b, const lsf_iteration *iteration)
 {
     const lsf_bidirectional_sampling *s = &b->sampling;
@@ -212,7 +213,7 @@ static void share_sky(bidirectional *b, const lsf_iteration *iteration)
     }
 }
 
-/* The same for a bundle: densities along it and against it, per path of a pixel. */
+/* The same for a bundle: its densities in both senses, for each path of a pixel. */
 static void share_bundle(const bidirectional *b, const lsf_iteration *iteration, uint32_t bundle,
                          bool deep, lsf_bidirectional_sample *sample)
 {
@@ -238,9 +239,9 @@ typedef struct sample_turn {
     const lsf_iteration *iteration;
     lsf_bidirectional_shade_inputs inputs;
     lsf_region region;
-    float tile_vpls, tile_bundles; /* that the region's pixels get; VPLs of each kind */
+    float tile_vpls, tile_bundles; /* for each pixel of the region; VPLs of each kind */
     float iterations;
-    uint32_t vpl, emitter; /* whose maps are there; LSF_NONE: no such */
+    uint32_t vpl, emitter; /* the VPLs whose maps are current; LSF_NONE: there is none */
     float light_probability;
 } sample_turn;
 
@@ -290,8 +291,7 @@ static void connect_deep(sample_turn *turn, lsf_bidirectional_sample sample, uin
     uint32_t bounces = emitter ? segment : segment + 1;
     if (vpl == LSF_NONE || bounces > s->bounces)
         return;
-    /* Where no further bundle competes, the connection's 1/d^2 has nothing against it but a bound.
-     */
+    /* Where no further bundle competes, only a bound limits the connection's 1/d^2. */
     bool shared = emitter ? s->bundle_emitter : s->bundle_light;
     bool alone = !shared || segment == s->segments;
     sample.bundle_count = alone ? 0.0f : 1.0f;

@@ -14,7 +14,7 @@ static uint32_t max_u32(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/* Of lights that have a map: punctual ones, and those that stand for the environment, unless it is
+/* Lights that have a map: punctual ones, and those that stand for the environment, unless it is
  * uniform: bundles find that as well. */
 static bool mapped_light_shines(const lsf_plan *plan, const lsf_state *state)
 {
@@ -126,7 +126,7 @@ static void remark(lsf_plan *plan, const lsf_pass_params *params,
                         s->vpl_emitter ? "once" : "not at all");
 }
 
-/* Of all islands together, along the longest side of each. */
+/* The texels of all islands together, along the longest side of each. */
 static float islands_length(const lsf_islands *islands)
 {
     float sum = 0.0f;

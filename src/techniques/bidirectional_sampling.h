@@ -6,13 +6,14 @@
 
 /* How samples are spent, decided from the scene and the options. */
 typedef struct lsf_bidirectional_sampling {
-    uint32_t bounces;                  /* that light of punctual lights takes */
+    uint32_t bounces;                  /* bounces of the light of punctual lights */
     uint32_t vpl_count, emitter_count; /* VPLs of punctual lights, and on emissive surfaces */
     uint32_t bundle_count;
     uint32_t segments;   /* bundles along a path */
-    uint32_t vertices;   /* of these, whose hits become vertices */
-    bool vpl_light;      /* lights with maps, the environment's among them, shine by VPLs */
-    bool bundle_light;   /* and by the hits of bundles */
+    uint32_t vertices;   /* number of these whose hits become vertices */
+    bool vpl_light;      /* lights with maps, the environment's among them, light surfaces by
+                          * VPLs */
+    bool bundle_light;   /* the same lights light the hits of bundles */
     bool vpl_emitter;    /* emissive surfaces shine as VPLs */
     bool bundle_emitter; /* and into bundles */
     bool emission;       /* surfaces or the environment shine into bundles */
@@ -27,7 +28,7 @@ lsf_bidirectional_sampling lsf_bidirectional_sampling_choose(const lsf_plan *pla
                                                              const lsf_pass_params *params,
                                                              const lsf_state *state);
 lsf_ray_bundle_use lsf_bidirectional_bundle_use(const lsf_bidirectional_sampling *s);
-/* The options, with as many VPLs as there will be. */
+/* The options, with the final number of VPLs. */
 lsf_vpl_params lsf_bidirectional_vpl_params(const lsf_pass_params *params,
                                             const lsf_bidirectional_sampling *s);
 void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);

@@ -74,7 +74,7 @@ bool lsf_bundle_directions_init(lsf_bundle_directions *directions,
         double offset = mean > 0.0 ? (double)environment_offset * mean : 1.0;
         for (uint32_t i = 0; i < count; i++) {
             double of_cell = ((double)light[i] + offset) * solid_angle(directions, i);
-            weights[i] = (float)(of_cell / offset); /* bright maps keep in range */
+            weights[i] = (float)(of_cell / offset); /* keeps bright maps in the range of floats */
             integral += of_cell;
         }
         for (uint32_t i = 0; i < count; i++)

@@ -11,10 +11,11 @@
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* How light goes, decided from the scene and the options. */
+/* How light is carried, decided from the scene and the options. */
 typedef struct way {
-    bool traced;      /* to visible points otherwise than straight from punctual lights */
-    bool shines;      /* from surfaces or an environment */
+    bool traced;      /* light comes to visible points in other ways than directly from punctual
+                       * lights */
+    bool shines;      /* surfaces or an environment emit */
     uint32_t levels;  /* of radiance */
     uint32_t bounces; /* from voxel to voxel */
 } way;
@@ -168,7 +169,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     return light;
 }
 
-/* What voxels and the environment shed on visible points. */
+/* Light of voxels and the environment on visible points. */
 static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
 {
     const lsf_surface_maps *seen = &c->chain.direct.gbuffer.outputs.seen;
@@ -185,7 +186,8 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
 {
     cone *c = self;
     lsf_split_light light = {0};
-    /* A lobe narrower than a voxel seen over half the scene's extent shows no more than that. */
+    /* The roughness whose lobe is as narrow as a voxel seen over half the scene's extent:
+     * narrower ones show no more. */
     float voxel = c->way.traced ? 2.0f / (float)c->chain.grid.resolution : 0.0f;
     c->chain.direct.gbuffer.lobe_angle = voxel * voxel;
     if (c->way.traced)

@@ -12,7 +12,7 @@ typedef struct direct {
     bool composed;
 } direct;
 
-/* The reflected light alone is the picture unless something is seen by itself. */
+/* The picture is the reflected light alone unless some surface or the environment emits. */
 static bool needs_compose(const lsf_plan *plan, bool lit)
 {
     const lsf_requirements *r = &plan->requirements;

@@ -1,4 +1,4 @@
-/* The passes that techniques begin with: what is seen, and the light of punctual lights on it. */
+/* The passes that techniques begin with: the G-buffer, and the light of punctual lights on it. */
 #ifndef LSF_TECHNIQUES_DIRECT_CHAIN_H
 #define LSF_TECHNIQUES_DIRECT_CHAIN_H
 
@@ -18,7 +18,7 @@ typedef struct lsf_direct_chain {
     bool lit; /* there are lights, punctual or of the environment */
 } lsf_direct_chain;
 
-/* What of a technique besides this chain finds the environment; NULL: nothing. */
+/* The ways in which a technique finds the environment besides this chain; NULL: none. */
 typedef struct lsf_direct_chain_use {
     lsf_sky_chance chance;
     float paths[2]; /* as in lsf_direct_light_use */
@@ -31,18 +31,18 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
                              const lsf_direct_chain_use *use, lsf_error *error);
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration);
-/* The same in parts, for a technique that has a use of its own for each punctual light's map: what
- * is seen; then each such light; then the environment. */
+/* The same in parts, for a technique that has a use of its own for each punctual light's map:
+ * the G-buffer; then each such light; then the environment. */
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration);
 void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration,
                             uint32_t light);
 void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteration);
-/* All of them after each other, and the environment. */
+/* All parts in order. */
 void lsf_direct_chain_lights(lsf_direct_chain *chain, const lsf_iteration *iteration);
-/* What it found, for others to add to. */
+/* The light that it found, to which others add. */
 lsf_light_parts lsf_direct_chain_parts(const lsf_direct_chain *chain);
 void lsf_direct_chain_destroy(lsf_direct_chain *chain);
-/* As lsf_technique's report. */
+/* Reports as lsf_technique's report does. */
 uint32_t lsf_direct_chain_report(lsf_direct_chain *chain, lsf_pass_report *reports);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "base/base.h"
 
-/* Rows of pixels that are looked at; each is read whole. */
+/* Number of rows of pixels that are read, each of them whole. */
 #define MAX_ROWS 64
 
 static int ascending(const void *a, const void *b)
@@ -14,7 +14,7 @@ static int ascending(const void *a, const void *b)
     return (left > right) - (left < right);
 }
 
-/* From the view's start on; see lsf_view_data. */
+/* Depth from the view's start; see lsf_view_data. */
 static float view_depth(const lsf_iteration *iteration, float depth)
 {
     const struct lsf_view_data *v = &iteration->view;
@@ -23,8 +23,8 @@ static float view_depth(const lsf_iteration *iteration, float depth)
     return (v->depth.y - depth * v->depth.w) / (depth - v->depth.x);
 }
 
-/* Of the points on some of the picture's rows, in view depth; NAN: nothing is seen, or no memory is
- * left. */
+/* The median view depth of the points on some of the picture's rows; NAN: nothing is visible, or
+ * no memory is left. */
 static float median_depth(const lsf_iteration *iteration, GLuint texture)
 {
     uint32_t width = iteration->plan->width, height = iteration->plan->height;

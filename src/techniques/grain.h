@@ -1,4 +1,5 @@
-/* Whether a map or a grid over all of the scene is fine enough for what the picture shows. */
+/* Checks whether a map or a grid over all of the scene is fine enough for what the picture
+ * shows. */
 #ifndef LSF_TECHNIQUES_GRAIN_H
 #define LSF_TECHNIQUES_GRAIN_H
 

@@ -1,4 +1,4 @@
-/* Which lights an iteration's light paths begin at. */
+/* The choice of lights at which an iteration's light paths begin. */
 #ifndef LSF_TECHNIQUES_LIGHT_PICKS_H
 #define LSF_TECHNIQUES_LIGHT_PICKS_H
 
@@ -8,10 +8,10 @@
 
 typedef struct lsf_light_picks {
     lsf_distribution distribution; /* over the iteration's lights, those of the environment last */
-    float *weights;                /* of which it was made */
-    float power;                   /* of all, as lsf_light_power states it */
-    float sky_probability;         /* that a light picked stands for the environment */
-    bool sky;                      /* the environment's are among them */
+    float *weights;                /* the weights that it was made of */
+    float power;                   /* sum over all lights, as lsf_light_power gives it */
+    float sky_probability;         /* probability that a picked light stands for the environment */
+    bool sky;                      /* lights of the environment are among them */
 } lsf_light_picks;
 
 /* `sky`: whether light paths begin at lights that stand for the environment. */

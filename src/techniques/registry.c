@@ -56,7 +56,7 @@ const char *lsf_technique_help(uint32_t index)
     return index < LSF_COUNT(techniques) ? techniques[index]->help : NULL;
 }
 
-/* Of options that every technique takes. */
+/* Option groups that every technique takes. */
 static const char *const common_groups[] = {"tessellation", "environment", "gbuffer",
                                             "shadow",       "interleave",  "light_filter",
                                             "denoise",      "temporal",    NULL};

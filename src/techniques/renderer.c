@@ -7,7 +7,7 @@
 #include "base/base.h"
 #include "techniques/grain.h"
 
-/* Seconds between two questions whether a long iteration shall go on. */
+/* Seconds between two checks whether a long iteration is to go on. */
 #define QUESTION_EVERY 0.1
 
 lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error)
@@ -21,9 +21,9 @@ lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error)
     return lsf_context_enter(renderer->context, error);
 }
 
-/* --- making, and going over to another plan --- */
+/* --- creation, and the change to another plan --- */
 
-/* What works on the mean of split light. */
+/* Creates the passes that work on the mean of split light. */
 static bool create_filters(lsf_renderer *renderer, lsf_error *error)
 {
     const lsf_setup *setup = &renderer->setup;
@@ -155,7 +155,7 @@ static bool replan(lsf_renderer *renderer, lsf_error *error)
                                             setup->scene, &setup->state, previous, error)) &&
                 lsf_renderer_create_technique(renderer, error);
     lsf_plan_destroy(old);
-    if (!good) /* it may be of neither plan */
+    if (!good) /* it may fit neither plan */
         lsf_scene_gpu_destroy(&renderer->scene);
     renderer->compile_seconds += lsf_now() - start;
     if (good)
@@ -163,9 +163,9 @@ static bool replan(lsf_renderer *renderer, lsf_error *error)
     return good;
 }
 
-/* --- what is made of the mean --- */
+/* --- the picture made of the mean --- */
 
-/* What temporal and light_filter go by, of the mean of so many iterations. */
+/* Makes the guides of temporal and light_filter, for the mean of so many iterations. */
 static void guide(lsf_renderer *renderer, uint32_t iterations)
 {
     const lsf_light_mean *mean = &renderer->light_mean;
@@ -210,7 +210,7 @@ static void filter(lsf_renderer *renderer, GLuint picture)
     bool temporal = renderer->temporal.timer;
     const lsf_light_filter_inputs inputs = {
         .guide = renderer->light_guide.maps,
-        .half = temporal ? 0 : mean->half, /* the mean is not of the frame's iterations alone */
+        .half = temporal ? 0 : mean->half, /* the mean holds more than the frame's iterations */
         .half_count = lsf_light_mean_half(renderer->samples),
         .picture = picture,
         .parts = {{temporal ? kept[0].light : mean->diffuse.light, mean->diffuse.factor},
@@ -250,7 +250,7 @@ GLuint lsf_renderer_picture(lsf_renderer *renderer)
     return picture;
 }
 
-/* Of a frame whose picture nobody has asked for. */
+/* Finishes a frame whose picture nobody has asked for. */
 static bool keep_light(lsf_renderer *renderer, lsf_error *error)
 {
     if (!renderer->temporal.timer || renderer->finished || renderer->samples == 0)
@@ -263,7 +263,7 @@ static bool keep_light(lsf_renderer *renderer, lsf_error *error)
 
 /* --- frames --- */
 
-/* Brings what follows the state up to date; makes another plan where this one does not fit. */
+/* Updates what depends on the state; makes another plan where this one does not fit. */
 static bool follow_state(lsf_renderer *renderer, uint32_t first_sample, lsf_error *error)
 {
     lsf_setup *setup = &renderer->setup;
@@ -493,13 +493,14 @@ static bool wants_more(const lsf_renderer *renderer, uint32_t done)
            params->progress(done - renderer->kept, params->samples, params->progress_user);
 }
 
-/* Within an iteration. The limit leaves the first one whole: a late picture is better than none. */
+/* Called within an iteration. The limit does not cut the first one short: a late picture is
+ * better than none. */
 static bool goes_further(void *user)
 {
     lsf_renderer *renderer = user;
     if (renderer->stopped || lsf_now() < renderer->next_question)
         return !renderer->stopped;
-    glFinish(); /* or the question would be about commands that are given, not about work */
+    glFinish(); /* else the clock would measure commands that were issued, not work that was done */
     renderer->stopped = (renderer->next > renderer->kept && lsf_now() >= renderer->deadline) ||
                         !wants_more(renderer, renderer->next);
     renderer->next_question = lsf_now() + QUESTION_EVERY;
@@ -526,8 +527,8 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
             return false;
         if (renderer->stopped || !wants_more(renderer, renderer->samples))
             break;
-        /* A GPU takes commands faster than it runs them: without this, the limit would be one on
-         * commands given. */
+        /* A GPU accepts commands faster than it runs them: without this the limit would apply to
+         * commands issued. */
         if (limited)
             wait_for_gpu(renderer);
         if (!leaves_time(renderer, start))

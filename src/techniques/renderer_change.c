@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* Where a new renderer begins. */
+/* The state of a new renderer. */
 static void begin_anew(lsf_renderer *renderer)
 {
     renderer->finished = renderer->broken = renderer->grain_checked = false;
@@ -37,7 +37,7 @@ static bool change_plan(lsf_renderer *renderer, const lsf_render_params *params,
     lsf_renderer_destroy_technique(renderer);
     lsf_setup old = renderer->setup;
     renderer->setup = next;
-    /* What the parameters point to lies in the setup itself. */
+    /* The parameters' pointers are to the setup itself. */
     lsf_setup *setup = &renderer->setup;
     if (params->camera_position)
         setup->params.camera_position = setup->camera_position;
@@ -52,7 +52,7 @@ static bool change_plan(lsf_renderer *renderer, const lsf_render_params *params,
     renderer->broken = !good;
     if (good)
         lsf_renderer_log_remarks(setup->plan);
-    else /* it may be of neither plan */
+    else /* it may fit neither plan */
         lsf_scene_gpu_destroy(&renderer->scene);
     renderer->compile_seconds = lsf_now() - start;
     return good;

@@ -1,4 +1,4 @@
-/* What the files of the renderer share. */
+/* Declarations that the files of the renderer share. */
 #ifndef LSF_TECHNIQUES_RENDERER_PARTS_H
 #define LSF_TECHNIQUES_RENDERER_PARTS_H
 
@@ -21,14 +21,14 @@ struct lsf_renderer {
     lsf_temporal temporal;
     lsf_light_filter light_filter;
     lsf_denoise denoise;
-    bool finished; /* their picture is of the mean as it is */
+    bool finished; /* their picture is made of the current mean */
     lsf_tonemap tonemap;
     bool broken; /* no frame is in progress: going over to another plan has failed */
     bool grain_checked;
     uint32_t samples; /* iterations of the mean that were asked for so far */
-    uint32_t kept;    /* those of frames before, where it goes on */
+    uint32_t kept;    /* iterations of earlier frames, where the mean goes on */
     bool begun;       /* random numbers were taken since the last cut */
-    bool unchanged;   /* the frame before had nothing otherwise than its own predecessor */
+    bool unchanged;   /* the frame before was equal to its own predecessor */
     uint32_t next; /* iteration of the mean to run next: fewer, where some have to be run again */
     uint64_t iterations;            /* asked for in all frames, since the passes were made */
     double deadline, next_question; /* in seconds as lsf_now counts them */
@@ -45,7 +45,7 @@ void lsf_renderer_destroy_technique(lsf_renderer *renderer);
 void lsf_renderer_log_remarks(const lsf_plan *plan);
 /* lsf_context_enter for a function that needs a frame. */
 lsf_context *lsf_renderer_enter(lsf_renderer *renderer, lsf_error *error);
-/* Runs until what was asked for went into the means; without `wait`, as far as it is known. */
+/* Runs until all iterations asked for are in the means; without `wait`, as far as is known. */
 bool lsf_renderer_catch_up(lsf_renderer *renderer, bool wait, lsf_error *error);
 /* The mean of the picture, with light of the frames before and filtered where the plan says so. Of
  * a renderer that has caught up. */

@@ -44,7 +44,7 @@ static bool read_strips(GLuint texture, uint32_t width, uint32_t height,
     return texels != NULL;
 }
 
-/* Where a layer goes: its first channel of the first pixel, rows from the top. */
+/* Destination of a layer: its first channel of the first pixel, rows from the top. */
 typedef struct layer_target {
     char *first;
     size_t row_bytes, pixel_bytes;
@@ -209,7 +209,7 @@ bool lsf_renderer_present(lsf_renderer *renderer, uint32_t framebuffer, const in
 typedef struct pixel_tally {
     uint32_t width;
     double lost, kept;    /* luminance */
-    uint64_t lost_pixels; /* those that are not finite */
+    uint64_t lost_pixels; /* number of pixels that are not finite */
 } pixel_tally;
 
 static void tally_rows(const float *texels, uint32_t first_row, uint32_t rows, void *user)
@@ -223,8 +223,8 @@ static void tally_rows(const float *texels, uint32_t first_row, uint32_t rows, v
     }
 }
 
-/* Goes over the picture: how much of its luminance bounds took away,
- * which alpha holds, and how many pixels are not finite. */
+/* Scans the picture for the luminance that bounds took away, which alpha holds, and for pixels
+ * that are not finite. */
 static void look_at_pixels(const lsf_renderer *renderer, double *lost_share, uint64_t *lost_pixels)
 {
     const lsf_plan *plan = renderer->setup.plan;
@@ -279,7 +279,7 @@ lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer)
     if (!renderer)
         return (lsf_renderer_stats){0};
     lsf_pass_report reports[LSF_RENDERER_MAX_PASSES];
-    lsf_error ignored = {0}; /* whoever reads the picture meets it again */
+    lsf_error ignored = {0}; /* the error shows again when the picture is read */
     LSF_LEAVE lsf_context *entered = lsf_renderer_enter(renderer, &ignored);
     if (!entered)
         return (lsf_renderer_stats){0};

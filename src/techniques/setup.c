@@ -78,7 +78,7 @@ static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
  * samples take less than the pixels do. src/passes/light_filter.md has the measurements. */
 enum { PATTERN_4 = 4, PATTERN_3 = 8, PATTERN_ANY = 128, PATTERN_4_PIXELS = 1 << 17 };
 
-/* interleave.size, where nobody says it: the fewer iterations, the more samples in each. */
+/* The default of interleave.size: the fewer iterations, the more samples in each. */
 static int32_t choose_interleave(const lsf_render_params *params)
 {
     bool limited = isfinite(params->time_limit);
@@ -94,7 +94,7 @@ static int32_t choose_interleave(const lsf_render_params *params)
  * each took 4 us of a core. */
 #define POINTS_PER_SECOND 0x1p18
 
-/* sparse.grid, where nobody says it: as fine as the first iteration fits into a time limit. */
+/* The default of sparse.grid: as fine as the first iteration fits into a time limit. */
 static int32_t choose_grid(const lsf_render_params *params)
 {
     const lsf_technique *technique = lsf_technique_find(params->technique);
@@ -119,7 +119,7 @@ static void choose_points(lsf_pass_params *pass_params, const lsf_render_params 
         sparse->interleave = choose_interleave(params);
 }
 
-/* Pixels draw rays or samples of their own. */
+/* Whether pixels draw rays or samples of their own. */
 static bool draws_itself(const lsf_technique *technique)
 {
     return !technique || technique->draws_lobes || technique->draws_alone;
@@ -134,7 +134,8 @@ static bool filters(const lsf_setup *setup, const lsf_technique *technique)
            (params->sparse.interleave > 1 || draws_itself(technique));
 }
 
-/* The largest pattern, up to that of interleaving, of whose places each gets as many directions. */
+/* The largest pattern, up to that of interleaving, in which each position gets as many
+ * directions. */
 static uint32_t sky_pattern(uint32_t directions, int32_t interleave)
 {
     uint32_t side = (uint32_t)interleave;
@@ -205,7 +206,7 @@ static const float *keep_point(float kept[3], const float *point)
     return kept;
 }
 
-/* Options are read once; what else `params` points to is needed for each frame. */
+/* Options are read once; the rest of what `params` points to is needed for each frame. */
 static bool keep_params(lsf_setup *setup, const lsf_render_params *params, lsf_error *error)
 {
     lsf_render_params *kept = &setup->params;
@@ -236,7 +237,7 @@ static bool measures_motion(const lsf_setup *setup)
     return setup->params.temporal || (setup->params.aovs & LSF_AOV_MOTION);
 }
 
-/* Where no frame went before, motion is that of the animation. */
+/* Without a frame before, motion is that of the animation. */
 static bool update_previous(lsf_setup *setup, double time, const lsf_view *view, lsf_error *error)
 {
     lsf_view_params params =
@@ -384,7 +385,7 @@ bool lsf_setup_take(lsf_setup *setup, const lsf_render_params *params, lsf_error
     return true;
 }
 
-/* A tessellated copy borrows what edits change, but for what follows from it. */
+/* A tessellated copy borrows what edits change, except for what is derived from it. */
 static bool follow_edits(lsf_setup *setup, lsf_error *error)
 {
     lsf_scene *copy = setup->tessellated;
@@ -396,7 +397,7 @@ static bool follow_edits(lsf_setup *setup, lsf_error *error)
            lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for an edit of the scene");
 }
 
-/* Whether an animation has changed something of a kind from one state to that of now. */
+/* Whether an animation has changed things of a kind since the previous state. */
 static bool is_animated(const lsf_setup *setup, lsf_kind kind, const lsf_state *before)
 {
     return !lsf_animated_has(setup->scene, kind, &setup->state.animated, before->animated.values);
@@ -404,7 +405,8 @@ static bool is_animated(const lsf_setup *setup, lsf_kind kind, const lsf_state *
 
 static bool same_camera(const lsf_camera_state *a, const lsf_camera_state *b)
 {
-    const size_t first = offsetof(lsf_camera_state, start); /* floats from here on */
+    const size_t first = offsetof(lsf_camera_state, start); /* the members from here on are
+                                                             * floats */
     return a->orthographic == b->orthographic &&
            memcmp((const char *)a + first, (const char *)b + first, sizeof *a - first) == 0;
 }

@@ -1,4 +1,4 @@
-/* Everything that is decided before GL is needed: options, the state of the scene, the plan. */
+/* The decisions made before GL is needed: options, the state of the scene, the plan. */
 #ifndef LSF_TECHNIQUES_SETUP_H
 #define LSF_TECHNIQUES_SETUP_H
 
@@ -8,12 +8,12 @@
 #include "scene/state.h"
 #include "techniques/technique.h"
 
-/* What of the scene and its state decides on a plan, beside the parameters. */
+/* The properties of the scene and its state that decide on a plan, beside the parameters. */
 typedef struct lsf_plan_basis {
     lsf_requirements requirements;
     uint32_t lights[LSF_LIGHT_DIRECTIONAL + 1]; /* of each type */
-    bool shines;                                /* one of them, at all */
-    uint64_t movable;                           /* nodes that were edited */
+    bool shines;                                /* some light is on */
+    uint64_t movable;                           /* number of nodes that were edited */
     bool divided;                               /* into islands, for maps over all of it */
     bool orthographic;
     uint32_t width, height;
@@ -21,19 +21,20 @@ typedef struct lsf_plan_basis {
 
 typedef struct lsf_setup {
     const lsf_technique *technique;
-    lsf_render_params params; /* its camera, and what that points to, are owned */
+    lsf_render_params params; /* the camera and the strings that it points to are owned */
     float camera_position[3], camera_target[3];
     lsf_pass_params pass_params;
     const lsf_scene *source; /* the caller's */
-    const lsf_scene *scene;  /* that is drawn: the caller's, or `tessellated` */
+    const lsf_scene *scene;  /* the scene that is drawn: the caller's, or `tessellated` */
     lsf_scene *tessellated;  /* NULL unless tessellation.factor is above 1 */
     lsf_state state;
-    lsf_state previous;  /* of the frame before, from which motion is measured */
+    lsf_state previous;  /* the state of the frame before, from which motion is measured */
     lsf_changes changes; /* from that one */
     lsf_plan_basis basis;
     lsf_net *net; /* NULL: light_filter takes its steps alone */
     lsf_plan *plan;
-    uint32_t layer_count;                     /* of the result; the first is the picture */
+    uint32_t layer_count;                     /* number of layers of the result; the first is the
+                                               * picture */
     const char *layer_names[LSF_LAYER_COUNT]; /* "picture", "albedo", ... */
     uint32_t layer_aovs[LSF_LAYER_COUNT];     /* 0 for the picture */
 } lsf_setup;
@@ -48,7 +49,7 @@ bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_p
 /* Whether the plan would be the same with `params`. */
 bool lsf_setup_plans_alike(const lsf_setup *setup, const lsf_render_params *params, bool *alike,
                            lsf_error *error);
-/* Takes over parameters of which the plan is the same. */
+/* Takes over parameters that lead to the same plan. */
 bool lsf_setup_take(lsf_setup *setup, const lsf_render_params *params, lsf_error *error);
 /* Goes over to the state of another frame, and sets what has changed. The plan stays: whether it
  * still fits is what lsf_setup_fits says. On failure the state is that of the frame before. */

@@ -14,7 +14,7 @@
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* Voxels are where paths go, and what is in their way; they send out no light. */
+/* Voxels serve for paths and for visibility; they send out no light. */
 static const lsf_voxel_chain_use chain_use = {0};
 
 typedef struct substitute_tree {
@@ -37,7 +37,7 @@ static bool light_shines(const lsf_plan *plan, const lsf_state *state)
     return plan->sky_lights > 0;
 }
 
-/* What light there is beside that which shadow maps show. */
+/* The lights beside those that have shadow maps. */
 static lsf_vpl_cloud_use cloud_use(const lsf_plan *plan, const lsf_state *state)
 {
     bool surfaces = lsf_voxel_chain_has_voxels(plan);
@@ -171,7 +171,7 @@ static void fill_cloud(substitute_tree *t, const lsf_iteration *iteration)
     lsf_vpl_cloud_bounce(&t->cloud, iteration, t->chain.voxels);
 }
 
-/* What the cloud sheds on visible points. */
+/* Light of the cloud on visible points. */
 static lsf_split_light gather(substitute_tree *t, const lsf_iteration *iteration)
 {
     const lsf_surface_maps *seen = &t->chain.direct.gbuffer.outputs.seen;

@@ -68,17 +68,17 @@ typedef struct lsf_pass_params {
 extern const lsf_option_table lsf_pass_option_tables[];
 extern const uint32_t lsf_pass_option_table_count;
 
-/* What an iteration left, valid until the next; 0 where the technique has none. */
+/* The outputs of an iteration, valid until the next; 0 where the technique has none. */
 typedef struct lsf_technique_outputs {
     lsf_light_parts parts;
     lsf_composed layers;
     lsf_voxel_view_outputs voxels;
     bool bounded; /* the picture's alpha holds the luminance that a bound took away */
     float kernel; /* solid angle that glossy lobes are spread over, for want of samples [sr] */
-    GLuint gate;  /* see lsf_accumulate_run; of a technique that settles */
+    GLuint gate;  /* see lsf_accumulate_run; for a technique that settles */
 } lsf_technique_outputs;
 
-/* A pass as statistics show it. */
+/* A pass in the statistics. */
 typedef struct lsf_pass_report {
     lsf_timer *timer;
     uint32_t count_count;
@@ -88,17 +88,17 @@ typedef struct lsf_pass_report {
 
 #define LSF_TECHNIQUE_MAX_PASSES 32
 
-/* What is otherwise than in the frame before. */
+/* What differs from the frame before. */
 typedef struct lsf_changes {
     bool view;
     bool moved;       /* instances or lights */
     bool lights;      /* were edited */
-    bool shining;     /* lights are otherwise or elsewhere, for whatever reason */
+    bool shining;     /* lights have changed or moved, for whatever reason */
     bool materials;   /* ... likewise */
-    bool environment; /* was turned or scaled */
+    bool environment; /* it was rotated or scaled */
 } lsf_changes;
 
-/* What becomes of a technique that goes over to another frame. */
+/* The result of updating a technique to another frame. */
 typedef enum lsf_update {
     LSF_UPDATE_DONE,
     LSF_UPDATE_REPLAN, /* the plan's resources do not fit the state */
@@ -115,8 +115,8 @@ typedef struct lsf_technique {
                        * better than directions drawn by its radiance */
     bool draws_alone; /* each pixel draws samples of its own whatever interleave.size is, and
                        * finds the environment by its directions */
-    bool traces_pixels; /* most of an iteration's time goes with the pixels that it traces */
-    bool maps_scene; /* draws maps that hold all of the scene: where it is empty matters to them */
+    bool traces_pixels; /* most of an iteration's time is spent on the pixels that it traces */
+    bool maps_scene; /* draws maps that hold all of the scene, for which its empty regions matter */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
     /* Allocates what the plan lists. On failure it returns what is to be destroyed, and sets
@@ -124,8 +124,8 @@ typedef struct lsf_technique {
     bool (*create)(void **self, lsf_context *context, const lsf_plan *plan,
                    const lsf_pass_params *params, const lsf_scene_gpu *scene,
                    const lsf_state *state, lsf_error *error);
-    /* Brings up to date what it made of the state, which stays where it was for `create`. NULL: it
-     * made nothing. */
+    /* Updates what it made of the state, which is still at the address given to `create`. NULL:
+     * it made nothing. */
     lsf_update (*update)(void *self, const lsf_pass_params *params, const lsf_iteration *iteration,
                          const lsf_changes *changes);
     void (*run)(void *self, const lsf_iteration *iteration, lsf_technique_outputs *outputs);

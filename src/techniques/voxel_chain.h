@@ -1,5 +1,5 @@
-/* The passes that voxel techniques begin with: what is seen, the scene as voxels, and the light of
- * punctual lights on both, or on what is seen alone. */
+/* The passes that voxel techniques begin with: the G-buffer, the scene as voxels, and the light
+ * of punctual lights on both, or on the G-buffer alone. */
 #ifndef LSF_TECHNIQUES_VOXEL_CHAIN_H
 #define LSF_TECHNIQUES_VOXEL_CHAIN_H
 
@@ -10,9 +10,10 @@
 
 typedef struct lsf_voxel_chain_use {
     uint32_t sides, levels;   /* of the voxels' radiance; 0 sides: voxels are not lit */
-    uint32_t bytes_per_voxel; /* that the technique takes beside them */
+    uint32_t bytes_per_voxel; /* memory of the technique beside them */
     lsf_direct_chain_use direct;
-    float voxel_rays; /* that find the environment from a voxel by chance, drawn by the cosine */
+    float voxel_rays; /* number of rays from a voxel that find the environment by chance, drawn
+                       * by the cosine */
 } lsf_voxel_chain_use;
 
 typedef struct lsf_voxel_chain {
@@ -25,9 +26,9 @@ typedef struct lsf_voxel_chain {
     lsf_voxel_view view; /* where layers of voxels are asked for */
 } lsf_voxel_chain;
 
-/* Whether there is anything to make voxels of; without, the chain is the direct one. */
+/* Whether the scene has triangles to voxelise; without, the chain is the direct one. */
 bool lsf_voxel_chain_has_voxels(const lsf_plan *plan);
-/* The grid that is planned, for what the technique plans over it. */
+/* The planned grid, for resources that the technique plans over it. */
 lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params *params,
                                     const lsf_state *state, const lsf_voxel_chain_use *use);
 void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
@@ -36,12 +37,12 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
                             const lsf_pass_params *params, const lsf_scene_gpu *scene,
                             const lsf_state *state, const lsf_voxel_chain_use *use,
                             lsf_error *error);
-/* As lsf_technique's update. */
+/* Updates as lsf_technique's update does. */
 lsf_update lsf_voxel_chain_update(lsf_voxel_chain *chain, const lsf_pass_params *params,
                                   const lsf_iteration *iteration, const lsf_voxel_chain_use *use,
                                   const lsf_changes *changes);
 void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration);
-/* The same in parts: what is seen, and voxels; what voxels emit, for who has a use for that alone;
+/* The same in parts: G-buffer and voxels; emission of voxels, for techniques that use it alone;
  * then the punctual lights, on voxels only where asked for. */
 void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 void lsf_voxel_chain_emit(lsf_voxel_chain *chain);
@@ -49,7 +50,7 @@ void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iterati
 /* The layers of voxels, where asked for; to be called when the voxels' light is complete. */
 lsf_voxel_view_outputs lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 void lsf_voxel_chain_destroy(lsf_voxel_chain *chain);
-/* As lsf_technique's report. */
+/* Reports as lsf_technique's report does. */
 uint32_t lsf_voxel_chain_report(lsf_voxel_chain *chain, lsf_pass_report *reports);
 
 #endif

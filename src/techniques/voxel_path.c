@@ -8,7 +8,7 @@
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* Of paths beyond the visible point, each goes on by one ray. */
+/* Number of rays by which a path goes on beyond the visible point. */
 static lsf_voxel_chain_use chain_use(const lsf_pass_params *params)
 {
     const lsf_voxel_path_params *p = &params->voxel_path;

@@ -64,7 +64,7 @@ static const char shader[] =
     "    s.roughness = gloss.x;\n"
     "    s.metallic = gloss.y;\n"
     "    s.anisotropy = gloss.z;\n"
-    "    s.anisotropy_turn = gloss.w;\n"
+    "    s.anisotropy_angle = gloss.w;\n"
     "    s.unlit = false;\n"
     "    vec3 t, b;\n"
     "    orthonormal_basis(s.normal, t, b);\n"

@@ -25,7 +25,7 @@ static const char shader[] =
     "    s.base_color = vec3(0.6);\n"
     "    s.f0 = 0.04;\n"
     "    s.roughness = 0.4;\n"
-    "    s.metallic = s.anisotropy = s.anisotropy_turn = 0.0;\n"
+    "    s.metallic = s.anisotropy = s.anisotropy_angle = 0.0;\n"
     "    s.unlit = false;\n"
     "    lobes_none(s);\n"
     "    light_receiver r = light_receiver_of(position, normalize(vec3(-0.5, 0.6, 0.3)), s);\n"

@@ -1,4 +1,4 @@
-#include "frame/light_map.h"
+#include "frame/light_projection.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,12 +17,12 @@
 /* Each cascade sees this many times farther than the one before. */
 #define CASCADE_RATIO 3.0f
 
-lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light)
+lsf_light_projection_kind lsf_light_projection_kind_of(const lsf_light_state *light)
 {
     if (light->type == LSF_LIGHT_DIRECTIONAL)
-        return LSF_LIGHT_MAP_WINDOWS;
+        return LSF_LIGHT_PROJECTION_WINDOWS;
     bool narrow = light->type == LSF_LIGHT_SPOT && light->cos_outer >= WIDE_SPOT_COSINE;
-    return narrow ? LSF_LIGHT_MAP_SPOT : LSF_LIGHT_MAP_CUBE;
+    return narrow ? LSF_LIGHT_PROJECTION_SPOT : LSF_LIGHT_PROJECTION_CUBE;
 }
 
 bool lsf_light_any(const lsf_plan *plan, const lsf_state *state)
@@ -30,15 +30,15 @@ bool lsf_light_any(const lsf_plan *plan, const lsf_state *state)
     return state->light_count > 0 || plan->sky_lights > 0;
 }
 
-void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
-                         bool needed[LSF_LIGHT_MAP_KINDS])
+void lsf_light_projection_kinds(const lsf_plan *plan, const lsf_state *state,
+                                bool needed[LSF_LIGHT_PROJECTION_KINDS])
 {
-    for (int kind = 0; kind < LSF_LIGHT_MAP_KINDS; kind++)
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++)
         needed[kind] = false;
     for (uint32_t i = 0; i < state->light_count; i++)
-        needed[lsf_light_map_kind_of(&state->lights[i])] = true;
+        needed[lsf_light_projection_kind_of(&state->lights[i])] = true;
     if (plan->sky_lights > 0 && plan->requirements.environment_map)
-        needed[LSF_LIGHT_MAP_WINDOWS] = true;
+        needed[LSF_LIGHT_PROJECTION_WINDOWS] = true;
 }
 
 void lsf_shadow_bind(const lsf_shadow *shadow)
@@ -95,8 +95,8 @@ static void project_cube(struct lsf_light_data *data, const float rotation[9])
 }
 
 /* right and up of a map that looks along `forward`, rotated by `angle` about it. */
-static void turned_axes(const lsf_light_state *light, float angle, lsf_float3 *right,
-                        lsf_float3 *up)
+static void rotated_axes(const lsf_light_state *light, float angle, lsf_float3 *right,
+                         lsf_float3 *up)
 {
     lsf_float3 forward = lsf_f3_load(light->direction), t = lsf_f3_load(light->tangent);
     lsf_float3 b = lsf_f3_cross(forward, t);
@@ -201,7 +201,7 @@ static void fit_depths(struct lsf_light_data *data, lsf_float3 along, const box 
 /* Nested windows: each reaches a third as deep into the visible scene as the next one, so that a
  * texel is everywhere about as wide as a pixel is there; the last holds all that is visible. */
 static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
-                               const lsf_light_map_layout *layout, const lsf_float3 axes[3],
+                               const lsf_light_projection_layout *layout, const lsf_float3 axes[3],
                                const box *scene)
 {
     float nearest, farthest;
@@ -227,7 +227,7 @@ static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration 
 /* Along the light, each window holds the whole scene: surfaces outside the view may cast shadows
  * into it. */
 static void project_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
-                            const lsf_light_map_layout *layout, const lsf_float3 axes[3])
+                            const lsf_light_projection_layout *layout, const lsf_float3 axes[3])
 {
     box scene = scene_box(iteration->state, axes);
     float half_range = fmaxf(0.5f * (scene.high[2] - scene.low[2]), 1e-3f);
@@ -265,8 +265,8 @@ static void set_light(struct lsf_light_data *data, const lsf_light_state *light,
     data->map_offset.w = share->kernel;
 }
 
-void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *iteration,
-                           uint32_t light_index, const lsf_light_map_layout *layout)
+void lsf_light_projection_project(struct lsf_light_data *data, const lsf_iteration *iteration,
+                                  uint32_t light_index, const lsf_light_projection_layout *layout)
 {
     const lsf_light_state *light = &iteration->lights[light_index];
     uint32_t purpose = layout->purpose + 2 * light_index;
@@ -278,13 +278,13 @@ void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *ite
     data->map_shape = (lsf_vec4){NEAR_PLANE, 0.0f, texels, 1.0f / texels};
     data->map_origin = vec4_from(lsf_f3_load(light->position), (float)layout->faces);
     data->map_offset.z = iteration->view.start.w;
-    if (lsf_light_map_kind_of(light) == LSF_LIGHT_MAP_CUBE) {
+    if (lsf_light_projection_kind_of(light) == LSF_LIGHT_PROJECTION_CUBE) {
         lsf_sample_rotation(turn[0], turn[1], shift[0], rotation);
         project_cube(data, rotation);
         return;
     }
     lsf_float3 axes[3] = {[2] = lsf_f3_load(light->direction)};
-    turned_axes(light, turn[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);
+    rotated_axes(light, turn[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);
     data->map_offset.x = (2.0f * shift[0] - 1.0f) / texels;
     data->map_offset.y = (2.0f * shift[1] - 1.0f) / texels;
     if (light->type == LSF_LIGHT_DIRECTIONAL) {
@@ -298,7 +298,8 @@ void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *ite
 }
 
 /* x, y = +-1 on the map. */
-void lsf_light_map_region(const struct lsf_light_data *data, uint32_t face, lsf_draw_region *region)
+void lsf_light_projection_region(const struct lsf_light_data *data, uint32_t face,
+                                 lsf_draw_region *region)
 {
     const float window[4] = {data->map_window[face].x, data->map_window[face].y,
                              data->map_window[face].z, data->map_window[face].w};

@@ -1,26 +1,26 @@
 /* Shadow maps: their shapes and the projections onto them. See shared/light_data.h and
- * lib/light_map.glsl. */
-#ifndef LSF_FRAME_LIGHT_MAP_H
-#define LSF_FRAME_LIGHT_MAP_H
+ * lib/light_projection.glsl. */
+#ifndef LSF_FRAME_LIGHT_PROJECTION_H
+#define LSF_FRAME_LIGHT_PROJECTION_H
 
 #include "frame/iteration.h"
 #include "shared/light_data.h"
 
-typedef enum lsf_light_map_kind {
-    LSF_LIGHT_MAP_CUBE,    /* 6 faces: point lights and wide spots */
-    LSF_LIGHT_MAP_SPOT,    /* 1 face: narrow spots */
-    LSF_LIGHT_MAP_WINDOWS, /* nested windows: directional lights */
-    LSF_LIGHT_MAP_KINDS,
-} lsf_light_map_kind;
+typedef enum lsf_light_projection_kind {
+    LSF_LIGHT_PROJECTION_CUBE,    /* 6 faces: point lights and wide spots */
+    LSF_LIGHT_PROJECTION_SPOT,    /* 1 face: narrow spots */
+    LSF_LIGHT_PROJECTION_WINDOWS, /* nested windows: directional lights */
+    LSF_LIGHT_PROJECTION_KINDS,
+} lsf_light_projection_kind;
 
-lsf_light_map_kind lsf_light_map_kind_of(const lsf_light_state *light);
+lsf_light_projection_kind lsf_light_projection_kind_of(const lsf_light_state *light);
 
 /* Whether anything lights surfaces directly: a punctual light, or the environment by directions. */
 bool lsf_light_any(const lsf_plan *plan, const lsf_state *state);
 /* Which kinds of map the lights need for surfaces that the camera may not see: directions of an
  * environment map need windows; those of a uniform environment light visible points alone. */
-void lsf_light_map_kinds(const lsf_plan *plan, const lsf_state *state,
-                         bool needed[LSF_LIGHT_MAP_KINDS]);
+void lsf_light_projection_kinds(const lsf_plan *plan, const lsf_state *state,
+                                bool needed[LSF_LIGHT_PROJECTION_KINDS]);
 
 /* A light with its shadow map, for lib/shadow.glsl; or several directions of the environment,
  * with a map that has a layer for each. */
@@ -44,7 +44,7 @@ bool lsf_light_emission_is_adaptive(const lsf_plan *plan);
 void lsf_light_switches(lsf_plan *plan);
 
 /* A shadow map to project onto. */
-typedef struct lsf_light_map_layout {
+typedef struct lsf_light_projection_layout {
     uint32_t faces;
     bool view;   /* windows of a directional light are nested about what the camera sees; else one
                   * window holds the whole scene */
@@ -54,15 +54,15 @@ typedef struct lsf_light_map_layout {
     uint32_t purpose;    /* seeds of its random rotation and offset are of lsf_iteration_seed's
                           * purposes from here on, two for each light */
     lsf_light_use use;
-} lsf_light_map_layout;
+} lsf_light_projection_layout;
 
 /* Describes iteration->lights[light_index] and the projection onto its map, which is rotated and
  * moved at random for this iteration. */
-void lsf_light_map_project(struct lsf_light_data *data, const lsf_iteration *iteration,
-                           uint32_t light_index, const lsf_light_map_layout *layout);
+void lsf_light_projection_project(struct lsf_light_data *data, const lsf_iteration *iteration,
+                                  uint32_t light_index, const lsf_light_projection_layout *layout);
 
 /* The half spaces of a face's four sides. */
-void lsf_light_map_region(const struct lsf_light_data *data, uint32_t face,
-                          lsf_draw_region *region);
+void lsf_light_projection_region(const struct lsf_light_data *data, uint32_t face,
+                                 lsf_draw_region *region);
 
 #endif

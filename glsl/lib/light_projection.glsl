@@ -1,6 +1,6 @@
 /* The light in turn and the projection of its map; see shared/light_data.h. */
-#ifndef LSF_LIB_LIGHT_MAP
-#define LSF_LIB_LIGHT_MAP
+#ifndef LSF_LIB_LIGHT_PROJECTION
+#define LSF_LIB_LIGHT_PROJECTION
 
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
@@ -10,20 +10,20 @@ layout(std140, binding = LSF_BINDING_LIGHT) uniform lsf_light_block
     lsf_light_data light;
 };
 
-bool light_map_perspective()
+bool light_projection_perspective()
 {
     return light.map_shape.y == 0.0;
 }
 
 /* What a stored gradient is relative to: the depth itself when perspective, where depths span many
  * magnitudes, so that half floats hold it. */
-float light_map_depth_unit(float depth)
+float light_projection_depth_unit(float depth)
 {
-    return light_map_perspective() ? depth : 1.0;
+    return light_projection_perspective() ? depth : 1.0;
 }
 
 /* Coordinates of a point along right, up and forward of a face. */
-vec3 light_map_coordinates(int face, vec3 position)
+vec3 light_projection_coordinates(int face, vec3 position)
 {
     vec3 p = position - light.map_origin.xyz;
     return vec3(dot(light.map_right[face].xyz, p), dot(light.map_up[face].xyz, p),
@@ -31,19 +31,19 @@ vec3 light_map_coordinates(int face, vec3 position)
 }
 
 /* Place on the face, -1..1, of a point with these coordinates. */
-vec2 light_map_place(int face, vec3 q)
+vec2 light_projection_place(int face, vec3 q)
 {
     vec4 window = light.map_window[face];
-    vec2 place = light_map_perspective() ? q.xy / (q.z * window.zw) : (q.xy - window.xy) / window.zw;
+    vec2 place = light_projection_perspective() ? q.xy / (q.z * window.zw) : (q.xy - window.xy) / window.zw;
     return place + light.map_offset.xy;
 }
 
 /* The point at a place on a face with this depth. */
-vec3 light_map_position(int face, vec2 place, float depth)
+vec3 light_projection_position(int face, vec2 place, float depth)
 {
     vec4 window = light.map_window[face];
     vec3 q;
-    if (light_map_perspective()) {
+    if (light_projection_perspective()) {
         q.z = light.map_shape.x / depth;
         q.xy = (place - light.map_offset.xy) * window.zw * q.z;
     } else {
@@ -54,25 +54,25 @@ vec3 light_map_position(int face, vec2 place, float depth)
            q.z * light.map_forward[face].xyz;
 }
 
-vec4 light_map_clip(int face, vec3 position)
+vec4 light_projection_clip(int face, vec3 position)
 {
-    vec3 q = light_map_coordinates(face, position);
+    vec3 q = light_projection_coordinates(face, position);
     vec4 window = light.map_window[face];
-    if (light_map_perspective())
+    if (light_projection_perspective())
         return vec4(q.xy / window.zw + light.map_offset.xy * q.z, light.map_shape.x, q.z);
-    return vec4(light_map_place(face, q),
+    return vec4(light_projection_place(face, q),
                 (light.map_shape.y - q.z) / (light.map_shape.y - light.map_shape.x), 1.0);
 }
 
 /* The face that sees the point: of a cube by its greatest coordinate, of cascades the smallest
  * window that holds it. */
-int light_map_face(vec3 position)
+int light_projection_face(vec3 position)
 {
     int faces = int(light.map_origin.w);
-    if (!light_map_perspective()) {
-        vec3 q = light_map_coordinates(0, position);
+    if (!light_projection_perspective()) {
+        vec3 q = light_projection_coordinates(0, position);
         for (int face = 0; face < faces - 1; face++) {
-            vec2 place = abs(light_map_place(face, q));
+            vec2 place = abs(light_projection_place(face, q));
             if (max(place.x, place.y) < 1.0)
                 return face;
         }
