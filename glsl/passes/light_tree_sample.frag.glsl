@@ -124,14 +124,14 @@ void main()
     bvec2 lobes = bvec2(false);
     for (uint i = 0u; i < LSF_LIGHT_TREE_SAMPLES; i++) {
         vec3 u = path_random(key, turn.x * LSF_LIGHT_TREE_SAMPLES + i, 0u);
-        picks[i] = light_pick(u.z < chance, LSF_LIGHT_TREE_NONE, u.x, 0.0);
-        lobes = bvec2(lobes.x || !picks[i].specular, lobes.y || picks[i].specular);
+        picks[i] = light_pick(int(u.z < chance), LSF_LIGHT_TREE_NONE, u.x, 0.0);
+        lobes = bvec2(lobes.x || picks[i].lobe == 0, lobes.y || picks[i].lobe == 1);
     }
     uint dead = 0u, steps = light_cut(r, lobes);
     for (uint i = 0u; i < LSF_LIGHT_TREE_SAMPLES; i++) {
         uint index = turn.x * LSF_LIGHT_TREE_SAMPLES + i;
-        bool specular = picks[i].specular;
-        float share = picks[i].weight / weight_sums[int(specular)];
+        bool specular = picks[i].lobe == 1;
+        float share = picks[i].weight / weight_sums[picks[i].lobe];
         light_walk_end end = light_walk(r, specular, picks[i].link, share, picks[i].u, key, index);
         steps += end.steps;
         if (end.link == LSF_LIGHT_TREE_NONE) {

@@ -17,7 +17,7 @@
 layout(location = 3) uniform float cut_bound;
 
 struct light_pick {
-    bool specular;
+    int lobe;   /* 0: diffuse, 1: specular (no bool: drivers over Vulkan fail on arrays of them) */
     uint link;  /* LSF_LIGHT_TREE_NONE: nothing shines at the point */
     float u;    /* 0 <= u < 1, what is left of the number that picks */
     float weight; /* of the link */
@@ -35,7 +35,7 @@ void pick_among(uint link, float weight, int lobe)
     weight_sums[lobe] += weight;
     float share = weight / weight_sums[lobe];
     for (int i = 0; i < LSF_LIGHT_TREE_SAMPLES; i++) {
-        if (int(picks[i].specular) != lobe)
+        if (picks[i].lobe != lobe)
             continue;
         float u = picks[i].u;
         bool taken = u < share;

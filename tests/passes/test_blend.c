@@ -133,7 +133,8 @@ static void shadows(void **unused)
 
 /* A white sky around two black shells of which a part is there: what it sends in through them onto
  * a square. A sheet of voxels may be met in two of the cubes that decide for themselves, or where
- * front turns to back: the fewer voxels across, the more often. */
+ * front turns to back: the fewer voxels across, the more often. The light through 96 grids, of
+ * which each is there by chance, is off by 2 % from seed to seed. */
 static void shells(void **unused)
 {
     (void)unused;
@@ -144,8 +145,8 @@ static void shells(void **unused)
         double low, high;
     } cases[] = {{"reference", -0.03, 0.03},
                  {"bidirectional", -0.03, 0.03},
-                 {"voxel_path", -0.1, 0.0},
-                 {"cone", -0.1, 0.0}};
+                 {"voxel_path", -0.1, 0.06},
+                 {"cone", -0.1, 0.06}};
     lsf_scene *scene = build_scene();
     build_environment(scene, 1.0f);
     build_material(scene, 0.6f, 0.6f, 0.6f);

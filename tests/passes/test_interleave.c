@@ -97,7 +97,8 @@ static lsf_image *render_floor(int phases)
 {
     char phases_option[64];
     snprintf(phases_option, sizeof phases_option, "sparse.blur=%d", phases);
-    const char *options[] = {"interleave.size=2", "bundle.count=4", phases_option};
+    const char *options[] = {"interleave.size=2", "bundle.count=4", "environment.open=0",
+                             phases_option};
     lsf_scene *scene = build_scene();
     build_material(scene, 0.8f, 0.8f, 0.8f);
     build_floor(scene, 0.0f, 4.0f);

@@ -193,55 +193,78 @@ static void cones_are_tinted(void **unused)
     assert_seen("cones through a pane", rgb[1], expected, 0.03);
 }
 
-/* A floor under a pane, and under a slab of a medium that absorbs, in a white room: what comes
- * through is that of the techniques' rays through voxels. */
+static const double cover_tint[3] = {0.9, 0.5, 0.2};
+
+/* What is seen of a floor in a white room, or under a white sky: with `covered` under a pane, or
+ * under a slab, 0.5 thick, of a medium that absorbs. */
+static void look_below(const char *technique, uint32_t samples, bool sky, bool slab, bool covered,
+                       double rgb[3])
+{
+    lsf_scene *scene = build_scene();
+    build_dull_floor(scene, 0.5f, 0.0f);
+    if (sky) {
+        build_environment(scene, 1.0f);
+    } else {
+        lsf_material *lamp = build_material(scene, 0, 0, 0);
+        lamp->emission[0] = lamp->emission[1] = lamp->emission[2] = 1.0f;
+        build_box(scene, lsf_f3(-4, -1, -4), lsf_f3(4, 3, 4), true);
+    }
+    lsf_material *pane = build_glass(scene, 1.0f, 0.0f, slab ? 1.0f : 0.0f);
+    pane->ior = 1.0f;
+    if (slab)
+        pane->attenuation_distance = 1.0f;
+    for (int c = 0; c < 3; c++)
+        *(slab ? &pane->attenuation_color[c] : &pane->base_color[c]) = (float)cover_tint[c];
+    if (covered && slab)
+        build_box(scene, lsf_f3(-4, 0.25f, -4), lsf_f3(4, 0.75f, 4), false);
+    else if (covered)
+        build_floor(scene, 0.25f, 4.0f);
+    finish_gl_scene(scene);
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    params.technique = technique;
+    params.bounces = 0;
+    params.samples = samples;
+    params.fov_y = 2.0f;
+    lsf_image *image = render_gl_from(scene, params, 16, lsf_f3(0, 0.2f, 0), lsf_f3(0.2f, 0, 0));
+    mean_rgb(image, 0, rgb);
+    lsf_image_destroy(image);
+    destroy_scene(scene);
+}
+
+/* The floor's light is the mean over the hemisphere, by the cosine, of what the cover lets pass. */
+static void assert_covered(const char *technique, uint32_t samples, bool sky, bool slab)
+{
+    double open[3], covered[3], expected[3];
+    look_below(technique, samples, sky, slab, false, open);
+    look_below(technique, samples, sky, slab, true, covered);
+    for (int c = 0; c < 3; c++) {
+        double share = 0.0;
+        for (int i = 0; i < 1000; i++) {
+            double cosine = sqrt((i + 0.5) / 1000.0), pass = 1.0 - schlick(0.0, cosine);
+            share += slab ? pass * pass * pow(cover_tint[c], 0.5 / cosine) : pass * cover_tint[c];
+        }
+        expected[c] = open[c] * share / 1000.0;
+    }
+    assert_seen(technique, covered, expected, 0.03);
+}
+
 static void rays_through_voxels_are_tinted(void **unused)
 {
     (void)unused;
-    static const char *const techniques[] = {"cone", "substitute_tree"};
-    static const double tint[3] = {0.9, 0.5, 0.2};
-    for (int k = 0; k < 4; k++) {
-        double rgb[2][3], expected[3];
-        bool slab = k / 2 == 1;
-        for (int glass = 0; glass < 2; glass++) {
-            lsf_scene *scene = build_scene();
-            build_dull_floor(scene, 0.5f, 0.0f);
-            lsf_material *lamp = build_material(scene, 0, 0, 0);
-            lamp->emission[0] = lamp->emission[1] = lamp->emission[2] = 1.0f;
-            build_box(scene, lsf_f3(-4, -1, -4), lsf_f3(4, 3, 4), true);
-            lsf_material *pane = build_glass(scene, 1.0f, 0.0f, slab ? 1.0f : 0.0f);
-            pane->ior = 1.0f;
-            if (slab)
-                pane->attenuation_distance = 1.0f;
-            for (int c = 0; c < 3; c++)
-                *(slab ? &pane->attenuation_color[c] : &pane->base_color[c]) = (float)tint[c];
-            if (glass && slab)
-                build_box(scene, lsf_f3(-4, 0.25f, -4), lsf_f3(4, 0.75f, 4), false);
-            else if (glass)
-                build_floor(scene, 0.25f, 4.0f);
-            finish_gl_scene(scene);
-            lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
-            params.technique = techniques[k % 2];
-            params.bounces = 0;
-            params.samples = 32;
-            params.fov_y = 2.0f;
-            lsf_image *image =
-                render_gl_from(scene, params, 16, lsf_f3(0, 0.2f, 0), lsf_f3(0.2f, 0, 0));
-            mean_rgb(image, 0, rgb[glass]);
-            lsf_image_destroy(image);
-            destroy_scene(scene);
-        }
-        /* The mean over the hemisphere, by the cosine; the slab is 0.5 thick. */
-        for (int c = 0; c < 3; c++) {
-            double share = 0.0;
-            for (int i = 0; i < 1000; i++) {
-                double cosine = sqrt((i + 0.5) / 1000.0), pass = 1.0 - schlick(0.0, cosine);
-                share += slab ? pass * pass * pow(tint[c], 0.5 / cosine) : pass * tint[c];
-            }
-            expected[c] = rgb[0][c] * share / 1000.0;
-        }
-        assert_seen(techniques[k % 2], rgb[1], expected, 0.03);
+    for (int slab = 0; slab < 2; slab++) {
+        assert_covered("cone", 32, false, slab);
+        assert_covered("substitute_tree", 32, false, slab);
     }
+}
+
+/* Light of the sky passes maps, light of surfaces maps of VPLs and bundles. (A hundredth of the
+ * darkest colour's sky comes in beside the cover.) */
+static void maps_and_bundles_are_tinted(void **unused)
+{
+    (void)unused;
+    assert_covered("direct", 128, true, false);
+    assert_covered("direct", 128, true, true);
+    assert_covered("bidirectional", 128, false, true);
 }
 
 /* Veils of bundles, tints of maps and chance do not depend on who draws what first. */
@@ -277,6 +300,7 @@ int main(void)
         cmocka_unit_test(bundles_and_vpls_pass),
         cmocka_unit_test(cones_are_tinted),
         cmocka_unit_test(rays_through_voxels_are_tinted),
+        cmocka_unit_test(maps_and_bundles_are_tinted),
         cmocka_unit_test(bits_are_the_same_for_any_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
