@@ -1,6 +1,6 @@
-/* Alpha masks, and surfaces that are there by chance: what is blended with alpha a (alphaMode BLEND) is there with
- * probability a, anew in each iteration, so that the mean over iterations is the blend. Each layer decides for
- * itself at each place: two of alpha a and b let (1 - a) (1 - b) through. Switch LSF_BLEND. */
+/* Alpha masks and blending by stochastic transparency: a surface with alphaMode BLEND and alpha a is present with
+ * probability a, drawn anew in each iteration, so that the mean over the iterations is the blend. Layers over the
+ * same point are drawn independently: two of alpha a and b let (1 - a) (1 - b) through. Switch LSF_BLEND. */
 #ifndef LSF_LIB_ALPHA
 #define LSF_LIB_ALPHA
 
@@ -10,8 +10,8 @@
 #include "lib/chance.glsl"
 #endif
 
-/* Tells a layer of an instance from others over the same place: by its triangle's last vertex, and by the side
- * that is seen where a surface folds at that vertex. */
+/* Key that tells one layer of an instance from others over the same point: the last vertex of its triangle, and
+ * the side that is seen where a surface folds at that vertex. */
 uint layer_key(uint instance, uint vertex, bool front)
 {
 #if LSF_BLEND || LSF_STRAIGHT
@@ -21,7 +21,7 @@ uint layer_key(uint instance, uint vertex, bool front)
 #endif
 }
 
-/* Whether a surface of this alpha is missing. `cutoff`: of lsf_material_data; `key`: of layer and place. */
+/* Whether a surface of this alpha is absent. `cutoff`: of lsf_material_data; `key`: of layer and position. */
 bool alpha_cuts_out(float cutoff, float alpha, uvec3 key)
 {
 #if LSF_BLEND

@@ -16,14 +16,14 @@ struct brdf_value {
 };
 
 #if LSF_SCATTER
-/* What a wall lets through, but for what its surface reflects. */
+/* Transmission tint of a thin wall, without the factor for what its surface reflects. */
 vec3 wall_tint(surface s)
 {
     return s.base_color * (s.transmission * (1.0 - s.metallic));
 }
 #endif
 
-/* What the diffuse lobe reflects: k_d. */
+/* Diffuse reflectance k_d. */
 vec3 surface_diffuse(surface s)
 {
 #if LSF_SCATTER
@@ -39,7 +39,7 @@ vec3 surface_diffuse(surface s)
 #endif
 }
 
-/* The larger of the two roughnesses. */
+/* The larger of the roughnesses along tangent and bitangent. */
 float surface_widest_roughness(surface s)
 {
 #if LSF_ANISOTROPY
@@ -49,7 +49,7 @@ float surface_widest_roughness(surface s)
 #endif
 }
 
-/* Schlick's term, for the side that the surface is seen from. */
+/* Schlick's Fresnel term for the side from which the surface is seen. */
 float surface_fresnel(surface s, float f0, float f90, float vh)
 {
 #if LSF_TRANSMISSION
@@ -59,14 +59,14 @@ float surface_fresnel(surface s, float f0, float f90, float vh)
 #endif
 }
 
-/* What the dielectric does not pass on to what is below. */
+/* Share of light that the dielectric does not pass on to the diffuse lobe below it. */
 float surface_dielectric_fresnel(surface s, float vh)
 {
     return surface_fresnel(s, largest(surface_f0(s)), surface_f90(s), vh);
 }
 
-/* What microfacets reflect of light from the front, and from the side; of a wall that is seen through, what they
- * let through, at grazing angles in the brightest channel's measure. */
+/* f0 and f90 of the specular lobe. Of a wall through which the eye looks: its transmittance at normal incidence,
+ * and at grazing angles that of its brightest channel. */
 vec3 surface_specular_f0(surface s)
 {
 #if LSF_SCATTER
@@ -85,7 +85,8 @@ float surface_specular_f90(surface s)
     return 1.0 - (1.0 - surface_f90(s)) * (1.0 - s.metallic);
 }
 
-/* ... and of light under the cosine vh. */
+/* Fresnel term of the specular lobe, or transmittance of such a wall, where view and half vector meet under the
+ * cosine vh. */
 vec3 surface_specular_fresnel(surface s, float vh)
 {
 #if LSF_SCATTER
@@ -98,8 +99,8 @@ vec3 surface_specular_fresnel(surface s, float vh)
                 surface_fresnel(s, f0.b, f90, vh));
 }
 
-/* The view as the lobes want it: a thin wall lets light through as it reflects it, mirrored at its plane
- * (KHR_materials_transmission). */
+/* The view for which the lobes are evaluated. A thin wall transmits by its reflection lobe mirrored at its plane
+ * (KHR_materials_transmission), so that the view is mirrored instead. */
 vec3 surface_view(surface s, vec3 to_viewer)
 {
 #if LSF_SCATTER
@@ -114,15 +115,15 @@ vec3 brdf_sum(surface s, brdf_value f)
     return surface_diffuse(s) * (f.diffuse / LSF_PI) + f.specular;
 }
 
-/* A bent normal may look away from the viewer; the view is then lifted to its horizon, for with a
- * negative cosine the lobe is unbounded. */
+/* A shading normal may face away from the viewer. The view is then lifted to its horizon, because the lobe is
+ * unbounded for negative cosines. */
 vec3 lift_to_horizon(vec3 view, vec3 normal)
 {
     float nv = dot(normal, view);
     return nv >= LSF_COSINE_MIN ? view : normalize(view + (LSF_COSINE_MIN - nv) * normal);
 }
 
-/* What a sheen leaves of what is below it, by the cosines of both directions. */
+/* Factor by which a sheen attenuates the layers below it, from the cosines of both directions. */
 float sheen_leaves(surface s, float nv, float nl)
 {
 #if LSF_SHEEN
@@ -147,7 +148,7 @@ vec3 sheen_reflects(surface s, vec3 view, vec3 light)
 }
 #endif
 
-/* What a clear coat leaves of what is below it; the view and the light's direction are unit. */
+/* Factor by which a clear coat attenuates the layers below it; `view` and `light` are unit vectors. */
 float coat_passes(surface s, vec3 view, vec3 light)
 {
 #if LSF_COAT
@@ -157,17 +158,17 @@ float coat_passes(surface s, vec3 view, vec3 light)
 #endif
 }
 
-/* The least alpha for samples that are `kernel` apart, see brdf_evaluate; 1 is the roughest: a kernel that stays too
- * narrow then has too few samples anyhow. Of the view's mirror image, by what it reflects and by `spread`,
- * sqrt(alpha^2 + (1 - alpha^2) nv^2): V nl is 1 / (4 spread) there. */
+/* The least alpha for samples that are `kernel` apart (brdf_evaluate), at most 1, the roughest lobe. `reflects` is
+ * the Fresnel term and `spread` = sqrt(alpha^2 + (1 - alpha^2) nv^2), both for the view's mirror image, where V nl
+ * = 1 / (4 spread). */
 float kernel_alpha(float kernel, float reflects, float spread)
 {
     return min(sqrt(kernel * reflects / (4.0 * LSF_PI * spread)), 1.0);
 }
 
 #if LSF_COAT
-/* What the coat itself reflects, for light that comes at the cosine `nl` to the surface's own normal. `kernel` as
- * below. */
+/* Reflection of the coat itself, for light at the cosine `nl` to the surface's own normal. `kernel` as in
+ * brdf_evaluate. */
 float coat_reflects(surface s, vec3 view_direction, vec3 light, float nl, float kernel)
 {
     vec3 n = s.coat_normal, view = lift_to_horizon(view_direction, n);
@@ -195,7 +196,7 @@ float coat_reflects(surface s, vec3 view_direction, vec3 light, float nl, float 
 #endif
 
 #if LSF_SPECULAR
-/* The specular lobe by its Fresnel term, with distribution and visibility apart. */
+/* The specular lobe: Fresnel term, and distribution and visibility apart. */
 struct specular_lobe {
     vec3 normal, tangent, bitangent, h, view, light;
     float nl, nv;
@@ -212,7 +213,7 @@ float lobe_distribution(specular_lobe l, float alpha_t, float alpha)
 #endif
 }
 
-/* As kernel_alpha wants it; with two alphas, by the axes. */
+/* `spread` of kernel_alpha. With two alphas it is taken along tangent and bitangent. */
 float mirror_spread(specular_lobe l, float alpha_t, float alpha)
 {
 #if LSF_ANISOTROPY
@@ -234,8 +235,8 @@ float lobe_visibility(specular_lobe l, float alpha_t, float alpha)
 #endif
 
 #if LSF_SPECULAR
-/* What the lobe reflects of light from all sides, by the product of both alphas; of those at an angle to the
- * tangent, nearly. */
+/* Directional albedo of the lobe by the product of both alphas; an approximation for views at an angle to the
+ * tangent. */
 vec3 lobe_albedo(vec3 f0, float f90, float nv, float alpha2)
 {
     float roughness = sqrt(sqrt(alpha2));
@@ -246,12 +247,11 @@ vec3 lobe_albedo(vec3 f0, float f90, float nv, float alpha2)
 /* Both directions are unit vectors that point away from the surface, the view as by surface_view; the specular lobe
  * is zero where light comes from behind the normal.
  *
- * `kernel` is m'/d [sr]: light comes in samples of density d, and the distribution D, taken as a
- * density kernel over m = m' F V nl of them, must not exceed d / m (Tokuyoshi and Ogaki 2012,
- * equation 9). For GGX, whose peak is 1 / (pi alpha_t alpha_b), roughness is raised to that, with F V nl of the
- * view's mirror image, so that the lobe is one for all samples of a density; it is then scaled to reflect, of light
- * from all sides, as much as the narrow one. With LSF_CLAMP_RADIANCE, D is cut off at the bound instead. 0: exact
- * light. */
+ * `kernel` is m'/d [sr]: light comes in samples of density d, and the distribution D, taken as a density kernel over
+ * m = m' F V nl of them, must not exceed d / m (Tokuyoshi and Ogaki 2012, equation 9). For GGX, whose peak is
+ * 1 / (pi alpha_t alpha_b), the roughness is raised until that holds, with F V nl of the view's mirror image, so that
+ * all samples of a density see the same lobe; the lobe is then scaled to the directional albedo of the narrow one.
+ * With LSF_CLAMP_RADIANCE, D is clamped to the bound instead. 0: exact light. */
 brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kernel)
 {
     brdf_value f;

@@ -1,15 +1,14 @@
-/* Directions drawn from the BRDF of lib/brdf.glsl: its diffuse lobe by the cosine, its specular lobe by
- * the normals that are visible from the view; Schlick's Fresnel term decides which. Their density is that
- * of both together, whichever was drawn. With LSF_TRANSMISSION a microfacet of the specular lobe may let
- * light through instead of reflecting it. As reference/bsdf.c and math/sampling.c do. Switches LSF_SPECULAR,
- * LSF_ANISOTROPY, LSF_TRANSMISSION. */
+/* Directions sampled from the BRDF of lib/brdf.glsl: the diffuse lobe by the cosine, the specular lobe by visible
+ * normals, one of them chosen by Schlick's Fresnel term. The density is that of both together, whichever was
+ * chosen. With LSF_TRANSMISSION a microfacet of the specular lobe may transmit instead of reflecting.
+ * reference/bsdf.c and math/sampling.c do the same. Switches LSF_SPECULAR, LSF_ANISOTROPY, LSF_TRANSMISSION. */
 #ifndef LSF_LIB_BRDF_SAMPLE
 #define LSF_LIB_BRDF_SAMPLE
 
 #include "lib/brdf.glsl"
 #include "lib/cosine.glsl"
 
-/* Neither lobe is drawn more rarely than that where both count: either carries what the other cannot. */
+/* Least probability of each lobe where both reflect: neither can stand in for the other. */
 #define LOBE_LEAST 0.1
 
 struct brdf_sampler {
@@ -17,17 +16,16 @@ struct brdf_sampler {
 #if LSF_SPECULAR
     vec3 view; /* in this frame, above its horizon */
     float alpha_t, alpha;
-    float specular; /* with which probability this lobe is drawn */
+    float specular; /* probability of choosing this lobe */
 #endif
 #if LSF_COAT
-    float coat; /* with which probability the coat's lobe is drawn, before all others */
+    float coat; /* probability of choosing the coat's lobe, before all others */
     vec3 coat_tangent, coat_bitangent, coat_normal, coat_view; /* the view in this frame, above its horizon */
     float coat_alpha;
 #endif
 #if LSF_TRANSMISSION
-    vec2 dielectric, reflecting; /* what the dielectric reflects of light from the front, and from the side;
-                                  * luminance of what the lobe does */
-    float passing;               /* luminance of what passes where nothing is reflected */
+    vec2 dielectric, reflecting; /* dielectric's reflectance f0 and f90; luminance of the lobe's f0 and f90 */
+    float passing;               /* luminance of what is transmitted where nothing is reflected */
     float eta;
 #endif
 };
@@ -38,7 +36,7 @@ float brdf_interface(brdf_sampler p, vec2 f, float vh)
     return lsf_fresnel_interface_to(f.x, f.y, vh, p.eta);
 }
 
-/* The share of its light that a microfacet is drawn to reflect. */
+/* Probability with which a microfacet that is drawn reflects rather than transmits. */
 float brdf_reflected_share(brdf_sampler p, float vh)
 {
     float passes = p.passing * (1.0 - brdf_interface(p, p.dielectric, vh));
@@ -47,8 +45,8 @@ float brdf_reflected_share(brdf_sampler p, float vh)
 }
 #endif
 
-/* `view` as for brdf_evaluate. With `both`, the two lobes are summed apart: then each counts even if the
- * surface reflects nothing by it. */
+/* `view` as for brdf_evaluate. With `both`, diffuse and specular light are summed apart, so that each lobe counts
+ * even if the surface reflects nothing by it. */
 brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
 {
     brdf_sampler p;
@@ -65,7 +63,7 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     vec3 lifted = lift_to_horizon(view, s.normal);
     p.view = vec3(dot(p.tangent, lifted), dot(p.bitangent, lifted),
                   max(dot(p.normal, lifted), LSF_COSINE_MIN));
-    /* The share of the light that each would reflect if the surface were smooth. */
+    /* The share of light that each lobe would reflect if the surface were smooth. */
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     float f0 = dot(surface_specular_f0(s), luminance), f90 = surface_specular_f90(s);
     float nv = min(p.view.z, 1.0), through = 1.0 - surface_dielectric_fresnel(s, nv);
@@ -73,7 +71,7 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     float matte = dot(surface_diffuse(s), luminance) * (1.0 - largest(surface_f0(s)));
     float diffuse = matte > 0.0 ? dot(surface_diffuse(s), luminance) * through : 0.0;
 #if LSF_SHEEN
-    /* It is broad: the diffuse lobe's directions serve it. */
+    /* A sheen is broad and is sampled by the diffuse lobe. */
     float sheen = dot(s.sheen.rgb, luminance);
     matte += sheen;
     diffuse += sheen * min(lsf_sheen_albedo(nv, s.sheen.a), 1.0);
@@ -81,7 +79,7 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
 #if LSF_TRANSMISSION
     p.dielectric = vec2(largest(surface_f0(s)), surface_f90(s));
     p.reflecting = vec2(f0, f90);
-    /* Where light goes straight on, chance has decided before whether it does. */
+    /* Where light passes straight on, stochastic transparency has already decided whether it does. */
     p.passing =
         LSF_STRAIGHT != 0 ? 0.0 : s.transmission * (1.0 - s.metallic) * dot(s.base_color, luminance);
     p.eta = s.eta;
@@ -110,7 +108,7 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
 vec3 visible_normal(vec3 view, float alpha_t, float alpha, vec2 disc)
 {
     vec3 stretched = normalize(vec3(alpha_t, alpha, 1.0) * view);
-    /* The half of the disc that shrinks lies where the hemisphere ends. */
+    /* The half of the disc on the side of the horizon is compressed. */
     float side = length(stretched.xy);
     vec3 across = side > 1e-7 ? vec3(-stretched.y, stretched.x, 0.0) / side : vec3(1.0, 0.0, 0.0);
     float share = 0.5 * (1.0 + stretched.z);
@@ -127,9 +125,9 @@ vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
 #endif
 
 #if LSF_TRANSMISSION
-/* Whether the numbers that brdf_draw would take let light through the surface: then from where, and with what
- * weight, f cos / p of all ways in which the direction may be drawn. The weight is 0 where a rough surface's
- * microfacet sends light back to the side it comes from. */
+/* Whether the numbers that brdf_draw would take choose transmission; then the direction and its weight f cos / p,
+ * with p over all strategies that may draw the direction. The weight is 0 where a microfacet of a rough surface
+ * sends the light back to the side that it comes from. */
 bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 weight)
 {
     weight = vec3(0.0);
@@ -149,7 +147,7 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
     if (u.z < p.specular * share)
         return false;
     vec3 local = 2.0 * vh * h - p.view;
-    float gain; /* f cos / p without the Fresnel term: masking of the light's direction */
+    float gain; /* f cos / p without the Fresnel term: masking of the light direction */
     if (p.eta == 1.0) {
         vec3 stretched = vec3(p.alpha_t, p.alpha, 1.0) * p.view;
         gain = 2.0 * local.z * (p.view.z + length(stretched)) *
@@ -174,7 +172,7 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
 }
 #endif
 
-/* A unit vector; `u`: three numbers in [0, 1). It may lie below the horizon. */
+/* Draws a unit vector; `u`: three numbers in [0, 1). It may lie below the horizon. */
 vec3 brdf_draw(brdf_sampler p, vec3 u)
 {
     vec2 disc = disc_draw(u.xy);
@@ -196,7 +194,7 @@ vec3 brdf_draw(brdf_sampler p, vec3 u)
     return normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
 }
 
-/* Density [1/sr] with which a direction above the horizon is drawn. */
+/* Density [1/sr] of a direction above the horizon. */
 float brdf_pdf(brdf_sampler p, vec3 direction)
 {
     float nl = dot(p.normal, direction);

@@ -1,5 +1,5 @@
-/* Coordinates along a bundle's axes, less what is empty between parts of the scene that lie far apart. Switch
- * LSF_BUNDLE_GAPS: there are such parts. shared/bundle_data.h has the formula. */
+/* Coordinates along a bundle's axes, from which the empty gaps between distant parts of the scene have been
+ * removed. Switch LSF_BUNDLE_GAPS: there are gaps. shared/bundle_data.h has the formula. */
 #ifndef LSF_LIB_BUNDLE_MAP
 #define LSF_LIB_BUNDLE_MAP
 
@@ -12,7 +12,7 @@ float bundle_closed(float q, vec4 starts, vec4 lengths)
     return q - dot(clamp(vec4(q) - starts, vec4(0.0), lengths), vec4(1.0));
 }
 
-/* What was taken out before a coordinate that is left. */
+/* Length of the gaps that were removed before a closed coordinate. */
 float bundle_left_out(float closed, vec4 starts, vec4 lengths)
 {
     float before = 0.0;

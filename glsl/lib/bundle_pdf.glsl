@@ -1,5 +1,5 @@
-/* Density [1/sr] of ray-bundles by direction, p_r; see src/techniques/bundle_directions.h. Switch
- * LSF_BUNDLE_IMPORTANCE: they are drawn by an environment map's light, else uniformly. */
+/* Density [1/sr] p_r of ray-bundles by direction; see src/techniques/bundle_directions.h. Switch
+ * LSF_BUNDLE_IMPORTANCE: directions are drawn by an environment map's radiance, else uniformly. */
 #ifndef LSF_LIB_BUNDLE_PDF
 #define LSF_LIB_BUNDLE_PDF
 

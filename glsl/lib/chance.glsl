@@ -1,4 +1,4 @@
-/* Numbers that decide by chance, anew in each iteration. */
+/* Random numbers for stochastic transparency, new in each iteration. */
 #ifndef LSF_LIB_CHANCE
 #define LSF_LIB_CHANCE
 
@@ -7,15 +7,15 @@
 
 layout(location = LSF_LOCATION_CHANCE) uniform uvec2 chance; /* seed, iteration; lsf_iteration_set_chance */
 
-/* 0 <= u < 1; the same for the same key. */
+/* 0 <= u < 1, the same for equal keys. */
 float chance_number(uvec3 key)
 {
     return hash_unit(hash(key ^ hash(uvec3(chance, 0u)))).x;
 }
 
-/* Above 0 and below 1. The iterations' numbers for one key are a scrambled and shuffled van der Corput sequence,
- * those of different keys are independent (S. Laine, T. Karras, "Stratified Sampling for Stochastic
- * Transparency", EGSR 2011). */
+/* 0 < u < 1. Over the iterations the numbers of one key are a scrambled and shuffled van der Corput sequence;
+ * those of different keys are independent (S. Laine, T. Karras, "Stratified Sampling for Stochastic Transparency",
+ * EGSR 2011). */
 float chance_even_number(uvec3 key)
 {
     uvec3 seeds = hash(uvec3(key.x ^ chance.x, key.yz));

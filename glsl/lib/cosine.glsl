@@ -1,10 +1,10 @@
-/* Directions about z, drawn by the cosine. */
+/* Cosine-distributed directions about z. */
 #ifndef LSF_LIB_COSINE
 #define LSF_LIB_COSINE
 
 #include "shared/brdf.h"
 
-/* From the square to the disc: P. Shirley, K. Chiu, JGT 2(3), 1997. */
+/* Maps the square to the disc: P. Shirley, K. Chiu, JGT 2(3), 1997. */
 vec2 disc_draw(vec2 u)
 {
     vec2 a = 2.0 * u - 1.0;
@@ -15,7 +15,7 @@ vec2 disc_draw(vec2 u)
     return (wide ? a.x : a.y) * vec2(cos(phi), sin(phi));
 }
 
-/* Above a place on the disc. Uniform places make directions whose density is cos / pi. */
+/* The direction above a point of the disc. Uniform points give directions of density cos / pi. */
 vec3 cosine_direction(vec2 disc)
 {
     return vec3(disc, sqrt(max(0.0, 1.0 - dot(disc, disc))));

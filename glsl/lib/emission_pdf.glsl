@@ -1,7 +1,6 @@
-/* With which density the light in turn emits VPLs towards a point. Switches LSF_SPOT_LIGHT,
- * LSF_DIRECTIONAL_LIGHT, LSF_EMISSION_ADAPTIVE. The light block must be that of the reflective
- * shadow map; densities are per steradian about the light, for a directional light per area of a
- * plane across it. */
+/* Density with which the current light emits VPLs towards a point. Switches LSF_SPOT_LIGHT, LSF_DIRECTIONAL_LIGHT,
+ * LSF_EMISSION_ADAPTIVE. The light block must be that of the reflective shadow map. Densities are per steradian
+ * about the light; for a directional light, per area of a plane across it. */
 #ifndef LSF_LIB_EMISSION_PDF
 #define LSF_LIB_EMISSION_PDF
 
@@ -9,8 +8,8 @@
 #include "shared/brdf.h"
 #include "shared/light.h"
 
-/* Of places on a face, in units of -1..1, to one of directions (or areas) at this point: a face's
- * place (x, y) = q.xy / (q.z extent) spans extent.x extent.y / (1 + (q.x^2 + q.y^2) / q.z^2)^(3/2)
+/* Converts a density over positions on a face, in units of -1..1, to one over directions (or areas) at this point:
+ * a face's position (x, y) = q.xy / (q.z extent) spans extent.x extent.y / (1 + (q.x^2 + q.y^2) / q.z^2)^(3/2)
  * steradians. */
 float emission_place_density(int face, vec3 position)
 {
@@ -22,7 +21,7 @@ float emission_place_density(int face, vec3 position)
     return secant2 * sqrt(secant2) / (extent.x * extent.y);
 }
 
-/* As the light shines. */
+/* Density in proportion to the light's intensity. */
 float emission_pdf_uniform(vec3 position)
 {
     float type = light.attenuation.w;
@@ -44,20 +43,20 @@ float emission_pdf_uniform(vec3 position)
 
 #if LSF_EMISSION_ADAPTIVE
 
-/* The flux that each texel reflects; times light.position.w, its density over places. */
+/* Importance: the flux that each texel reflects. Times light.position.w it is the density over positions. */
 layout(binding = LSF_UNIT_EMISSION) uniform sampler2DArray emission_importance;
 
-/* Part of the VPLs that are emitted as the light shines whatever the map shows, so that a point
- * which its texel's centre knows nothing of has a density, too: defensive importance sampling
- * (Hesterberg 1995, "Weighted Average Importance Sampling and Defensive Mixture Distributions"). No
- * VPL then has more than eight times the power that it has with uniform emission. */
+/* Share of the VPLs that are emitted in proportion to intensity whatever the map shows, so that points that a
+ * texel's centre misses have a density, too: defensive importance sampling (Hesterberg 1995, "Weighted Average
+ * Importance Sampling and Defensive Mixture Distributions"). No VPL then has more than eight times the power that
+ * it has with uniform emission. */
 #define EMISSION_DEFENSIVE 0.125
 
 float emission_pdf(vec3 position)
 {
     float uniform_pdf = emission_pdf_uniform(position);
     if (light.position.w == 0.0)
-        return uniform_pdf; /* the light meets nothing */
+        return uniform_pdf; /* the light reaches no surface */
     int face = light_projection_face(position);
     vec3 q = light_projection_coordinates(face, position);
     vec2 place = light_projection_place(face, q);

@@ -1,4 +1,4 @@
-/* Points on emissive surfaces, drawn by their power. */
+/* Points on emissive surfaces, sampled in proportion to their power. */
 #ifndef LSF_LIB_EMITTER
 #define LSF_LIB_EMITTER
 
@@ -9,7 +9,7 @@ layout(std430, binding = LSF_BINDING_EMITTERS) readonly buffer lsf_emitter_block
     lsf_emitter_point_data emitter_points[];
 };
 
-/* `u` in [0, 1)^2: points that are stratified there are so over the emitters. */
+/* `u` in [0, 1)^2: stratified values give points that are stratified over the emitters. */
 lsf_emitter_point_data emitter_draw(vec2 u)
 {
     uvec2 cell = uvec2(u * float(LSF_EMITTER_CELLS));

@@ -6,13 +6,13 @@
 #include "shared/scene_data.h"
 
 layout(location = LSF_LOCATION_ENVIRONMENT) uniform vec4 environment_uniform;
-/* rgb: radiance, without a map; w: turn of the map, of a full one */
+/* rgb: radiance, without a map; w: rotation of the map, in full turns */
 #if LSF_ENVIRONMENT_MAP
 layout(binding = LSF_UNIT_ENVIRONMENT) uniform sampler2D environment_texture;
 #endif
 
 #if LSF_ENVIRONMENT_MAP
-/* Where a unit direction lies on the map. */
+/* Texture coordinates of a unit direction on the map. */
 vec2 environment_place(vec3 direction)
 {
     return lat_long(direction) + vec2(environment_uniform.w, 0.0);

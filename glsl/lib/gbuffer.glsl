@@ -1,11 +1,11 @@
-/* What a G-buffer texel holds, packed and unpacked in one place.
+/* The contents of a G-buffer texel, and the functions that pack and unpack them.
  *
  * gbuffer.surface RGBA32UI
  *   x  geometric normal, octahedral 2 x snorm16, towards the viewer
  *   y  shading normal, the same
  *   z  base colour R, G as 2 x unorm16
  *   w  base colour B unorm16 | metallic unorm15 << 16 | unlit << 31
- * gbuffer.gloss R32UI (RG32UI with anisotropy, RGBA32UI with transmission or tints), only when the scene requires it
+ * gbuffer.gloss R32UI (RG32UI with anisotropy, RGBA32UI with transmission or tints), only where the scene requires it
  *   x  roughness unorm16 | f0 of the dielectric unorm16 << 16
  *   y  anisotropy strength unorm16 | angle of its tangent in the shading normal's
  *      orthonormal_basis, unorm16 of a full turn << 16
@@ -15,11 +15,11 @@
  *   the first of y, z, w that is free holds a clear coat: factor unorm5 | roughness unorm9 << 5 |
  *   normal, octahedral 2 x unorm9 << 14 (KHR_materials_clearcoat)
  *   the next one that is free a sheen: roots of the color 3 x unorm8 | roughness unorm8 (KHR_materials_sheen)
- * gbuffer.tint RGBA16F, only where light goes straight through surfaces: what is left of the light on its way to
- *   the eye, over the probability of seeing this surface (lib/straight.glsl)
- * gbuffer.absorption RGBA32F, only with media: optical depth on that way
+ * gbuffer.tint RGBA16F, only where light passes straight through surfaces: transmittance between surface and eye, over
+ *   the probability of seeing this surface (lib/straight.glsl)
+ * gbuffer.absorption RGBA32F, only with media: optical depth between surface and eye
  * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SCATTER (rough thin walls scatter), LSF_SPECULAR_TINT, LSF_COAT and
- * LSF_SHEEN (the words of these). */
+ * LSF_SHEEN (their words exist). */
 #ifndef LSF_LIB_GBUFFER
 #define LSF_LIB_GBUFFER
 
@@ -50,11 +50,11 @@ struct surface {
     vec3 base_color;
     float metallic, roughness, f0;
     float anisotropy;      /* strength, 0..1 */
-    float anisotropy_angle; /* tangent's angle in orthonormal_basis(normal), 0..1 of a turn */
+    float anisotropy_angle; /* the tangent's angle in orthonormal_basis(normal), 0..1 of a full turn */
     bool unlit;
 #if LSF_SPECULAR_TINT
-    vec3 f0_tint;          /* dielectrics reflect f0 times this ... */
-    float specular_weight; /* ... times this, which is what they reflect at grazing angles */
+    vec3 f0_tint;          /* factor on the f0 of dielectrics */
+    float specular_weight; /* reflectance of dielectrics at grazing angles, and a factor on f0 */
 #endif
 #if LSF_SHEEN
     vec4 sheen; /* color, roughness */
@@ -64,18 +64,18 @@ struct surface {
     vec3 coat_normal; /* unit, towards the viewer's side */
 #endif
 #if LSF_TRANSMISSION
-    float transmission; /* of what the dielectric does not reflect */
-    float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
+    float transmission; /* share of the light that enters the dielectric */
+    float eta;          /* refractive index behind the surface over that on the viewer's side; 1: not refracted */
     bool front, volume; /* seen from the front; surface of a medium, which lies behind the front */
     uint material;
 #if LSF_SCATTER
-    bool through; /* what is seen is light that comes through it, scattered: normals point to where that comes
+    bool through; /* the visible light is scattered through the surface: normals point to the side that it comes
                    * from */
 #endif
 #endif
 };
 
-/* As surfaces are without extensions. */
+/* Sets the values of a surface without extensions. */
 void lobes_none(inout surface s)
 {
 #if LSF_SPECULAR_TINT
@@ -108,7 +108,7 @@ void coat_unpack(uint bits, inout surface s)
 }
 #endif
 
-/* Of the dielectric. */
+/* f0 of the dielectric. */
 vec3 surface_f0(surface s)
 {
 #if LSF_SPECULAR_TINT
@@ -118,7 +118,7 @@ vec3 surface_f0(surface s)
 #endif
 }
 
-/* What the dielectric reflects at grazing angles. */
+/* Reflectance of the dielectric at grazing angles. */
 float surface_f90(surface s)
 {
 #if LSF_SPECULAR_TINT
@@ -134,7 +134,7 @@ float largest(vec3 v)
 }
 
 #if LSF_TRANSMISSION
-/* Of 2^21 materials. */
+/* Packs transmission, flags and material; holds up to 2^21 materials. */
 uint transmission_pack(surface s)
 {
     uint bits = uint(clamp(s.transmission, 0.0, 1.0) * 255.0 + 0.5) | (s.front ? 1u << 8 : 0u) |
@@ -145,17 +145,17 @@ uint transmission_pack(surface s)
     return bits;
 }
 
-/* As it is seen from the front, or from the back. Needs s.f0, which holds the index of refraction n:
- * f0 = ((n - 1) / (n + 1))^2. */
+/* Sets `eta` and the flags for a surface seen from the front or from the back. Needs s.f0, which encodes the
+ * refractive index n: f0 = ((n - 1) / (n + 1))^2. */
 void transmission_turn(inout surface s, bool front)
 {
     s.front = front;
     s.eta = 1.0;
     if (s.volume && LSF_STRAIGHT == 0) {
-        /* A surface that reflects all (f0 = 1) transmits nothing, by any index. */
+        /* A surface that reflects everything (f0 = 1) transmits nothing, whatever its index. */
         float root = min(sqrt(s.f0), 0.99);
         s.eta = lsf_relative_ior((1.0 + root) / (1.0 - root), front);
-        /* Without a change of index nothing is scattered, however rough. */
+        /* Without a change of index nothing is refracted, however rough the surface. */
         if (s.eta == 1.0)
             s.roughness = s.anisotropy = 0.0;
     }

@@ -1,4 +1,4 @@
-/* What a pixel of the G-buffer holds, into a texel of another order or another size. */
+/* Copies a G-buffer pixel into a texel of another order or size. */
 #ifndef LSF_LIB_GBUFFER_COPY
 #define LSF_LIB_GBUFFER_COPY
 

@@ -1,4 +1,4 @@
-/* The G-buffer, or the same of other places than the picture's pixels. Switch LSF_GLOSS. */
+/* The G-buffer of the picture's pixels, or the same layout for other points. Switch LSF_GLOSS. */
 #ifndef LSF_LIB_GBUFFER_TEXTURES
 #define LSF_LIB_GBUFFER_TEXTURES
 

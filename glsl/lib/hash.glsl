@@ -1,4 +1,4 @@
-/* Numbers that look random, of integers. */
+/* Pseudo-random numbers by hashing integers. */
 #ifndef LSF_LIB_HASH
 #define LSF_LIB_HASH
 
@@ -16,13 +16,13 @@ uvec3 hash(uvec3 v)
     return v;
 }
 
-/* The 24 high bits, 0 <= u < 1. */
+/* Uses the 24 high bits, 0 <= u < 1. */
 vec3 hash_unit(uvec3 bits)
 {
     return vec3(bits >> 8) * (1.0 / 16777216.0);
 }
 
-/* Owen's scrambling of bit-reversed numbers; scramble_reversed of math/sampling.c. */
+/* Owen scrambling of bit-reversed numbers; scramble_reversed of math/sampling.c. */
 uvec3 scramble_reversed(uvec3 x, uvec3 seed)
 {
     x ^= x * 0x3d20adeau;

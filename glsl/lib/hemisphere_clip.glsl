@@ -1,4 +1,4 @@
-/* Vertices of one octant of a hemisphere's map, for the pipeline. */
+/* Clip-space vertices of one octant of a hemisphere's map, for the pipeline. */
 #ifndef LSF_LIB_HEMISPHERE_CLIP
 #define LSF_LIB_HEMISPHERE_CLIP
 

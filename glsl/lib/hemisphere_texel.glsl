@@ -1,4 +1,4 @@
-/* A fragment's texel of a hemisphere's map. */
+/* Packs a fragment into its texel of a hemisphere's map. */
 #ifndef LSF_LIB_HEMISPHERE_TEXEL
 #define LSF_LIB_HEMISPHERE_TEXEL
 
@@ -6,7 +6,7 @@
 
 layout(r32ui, binding = 0) uniform uimage2D map_image;
 
-/* Call it before any discard, while the whole quad is alive. */
+/* Call this before any discard, while the whole quad is alive. */
 vec2 texel_slope()
 {
     float z = gl_FragCoord.z;

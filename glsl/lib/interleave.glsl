@@ -1,6 +1,6 @@
-/* Where pixels lie in split order; see src/passes/sparse.md. Switch LSF_INTERLEAVE, the size of the
- * pattern. Along an axis of `length` pixels, tile t holds the pixels t + i size: one more in the
- * first length % size tiles than in the others. */
+/* Positions of pixels in split order; see src/passes/sparse.md. Switch LSF_INTERLEAVE, the size of the pattern.
+ * Along an axis of `length` pixels, tile t holds the pixels t + i size: one more in the first length % size tiles
+ * than in the others. */
 #ifndef LSF_LIB_INTERLEAVE
 #define LSF_LIB_INTERLEAVE
 
@@ -9,13 +9,13 @@ ivec2 interleave_corner(ivec2 tile, ivec2 length)
     return tile * (length / LSF_INTERLEAVE) + min(tile, length % LSF_INTERLEAVE);
 }
 
-/* The place of a pixel in split order. */
+/* The position of a pixel in split order. */
 ivec2 interleave_place(ivec2 pixel, ivec2 length)
 {
     return interleave_corner(pixel % LSF_INTERLEAVE, length) + pixel / LSF_INTERLEAVE;
 }
 
-/* The pixel at a place of split order. */
+/* The pixel at a position in split order. */
 ivec2 interleave_pixel(ivec2 place, ivec2 length)
 {
     ivec2 shorter = length / LSF_INTERLEAVE, longer_tiles = length % LSF_INTERLEAVE;

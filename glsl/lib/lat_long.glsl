@@ -1,6 +1,6 @@
-/* Where a direction lies on a map of all directions, 0..1: u = 0.5 + atan(z, x) / 2 pi, v = acos(y) / pi
- * from the top. The arc cosine is taken by the arc tangent: drivers' own is off by up to 2e-4, a thirtieth of a texel
- * of a map of 512 rows. */
+/* Texture coordinates of a direction on a latitude-longitude map, 0..1: u = 0.5 + atan(z, x) / 2 pi, v = acos(y) /
+ * pi from the top. The arc cosine is computed from the arc tangent, because drivers' own is off by up to 2e-4, a
+ * thirtieth of a texel of a map of 512 rows. */
 #ifndef LSF_LIB_LAT_LONG
 #define LSF_LIB_LAT_LONG
 

@@ -1,4 +1,4 @@
-/* The punctual light in turn. Switches LSF_SPOT_LIGHT, LSF_DIRECTIONAL_LIGHT. */
+/* The current punctual light. Switches LSF_SPOT_LIGHT, LSF_DIRECTIONAL_LIGHT. */
 #ifndef LSF_LIB_LIGHT
 #define LSF_LIB_LIGHT
 

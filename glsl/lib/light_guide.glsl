@@ -1,24 +1,25 @@
-/* How far two pixels see one surface, by means of normal and depth; src/passes/light_filter.md has the weights.
- * Needs lib/view.glsl. Switch LSF_LOBE: there is light of a specular lobe. */
+/* Weights that say how far two pixels show one surface, from means of normal and depth; src/passes/light_filter.md
+ * derives them. Needs lib/view.glsl. Switch LSF_LOBE: there is light of a specular lobe. */
 #ifndef LSF_LIB_LIGHT_GUIDE
 #define LSF_LIB_LIGHT_GUIDE
 
 #include "lib/luminance.glsl"
 #include "lib/octahedral.glsl"
 
-/* Made by the pass light_guide. */
+/* Outputs of the pass light_guide. */
 layout(binding = 0) uniform sampler2D guide_texture; /* octahedral normal, mean reverse-Z depth, alpha of the lobe */
-layout(binding = 1) uniform sampler2D slope_texture; /* of that depth, for each pixel along x and y; `spread`; `alike` */
-layout(binding = 15) uniform sampler2D turn_texture; /* of the normal, for each pixel along x and y [radians] */
+layout(binding = 1) uniform sampler2D slope_texture; /* slope of that depth per pixel along x and y; `spread`;
+                                                      * `alike` */
+layout(binding = 15) uniform sampler2D turn_texture; /* rotation of the normal per pixel along x and y [radians] */
 layout(location = 0) uniform vec2 guide_weights;     /* light_filter.depth_weight, .normal_weight */
 
 struct light_guide {
     vec3 normal; /* unit */
     float depth; /* 0: nothing is seen */
     vec2 slope, turn;
-    float spread; /* of depth within the pixel, beyond that of its plane */
-    float alike;  /* 1 where all normals within the pixel are the same, less the more they differ */
-    float scale;  /* from differences of depth to distances from the surface's plane [pixels] */
+    float spread; /* deviation of depth within the pixel, beyond that of its plane */
+    float alike;  /* 1 where all normals within the pixel are equal, less the more they differ */
+    float scale;  /* factor from differences of depth to distances from the surface's plane [pixels] */
 #if LSF_LOBE
     vec3 position, view;
     float alpha;
@@ -26,7 +27,7 @@ struct light_guide {
 };
 
 #if LSF_LOBE
-/* Below it squares of roughness and of angles are as good as 0. */
+/* Squares of roughness and of angles below this count as 0. */
 #define LSF_TINY 1e-20
 
 vec2 center_ndc(ivec2 pixel)
@@ -34,14 +35,15 @@ vec2 center_ndc(ivec2 pixel)
     return (vec2(pixel) + 0.5) * (2.0 * view.size.zw) - 1.0;
 }
 
-/* The pixel's lobe where the neighbour's has its peak, as a part of its own peak, and how alike both are. */
+/* The pixel's lobe at the peak of the neighbour's lobe, relative to its own peak, times the similarity of both
+ * lobes. */
 float lobe_weight(light_guide g, ivec2 neighbour, vec3 normal, float depth, float alpha)
 {
     vec2 ndc = center_ndc(neighbour);
     vec3 ray = normalize(view_ray_direction(ndc));
     vec3 mirrored = reflect(ray, normal);
     vec3 apart = position_from_depth(ndc, depth) - g.position;
-    /* Along the normal of the facets that would mirror it to the pixel. */
+    /* The normal of the microfacets that would mirror the neighbour's peak direction to the pixel. */
     vec3 h = g.view + mirrored + apart;
     float nh = dot(g.normal, h);
     vec3 across = h - nh * g.normal;
@@ -51,7 +53,7 @@ float lobe_weight(light_guide g, ivec2 neighbour, vec3 normal, float depth, floa
 }
 #endif
 
-/* Reverse-Z depth is affine in the inverse of the distance, so that planes are affine over the picture. */
+/* Reverse-Z depth is affine in the inverse distance, so that a plane's depth is affine over the picture. */
 light_guide light_guide_at(ivec2 pixel)
 {
     light_guide g;
@@ -62,13 +64,13 @@ light_guide light_guide_at(ivec2 pixel)
     g.turn = texelFetch(turn_texture, pixel, 0).xy;
     g.spread = slope.z;
     g.alike = slope.w;
-    /* By how many pixels' widths a surface moves away from the viewer for each unit of depth. */
+    /* Widths of a pixel by which a surface recedes from the viewer for each unit of depth. */
 #if LSF_ORTHOGRAPHIC
     float widths = 1.0 / (abs(view.depth.x) * 2.0 * length(view.start_dx.xyz) * view.size.z);
 #else
     float widths = 1.0 / (max(abs(g.depth - view.depth.x), 1e-20) * 2.0 * length(view.forward_dx.xyz) * view.size.z);
 #endif
-    /* ... and from its own plane, which is that much less steep. */
+    /* The same for the distance from the surface's own plane, which is smaller by the plane's slope. */
     g.scale = widths * inversesqrt(1.0 + dot(g.slope, g.slope) * widths * widths);
 #if LSF_LOBE
     vec2 ndc = center_ndc(pixel);
@@ -79,11 +81,11 @@ light_guide light_guide_at(ivec2 pixel)
     return g;
 }
 
-/* Pixels over which a surface counts as one although it is curved: the sides of patterns of samples are no longer. */
+/* Distance [pixels] over which a curved surface counts as one; the sampling patterns are no wider. */
 #define LSF_CURVED_REACH 4.0
 
-/* 1 where the neighbour, of which the guide is given, lies on the pixel's surface and looks the way that this would
- * there, as curved as it is beside the pixel. */
+/* 1 where the neighbour, whose guide is given, lies on the pixel's surface and has the normal that this surface
+ * would have there, continued with its curvature at the pixel. */
 float plane_weight(light_guide g, ivec2 pixel, ivec2 neighbour, vec4 texel, vec3 normal)
 {
     float cosine = dot(g.normal, normal);
@@ -91,7 +93,7 @@ float plane_weight(light_guide g, ivec2 pixel, ivec2 neighbour, vec4 texel, vec3
     float distance = length(apart);
     float turn = dot(abs(apart), g.turn) * min(LSF_CURVED_REACH / distance, 1.0);
     float off = max(abs(texel.z - g.depth - dot(g.slope, apart)) - 2.0 * g.spread, 0.0) * g.scale / distance;
-    /* A chord leaves the plane by half the angle of the normals. */
+    /* A chord deviates from the tangent plane by half the angle between the normals at its ends. */
     off = max(off - 0.5 * turn, 0.0) / guide_weights.x;
     float angle = max(sqrt(max(2.0 - 2.0 * cosine, 0.0)) - turn, 0.0);
     /* Powers of cosines of small angles: cos^p = e^(-p angle^2 / 2). */
@@ -99,7 +101,7 @@ float plane_weight(light_guide g, ivec2 pixel, ivec2 neighbour, vec4 texel, vec3
     return texel.z == 0.0 || cosine <= 0.0 ? 0.0 : weight;
 }
 
-/* For irradiance, and for light of the lobe. */
+/* Weights for irradiance and for specular light. */
 vec2 light_guide_weights(light_guide g, ivec2 pixel, ivec2 neighbour)
 {
     vec4 texel = texelFetch(guide_texture, neighbour, 0);

@@ -1,4 +1,4 @@
-/* The light in turn and the projection of its map; see shared/light_data.h. */
+/* The current light and the projection of its map; see shared/light_data.h. */
 #ifndef LSF_LIB_LIGHT_PROJECTION
 #define LSF_LIB_LIGHT_PROJECTION
 
@@ -15,8 +15,8 @@ bool light_projection_perspective()
     return light.map_shape.y == 0.0;
 }
 
-/* What a stored gradient is relative to: the depth itself when perspective, where depths span many
- * magnitudes, so that half floats hold it. */
+/* The unit of a stored gradient: the depth itself in perspective maps, where depths span many orders of magnitude,
+ * so that half floats hold it. */
 float light_projection_depth_unit(float depth)
 {
     return light_projection_perspective() ? depth : 1.0;
@@ -30,7 +30,7 @@ vec3 light_projection_coordinates(int face, vec3 position)
                 dot(light.map_forward[face].xyz, p));
 }
 
-/* Place on the face, -1..1, of a point with these coordinates. */
+/* Position on the face, -1..1, of a point with these coordinates. */
 vec2 light_projection_place(int face, vec3 q)
 {
     vec4 window = light.map_window[face];
@@ -38,7 +38,7 @@ vec2 light_projection_place(int face, vec3 q)
     return place + light.map_offset.xy;
 }
 
-/* The point at a place on a face with this depth. */
+/* The point at a position on a face with this depth. */
 vec3 light_projection_position(int face, vec2 place, float depth)
 {
     vec4 window = light.map_window[face];
@@ -64,8 +64,8 @@ vec4 light_projection_clip(int face, vec3 position)
                 (light.map_shape.y - q.z) / (light.map_shape.y - light.map_shape.x), 1.0);
 }
 
-/* The face that sees the point: of a cube by its greatest coordinate, of cascades the smallest
- * window that holds it. */
+/* The face that shows the point: of a cube by the largest coordinate, of cascades the smallest window that holds
+ * it. */
 int light_projection_face(vec3 position)
 {
     int faces = int(light.map_origin.w);

@@ -1,6 +1,6 @@
-/* What light paths meet that leave the light in turn: a direction is drawn exactly, the texel of the light's
- * reflective shadow map that holds it says which plane the ray meets. Switches LSF_GLOSS, LSF_SPECULAR,
- * LSF_SHADOW_TINT and those of the libraries. */
+/* First vertices of light paths that leave the current light: the direction is drawn exactly, and the texel of the
+ * light's reflective shadow map in that direction gives the plane that the ray hits. Switches LSF_GLOSS,
+ * LSF_SPECULAR, LSF_SHADOW_TINT and those of the libraries. */
 #ifndef LSF_LIB_LIGHT_RAY
 #define LSF_LIB_LIGHT_RAY
 
@@ -20,14 +20,14 @@ layout(binding = 3) uniform sampler2DArray tint_texture;
 #if LSF_EMISSION_ADAPTIVE
 layout(std430, binding = 4) readonly buffer sum_block
 {
-    float sums[]; /* of importance: rows of running sums, then running sums of the rows */
+    float sums[]; /* prefix sums of importance: one for each row, then that of the row totals */
 };
 #endif
 
 struct ray {
     vec3 origin, direction; /* unit */
     int face;
-    vec2 texel; /* continuous texel coordinates where it goes through the map */
+    vec2 texel; /* continuous texel coordinates of the ray on the map */
 };
 
 struct met_plane {
@@ -46,7 +46,7 @@ ray ray_through(vec3 origin, vec3 direction)
     return r;
 }
 
-/* A ray from the light with density emission_pdf_uniform. */
+/* Draws a ray from the light with density emission_pdf_uniform. */
 ray emit_ray_uniform(vec2 u)
 {
 #if LSF_DIRECTIONAL_LIGHT
@@ -85,8 +85,8 @@ ray ray_of_center(int face, ivec2 at)
 
 #if LSF_EMISSION_ADAPTIVE
 
-/* The entry of an increasing run of sums that u of its last falls in, never one that adds nothing;
- * u becomes the place in it, 0..1. */
+/* The entry of an increasing run of prefix sums that holds u times the last of them, never one that adds nothing;
+ * u becomes the position within the entry, 0..1. */
 int find_entry(int start, int count, inout float u)
 {
     float wanted = u * sums[start + count - 1];
@@ -104,7 +104,7 @@ int find_entry(int start, int count, inout float u)
     return low;
 }
 
-/* A ray from the light with density emission_pdf. */
+/* Draws a ray from the light with density emission_pdf. */
 ray emit_ray(vec2 u)
 {
     if (u.x < EMISSION_DEFENSIVE || light.position.w == 0.0) {
@@ -149,8 +149,8 @@ met_plane plane_at(int face, ivec2 at)
     return p;
 }
 
-/* Distance along the ray to the plane. A surface so steep that its depth doubles within a texel is
- * not resolved by the map: the plane is left where it would lead out of the texel's surroundings. */
+/* Distance along the ray to the plane. The map does not resolve a surface so steep that its depth doubles within a
+ * texel: where such a plane would lead far from the texel, the distance is clamped about that of the texel's centre. */
 float distance_to(ray r, met_plane p)
 {
     float along = dot(p.point - r.origin, r.direction);
@@ -161,9 +161,9 @@ float distance_to(ray r, met_plane p)
     return clamp(dot(p.normal, p.point - r.origin) / towards, along - bound, along + bound);
 }
 
-/* The texel whose plane the ray meets: the one that holds it, or, where the surface beside it bends
- * towards the light within the texel (an inner corner), the neighbour. The planes then cross
- * between the texel's centre and the ray, which the neighbour's plane meets first. */
+/* The texel whose plane the ray hits: the one that holds the ray, or the neighbour where that surface bends
+ * towards the light within the texel (an inner corner). The planes then cross between the texel's centre and the
+ * ray, which hits the neighbour's plane first. */
 ivec2 find_texel(ray r, out met_plane met)
 {
     ivec2 last = ivec2(int(light.map_shape.z) - 1);
@@ -176,7 +176,7 @@ ivec2 find_texel(ray r, out met_plane met)
         return own;
     ray center = ray_of_center(r.face, own);
     float own_at_center = dot(own_plane.point - center.origin, center.direction);
-    float nearest = distance_to(r, own_plane) * (1.0 - 2e-5); /* closer is the same plane */
+    float nearest = distance_to(r, own_plane) * (1.0 - 2e-5); /* anything closer is the same plane */
     ivec2 found = own;
     for (int i = 1; i < 4; i++) {
         ivec2 at = own + step_to * ivec2(i & 1, i >> 1);
@@ -210,15 +210,15 @@ bool reflects(surface s)
     return !s.unlit && (specular || max(s.base_color.r, max(s.base_color.g, s.base_color.b)) > 0.0);
 }
 
-/* Where such a ray ends. */
+/* The end of such a ray. */
 struct light_hit {
     vec3 position, direction; /* unit, away from the light */
     float distance;
-    vec3 apart;     /* from the centre of the map's texel */
+    vec3 apart;     /* offset from the centre of the map's texel */
     surface s;
     vec3 intensity; /* of the light, towards the hit [W/sr]; for a directional light [W/m^2] */
-    float pdf;      /* with which it was drawn, emission_pdf */
-    bool lit;       /* something is met there that reflects the light */
+    float pdf;      /* density with which it was drawn, emission_pdf */
+    bool lit;       /* a surface is hit that reflects the light */
 };
 
 /* `u`: two numbers in [0, 1). */

@@ -1,5 +1,5 @@
-/* The tree over a cloud of VPLs: its buffers, and what a link leads to. Switch LSF_LIGHT_TREE_COVARIANCE. Who builds
- * the tree, and writes it, defines LIGHT_TREE_ACCESS as nothing. */
+/* The tree over a cloud of VPLs: its buffers, and the nodes that links lead to. Switch LSF_LIGHT_TREE_COVARIANCE.
+ * Shaders that build the tree define LIGHT_TREE_ACCESS as empty, because they write it. */
 #ifndef LSF_LIB_LIGHT_TREE
 #define LSF_LIB_LIGHT_TREE
 
@@ -35,7 +35,7 @@ uint light_record(uint link)
     return link & ~LSF_LIGHT_TREE_LEAF;
 }
 
-/* A VPL as a node of its own. */
+/* A single VPL as a node. */
 lsf_light_tree_node light_leaf(uint record)
 {
     lsf_light_tree_node leaf;
@@ -64,7 +64,7 @@ mat3 light_covariance(lsf_light_tree_node node)
 }
 #endif
 
-/* Axes of a node: z is the normal, x and y are in its plane. */
+/* Axes of a node: z is the normal, x and y lie in its plane. */
 mat3 light_tree_frame(vec3 normal)
 {
     vec3 t, b;
@@ -83,14 +83,14 @@ float light_variance_along(lsf_light_tree_node node, vec3 axis, mat3 frame)
 #endif
 }
 
-/* ... along all directions together. */
+/* Sum of the variances of positions along all three axes. */
 float light_variance(lsf_light_tree_node node)
 {
     return node.variance.x + node.variance.y + node.variance.z;
 }
 
-/* Squared radius of the disc of the area that each VPL of the node stands for: they are on a disc of radius
- * 2 sigma if they are evenly on any, in either direction. */
+/* Squared radius of the disc whose area each VPL of the node stands for: VPLs that are spread evenly over a disc
+ * have a radius of 2 sigma, along either axis. */
 float light_disc2(lsf_light_tree_node node, mat3 frame)
 {
 #if LSF_LIGHT_TREE_COVARIANCE

@@ -1,4 +1,4 @@
-/* Depth of the thin walls that are there for a light's map. Switches LSF_GRADIENT and those of lib/material.glsl. */
+/* Depth of the thin walls that are present in a light's map. Switches LSF_GRADIENT and those of lib/material.glsl. */
 #include "lib/chance.glsl"
 #include "lib/light_projection.glsl"
 #include "lib/material.glsl"
@@ -12,7 +12,7 @@ void main()
 {
     vec3 to_light = light_projection_perspective() ? -vertex_position : -light.direction.xyz;
 #if LSF_GRADIENT
-    /* Before any discard, while the whole quad is alive. */
+    /* Derivatives come before any discard, while the whole quad is alive. */
     float z = gl_FragCoord.z;
     gradient = vec2(dFdx(z), dFdy(z)) / light_projection_depth_unit(z);
 #endif

@@ -1,4 +1,4 @@
-/* Tint of light that has passed the thin walls before what its map shows: of all of them the product, in any
+/* Tint of light that has passed the thin walls in front of the map's surface: the product over all of them, in any
  * order. Switches LSF_ABSORPTION (there are media) and those of lib/material.glsl. */
 #include "lib/light_projection.glsl"
 #include "lib/material.glsl"
@@ -21,7 +21,7 @@ void main()
     float shown = texelFetch(depth_texture, ivec3(gl_FragCoord.xy, face), 0).r;
     if (!present || gl_FragCoord.z <= shown)
         discard;
-    /* Media let light of the sky through alone, whose maps are parallel. */
+    /* Media transmit light of the sky alone, whose maps are orthographic. */
     float way = (gl_FragCoord.z - shown) * (light.map_shape.y - light.map_shape.x);
     tint_out = vec4(straight_tint(s, to_light) * map_absorption(s, enters, way), 1.0);
 }

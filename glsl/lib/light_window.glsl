@@ -1,20 +1,21 @@
-/* Weighted means of two quantities over a window of 9 x 9 pixels that see one surface, gathered in two steps of 3 x 3
- * neighbours, 1 and 3 pixels apart: all pixels of the window once. Both for diffuse light and, with switch LSF_LOBE,
- * for specular light.
+/* Weighted means of two quantities over a window of 9 x 9 pixels that show one surface, gathered in two steps of 3
+ * x 3 neighbours, 1 and 3 pixels apart, so that each pixel of the window counts once. Both for diffuse light and,
+ * with switch LSF_LOBE, for specular light.
  *
- * Whoever includes it defines vec4 window_value(ivec2 at, int part): X, Y the quantities of the pixel or their means
- * after the first step, A the weight, 0: there are none. Part 1 is specular. */
+ * The including shader defines vec4 window_value(ivec2 at, int part): X, Y the quantities of the pixel or their
+ * means after the first step, A the weight, 0 where they are unknown. Part 1 is specular. */
 #ifndef LSF_LIB_LIGHT_WINDOW
 #define LSF_LIB_LIGHT_WINDOW
 
 #include "lib/light_guide.glsl"
 
-layout(location = 1) uniform bool window_moments; /* X is a mean and Y a variance: both are of the whole, then */
+layout(location = 1) uniform bool window_moments; /* X is a mean and Y a variance, which are combined to those of
+                                                   * the whole */
 
-/* Adds to weight and weighted sums. */
+/* Adds a value to the weight and the weighted sums. */
 void window_add(inout vec3 sums, vec4 own, vec4 value, float w)
 {
-    /* Squares of differences, for squares of what is large lose all digits. */
+    /* Squares are of differences, because squares of large values lose all digits. */
     float x = window_moments ? value.x - own.x : value.x;
     sums += w * value.a * vec3(1.0, x, window_moments ? value.y + x * x : value.y);
 }

@@ -23,7 +23,7 @@ flat in uvec2 vertex_layer;
 #endif
 #endif
 
-/* Whether an alpha mask cuts the fragment out, or chance has it that a blended surface is not there. */
+/* Whether an alpha mask, or the draw for a blended surface, removes the fragment. */
 bool masked_out()
 {
 #if LSF_MASK
@@ -31,7 +31,7 @@ bool masked_out()
     float alpha = material.base_color.a;
 #if LSF_TEXTURED
     if (slot_used(material.base_color_slot)) {
-        /* No footprint: the sharpest level. */
+        /* Without a footprint: the finest level is read. */
         texture_place place = texture_place(vertex_uv0, vec2(0.0), vec2(0.0), vertex_uv0,
                                             vec2(0.0), vec2(0.0));
 #if LSF_SECOND_UV

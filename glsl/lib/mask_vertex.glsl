@@ -1,4 +1,4 @@
-/* What a vertex hands to lib/mask.glsl. Switches as there. */
+/* Vertex outputs for lib/mask.glsl. Switches as there. */
 #ifndef LSF_LIB_MASK_VERTEX
 #define LSF_LIB_MASK_VERTEX
 

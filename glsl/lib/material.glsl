@@ -62,7 +62,7 @@ vec3 unit_or_zero(vec3 v)
     return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
 }
 
-/* The material as its vertex handed it on; what few materials need is read here. */
+/* The material as its vertex passed it on; members that few materials need are read here. */
 lsf_material_data fragment_material()
 {
     lsf_material_data material;
@@ -101,15 +101,15 @@ lsf_material_data fragment_material()
     return material;
 }
 
-/* Whether the front, or the back, emits. */
+/* Whether the front, or the back, emits light. */
 bool material_emits(bool front)
 {
     return material_emits(fragment_material(), front);
 }
 
-/* False where an alpha mask cuts the fragment out, or a blended surface is not there. Normals are turned to
- * the side that `to_viewer` points to (any length); `front` says whether that is the front. Emission as in
- * material_surface. Call it first, while the whole quad is alive. */
+/* False where an alpha mask, or the draw for a blended surface, removes the fragment. Normals are flipped to the
+ * side that `to_viewer` points to (any length); `front` says whether that is the front. Emission as in
+ * material_surface. Call this first, while the whole quad is alive. */
 bool material_evaluate(vec3 to_viewer, out surface s, out vec3 emission, out bool front)
 {
     front = gl_FrontFacing != (vertex_flags.x != 0.0);

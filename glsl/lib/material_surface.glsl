@@ -38,7 +38,7 @@ layout(binding = LSF_UNIT_COAT_NORMAL) uniform sampler2D coat_normal_texture;
 layout(binding = LSF_UNIT_TRANSMISSION) uniform sampler2D transmission_texture;
 #endif
 
-/* What vertices hand to a point of a triangle, interpolated. */
+/* Vertex attributes interpolated at a point of a triangle. */
 struct material_point {
     vec3 normal;  /* any length */
     vec4 tangent; /* w: the bitangent's sign */
@@ -61,7 +61,7 @@ vec4 base_color(lsf_material_data material, material_point point)
     return color;
 }
 
-/* Unit, perpendicular to n; the interpolated tangent where there is one. */
+/* A unit tangent perpendicular to n; the interpolated tangent where there is one. */
 vec3 tangent_about(vec3 n, vec3 tangent)
 {
     vec3 t, b;
@@ -73,7 +73,7 @@ vec3 tangent_about(vec3 n, vec3 tangent)
     return t;
 }
 
-/* Whether the front, or the back, emits. */
+/* Whether the front, or the back, emits light. */
 bool material_emits(lsf_material_data material, bool front)
 {
     return front || material.flags.x != 0.0 || material.flags.y != 0.0;
@@ -107,8 +107,8 @@ void sheen_surface(lsf_material_data material, material_point point, inout surfa
         sheen.a *= slot_sample(sheen_roughness_texture, roughness_slot, point.place).a;
 #endif
 #if LSF_LOBES_FOLDED || !LSF_SHEEN
-    /* What it reflects is as if it were diffuse; its mean over the hemisphere grows from 0.015 to 0.3 with the
-     * roughness. */
+    /* The sheen is folded into the diffuse lobe. Its mean albedo over the hemisphere grows from 0.015 to 0.3 with
+     * the roughness. */
     float mean = mix(0.015, 0.3, clamp((sheen.a - 0.07) / 0.93, 0.0, 1.0));
     s.base_color = s.base_color * (1.0 - largest(sheen.rgb) * mean) + sheen.rgb * mean;
 #else
@@ -128,7 +128,7 @@ void coat_surface(lsf_material_data material, material_point point, mat3 vertex_
         coat.x *= slot_sample(coat_texture, factor_slot, point.place).r;
 #endif
 #if LSF_LOBES_FOLDED || !LSF_COAT
-    /* What it reflects is as if it were diffuse; the rest passes it twice. */
+    /* The coat's reflection is folded into the diffuse lobe; the rest of the light passes the coat twice. */
     float reflected = coat.x * LSF_COAT_MEAN;
     s.base_color = mix(s.base_color * (1.0 - reflected), vec3(1.0), reflected);
 #else
@@ -154,8 +154,8 @@ void coat_surface(lsf_material_data material, material_point point, mat3 vertex_
 #endif
 #if LSF_SPECULAR_TINT
 
-/* KHR_materials_specular. What a channel reflects is at most 1; the brightest one's f0 goes to s.f0, but for that
- * of a medium, which tells its index of refraction. */
+/* KHR_materials_specular. The f0 of each channel is at most 1. The largest one goes to s.f0, except for a medium,
+ * whose s.f0 encodes its refractive index. */
 void tint_specular(lsf_material_data material, material_point point, inout surface s)
 {
     vec4 factors = lobe_row(material, 0);
@@ -183,9 +183,9 @@ void tint_specular(lsf_material_data material, material_point point, inout surfa
 }
 #endif
 
-/* Everything but the geometric normal, which is set to the vertices'. False where an alpha mask cuts
- * the point out, or a blended surface is not there. The shading normal is turned to the front or to the back, as seen. Emission is that of
- * the sides that material_emits names; of an unlit surface it is the base colour. */
+/* Sets all members but the geometric normal, which becomes the vertices'. False where an alpha mask, or the draw
+ * for a blended surface, removes the point. The shading normal is flipped to the side that is seen. Emission is
+ * that of the sides that material_emits names; for an unlit surface it is the base colour. */
 bool material_surface(lsf_material_data material, material_point point, out surface s,
                       out vec3 emission)
 {
@@ -251,7 +251,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
         s.anisotropy *= texel.z;
     }
 #endif
-    /* Stored as an angle in the basis that readers rebuild from the shading normal. */
+    /* The tangent is stored as an angle in the basis that readers rebuild from the shading normal. */
     vec3 along = turn.x * t + turn.y * b;
     vec3 basis_t, basis_b;
     orthonormal_basis(s.normal, basis_t, basis_b);

@@ -1,4 +1,4 @@
-/* What a vertex hands to lib/material.glsl. Switches as there. */
+/* Vertex outputs for lib/material.glsl. Switches as there. */
 #ifndef LSF_LIB_MATERIAL_VERTEX
 #define LSF_LIB_MATERIAL_VERTEX
 
@@ -10,7 +10,7 @@ layout(location = LSF_ATTRIBUTE_NORMAL) in vec3 normal;
 
 out vec3 vertex_position; /* normalised space, relative to the viewer's or the map's origin */
 out vec3 vertex_normal;
-/* The material, read here once a vertex and not once a fragment. */
+/* The material, read once per vertex instead of once per fragment. */
 flat out vec4 vertex_base_color;
 flat out vec4 vertex_emission; /* w: alpha cutoff */
 flat out vec4 vertex_surface;  /* metallic, roughness, normal scale, f0 */
@@ -55,7 +55,7 @@ void material_vertex(vec3 p)
     vertex_surface = materials[material].surface;
     vertex_flags = vec4(instance_mirrored(), materials[material].flags.xy, 0.0);
 #if LSF_TANGENT
-    /* A mirror turns the cross product of mirrored vectors the other way. */
+    /* Mirroring reverses the cross product of mirrored vectors. */
     vertex_tangent = vec4(instance_direction(tangent.xyz),
                           instance_mirrored() ? -tangent.w : tangent.w);
 #endif

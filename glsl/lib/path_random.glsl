@@ -1,11 +1,10 @@
-/* Random numbers for the vertices of paths: functions of seed, pixel, sample and vertex, never of what
- * was drawn before.
+/* Random numbers for the vertices of paths: functions of seed, pixel, sample and vertex, never of earlier draws.
  *
- * Each vertex of a pixel's paths has a (0,2)-sequence of its own over the samples of all iterations:
- * Owen-scrambled Sobol points in shuffled order, as math/sampling.h has them for the host (Burley 2020,
- * "Practical Hash-based Owen Scrambling"). With LSF_RANDOM_TEXTURE they are read from a texture of plain
- * random numbers instead, at a place that goes with pixel, sample and vertex, and is skewed along the
- * depth of what the pixel sees, so that surfaces behind each other take other ones. */
+ * Each vertex of a pixel's paths has its own (0,2)-sequence over the samples of all iterations: Owen-scrambled
+ * Sobol points in shuffled order, as math/sampling.h has them for the host (Burley 2020, "Practical Hash-based
+ * Owen Scrambling"). With LSF_RANDOM_TEXTURE they are read from a texture of uniform random numbers instead, at a
+ * texel that depends on pixel, sample and vertex, and on the depth of the visible point, so that surfaces behind
+ * each other use different texels. */
 #ifndef LSF_LIB_PATH_RANDOM
 #define LSF_LIB_PATH_RANDOM
 
@@ -14,13 +13,13 @@
 
 struct path_random_key {
     uint pixel, seed;
-    ivec2 place; /* of the texture's texel that the pixel goes with */
+    ivec2 place; /* texel of the texture that belongs to the pixel */
 };
 
 #if LSF_RANDOM_TEXTURE
 layout(binding = LSF_UNIT_PATH_RANDOM) uniform sampler2D random_texture;
 
-/* Three numbers that decide how the path goes on from its vertex. */
+/* Three numbers with which the path is continued from its vertex. */
 vec3 path_random(path_random_key key, uint index, uint vertex)
 {
     uvec3 shift = hash(uvec3(index, vertex, key.seed));
@@ -43,7 +42,7 @@ vec3 path_random(path_random_key key, uint index, uint vertex)
 {
     uvec3 seed = hash(uvec3(key.pixel, vertex, key.seed));
     uvec3 order = hash(seed);
-    /* One order for the pair, one for the number that stands alone. */
+    /* One shuffle for the pair, one for the third number. */
     uvec3 shuffled =
         bitfieldReverse(scramble_reversed(uvec3(bitfieldReverse(index)), uvec3(order.x, order.xy)));
     return hash_unit(bitfieldReverse(scramble_reversed(

@@ -1,5 +1,5 @@
-/* A plane in 32 bits: 16 of a depth's steps, then twice 8 of slopes, rise over run along a map's axes. A slope s is
- * kept as c = s / (1 + |s|), which divides its angle about evenly: within 0.45 degrees, up to 89.5. */
+/* A plane in 32 bits: depth in 16 bits, then twice 8 bits of slopes, rise over run along a map's axes. A slope s
+ * is stored as c = s / (1 + |s|), which divides its angle about evenly: within 0.45 degrees, up to 89.5. */
 #ifndef LSF_LIB_PLANE_KEY
 #define LSF_LIB_PLANE_KEY
 

@@ -1,12 +1,11 @@
-/* A ray-bundle: its projection and its nodes, one for each fragment of the scene along its direction.
- * Switches LSF_BUNDLE_SIDE (texels along a side), LSF_BUNDLE_SLICES, LSF_BUNDLE_GLOSS,
- * LSF_BUNDLE_ANISOTROPY, LSF_BUNDLE_EMISSION, LSF_BUNDLE_GAPS; lsf_ray_bundle_reader_switches adds them. Writers define
- * LSF_BUNDLE_ACCESS as coherent.
+/* A ray-bundle: its projection and its nodes, one for each fragment of the scene along its direction. Switches
+ * LSF_BUNDLE_SIDE (texels along a side), LSF_BUNDLE_SLICES, LSF_BUNDLE_GLOSS, LSF_BUNDLE_ANISOTROPY,
+ * LSF_BUNDLE_EMISSION, LSF_BUNDLE_GAPS; lsf_ray_bundle_reader_switches adds them. Writers define LSF_BUNDLE_ACCESS
+ * as coherent.
  *
- * The first LSF_BUNDLE_SLICES (a multiple of 4 less one, or 0) fragments of a texel have a place of
- * their own, in slices of four that one fetch reads, the first of which begins with their number;
- * further ones are chained. Which fragment comes first depends on
- * the machine's mood: readers use rules that do not. */
+ * The first LSF_BUNDLE_SLICES fragments of a texel (a multiple of 4 less one, or 0) have slots of their own, in
+ * slices of four that one fetch reads; the first slice begins with the number of fragments. Further fragments are
+ * chained. The order of a texel's fragments is not deterministic, so that readers must not depend on it. */
 #ifndef LSF_LIB_RAY_BUNDLE
 #define LSF_LIB_RAY_BUNDLE
 
@@ -23,33 +22,32 @@ layout(std140, binding = LSF_BINDING_BUNDLE) uniform lsf_bundle_block
     lsf_bundle_data bundle;
 };
 
-/* Counters, see shared/bundle_data.h; for each texel the last link of its chain. */
+/* Counters, see shared/bundle_data.h; then for each texel the last link of its chain. */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES) LSF_BUNDLE_ACCESS buffer lsf_bundle_head_block
 {
     uint bundle_heads[];
 };
-/* What a search needs of a node: its plane, coarse. Depth at the texel's centre, 16 bits | slopes along
- * right and up, 8 bits each. Of a texel, first the number of its fragments. */
+/* The coarse plane of a node, which is all that a search needs: depth at the texel's centre, 16 bits | slopes
+ * along right and up, 8 bits each. The first word of a texel is the number of its fragments. */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 1) LSF_BUNDLE_ACCESS buffer lsf_bundle_key_block
 {
     uint bundle_keys[];
 };
-/* Of chained nodes. x: key; y: the texel's link before this one */
+/* Chained nodes. x: key; y: the texel's link before this one */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 5) LSF_BUNDLE_ACCESS buffer lsf_bundle_chain_block
 {
     uvec2 bundle_chain[];
 };
-/* Three words a node: shading normal on the side from which the bundle comes, octahedral; base colour;
- * what the key leaves out of the plane, for what a hit is lit by is looked up in maps, which takes an
- * exact position. */
+/* Three words a node: shading normal on the side from which the bundle comes, octahedral; base colour; the bits of
+ * the plane beyond the key, because maps are looked up at hits, which takes an exact position. */
 layout(std430,
        binding = LSF_BINDING_BUNDLE_NODES + 2) LSF_BUNDLE_ACCESS buffer lsf_bundle_surface_block
 {
     uint bundle_surfaces[];
 };
 #if LSF_BUNDLE_ANISOTROPY
-/* x: gloss; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16; with LSF_STRAIGHT 12 bits of
- * each | transmission unorm8 << 24 */
+/* x: roughness, metallic, f0; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16; with
+ * LSF_STRAIGHT 12 bits of each | transmission unorm8 << 24 */
 layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 3) LSF_BUNDLE_ACCESS buffer lsf_bundle_gloss_block
 {
     uvec2 bundle_gloss[];
@@ -67,7 +65,7 @@ layout(std430,
     uvec2 bundle_emission[];
 };
 #endif
-/* Texels lie in tiles of 8 x 8: what is near in the map is near in memory. */
+/* Texels are stored in tiles of 8 x 8, so that neighbours on the map are close in memory. */
 #define LSF_BUNDLE_ROW (8 * ((LSF_BUNDLE_SIDE + 7) / 8))
 #define LSF_BUNDLE_TEXELS uint(LSF_BUNDLE_ROW * LSF_BUNDLE_ROW)
 #define LSF_BUNDLE_FIRST_LINK /* its node */                                                     \
@@ -79,7 +77,7 @@ int bundle_texel(ivec2 at)
     return tile.y * LSF_BUNDLE_ROW + (tile.x << 3) + (inside.y << 3) + inside.x;
 }
 
-/* The node of a texel's fragment below LSF_BUNDLE_SLICES. */
+/* The node of a fragment whose number is below LSF_BUNDLE_SLICES. */
 uint bundle_slice_node(uint texel, uint fragment)
 {
     uint place = fragment + 1u;
@@ -103,7 +101,8 @@ vec3 bundle_coordinates(vec3 p)
     return bundle_map_coordinates(bundle, p);
 }
 
-/* How much farther apart two places are than their coordinates along the bundle. */
+/* Length of the gaps between two depths: their distance is that much larger than the difference of their
+ * coordinates along the bundle. */
 float bundle_gaps_between(float from, float to)
 {
 #if LSF_BUNDLE_GAPS
@@ -114,7 +113,7 @@ float bundle_gaps_between(float from, float to)
 #endif
 }
 
-/* Continuous texel coordinates of a point with these coordinates. */
+/* Continuous texel coordinates on the map of a point with these coordinates. */
 vec2 bundle_place(vec3 q)
 {
     return ((q.xy - bundle.window.xy) / bundle.window.zw * 0.5 + 0.5) * float(LSF_BUNDLE_SIDE);
@@ -126,9 +125,8 @@ vec2 bundle_texel_size()
     return bundle.window.zw * (2.0 / float(LSF_BUNDLE_SIDE));
 }
 
-/* --- planes: depth at the texel's centre, 0..1 over the scene, and slopes as rise over run in
- * normalised space. Keys are those of lib/plane_key.glsl. The rest, 16 and twice 8 bits more, lies with the
- * surface. */
+/* --- planes: depth at the texel's centre, 0..1 over the scene, and slopes as rise over run in normalised space.
+ * Keys are those of lib/plane_key.glsl. Another 16 and twice 8 bits are stored with the surface. */
 
 #define LSF_BUNDLE_DEPTH_STEPS 65535.0
 
@@ -150,14 +148,14 @@ bundle_plane_bits bundle_plane_pack(float depth, vec2 slope)
     return bits;
 }
 
-/* In steps. */
+/* In depth steps. */
 float bundle_key_depth(uint key)
 {
     return float(int(key >> 16)); /* signed: software GL converts those at once */
 }
 
 
-/* Depth at the texel's centre, 0..1, and slopes, as exact as they are kept. */
+/* Depth at the texel's centre, 0..1, and slopes, with all stored bits. */
 vec3 bundle_plane(uint node)
 {
     uint key = bundle_key(node), rest = bundle_surfaces[3u * node + 2u];
@@ -200,9 +198,9 @@ void bundle_gloss_unpack(uint bits, inout surface s)
     s.f0 = root * root;
 }
 
-/* Three mantissas of 18 bits on the exponent of the largest (8 bits, any float): within 2^-19 of
- * the largest. Two flags say to which side it emits; neither: it is unlit, and emits to both. */
-#define LSF_BUNDLE_EMITS_BACK 1u  /* against the bundle's direction: rays along it see it */
+/* Three mantissas of 18 bits on the exponent of the largest (8 bits, any float): within 2^-19 of the largest. Two
+ * flags name the sides that emit; neither: the surface is unlit and emits to both. */
+#define LSF_BUNDLE_EMITS_BACK 1u  /* against the bundle's direction, towards rays along it */
 #define LSF_BUNDLE_EMITS_AHEAD 2u
 
 uvec2 bundle_emission_pack(vec3 emission, uint sides)
@@ -227,9 +225,9 @@ vec3 bundle_emission_unpack(uvec2 bits, out uint sides)
 #define LSF_ABSORPTION 0
 #endif
 #if LSF_STRAIGHT
-/* --- veils: surfaces that let light straight through, and are not there. Rays meet none of them; what lies
- * behind is tinted. In the key the slope along x is -128, which no plane has; its bits lie with the rest, in the
- * place of the finer bits of the slope along y. */
+/* --- veils: transmitting surfaces that are absent in this iteration. Rays do not hit them, and what lies behind
+ * is tinted. The slope along x in the key is -128, a value that no plane has; its bits are stored with the
+ * surface, in place of the lower bits of the slope along y. */
 
 bundle_plane_bits bundle_veil_pack(bundle_plane_bits plane)
 {
@@ -254,8 +252,8 @@ vec3 bundle_veil_plane(uint node, uint key)
     return vec3(depth / LSF_BUNDLE_DEPTH_STEPS, c / (128.0 - abs(c)));
 }
 
-/* In steps of 2^(-1/128), of blue 2^(-1/64), down to 2^-16: within 0.3 % (blue 0.6 %). Of several veils the
- * steps add up, in any order. */
+/* Tints are stored in steps of 2^(-1/128), of blue 2^(-1/64), down to 2^-16: within 0.3 % (blue 0.6 %). The steps
+ * of several veils add up, in any order. */
 #define BUNDLE_TINT_STEPS vec3(128.0, 128.0, 64.0)
 
 uint bundle_tint_pack(vec3 tint)
@@ -271,8 +269,8 @@ uvec3 bundle_tint_steps(uint bits)
 }
 
 #if LSF_ABSORPTION
-/* Of a medium, in the place of a veil's normal: 8 bits a channel, in 255ths of the largest; the largest's exponent; whether
- * the bundle comes into the medium here. */
+/* Absorption of a medium, in place of a veil's normal: 8 bits a channel, in 255ths of the largest; the exponent of
+ * the largest; whether the bundle enters the medium here. */
 uint bundle_absorption_pack(vec3 absorption, bool enters)
 {
     float most = max(absorption.r, max(absorption.g, absorption.b));
@@ -288,14 +286,14 @@ vec3 bundle_absorption_unpack(uint bits, out bool enters)
     return ldexp(m, ivec3(int(bits >> 24 & 127u) - 64));
 }
 
-/* Over a way, in steps as those of tints, whole numbers. */
+/* Absorption over the length `way`, in whole steps like those of tints. */
 ivec3 bundle_absorption_steps(vec3 absorption, float way)
 {
     return ivec3(min(absorption * (way / log(2.0)) * BUNDLE_TINT_STEPS, vec3(1e6)) + 0.5);
 }
 #endif
 
-/* What veils leave of light that comes from `far` along a ray, to its origin. */
+/* Transmittance of the veils between the origin of a ray and the distance `far` along it. */
 vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
 {
     vec3 q = bundle_coordinates(origin);
@@ -306,12 +304,12 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
     uint texel = uint(bundle_texel(at)), count = bundle_fragments(texel), link = 0u;
     vec2 from_center = (place - vec2(at) - 0.5) * size;
     float side = dot(ray_direction, bundle.forward.xyz) < 0.0 ? -1.0 : 1.0;
-    /* As in a search: within it, it is the surface that the ray leaves. */
+    /* As in a search, a veil within this distance is the surface that the ray leaves. */
     float self = LSF_BUNDLE_SELF_TEXELS * max(size.x, size.y) +
                  0.5 * bundle.range.y / LSF_BUNDLE_DEPTH_STEPS;
     uvec3 steps = uvec3(0u);
 #if LSF_ABSORPTION
-    ivec3 within = ivec3(0), beyond = ivec3(0); /* on the way up to the last surfaces, and from there to `far` */
+    ivec3 within = ivec3(0), beyond = ivec3(0); /* from the origin to the veils, and from there to `far` */
 #endif
     for (uint i = 0u; i < count; i++) {
         uint node = bundle_slice_node(texel, i);
@@ -338,17 +336,16 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
 #endif
     }
 #if LSF_ABSORPTION
-    /* A ray that starts in a medium leaves it without having come in; one that ends there is in it up to its end. */
+    /* The sum over the veils is also right for a ray that starts in a medium, and for one that ends in it. */
     steps += uvec3(max(within + max(beyond, 0), 0));
 #endif
     return exp2(-vec3(steps) / BUNDLE_TINT_STEPS);
 }
 #endif
 
-/* Where a ray from `origin`, along the bundle or against it, meets a node of its texel. The node's
- * plane is known to hold the surface at the texel's centre; steep ones may leave it long before the
- * ray, and lie outside of a closed room there, so no point is farther off the centre than the
- * texel's half diagonal. */
+/* The point at which a ray from `origin`, along the bundle or against it, meets a node of its texel. The node's
+ * plane is exact at the texel's centre only. A steep plane may leave the surface long before the ray and lead out
+ * of a closed room, so that no point is farther from the centre than half the texel's diagonal. */
 vec3 bundle_position(uint node, vec3 origin)
 {
     vec3 plane = bundle_plane(node);
@@ -363,8 +360,8 @@ vec3 bundle_position(uint node, vec3 origin)
            (z + along.z - q.z + bundle_gaps_between(q.z, z)) * bundle.forward.xyz;
 }
 
-/* The surface of a node as a ray along the bundle, or against it, sees it: normals turned against
- * the ray, emission of the side it meets. An unlit surface emits its base colour. */
+/* The surface of a node as a ray along the bundle, or against it, sees it: normals face the ray, and emission is
+ * that of the side that it hits. An unlit surface emits its base colour. */
 surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
 {
     surface s;

@@ -1,4 +1,5 @@
-/* What surfaces reflect of light from one direction to all sides. Switch LSF_SPECULAR. */
+/* Directional albedo: the share of light from one direction that a surface reflects to all sides. Switch
+ * LSF_SPECULAR. */
 #ifndef LSF_LIB_REFLECTANCE
 #define LSF_LIB_REFLECTANCE
 
@@ -9,7 +10,7 @@ struct reflector {
     float transmission, roughness, f0, metallic;
 };
 
-/* Of light under that cosine, all lobes together. */
+/* The albedo of all lobes together for light at that cosine. */
 vec3 reflectance(reflector m, float cosine)
 {
     vec3 diffuse = (1.0 - m.transmission) * m.base_color;

@@ -1,13 +1,13 @@
-/* The part of the picture that a pass works on. With interleaved sampling, pixels (tile + i * size)
- * lie side by side in a region of their own; switch LSF_INTERLEAVE is the size, 1 without. */
+/* The part of the picture that a pass works on. With interleaved sampling, the pixels (tile + i * size) form a
+ * region of their own; switch LSF_INTERLEAVE is the size, 1 without. */
 #ifndef LSF_LIB_REGION
 #define LSF_LIB_REGION
 
 #include "shared/scene_data.h"
 
-layout(location = LSF_LOCATION_REGION) uniform ivec4 region; /* its corner; its tile */
+layout(location = LSF_LOCATION_REGION) uniform ivec4 region; /* corner of the region; its tile */
 
-/* The picture's fragment coordinates of a place [fragment coordinates] in the region; affine. */
+/* The picture's fragment coordinates for a fragment of the region; affine. */
 vec2 region_place(vec2 fragment)
 {
 #if LSF_INTERLEAVE > 1
@@ -17,7 +17,7 @@ vec2 region_place(vec2 fragment)
 #endif
 }
 
-/* Of the fragment at hand. */
+/* The picture's fragment coordinates of the current fragment. */
 #define region_fragment() region_place(gl_FragCoord.xy)
 
 #endif

@@ -14,8 +14,8 @@ bool slot_used(lsf_texture_slot_data slot)
     return slot.row_0.w != 0.0;
 }
 
-/* A place on both UV sets with its change from pixel to pixel. Derivatives are taken once, before
- * any branch or discard: after one, the other pixels of a quad may hold no values to subtract. */
+/* Texture coordinates of both UV sets with their derivatives. Derivatives are taken once, before any branch or
+ * discard, because afterwards the other pixels of a quad may hold no values. */
 struct texture_place {
     vec2 uv0, uv0_dx, uv0_dy;
     vec2 uv1, uv1_dx, uv1_dy;

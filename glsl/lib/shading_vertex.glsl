@@ -1,9 +1,10 @@
-/* The path vertex that a fragment shades, and what it reflects towards the eye. A vertex is what a
- * pixel sees (x3 in the paper), or with LSF_DEEP what a ray-bundle met on the way there. Switches
- * LSF_GLOSS, LSF_SPECULAR, LSF_SPARSE, LSF_INTERLEAVE, LSF_POOLED (a filter pools the pixels of the pattern) and those of lib/brdf.glsl and lib/view.glsl.
+/* The path vertex that a fragment shades, and its reflectance towards the eye. The vertex is the visible point (x3
+ * in the paper), or with LSF_DEEP a point that a ray-bundle found from there. Switches LSF_GLOSS, LSF_SPECULAR,
+ * LSF_SPARSE, LSF_INTERLEAVE, LSF_POOLED (a filter pools the pixels of the pattern) and those of lib/brdf.glsl and
+ * lib/view.glsl.
  *
- * Light is summed in two parts: irradiance, for which the visible point reflects k_d / pi, and the
- * radiance of its specular lobe. */
+ * Light is summed in two parts: irradiance, which the visible point reflects by k_d / pi, and the radiance of its
+ * specular lobe. */
 #ifndef LSF_LIB_SHADING_VERTEX
 #define LSF_LIB_SHADING_VERTEX
 
@@ -17,7 +18,7 @@
 #if LSF_DEEP
 layout(binding = 0) uniform sampler2D position_texture;
 layout(binding = 3) uniform usampler2D throughput_texture;
-layout(location = LSF_LOCATION_ARRIVAL) uniform vec3 arrival; /* of the bundle that found it */
+layout(location = LSF_LOCATION_ARRIVAL) uniform vec3 arrival; /* direction of the bundle that found the vertex */
 #else
 layout(binding = 0) uniform sampler2D depth_texture;
 #endif
@@ -27,11 +28,11 @@ layout(binding = 2) uniform usampler2D gloss_texture;
 #endif
 
 struct shading_vertex {
-    vec3 position, view; /* view: unit, towards the vertex before */
+    vec3 position, view; /* view: unit, towards the previous vertex */
     surface s;
-    vec3 diffuse, specular; /* what a unit of radiance towards that vertex adds to both parts */
+    vec3 diffuse, specular; /* contribution to both parts of unit radiance towards that vertex */
 #if LSF_POOLED
-    float turn; /* of the normal over the pattern of pixels [radians] */
+    float turn; /* change of the normal over the pattern of pixels [radians] */
 #endif
 };
 
@@ -39,7 +40,7 @@ struct light_parts {
     vec3 irradiance, specular;
 };
 
-/* Six numbers as half floats, and none of them infinite. */
+/* Six numbers as half floats, clamped to finite values. */
 uvec3 throughput_pack(light_parts t)
 {
     t.irradiance = min(t.irradiance, 65504.0);
@@ -49,14 +50,14 @@ uvec3 throughput_pack(light_parts t)
 }
 
 #if LSF_POOLED
-/* From a texel to the next, of both sides the smaller. */
+/* Change of the normal from a texel to the next, the smaller of both sides. */
 float normal_step(vec3 normal, ivec2 texel, ivec2 along)
 {
     ivec2 last = textureSize(surface_texture, 0) - 1;
     vec3 after = octahedral_decode(texelFetch(surface_texture, min(texel + along, last), 0).y);
     vec3 before = octahedral_decode(texelFetch(surface_texture, max(texel - along, ivec2(0)), 0).y);
 #if LSF_SCATTER
-    /* Of walls that are seen through the other side's counts as well. */
+    /* Normals of walls that are looked through count as those of either side. */
     after *= sign(dot(after, normal));
     before *= sign(dot(before, normal));
 #endif
@@ -96,20 +97,20 @@ bool vertex_load(out shading_vertex v)
     gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
 #endif
 #if LSF_DEEP
-    /* The normal looks back to where the ray came from. */
+    /* The normal faces the ray that found the vertex. */
     v.view = dot(v.s.geometric_normal, arrival) > 0.0 ? arrival : -arrival;
 #else
     v.view = surface_view(v.s, v.view);
 #endif
 #if LSF_POOLED
-    /* Neighbours in split order are a pattern apart. */
+    /* Neighbours in split order are one pattern apart. */
     v.turn = 0.5 * (normal_step(v.s.normal, texel, ivec2(1, 0)) + normal_step(v.s.normal, texel, ivec2(0, 1)));
 #endif
     return !v.s.unlit;
 }
 
-/* Both parts of unit radiance that arrives along `direction`, the cosine included; 0 from behind.
- * `kernel` as in brdf_evaluate. */
+/* Reflects unit radiance from `direction` into both parts, the cosine included; 0 from behind. `kernel` as in
+ * brdf_evaluate. */
 light_parts vertex_reflect(shading_vertex v, vec3 direction, float kernel)
 {
     light_parts r;

@@ -2,7 +2,7 @@
  * LSF_SHADOW_HEMISPHERE for the map of a VPL (see lib/hemisphere.glsl), LSF_SHADOW_SKY for maps of the environment
  * (lib/sky_map.glsl), and LSF_SHADOW_TINT where light may come through thin walls.
  *
- * A texel knows the depth of the surface at its centre; the receiver lies elsewhere in the texel.
+ * A texel stores the depth of the surface at its centre; the receiver lies elsewhere in the texel.
  * Depth is affine over a plane, so either surface can be continued to the other's place:
  *  - the occluder's plane, by its stored gradient, to the receiver: at an inner corner the
  *    neighbouring wall then lies behind, not before, the receiver;
@@ -45,24 +45,24 @@ layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2DArray shadow_tint_textur
 #endif
 #endif
 
-/* Of a perspective map: rounding of interpolated depth, relative to it. */
+/* Relative rounding error of interpolated depth in a perspective map. */
 #define LSF_SHADOW_EPSILON 2e-5
 
-/* Of an orthographic map. Eight roundings (2^-24) of depths, which are 0..1; and in widths of a texel what
- * planes are off by half a texel from where they are known: slopes s are kept in half floats, within
- * 2^-12 s, normals within 6.5e-5 rad, which is 6.5e-5 (1 + s^2) of a slope. It covers s <= 25, 2.3 degrees
- * from grazing light. */
+/* Rounding error of an orthographic map: eight roundings (2^-24) of depths, which are 0..1; and, in widths of a
+ * texel, the error of planes half a texel from where they are exact. Slopes s are stored as half floats, within
+ * 2^-12 s, and normals within 6.5e-5 rad, which is 6.5e-5 (1 + s^2) of a slope. The bound covers s <= 25, 2.3
+ * degrees from grazing light. */
 #define LSF_SHADOW_DEPTH_ERROR 4.8e-7
 #define LSF_SHADOW_SLOPE_ERROR 0.02
 
-/* Of a map's tint: 10 bits. */
+/* Step of the tint in a map: 10 bits. */
 #define LSF_SHADOW_TINT_STEP (1.0 / 1023.0)
 
-/* A place on the map and the receiver's plane there. */
+/* The receiver's position on the map and its plane there. */
 struct shadow_receiver {
     vec2 texel;    /* continuous texel coordinates */
     float depth;
-    float error;   /* of the depth, by rounding */
+    float error;   /* rounding error of the depth */
     vec2 gradient; /* change of depth per texel over the receiver's plane */
     ivec2 at;      /* the texel that holds it */
     int face;
@@ -70,8 +70,8 @@ struct shadow_receiver {
 
 #if LSF_SHADOW_HEMISPHERE
 
-/* In the octant of the texel's centre: the texel's plane is known there. A VPL may be close to what it
- * lights, and light beside its map's origin as bright as any: the receiver is lifted off its surface. */
+/* The receiver is projected in the octant of the texel's centre, where the texel's plane is known. It is lifted
+ * off its surface, because a VPL may be close to the receiver and light near the map's origin is bright. */
 shadow_receiver shadow_project(vec3 position, vec3 normal)
 {
     shadow_receiver r;
@@ -99,7 +99,7 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     r.face = shadow_sky_map;
     vec3 projected = sky_map_project(r.face, position);
     vec4 texel = sky_maps[r.face].texel;
-    /* Along unit axes. */
+    /* Slopes along unit axes. */
     vec3 n = vec3(dot(sky_maps[r.face].right.xyz, normal) * texel.x,
                   dot(sky_maps[r.face].up.xyz, normal) * texel.y,
                   dot(sky_maps[r.face].to_sky.xyz, normal));
@@ -158,17 +158,17 @@ int shadow_texels(shadow_receiver r)
 
 #if LSF_SHADOW_PCF
 
-/* Percentage-closer filter over as many texels' squares about the receiver along each axis as
- * LSF_SHADOW_PCF says, an even number; each is compared with the receiver's plane. Reeves et al. 1987. */
+/* Percentage-closer filter (Reeves et al. 1987) over LSF_SHADOW_PCF texels along each axis about the receiver, an
+ * even number. Each texel is compared with the receiver's plane. */
 float shadow_visibility(vec3 position, vec3 normal, bool transmits)
 {
-    const int squares = LSF_SHADOW_PCF / 2; /* of 2 x 2 texels, which are read at once */
+    const int squares = LSF_SHADOW_PCF / 2; /* of 2 x 2 texels, which one gather reads */
     shadow_receiver r = shadow_project(position, normal);
     float side = float(shadow_texels(r));
     vec2 corner = floor(r.texel - 0.5) - float(squares - 1);
     vec4 lit = vec4(0.0);
     for (int i = 0; i < squares * squares; i++) {
-        vec2 at = corner + 2.0 * vec2(i % squares, i / squares); /* the least of the four */
+        vec2 at = corner + 2.0 * vec2(i % squares, i / squares); /* lower left texel of the four */
         at = clamp(at, vec2(0.0), vec2(side - 2.0));
 #if LSF_SHADOW_SKY
         uvec4 keys = textureGather(shadow_map, vec3((at + 1.0) / side, r.face));
@@ -186,8 +186,8 @@ float shadow_visibility(vec3 position, vec3 normal, bool transmits)
 
 #else
 
-/* A texel's surface is in front of the receiver (1) or behind it (-1) when it is so by both planes;
- * otherwise they are the same surface (0), or meet within the texel. */
+/* 1 where both planes put a texel's surface in front of the receiver, -1 where both put it behind; otherwise (0)
+ * the surfaces are the same or meet within the texel. */
 int shadow_order(shadow_receiver r, ivec2 at)
 {
     vec2 to_center = vec2(at) + 0.5 - r.texel;
@@ -206,7 +206,7 @@ int shadow_order(shadow_receiver r, ivec2 at)
 #else
     float depth = texelFetch(shadow_depth, ivec3(at, r.face), 0).r;
     vec2 gradient = vec2(0.0);
-    if (depth > 0.0) /* nothing writes the gradient where nothing is shown */
+    if (depth > 0.0) /* empty texels have no gradient */
         gradient = texelFetch(shadow_gradient, ivec3(at, r.face), 0).rg * light_projection_depth_unit(depth);
 #endif
     float at_receiver = depth - dot(gradient, to_center) - r.depth;
@@ -216,11 +216,11 @@ int shadow_order(shadow_receiver r, ivec2 at)
     return max(at_receiver + slope_error, at_center) < -r.error ? -1 : 0;
 }
 
-/* A texel that shows something behind the receiver knows nothing about it: its centre is past an edge,
- * of the receiver's own surface, which is lit, or of one that hides it, as at the edges of a closed
- * room lit from outside. The texels on the receiver's other sides tell: any of them that shows the
- * receiver's surface proves the first, else any that shows one in front proves the second. A receiver that light
- * passes is there by chance in each texel, and others are: they prove nothing. */
+/* A texel that shows something behind the receiver says nothing about the receiver: its centre is past an edge,
+ * either of the receiver's own surface, which is then lit, or of one that occludes it, as at the edges of a closed
+ * room lit from outside. The texels on the receiver's other sides decide: any of them that shows the receiver's
+ * surface proves the first, else any that shows one in front proves the second. Where the receiver transmits
+ * light, it and others are present in a texel with some probability only, and prove nothing. */
 float shadow_visibility(vec3 position, vec3 normal, bool transmits)
 {
     shadow_receiver r = shadow_project(position, normal);
@@ -249,9 +249,9 @@ float shadow_visibility(vec3 position, vec3 normal)
     return shadow_visibility(position, normal, false);
 }
 
-/* What surfaces leave of the light that comes to the receiver, where it is seen. `own`: the receiver's tint of light
- * that passes it, 1 where none does. Where its map does not show it, it has let light pass there, and its tint is in
- * the map's. */
+/* Transmittance of the surfaces between light and receiver, where the receiver is visible from the light. `own`:
+ * the receiver's tint for light that it transmits, 1 where it transmits none. A receiver that the map does not
+ * show was absent there, so that the map's tint includes its own. */
 vec3 shadow_tint(vec3 position, vec3 normal, vec3 own)
 {
 #if LSF_SHADOW_TINT

@@ -1,5 +1,5 @@
-/* What directions drawn by the environment's radiance have of its light at a visible point, where something else
- * finds it there by chance. Switch LSF_SKY_CHANCE, lsf_sky_chance; those of lib/brdf_sample.glsl. */
+/* Weight of directions drawn by the environment's radiance at a visible point where rays drawn by the BRDF find
+ * the environment, too. Switch LSF_SKY_CHANCE, lsf_sky_chance; those of lib/brdf_sample.glsl. */
 #ifndef LSF_LIB_SKY_CHANCE
 #define LSF_LIB_SKY_CHANCE
 
@@ -13,7 +13,7 @@
 /* Number of paths, or rays, of a pixel at roughness 0 and 1. */
 layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec2 sky_paths;
 
-/* Takes what is left to this light of the environment, which it has `density` of. */
+/* Weights light of the environment from a direction that is drawn with `density`. */
 void share_sky(surface s, vec3 view_direction, vec3 direction, float density, inout brdf_value f)
 {
     float count = floor(mix(sky_paths.x, sky_paths.y, surface_widest_roughness(s)) + 0.5);

@@ -1,15 +1,15 @@
-/* How much of the environment's light without shadows a pixel counts on; see src/passes/open_sky.md. Switch
- * LSF_SKY_CONTROL, lsf_sky_control. */
+/* Control variate for the environment's light: the share of the unoccluded light that a pixel uses; see
+ * src/passes/open_sky.md. Switch LSF_SKY_CONTROL, lsf_sky_control. */
 #ifndef LSF_LIB_SKY_CONTROL
 #define LSF_LIB_SKY_CONTROL
 
 #define LSF_SKY_CONTROL_SHARE 1
 
-/* What directions have found of the light that they would bring without shadows, for the diffuse lobe (x) and the
- * specular one (y). */
+/* Statistics of directions: light that arrived, against light that would arrive unoccluded, for the diffuse lobe
+ * (x) and the specular one (y). */
 struct sky_found {
     vec2 lit;   /* sums of the product of both */
-    vec2 whole; /* ... of the squares of what there would be */
+    vec2 whole; /* sums of the squares of the unoccluded light */
     vec2 most;  /* the largest of these squares */
 };
 
@@ -23,8 +23,8 @@ sky_found sky_found_both(sky_found a, sky_found b)
     return sky_found(a.lit + b.lit, a.whole + b.whole, max(a.most, b.most));
 }
 
-/* The share to count on, of either lobe, by directions that are independent of those that count on it: what these
- * have found, as if one more, that could have brought as much as any of them, had been dark. */
+/* The share to use, for either lobe, from directions that are independent of those that use it: their regression,
+ * with one more direction added that is occluded and would have brought as much as the largest of them. */
 vec2 sky_control_share(sky_found found)
 {
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE

@@ -1,5 +1,5 @@
-/* Maps of directions of the environment; see shared/sky_map_data.h. A texel holds the key of the plane that is
- * nearest to the sky, the greatest, and 0 where there is none. */
+/* Maps of directions of the environment; see shared/sky_map_data.h. A texel holds the greatest key, that of the
+ * plane nearest to the sky, and 0 where there is none. */
 #ifndef LSF_LIB_SKY_MAP
 #define LSF_LIB_SKY_MAP
 
@@ -12,14 +12,15 @@ layout(std140, binding = LSF_BINDING_LIGHT) uniform lsf_sky_map_block
     lsf_sky_map_data sky_maps[LSF_SKY_MAPS_MAX];
 };
 
-/* Steps of depths from 0 to 1. What lies nearer to the sky than all that can be lit has one more. */
+/* Steps of depths from 0 to 1. One more step stands for all surfaces that are nearer to the sky than anything that
+ * can be lit. */
 #define SKY_MAP_STEPS 65533.0
-/* Rounding of a depth. */
+/* Rounding error of a depth. */
 #define SKY_MAP_DEPTH_ERROR (0.5 / SKY_MAP_STEPS)
-/* Rounding of a slope s is this (1 + |s|)^2. */
+/* The rounding error of a slope s is this times (1 + |s|)^2. */
 #define SKY_MAP_SLOPE_ERROR (0.5 / PLANE_KEY_SLOPE_STEPS)
 
-/* Place in texels, depth. */
+/* Position in texels, and depth. */
 vec3 sky_map_project(int map, vec3 p)
 {
     return vec3(dot(sky_maps[map].right.xyz, p) + sky_maps[map].right.w,
@@ -27,7 +28,7 @@ vec3 sky_map_project(int map, vec3 p)
                 dot(sky_maps[map].towards.xyz, p) + sky_maps[map].towards.w);
 }
 
-/* For the pipeline, which clamps depths that lie outside. */
+/* Clip-space position for the pipeline, which clamps depths outside 0 to 1. */
 vec4 sky_map_clip(int map, vec3 projected)
 {
     return vec4(projected.xy * (2.0 / sky_maps[map].texel.w) - 1.0, projected.z, 1.0);

@@ -1,4 +1,4 @@
-/* A fragment's texel of a map of the environment. */
+/* Writes a fragment's key to a map of the environment. */
 #ifndef LSF_LIB_SKY_MAP_TEXEL
 #define LSF_LIB_SKY_MAP_TEXEL
 
@@ -9,7 +9,7 @@ layout(location = 0) uniform int map;
 in float map_depth; /* not clamped */
 layout(location = 0) out uint key_out;
 
-/* Call it before any discard, while the whole quad is alive. */
+/* Call this before any discard, while the whole quad is alive. */
 void draw_texel()
 {
     vec2 gradient = vec2(dFdx(map_depth), dFdy(map_depth));

@@ -1,6 +1,6 @@
-/* The pixels at which indirect light is gathered, for passes that gather it: which of the picture's sees
- * what is at a place of the textures they read and write. Switch LSF_SPARSE, 0 where places are the
- * picture's pixels. Needs what lib/view.glsl needs. */
+/* The pixels at which indirect light is gathered: maps positions in the textures that a gathering pass reads and
+ * writes to the pixels that they belong to. Switch LSF_SPARSE, 0 where positions are the picture's pixels. Needs
+ * what lib/view.glsl needs. */
 #ifndef LSF_LIB_SPARSE
 #define LSF_LIB_SPARSE
 
@@ -18,7 +18,7 @@ ivec2 place_pixel(ivec2 place)
 #define place_pixel(place) (place)
 #endif
 
-/* ndc of what is seen there. */
+/* ndc of the visible point. */
 vec2 place_ndc(ivec2 place)
 {
     return sample_ndc(vec2(place_pixel(place)) + 0.5);

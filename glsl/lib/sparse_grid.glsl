@@ -6,15 +6,16 @@
 #include "shared/scene_data.h"
 
 #if LSF_SPARSE
-layout(location = LSF_LOCATION_SPARSE_GRID) uniform ivec4 sparse_grid;  /* points; the first one's pixel */
-layout(location = LSF_LOCATION_SPARSE_SHAPE) uniform ivec2 sparse_shape; /* pixels from one to the next; layers */
+layout(location = LSF_LOCATION_SPARSE_GRID) uniform ivec4 sparse_grid;  /* number of points; pixel of the first one */
+layout(location = LSF_LOCATION_SPARSE_SHAPE) uniform ivec2 sparse_shape; /* distance between points [pixels];
+                                                                          * layers */
 
 ivec2 sparse_pixel(ivec2 point)
 {
     return point * sparse_shape.x + sparse_grid.zw;
 }
 
-/* Points of the grid, which may lie past the picture's border. */
+/* Whether the grid has the point; it may lie beyond the picture's border. */
 bool sparse_has(ivec2 point, ivec2 picture)
 {
     return point.x >= 0 && point.y >= 0 && point.x < sparse_grid.x && point.y < sparse_grid.y &&

@@ -1,5 +1,4 @@
-/* What the specular lobe reflects of light that is the same from everywhere: the tint by which its light is
- * divided to be shared between pixels. */
+/* Directional albedo of the specular lobe: the tint by which its light is divided before pixels share it. */
 #ifndef LSF_LIB_SPECULAR_ALBEDO
 #define LSF_LIB_SPECULAR_ALBEDO
 

@@ -1,9 +1,9 @@
-/* Light that goes straight through surfaces that transmit: thin walls, and the interfaces of media as if these had
- * the index of air. Along a line, a surface lets T = (1 - metallic) (1 - F) t base of the light through. In each
- * iteration it is there by chance, with probability 1 - max T: where it is, what it reflects counts for
- * 1 / (1 - max T); where it is not, light passes with the tint T / max T, which is at most 1. Switch
- * LSF_STRAIGHT: the pass lets light through so. With LSF_SCATTER what rough walls let through to the eye is scattered,
- * but for a part where lobes are narrow. */
+/* Light that passes straight through transmitting surfaces: thin walls, and the interfaces of media as if their
+ * index were that of air. A surface transmits T = (1 - metallic) (1 - F) t base of the light along a line. It is
+ * present in an iteration with probability 1 - max T. Where it is present, its reflection is weighted by 1 / (1 -
+ * max T); where it is absent, light passes with the tint T / max T, which is at most 1. Switch LSF_STRAIGHT: the
+ * pass transmits light in this way. With LSF_SCATTER light that rough walls transmit to the eye is scattered,
+ * except for a share of narrow lobes. */
 #ifndef LSF_LIB_STRAIGHT
 #define LSF_LIB_STRAIGHT
 
@@ -13,16 +13,16 @@
 #endif
 
 #if LSF_SCATTER
-/* Solid angle of as many samples as a lobe is spread over [sr]; 0: lobes are sampled as they are. */
+/* Solid angle over which suppression spreads a lobe [sr]; 0: lobes are sampled unchanged. */
 layout(location = LSF_LOCATION_LOBE_ANGLE) uniform float lobe_angle;
 #endif
 
-/* A surface that reflects nothing is still there in one iteration of 64: it may emit. */
+/* A surface that transmits all light is still present in one iteration of 64, because it may emit. */
 #define STRAIGHT_MOST (63.0 / 64.0)
 
 #if LSF_TRANSMISSION
 #if LSF_SCATTER
-/* Product of both alphas. */
+/* Product of the alphas along tangent and bitangent. */
 float wall_alpha2(surface s)
 {
     float alpha = lsf_alpha_from_roughness(s.roughness);
@@ -39,7 +39,8 @@ bool is_rough_wall(surface s)
 }
 #endif
 
-/* Of light from the direction `to_viewer`, of any length: what passes a rough wall in all directions together. */
+/* Transmittance for light from the direction `to_viewer`, of any length; for a rough wall, to all directions
+ * together. */
 vec3 straight_transmittance(surface s, vec3 to_viewer)
 {
     if (s.unlit)
@@ -54,35 +55,36 @@ vec3 straight_transmittance(surface s, vec3 to_viewer)
     return s.base_color * (s.transmission * (1.0 - s.metallic) * passes);
 }
 
-/* With which probability light passes. */
+/* Probability that the surface is absent and light passes. */
 float straight_chance(vec3 transmittance)
 {
     return min(max(transmittance.r, max(transmittance.g, transmittance.b)), STRAIGHT_MOST);
 }
 
-/* Of light that passes. */
+/* Tint of light that passes an absent surface. */
 vec3 straight_tint(surface s, vec3 to_viewer)
 {
     vec3 transmittance = straight_transmittance(s, to_viewer);
     return transmittance / max(straight_chance(transmittance), 1e-6);
 }
 
-/* The same, and 1 of a surface that lets none through. */
+/* The same, and 1 for a surface that transmits nothing. */
 vec3 straight_tint_or_one(surface s, vec3 to_viewer)
 {
     return s.transmission > 0.0 ? straight_tint(s, to_viewer) : vec3(1.0);
 }
 
-/* What the light that a surface reflects, where it is there, counts for. */
+/* Weight of the light that a surface reflects where it is present. */
 float straight_weight(surface s, vec3 to_viewer)
 {
     return 1.0 / (1.0 - straight_chance(straight_transmittance(s, to_viewer)));
 }
 
 #if LSF_SCATTER
-/* Of light that passes the surface to the eye, what it scatters; the rest goes straight on. A wall turns light by
- * twice the angle of its microfacets' normals, so that its lobe has a solid angle of about 4 pi alpha^2. One narrower
- * than `lobe_angle` would be seen as wide as that: scattered in part, it has in the mean the width that it should. */
+/* Share of the light passing to the eye that the surface scatters; the rest goes straight on. A wall deflects
+ * light by twice the angle of its microfacet normals, so that its lobe has a solid angle of about 4 pi alpha^2. A
+ * lobe narrower than `lobe_angle` would be widened to that; with only a share of the light scattered, its mean
+ * width is right. */
 float scattered_share(surface s)
 {
     if (!is_rough_wall(s))
@@ -90,20 +92,21 @@ float scattered_share(surface s)
     return lobe_angle > 0.0 ? min(4.0 * LSF_PI * wall_alpha2(s) / lobe_angle, 1.0) : 1.0;
 }
 
-/* With which probability light that passes is scattered: often enough for lamps, which nothing else shows. */
+/* Probability that passing light is scattered: at least 1/8, because lamps are visible through the wall by
+ * scattering alone. */
 float scattered_chance(float share)
 {
     return share > 0.0 ? max(share, 0.125) : 0.0;
 }
 
-/* With which probability the eye looks through, straight or not, where `passes` is straight_chance: as often as not
- * where a fair part passes, for light behind a shade may be much the brighter. */
+/* Probability that the eye looks through, straight or scattered, where `passes` is straight_chance. It is raised
+ * up to one half, because light behind a shade may be much brighter than the shade. */
 float look_through_chance(float passes, float share)
 {
     return share > 0.0 ? max(passes, min(4.0 * passes, 0.5)) : passes;
 }
 
-/* Makes it a surface that is seen by what it scatters of light from its other side. */
+/* Turns the surface into one that scatters light from its other side to the eye. */
 void surface_look_through(inout surface s)
 {
 #if LSF_ANISOTROPY

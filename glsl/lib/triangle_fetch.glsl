@@ -1,4 +1,4 @@
-/* Triangles of the instance in turn, for compute shaders that rasterise by themselves; the host side is
+/* Triangles of the current instance, for compute shaders that rasterise them; the host side is
  * frame/triangle_fetch.h. Switches of lib/material_surface.glsl. */
 #ifndef LSF_LIB_TRIANGLE_FETCH
 #define LSF_LIB_TRIANGLE_FETCH
@@ -25,7 +25,7 @@ uvec3 triangle_corners(uint triangle)
                  texelFetch(index_fetch, first + 2).x);
 }
 
-/* In normalised space. */
+/* Position of a vertex in normalised space. */
 vec3 triangle_position(uint vertex)
 {
     vec4 p = vec4(texelFetch(position_fetch, int(vertex)).xyz, 1.0);
@@ -55,8 +55,8 @@ lsf_material_data triangle_material()
     return m;
 }
 
-/* What vertices hand to the point with these barycentric coordinates, seen from the front. Textures
- * are filtered over a footprint that has the area of `footprint` triangles. */
+/* Vertex attributes interpolated by these barycentric coordinates, seen from the front. Textures are filtered over
+ * a footprint whose area is that of `footprint` triangles. */
 material_point triangle_point(uvec3 corners, vec3 weights, float footprint)
 {
     material_point point;

@@ -1,19 +1,20 @@
-/* Whether a triangle of the scene is between two points: all of them are tried, which is slow, and exact to rounding. To
- * measure by. The includer has the storage buffer LSF_BINDING_TRIANGLES. */
+/* Whether a triangle of the scene lies between two points. All triangles are tested, which is slow and exact to
+ * rounding; for measurements. The including shader declares the storage buffer LSF_BINDING_TRIANGLES. */
 #ifndef LSF_LIB_TRIANGLE_SIGHT
 #define LSF_LIB_TRIANGLE_SIGHT
 
 #include "lib/scene_triangles.glsl"
 
-/* T. Möller and B. Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection", without division: all is compared
- * with the determinant. */
+/* T. Möller and B. Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection", without division: all values
+ * are compared with the determinant. */
 bool triangle_between(uint triangle, vec3 from, vec3 way)
 {
     vec3 corner = scene_triangle_corner(triangle, 0u);
     vec3 e1 = scene_triangle_corner(triangle, 1u) - corner, e2 = scene_triangle_corner(triangle, 2u) - corner;
     vec3 p = cross(way, e2), s = from - corner, q = cross(s, e1);
     float determinant = dot(e1, p);
-    vec3 place = sign(determinant) * vec3(dot(s, p), dot(way, q), dot(e2, q)); /* two weights, and the share of the way */
+    vec3 place = sign(determinant) * vec3(dot(s, p), dot(way, q), dot(e2, q)); /* two barycentric weights, and the
+                                                                                * fraction of the segment */
     float size = abs(determinant);
     return min(place.x, place.y) >= 0.0 && place.x + place.y <= size && place.z > 0.0 && place.z < size;
 }
@@ -26,8 +27,8 @@ bool triangles_between_8(uint first, uint last, vec3 from, vec3 way)
            triangle_between(min(first + 6u, last), from, way) || triangle_between(min(first + 7u, last), from, way);
 }
 
-/* Of the first `count` triangles. Software GL ends all loops of a shader together after 65535 turns: a turn takes
- * 16 of them. */
+/* Tests the first `count` triangles. Software GL ends all loops of a shader together after 65535 iterations, so
+ * that each iteration tests 16 triangles. */
 bool triangles_between(uint count, vec3 from, vec3 to)
 {
     vec3 way = to - from;

@@ -10,7 +10,7 @@ layout(std140, binding = LSF_BINDING_VIEW) uniform lsf_view_block
     lsf_view_data view;
 };
 
-/* ndc of the point that the iteration samples in the pixel with centre `fragment` [pixels]. */
+/* ndc of the point in the pixel with centre `fragment` [pixels] that the iteration samples. */
 vec2 sample_ndc(vec2 fragment)
 {
     return fragment * (2.0 * view.size.zw) - 1.0 + view.jitter.xy;
@@ -21,13 +21,13 @@ vec3 view_ray_start(vec2 ndc)
     return view.start.xyz + ndc.x * view.start_dx.xyz + ndc.y * view.start_dy.xyz;
 }
 
-/* View depth along it grows by 1; not normalised. */
+/* The ray's direction for which view depth grows by 1; not normalised. */
 vec3 view_ray_direction(vec2 ndc)
 {
     return view.forward.xyz + ndc.x * view.forward_dx.xyz + ndc.y * view.forward_dy.xyz;
 }
 
-/* View depth from the start on [normalised units] of a reverse-Z depth; 0 is the background. */
+/* View depth from the start [normalised units] of a reverse-Z depth; 0 is the background. */
 float view_depth_from_start(float depth)
 {
 #if LSF_ORTHOGRAPHIC
@@ -37,7 +37,7 @@ float view_depth_from_start(float depth)
 #endif
 }
 
-/* From the camera on. */
+/* View depth from the camera. */
 float view_depth(float depth)
 {
     return view.depth.w + view_depth_from_start(depth);

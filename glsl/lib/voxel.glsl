@@ -1,16 +1,16 @@
-/* The voxel grid, and what its textures hold, packed and unpacked in one place.
+/* The voxel grid, the contents of its textures, and the functions that pack and unpack them.
  *
  * voxelize.albedo R32UI    square roots of R and G in 11 bits each, of B in 10
- * voxelize.normal R32UI    unit normal of the triangle's plane, octahedral, 2 x 12 bits | what is beside the
- *                          voxel, VOXEL_BESIDE, << 24
- * voxelize.shading R32UI   the shading normal as well | turn of the tangent about the plane's << 24
+ * voxelize.normal R32UI    unit normal of the triangle's plane, octahedral, 2 x 12 bits | bits about the
+ *                          neighbours, VOXEL_BESIDE, << 24
+ * voxelize.shading R32UI   the shading normal, likewise | rotation of the tangent about the plane's normal << 24
  * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30 |
  *                          unlit << 31
  * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
  * voxelize.gloss R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
  *                          index n, metallic; 8 bits each
  * voxelize.transmission R32UI  as gloss.z of lib/gbuffer.glsl, seen from the front
- * voxelize.shining R32UI   bricks that hold voxels which emit, as occupancy has bricks */
+ * voxelize.shining R32UI   a bit for each brick that holds emitting voxels, laid out as occupancy */
 #ifndef LSF_LIB_VOXEL
 #define LSF_LIB_VOXEL
 
@@ -23,7 +23,7 @@ layout(std140, binding = LSF_BINDING_VOXEL) uniform lsf_voxel_block
     lsf_voxel_grid_data grid;
 };
 
-/* From normalised space to voxels: cell i spans [i, i + 1]. */
+/* From normalised space to voxel coordinates: cell i spans [i, i + 1]. */
 vec3 voxel_from_position(vec3 position)
 {
     return (position - grid.origin.xyz) * grid.size.w;
@@ -39,7 +39,7 @@ bool voxel_inside(ivec3 cell)
     return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(grid.size.xyz)));
 }
 
-/* Where the bit of a cell is, in the cell's level of occupancy. */
+/* Texel of the cell's level of occupancy that holds the bit of the cell. */
 ivec3 occupancy_texel(ivec3 cell)
 {
     ivec3 brick = cell >> 2;
@@ -61,15 +61,15 @@ ivec3 voxel_brick_unpack(uint bits)
     return ivec3(uvec3(bits, bits >> 10, bits >> 20) & 1023u);
 }
 
-/* How far a voxel's plane may be from its surface [voxels]: places are kept to 2^-11, normals to about
- * 2^-11 in direction, over three voxels at most. */
+/* Error of a voxel's plane [voxels]: points are stored to 2^-11 and normals to about 2^-11 in direction, over at
+ * most three voxels. */
 #define VOXEL_PLANE (1.0 / 256.0)
 
-/* Below this cosine between the normals of two voxels beside each other surfaces meet in an edge. */
+/* Surfaces in neighbouring voxels form an edge when the cosine between their normals is below this. */
 #define VOXEL_EDGE 0.7
 
-/* What a voxel keeps of the six beside it, along -x, x, -y, y, -z and z: a bit for each whose surface is not in
- * its own plane, and whether some make an edge with it, on its front and on its back. */
+/* Bits about the six neighbours of a voxel, along -x, x, -y, y, -z and z: one for each whose surface is not in the
+ * voxel's plane, and whether some form an edge with it, on its front and on its back. */
 #define VOXEL_NORMAL_BITS 0xffffffu
 #define VOXEL_BESIDE_SHIFT 24u
 #define VOXEL_BESIDE_ANY 63u
@@ -113,7 +113,7 @@ vec3 voxel_normal_unpack(uint bits)
     return normalize(n);
 }
 
-/* Turn of the tangent in the orthonormal_basis of the plane's normal, 0..1. */
+/* Rotation of the tangent in the orthonormal_basis of the plane's normal, 0..1 of a full turn. */
 uint voxel_turn_pack(float turn)
 {
     return uint(fract(turn) * 256.0) << 24;
@@ -124,7 +124,7 @@ float voxel_turn_unpack(uint bits)
     return (float(bits >> 24) + 0.5) / 256.0;
 }
 
-/* `inside`: from the voxel's least corner, 0..1. */
+/* `inside`: offset from the voxel's lower corner, 0..1. */
 uint voxel_point_pack(vec3 inside, bool emits_both, bool unlit)
 {
     uvec3 q = uvec3(clamp(inside, 0.0, 1.0) * 1023.0 + 0.5);
@@ -151,7 +151,7 @@ float voxel_transmission(uint bits)
     return float(bits & 255u) / 255.0;
 }
 
-/* Shared exponent as of GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), which images cannot have. */
+/* Shared exponent as in GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), a format that images cannot have. */
 uint voxel_emission_pack(vec3 emission)
 {
     vec3 c = clamp(emission, 0.0, 65408.0);

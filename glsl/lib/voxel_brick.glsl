@@ -1,11 +1,11 @@
-/* Work groups on occupied bricks, of which most voxels are empty: a brick's invocations share the
- * occupied ones, so that lanes that work are together. */
+/* Work groups on occupied bricks. Most voxels of a brick are empty: its invocations share the occupied ones, so
+ * that busy lanes are adjacent. */
 #ifndef LSF_LIB_VOXEL_BRICK
 #define LSF_LIB_VOXEL_BRICK
 
 #include "lib/voxel.glsl"
 
-/* Invocations for a brick. */
+/* Invocations per brick. */
 #ifndef VOXEL_BRICK_LANES
 #define VOXEL_BRICK_LANES LSF_VOXEL_BRICK_LANES
 #endif
@@ -18,13 +18,13 @@ layout(std430, binding = LSF_BINDING_BRICKS) buffer lsf_brick_block
     lsf_voxel_brick_data bricks[];
 };
 
-/* Among those of its brick. */
+/* The invocation's number among those of its brick. */
 int voxel_brick_lane()
 {
     return int(gl_LocalInvocationID.x % uint(VOXEL_BRICK_LANES));
 }
 
-/* In the list; false past its end. */
+/* The brick's index in the list; false past the end of the list. */
 bool voxel_brick_listed(out uint at)
 {
     uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * (LSF_VOXEL_LIST_ROW / LSF_VOXEL_GROUP_BRICKS);
@@ -32,7 +32,7 @@ bool voxel_brick_listed(out uint at)
     return at < brick_count;
 }
 
-/* Place of the bit that is set after n others, by bisection. */
+/* Position of the set bit that follows n others, by bisection. */
 int nth_bit(uint word, int n)
 {
     int place = 0;
@@ -50,7 +50,7 @@ int voxel_brick_voxels(lsf_voxel_brick_data brick)
     return bitCount(brick.low) + bitCount(brick.high);
 }
 
-/* Its n-th occupied voxel. */
+/* The n-th occupied voxel of the brick. */
 ivec3 voxel_brick_cell(lsf_voxel_brick_data brick, int n)
 {
     int in_low = bitCount(brick.low);
@@ -60,11 +60,11 @@ ivec3 voxel_brick_cell(lsf_voxel_brick_data brick, int n)
            ivec3(bit & 3, (bit >> 2) & 3, 2 * int(above) + (bit >> 4));
 }
 
-/* The n-th of a brick's things times its sides: which thing, and which slice. */
+/* Splits n into an item of the brick and one of its slices. */
 void voxel_brick_side(lsf_voxel_brick_data brick, int n, out int thing, out int slice)
 {
     int sides = bitCount(brick.sides);
-    thing = int((float(n) + 0.5) / float(sides)); /* exact, and vectors know no integer division */
+    thing = int((float(n) + 0.5) / float(sides)); /* exact, and SIMD units have no integer division */
     slice = nth_bit(brick.sides, n - thing * sides);
 }
 

@@ -1,6 +1,7 @@
-/* What a cone sees of voxels. Switches LSF_SEALED: it is the ray along its axis, which ends at the surface that it
- * meets; else it marches through the pyramid of radiance; LSF_VOXEL_SIDES, as in voxel_mip, or sealed
- * LSF_VOXEL_SIDES_SURFACE; LSF_VOXEL_PASSAGE: sealed ones go on through what transmits, tinted. */
+/* Cone tracing through voxels. Switches LSF_SEALED: a cone is replaced by the ray along its axis, which ends at
+ * the surface that it hits; else it marches through the pyramid of radiance; LSF_VOXEL_SIDES, as in voxel_mip, or
+ * when sealed LSF_VOXEL_SIDES_SURFACE; LSF_VOXEL_PASSAGE: sealed rays continue through transmitting surfaces,
+ * tinted. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
 
@@ -12,23 +13,25 @@
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
 
-/* step: of its length, in texels; offset: of the start from the surface, in voxels; the farthest it
- * goes [voxels]; opacity: what texels' opacity is multiplied with. */
+/* step: length of a step, in texels; offset: of the start from the surface, in voxels; reach: longest distance
+ * [voxels]; opacity: factor on the opacity of texels. */
 layout(location = LSF_LOCATION_CONE) uniform vec4 cone_march;
 layout(location = LSF_LOCATION_CONE_STEPS) uniform int cone_steps; /* at most */
 
-/* Directions about the normal (z) in the middle of their rings, and the cones' diameter by length. */
+/* Directions about the normal (z) at the centre of their rings, and the cones' diameter per unit length. */
 layout(location = LSF_LOCATION_CONE_SET) uniform vec4 cone_set[LSF_CONE_MAX];
-/* Turn of the whole set; whether points differ (0 or 1); number of cones; their place in their rings, from 0 to 1. */
+/* Rotation of the whole set; whether points differ (0 or 1); number of cones; their position in their rings, from
+ * 0 to 1. */
 layout(location = LSF_LOCATION_CONE_TURN) uniform vec4 cone_gather;
 
-/* What is left of a cone's light counts as nothing: half a step of a picture of 8 bits. */
+/* Transmittance below which a cone ends: half a step of an 8-bit picture. */
 #define CONE_OPAQUE 0.002
 
-/* What a closed texel lets through, so that its logarithm is a number. */
+/* Transmittance of an opaque texel, above 0 so that its logarithm is finite. */
 #define CONE_CLEAR_MIN 1e-7
 
-/* The i-th direction about z. `shift`: by how much the point differs from others in turn and place. */
+/* The i-th direction about z. `shift`: offset of the point's rotation and ring position from those of other
+ * points. */
 vec3 cone_direction(int i, vec2 shift)
 {
     shift = cone_gather.xw + cone_gather.y * shift;
@@ -40,11 +43,11 @@ vec3 cone_direction(int i, vec2 shift)
 
 struct cone_light {
     vec3 radiance;      /* in the grid's unit */
-    vec3 transmittance; /* how much of the environment is seen */
+    vec3 transmittance; /* share of the environment that is visible */
 };
 
 #if LSF_SEALED
-/* What one sees of a voxel. */
+/* Radiance of a voxel, seen along `direction`. */
 vec3 cone_meet(ivec3 cell, vec3 direction)
 {
     int slice = 0;
@@ -55,9 +58,9 @@ vec3 cone_meet(ivec3 cell, vec3 direction)
     return texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0).rgb;
 }
 
-/* From a point of a surface with the unit `normal` [voxels]. Of a set that gathers a hemisphere the rays lie as the
- * cosine has them, over all turns and elevations, so that what they meet is right in the mean. What is beside a
- * ray is met by others, and would be counted twice. `spread` is that of cones which march. */
+/* Traces a ray from a point of a surface with the unit `normal` [voxels]. The rays of a set that gathers a
+ * hemisphere are cosine-distributed over all rotations and elevations, so that the mean is right; voxels beside a
+ * ray are hit by other rays and must not count twice. `spread` is used by marching cones. */
 cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 {
     voxel_ray ray;
@@ -93,18 +96,18 @@ vec4 cone_slice(vec2 place, float z, float slice, float level)
 }
 #endif
 
-/* From a point of a surface with the unit `normal` [voxels]. `spread`: diameter by length. */
+/* Marches from a point of a surface with the unit `normal` [voxels]. `spread`: diameter per unit length. */
 cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 {
     float offset = cone_march.y;
     vec3 start = point + offset * normal;
     vec3 size = grid.size.xyz;
     vec3 rate = abs(direction);
-    /* Where it leaves the grid. */
+    /* Distance at which the cone leaves the grid. */
     vec3 wall = mix(vec3(0.0), size, greaterThan(direction, vec3(0.0)));
     vec3 leave = (wall - start) / mix(direction, vec3(1e-20), equal(direction, vec3(0.0)));
     float end = min(min(leave.x, min(leave.y, leave.z)), cone_march.z);
-    /* A plane's texels reach 1/2 |n|_1 above it, interpolation 1 |n|_1 more. */
+    /* The texels of a plane reach 1/2 |n|_1 above it, and interpolation 1 |n|_1 more. */
     vec3 tilt = abs(normal);
     float flatness = 1.0 / (1.5 * (tilt.x + tilt.y + tilt.z));
     float rise = dot(normal, direction);

@@ -1,9 +1,10 @@
-/* Light of emissive surfaces in voxels, found by points on them that are drawn by power as well as by rays
- * that meet them, and how the two share it: by the power heuristic with exponent 2 (Veach and Guibas 1995,
+/* Light of emissive surfaces in voxels, found by points that are drawn on them in proportion to power and by rays
+ * that hit them. The two strategies are weighted by the power heuristic with exponent 2 (Veach and Guibas 1995,
  * "Optimally Combining Sampling Techniques for Monte Carlo Rendering", section 4).
  *
- * A point's density by area of sides, for weights, is its luminance times `emitters.x`, which a voxel tells of
- * its surface, too; a vertex that sees either side takes both for one. Where a texture varies within a triangle, points are drawn by its mean instead. */
+ * For the weights, a point's density by area of sides is its luminance times `emitters.x`, which is also known of a
+ * voxel's surface; a vertex that sees either side counts both as one. Where a texture varies within a triangle, points
+ * are in fact drawn by the triangle's mean. */
 #ifndef LSF_LIB_VOXEL_EMITTER
 #define LSF_LIB_VOXEL_EMITTER
 
@@ -12,33 +13,33 @@
 
 layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
 
-/* x: density by area of a point of luminance 1, y: points that are drawn at a vertex. */
+/* x: density by area of a point of luminance 1; y: number of points drawn at a vertex. */
 layout(location = 2) uniform vec2 emitters;
 
-/* Of what has the density `own` in one of the two ways and `other` in the other. By their ratio, whose square
- * may overflow to a share of 0. */
+/* Weight of a sample with the density `own` under its strategy and `other` under the other one. It is computed
+ * from their ratio, whose square may overflow to a weight of 0. */
 float emitter_share(float own, float other)
 {
     float ratio = other / own;
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-/* A point on an emitter as a vertex sees it. */
+/* A point on an emitter, seen from a vertex. */
 struct emitter_view {
     vec3 position, normal; /* [voxels]; unit, towards the vertex */
     vec3 direction;        /* unit, to the point */
-    vec3 radiance;         /* times `density` over that with which it was drawn */
-    float density;         /* with which this direction is drawn, for weights [1/sr] */
+    vec3 radiance;         /* times `density` over the density with which it was drawn */
+    float density;         /* density of this direction, for weights [1/sr] */
 };
 
-/* Density by direction of what is drawn with `by_area`, whose squared distance is in voxels. */
+/* Density by solid angle of a point drawn with `by_area`; the squared distance is in voxels. */
 float emitter_density(float by_area, float distance2, float cosine)
 {
     return by_area * distance2 * grid.origin.w * grid.origin.w / cosine;
 }
 
-/* As the voxel has it that the point is in; if another surface has won that, or a mask leaves it empty, with
- * what it held before, as the point itself. */
+/* Luminance that the voxel around the point stores; that of the point itself if another surface owns the voxel or
+ * a mask leaves it empty. */
 float emitter_point_luminance(vec3 place, vec3 radiance)
 {
     ivec3 cell = ivec3(floor(place));
@@ -47,7 +48,7 @@ float emitter_point_luminance(vec3 place, vec3 radiance)
     return luminance > 0.0 ? luminance : emitter_luminance(radiance);
 }
 
-/* Draws a point for a vertex at `place` [voxels] with this normal. False: it does not shine there. */
+/* Draws a point for a vertex at `place` [voxels] with this normal. False: it emits no light towards the vertex. */
 bool emitter_view_from(vec3 place, vec3 normal, vec2 u, out emitter_view e)
 {
     lsf_emitter_point_data point = emitter_draw(u);
@@ -57,7 +58,7 @@ bool emitter_view_from(vec3 place, vec3 normal, vec2 u, out emitter_view e)
     float distance2 = dot(to, to);
     e.direction = to * inversesqrt(max(distance2, 1.0 / VOXEL_FAR));
     float cosine = -dot(e.normal, e.direction);
-    if (point.radiance.w > 1.0 && cosine < 0.0) { /* the other side shines as well */
+    if (point.radiance.w > 1.0 && cosine < 0.0) { /* the other side emits as well */
         e.normal = -e.normal;
         cosine = -cosine;
     }
@@ -69,12 +70,12 @@ bool emitter_view_from(vec3 place, vec3 normal, vec2 u, out emitter_view e)
     return e.density > 0.0;
 }
 
-/* Of what a ray from `place` meets in a voxel with the point q and the unit normal n: density with which
- * its direction would have been drawn. `bits`: the voxel's in voxelize.point. */
+/* For a ray from `place` that hits a voxel with the point q and the unit normal n: density with which the
+ * direction would have been drawn by emitter_view_from. `bits`: the voxel's in voxelize.point. */
 float emitter_density_met(vec3 place, vec3 direction, vec3 q, vec3 n, uint bits, vec3 emission)
 {
     if (voxel_unlit(bits))
-        return 0.0; /* these are not drawn */
+        return 0.0; /* such surfaces are not drawn */
 
     float cosine = -dot(n, direction);
     float along = -dot(n, q - place) / cosine; /* to the voxel's plane */

@@ -1,7 +1,7 @@
-/* Rays that go straight on through voxels of materials that transmit: what is left of their light, in each colour.
- * Such a voxel lets T of lib/straight.glsl through, and exp(-a d) is left of light that goes d from the front of a
- * medium to its back. Switches LSF_VOXEL_PASSAGE (without it nothing is here), LSF_TRANSMISSION, LSF_STRAIGHT,
- * LSF_VOXEL_GLOSS, LSF_ABSORPTION (there are media). */
+/* Rays that continue straight through voxels of transmitting materials, and their transmittance. A voxel transmits
+ * T of lib/straight.glsl, and a medium exp(-a d) over the distance d from its front to its back. Switches
+ * LSF_VOXEL_PASSAGE (without it this file is empty), LSF_TRANSMISSION, LSF_STRAIGHT, LSF_VOXEL_GLOSS,
+ * LSF_ABSORPTION (there are media). */
 #ifndef LSF_LIB_VOXEL_PASSAGE
 #define LSF_LIB_VOXEL_PASSAGE
 
@@ -24,21 +24,21 @@ layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D passage_gloss;
 #endif
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D passage_transmission;
 
-/* A ray goes through no more surfaces than that. */
+/* Largest number of surfaces that a ray passes. */
 #define VOXEL_PASSAGE_MOST 24
 
-/* Voxels of one sheet may each be met by a ray that crosses it once, for their planes differ. A plane that looks the
- * same way, and passes no further than this from where the ray crossed the one before, is of the same sheet, if the ray
- * has not gone further than that since. [voxels] */
+/* A ray may hit several voxels of a sheet that it crosses once, because their planes differ. A plane that faces
+ * the same way and passes within this distance of the previous crossing belongs to the same sheet, unless the ray
+ * has gone further than this since. [voxels] */
 #define VOXEL_SHEET_HEIGHT 1.0
 #define VOXEL_SHEET_WAY 4.0
 
 struct voxel_passage {
     vec3 left;       /* of the light */
-    vec3 entry;      /* what the surface by which the ray came into a medium let through */
-    float entered;   /* how far along the ray; below 0: it is in no medium */
-    float crossed;   /* how far along the ray it crossed the last surface ... */
-    float facing;    /* ... against its normal (below 0), or with it; 0: it has crossed none */
+    vec3 entry;      /* transmittance of the surface through which the ray entered a medium */
+    float entered;   /* distance of that along the ray; below 0: it is in no medium */
+    float crossed;   /* distance along the ray of the last surface that it crossed */
+    float facing;    /* cosine to that normal: below 0 against it, above along it; 0: none crossed */
 };
 
 voxel_passage voxel_passage_begin()
@@ -46,7 +46,7 @@ voxel_passage voxel_passage_begin()
     return voxel_passage(vec3(1.0), vec3(1.0), -1.0, 0.0, 0.0);
 }
 
-/* The surface of a voxel as far as straight_transmittance looks at it; `n`: the plane's normal. */
+/* The members of a voxel's surface that straight_transmittance reads; `n`: the plane's normal. */
 surface passage_surface(ivec3 cell, uint normal_bits, vec3 n)
 {
     surface s = surface_unpack(uvec4(0u));
@@ -55,7 +55,7 @@ surface passage_surface(ivec3 cell, uint normal_bits, vec3 n)
     s.base_color = voxel_albedo_unpack(texelFetch(passage_albedo, cell, 0).r);
 #if LSF_VOXEL_GLOSS
     vec4 gloss = unpackUnorm4x8(texelFetch(passage_gloss, cell, 0).r);
-    s.roughness = sqrt(gloss.x * gloss.y); /* with it the product of both alphas is kept */
+    s.roughness = sqrt(gloss.x * gloss.y); /* keeps the product of both alphas */
     s.f0 = gloss.z * gloss.z;
     s.metallic = gloss.w;
 #endif
@@ -63,8 +63,9 @@ surface passage_surface(ivec3 cell, uint normal_bits, vec3 n)
     return s;
 }
 
-/* The ray has met that voxel, and is beyond it. `sheet`: it is one of a sheet that it has crossed already, or within
- * the medium that it has come into, and is not in the way. False: no light comes through. */
+/* Takes the ray through a voxel that it has hit and left. `sheet`: the voxel belongs to a sheet that the ray has
+ * crossed already, or lies within the medium that it has entered, and does not occlude. False: no light is
+ * transmitted. */
 bool voxel_pass(inout voxel_passage p, voxel_ray ray, ivec3 cell, out bool sheet)
 {
     uint point = texelFetch(voxel_point, cell, 0).r, normal_bits = texelFetch(voxel_normal, cell, 0).r;
@@ -94,19 +95,19 @@ bool voxel_pass(inout voxel_passage p, voxel_ray ray, ivec3 cell, out bool sheet
 #endif
         p.entered = -1.0;
     } else if (s.volume) {
-        p.left *= transmittance; /* its front is in no voxel of its own: the body is thinner than one */
+        p.left *= transmittance; /* no voxel stores the body's front: it is thinner than one */
     }
     return true;
 }
 
-/* What is left where the ray ends. */
+/* Transmittance at the end of the ray. */
 vec3 voxel_passed(voxel_passage p)
 {
-    /* A body whose back is in no voxel of its own. */
+    /* No voxel stores the body's back. */
     return p.entered >= 0.0 ? p.left * p.entry : p.left;
 }
 
-/* What comes of light from one point of surface to another, as voxel_sees has it. */
+/* Transmittance between two surface points, with visibility as in voxel_sees. */
 vec3 voxel_seen(vec3 from, vec3 from_normal, vec3 to, vec3 to_normal)
 {
     vec3 start = from + voxel_lift(from_normal);

@@ -1,17 +1,17 @@
-/* Of what voxels are made, for lib/reflectance.glsl. Switches LSF_SPECULAR, LSF_VOXEL_GLOSS. */
+/* Materials of voxels, for lib/reflectance.glsl. Switches LSF_SPECULAR, LSF_VOXEL_GLOSS. */
 #ifndef LSF_LIB_VOXEL_REFLECT
 #define LSF_LIB_VOXEL_REFLECT
 
 #include "lib/reflectance.glsl"
 #include "lib/voxel.glsl"
 
-/* `gloss` as in voxelize.gloss; not looked at without LSF_VOXEL_GLOSS. */
+/* `gloss` as in voxelize.gloss; unused without LSF_VOXEL_GLOSS. */
 reflector voxel_material_unpack(uint albedo, uint gloss, float transmission)
 {
     reflector m = reflector(voxel_albedo_unpack(albedo), transmission, 1.0, 0.04, 0.0);
 #if LSF_VOXEL_GLOSS
     vec4 g = unpackUnorm4x8(gloss);
-    m.roughness = sqrt(g.x * g.y); /* with it the lobe's peak, 1 / (pi alpha_t alpha_b), is kept */
+    m.roughness = sqrt(g.x * g.y); /* keeps the lobe's peak, 1 / (pi alpha_t alpha_b) */
     m.f0 = g.z * g.z;
     m.metallic = g.w;
 #endif

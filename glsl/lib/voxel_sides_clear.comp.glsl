@@ -1,4 +1,4 @@
-/* Darkens what was occupied. */
+/* Clears the radiance of voxels that were occupied. */
 #include "lib/voxel_sides.glsl"
 
 void main()

@@ -1,6 +1,5 @@
-/* Rays between surfaces in the grid. They start, and end, as far above a surface as a voxel of it reaches
- * (voxel_lift), so that occupied voxels at the start belong to other surfaces, which join it in a corner or
- * pass close by. */
+/* Rays between surfaces in the grid. They start and end as far above a surface as its voxels reach (voxel_lift),
+ * so that occupied voxels at the start belong to other surfaces, which meet it in a corner or pass close by. */
 #ifndef LSF_LIB_VOXEL_SIGHT
 #define LSF_LIB_VOXEL_SIGHT
 
@@ -9,13 +8,13 @@
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D voxel_normal;
 
-/* A voxel that touches a plane with the unit normal n reaches |n_x| + |n_y| + |n_z| above it at most. */
+/* Height above the plane of a voxel that touches a plane with the unit normal n: at most |n_x| + |n_y| + |n_z|. */
 vec3 voxel_lift(vec3 n)
 {
     return (abs(n.x) + abs(n.y) + abs(n.z)) * n;
 }
 
-/* Height of the ray's origin above the surface in the cell, and how fast the ray rises above it. */
+/* Height of the ray's origin above the surface in the cell, and the rate at which the ray rises above it. */
 vec2 voxel_height(ivec3 cell, voxel_ray ray)
 {
     vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
@@ -23,8 +22,8 @@ vec2 voxel_height(ivec3 cell, voxel_ray ray)
     return vec2(dot(n, ray.origin - q), dot(n, ray.direction));
 }
 
-/* Takes the ray out of the voxels that it starts in, but for one whose surface lies ahead. False: it leaves
- * the grid. */
+/* Moves the ray out of the voxels in which it starts, except one whose surface lies ahead. False: it leaves the
+ * grid. */
 bool voxel_leave_start(inout voxel_ray ray)
 {
     int steps = voxel_ray_steps();
@@ -39,8 +38,8 @@ bool voxel_leave_start(inout voxel_ray ray)
     return true;
 }
 
-/* The same for a ray that starts on the surface of the medium that it goes through: those that it starts in are left
- * but for one through which it leaves the medium ahead, whose normal goes with it. */
+/* The same for a ray that starts on the surface of the medium through which it runs: it leaves the voxels in which
+ * it starts, except one through which it exits the medium ahead, whose normal points along it. */
 bool voxel_leave_inside(inout voxel_ray ray)
 {
     int steps = voxel_ray_steps();
@@ -55,25 +54,26 @@ bool voxel_leave_inside(inout voxel_ray ray)
     return true;
 }
 
-/* Whether heights at two distances along a ray are on both sides of a plane, or on it. */
+/* Whether the heights at two distances along a ray lie on both sides of a plane, or on it. */
 bool voxel_crossed(vec2 height, float first, float last)
 {
     float before = height.x + first * height.y, after = height.x + last * height.y;
     return min(abs(before), abs(after)) < VOXEL_PLANE || before * after < 0.0;
 }
 
-/* On to the first surface that the ray crosses before `end`, in the voxel `met`; the ray is then beyond that.
- * False: there is none. Where surfaces meet or bend, either has won the voxel, and those of the six voxels beside it
- * count, too, as far as they are known to be on the side of the voxel's own plane that the ray is on: round an edge
- * they are not. `corners`: an edge that is on the ray's side, as those of a room are from within, is closed, whatever
- * the ray crosses: where three surfaces meet, none of the seven voxels may hold the third.
+/* Advances to the first surface that the ray crosses before `end`, in the voxel `met`; the ray is then beyond it.
+ * False: there is none. Where surfaces meet or bend, only one of them is stored in a voxel, so that those of its
+ * six neighbours count, too, where they are known to be on the ray's side of the voxel's own plane; round an edge
+ * they are not. `corners`: an edge on the ray's side, such as those of a room seen from within, is closed whatever
+ * the ray crosses: where three surfaces meet, none of the seven voxels may store the third.
  *
- * A turn of the loop looks at one voxel, either met or beside that: rays that go in step wait less for each other. */
+ * An iteration of the loop looks at one voxel, either hit or next to it, so that rays that run in lockstep wait
+ * less for each other. */
 bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
 {
     int turns = 7 * voxel_ray_steps();
-    uint beside = 0u;                            /* `met`, those still to be looked at */
-    float entry = 0.0, leave = 0.0, ahead = 0.0; /* of `met`; height above its plane where the ray enters */
+    uint beside = 0u;                            /* neighbours of `met` still to be tested */
+    float entry = 0.0, leave = 0.0, ahead = 0.0; /* of `met`; height above its plane at the entry */
     vec3 n = vec3(0.0), q = vec3(0.0);
     for (int i = 0; i < turns; i++) {
         bool own = beside == 0u;
@@ -111,8 +111,8 @@ bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
     return false;
 }
 
-/* Whether one point of surface sees another [voxels]; with their unit normals. Where the lifted ends have
- * passed each other, the grid cannot tell what is between. */
+/* Whether one surface point sees another [voxels]; with their unit normals. True where the lifted ends have passed
+ * each other: the grid does not resolve what is between. */
 bool voxel_sees(vec3 from, vec3 from_normal, vec3 to, vec3 to_normal)
 {
     vec3 start = from + voxel_lift(from_normal);

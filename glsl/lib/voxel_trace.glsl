@@ -1,9 +1,9 @@
-/* Where a ray meets an occupied voxel: a walk from cell to cell (Amanatides and Woo 1987, "A Fast Voxel
- * Traversal Algorithm for Ray Tracing") that takes an empty part of the grid in one step.
+/* Finds the first occupied voxel that a ray enters: a walk from cell to cell (Amanatides and Woo 1987, "A Fast
+ * Voxel Traversal Algorithm for Ray Tracing") that takes an empty part of the grid in one step.
  *
- * Cells are integers, and every step leaves a box of cells through one of its faces, which is exact: no
- * rounding lets a ray stand still, turn back, or slip between two voxels. Each step moves on by a cell
- * at least, and never back along an axis: a ray takes no more than size.x + size.y + size.z of them. */
+ * Cells are integers, and every step leaves a box of cells through one of its faces, which is exact: rounding
+ * cannot stop a ray, reverse it, or let it slip between two voxels. Each step advances by at least a cell and
+ * never goes back along an axis, so that a ray takes at most size.x + size.y + size.z steps. */
 #ifndef LSF_LIB_VOXEL_TRACE
 #define LSF_LIB_VOXEL_TRACE
 
@@ -17,10 +17,10 @@ struct voxel_ray {
     vec3 inverse;           /* 1 / direction, finite */
     ivec3 up;               /* 1 along axes on which the ray ascends, else 0 */
     ivec3 cell;
-    float distance; /* at which it entered the cell; from 0 [voxels] */
+    float distance; /* at which it entered the cell, from 0 [voxels] */
 };
 
-/* Against it every distance in a grid is small. */
+/* Larger than any distance in a grid. */
 #define VOXEL_FAR 1e18
 
 /* False where the ray misses the grid. */
@@ -48,7 +48,7 @@ bool voxel_ray_begin(vec3 origin, vec3 direction, out voxel_ray ray)
     return true;
 }
 
-/* Out of the box of cells from `low` on, which holds the ray's cell, into the cell beyond. */
+/* Leaves the box of cells that begins at `low` and holds the ray's cell, into the cell beyond. */
 void voxel_ray_step(inout voxel_ray ray, ivec3 low, ivec3 extent)
 {
     ivec3 face = low + ray.up * extent;
@@ -57,7 +57,7 @@ void voxel_ray_step(inout voxel_ray ray, ivec3 low, ivec3 extent)
     ivec3 ahead = low + ray.up * (extent - 1), beyond = face - 1 + ray.up;
     ivec3 next = clamp(ivec3(floor(ray.origin + ray.direction * t)), min(ray.cell, ahead),
                        max(ray.cell, ahead));
-    /* Through one face at a time: where two meet, a voxel is there, too. */
+    /* The ray crosses one face at a time: where two meet, there is a voxel between. */
     if (to_face.x == t)
         next.x = beyond.x;
     else if (to_face.y == t)
@@ -78,7 +78,7 @@ bool voxel_occupied(ivec3 cell)
     return occupancy_holds(texelFetch(occupancy_voxels, occupancy_texel(cell), 0).r, cell);
 }
 
-/* Of a word's cells those that a ray in `cell` may still come to: it goes back along no axis. */
+/* The bits of a word that a ray in `cell` may still reach, as it goes back along no axis. */
 uint occupancy_ahead(ivec3 cell, ivec3 up)
 {
     uvec3 at = uvec3(cell & ivec3(3, 3, 1)) << uvec3(0u, 2u, 4u);
@@ -89,14 +89,14 @@ uint occupancy_ahead(ivec3 cell, ivec3 up)
     return (row * 0x11111111u) & (layer * 0x10001u) & layers;
 }
 
-/* Most steps that a ray may take. */
+/* Largest number of steps of a ray. */
 int voxel_ray_steps()
 {
     return int(grid.size.x + grid.size.y + grid.size.z);
 }
 
-/* On to the first occupied voxel that it enters before `end`, the cell that it is in included. False: there
- * is none, or it leaves the grid. */
+/* Advances to the first occupied voxel that the ray enters before `end`, including its current cell. False: there
+ * is none, or the ray leaves the grid. */
 bool voxel_ray_trace(inout voxel_ray ray, float end)
 {
     int steps = voxel_ray_steps();
@@ -108,7 +108,7 @@ bool voxel_ray_trace(inout voxel_ray ray, float end)
         uint voxels = texelFetch(occupancy_voxels, occupancy_texel(ray.cell), 0).r;
         if (occupancy_holds(voxels, ray.cell))
             return true;
-        /* Out of 4 x 4 x 2 bricks, a brick, or half of it, where the two words show what is left of it to be empty. */
+        /* Steps out of 4 x 4 x 2 bricks, a brick, or half a brick, whichever the two words show to be empty ahead. */
         ivec3 shift = (bricks & occupancy_ahead(brick, ray.up)) == 0u      ? ivec3(4, 4, 3)
                       : !occupancy_holds(bricks, brick)                    ? ivec3(2)
                       : (voxels & occupancy_ahead(ray.cell, ray.up)) == 0u ? ivec3(2, 2, 1)
@@ -125,7 +125,7 @@ bool voxel_ray_trace(inout voxel_ray ray)
     return voxel_ray_trace(ray, VOXEL_FAR);
 }
 
-/* Whether the ray comes through one of the bricks whose bits are set, whatever is before it. */
+/* Whether the ray passes through one of the bricks whose bits are set, ignoring occlusion. */
 bool voxel_ray_passes(voxel_ray ray, usampler3D bricks)
 {
     int steps = voxel_ray_steps();

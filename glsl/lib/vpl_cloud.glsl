@@ -1,5 +1,6 @@
-/* For shaders that fill a cloud of virtual point lights: its records, and which of them a vertex of a light path
- * has. Records of points on emitters come first, then the paths' first vertices, their second ones and so on. */
+/* For shaders that fill a cloud of virtual point lights: its records, and the slots of the vertices of light
+ * paths. Records of points on emitters come first, then the first vertices of all paths, their second ones and so
+ * on. */
 #ifndef LSF_LIB_VPL_CLOUD
 #define LSF_LIB_VPL_CLOUD
 
@@ -15,16 +16,17 @@ layout(std430, binding = 2) buffer lsf_vpl_cloud_block
     lsf_vpl_record cloud[];
 };
 
-layout(location = 0) uniform uvec4 cloud_shape; /* points on emitters, paths; first and count of this run's paths */
-layout(location = 1) uniform uvec3 cloud_turn;  /* iteration, seed; the light in turn */
+layout(location = 0) uniform uvec4 cloud_shape; /* points on emitters, paths; first path and number of paths of
+                                                 * this dispatch */
+layout(location = 1) uniform uvec3 cloud_turn;  /* iteration, seed; number of the current light */
 
-/* `vertex` counts from 0, the first that reflects the light. */
+/* `vertex` counts from 0, the first vertex that reflects light. */
 uint cloud_slot(uint path, uint vertex)
 {
     return cloud_shape.x + vertex * cloud_shape.y + path;
 }
 
-/* Three numbers for a path's way to that vertex. */
+/* Three numbers for the segment of a path that leads to that vertex. */
 vec3 cloud_random(uint path, uint vertex)
 {
     path_random_key key;

@@ -1,4 +1,4 @@
-/* For shaders that place VPLs: where they are written to, and the map over each. */
+/* For shaders that place VPLs: the buffers that they write, and the map over each VPL. */
 #ifndef LSF_LIB_VPL_WRITE
 #define LSF_LIB_VPL_WRITE
 
@@ -10,7 +10,7 @@
 
 struct vpl_map_slot {
     lsf_light_data map;
-    vec4 unused; /* a multiple of a uniform buffer's alignment */
+    vec4 unused; /* pads to a multiple of a uniform buffer's alignment */
 };
 layout(std430, binding = LSF_BINDING_VPL) writeonly buffer lsf_vpl_block
 {
@@ -21,12 +21,12 @@ layout(std430, binding = 2) writeonly buffer lsf_vpl_map_block
     vpl_map_slot vpl_maps[];
 };
 
-/* Nearest occluder of a VPL's map. */
+/* Distance of the nearest occluder in a VPL's map. */
 #define VPL_NEAR_PLANE 1e-5
 
-/* The map over a VPL. `shape`: texels of a side; how far positions may be off by rounding. The map starts
- * that far above the VPL's surface, and `error`, what else the VPL may be off it, or the surface would
- * shade its own light. `turn`: about the normal, 0..1. */
+/* The map over a VPL. `shape`: texels along a side; rounding error of positions. The map's origin is that far
+ * above the VPL's surface, plus `error`, the further error of the VPL's position, because the surface would shadow
+ * its own light otherwise. `turn`: rotation about the normal, 0..1. */
 void vpl_map_write(uint index, vec3 position, vec3 normal, float error, float turn, vec2 shape)
 {
     lsf_light_data map;

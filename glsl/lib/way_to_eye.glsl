@@ -1,5 +1,5 @@
-/* What is left of light on its way from the surface in a pixel to the eye. Switches LSF_STRAIGHT, LSF_ABSORPTION:
- * surfaces before it transmit light, and some of them bound media. */
+/* Transmittance between the surface in a pixel and the eye. Switches LSF_STRAIGHT, LSF_ABSORPTION: surfaces in
+ * front of it transmit light, and some of them bound media. */
 #ifndef LSF_LIB_WAY_TO_EYE
 #define LSF_LIB_WAY_TO_EYE
 
