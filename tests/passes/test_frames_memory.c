@@ -27,12 +27,16 @@ static lsf_scene *moving_scene(void)
 
 static lsf_render_params tiny_params(const char *technique)
 {
+    static const char *const options[] = {"rsm.resolution=32", "vpl.shadow_resolution=32",
+                                          "bundle.resolution=32"};
     return (lsf_render_params){LSF_RENDER_PARAMS_DEFAULTS,
                                .technique = technique,
                                .bounces = 1,
                                .width = 4,
                                .height = 4,
-                               .samples = 1};
+                               .samples = 1,
+                               .options = options,
+                               .option_count = LSF_COUNT(options)};
 }
 
 static void require(bool good, const lsf_error *error)

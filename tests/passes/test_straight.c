@@ -2,6 +2,7 @@
  */
 #include <math.h>
 
+#include "base/base.h"
 #include "render_gl.h"
 
 static double schlick(double f0, double cosine)
@@ -221,9 +222,12 @@ static void look_below(const char *technique, uint32_t samples, bool sky, bool s
         build_floor(scene, 0.25f, 4.0f);
     finish_gl_scene(scene);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    static const char *const options[] = {"voxel.resolution=64", "cloud.count=8192"};
     params.technique = technique;
     params.bounces = 0;
     params.samples = samples;
+    params.options = options;
+    params.option_count = LSF_COUNT(options);
     params.fov_y = 2.0f;
     lsf_image *image = render_gl_from(scene, params, 16, lsf_f3(0, 0.2f, 0), lsf_f3(0.2f, 0, 0));
     mean_rgb(image, 0, rgb);
