@@ -26,7 +26,7 @@
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform usampler2D shadow_map;
 #elif LSF_SHADOW_SKY
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform usampler2DArray shadow_map;
-int shadow_sky_map = 0; /* the map in turn */
+int shadow_sky_map = 0; /* index of the current map */
 #else
 layout(binding = LSF_UNIT_SHADOW_DEPTH) uniform sampler2DArray shadow_depth;
 #endif

@@ -13,8 +13,8 @@ bool triangle_between(uint triangle, vec3 from, vec3 way)
     vec3 e1 = scene_triangle_corner(triangle, 1u) - corner, e2 = scene_triangle_corner(triangle, 2u) - corner;
     vec3 p = cross(way, e2), s = from - corner, q = cross(s, e1);
     float determinant = dot(e1, p);
-    vec3 place = sign(determinant) * vec3(dot(s, p), dot(way, q), dot(e2, q)); /* two barycentric weights, and the
-                                                                                * fraction of the segment */
+    /* Two barycentric weights, and the fraction of the segment. */
+    vec3 place = sign(determinant) * vec3(dot(s, p), dot(way, q), dot(e2, q));
     float size = abs(determinant);
     return min(place.x, place.y) >= 0.0 && place.x + place.y <= size && place.z > 0.0 && place.z < size;
 }

@@ -1,4 +1,4 @@
-/* The running mean of one layer: mean += (x - mean) / n, which stays put however large n grows. */
+/* The running mean of one layer: mean += (x - mean) / n, which does not drift however large n grows. */
 #include "lib/gbuffer.glsl"
 #include "lib/view.glsl"
 
@@ -23,7 +23,7 @@ void main()
 #if LSF_SOURCE == SOURCE_COLOR
     x = texelFetch(source, pixel, 0);
 #elif LSF_SOURCE == SOURCE_DEPTH
-    /* The mean of distances across an edge is a distance to nothing: the first iteration's. */
+    /* A mean of distances across an edge is the distance to no surface; the first iteration's value is kept. */
     if (weight != 1.0)
         return;
     float depth = texelFetch(source, pixel, 0).r;
@@ -36,7 +36,7 @@ void main()
         surface s = surface_unpack(texelFetch(source, pixel, 0));
         x.rgb = LSF_SOURCE == SOURCE_ALBEDO ? s.base_color : s.normal;
 #if LSF_SCATTER && LSF_SOURCE == SOURCE_NORMAL
-        /* That of a wall that is seen through looks to the other side. */
+        /* The normal of a wall that is looked through faces the other side. */
         if (dot(s.geometric_normal, view_ray_direction(sample_ndc(gl_FragCoord.xy))) > 0.0)
             x.rgb = -x.rgb;
 #endif

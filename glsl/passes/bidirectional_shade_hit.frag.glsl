@@ -1,6 +1,5 @@
-/* What a ray-bundle brings to the vertices from where it met the scene (x2): emission, or the
- * environment where it met nothing, and the reflected light of the punctual light in turn. With
- * LSF_CONTINUE the hit becomes the next vertex. */
+/* Light that a ray-bundle brings to the vertices from its hits (x2): emission, or the environment where there is
+ * no hit, and reflected light of the current punctual light. With LSF_CONTINUE the hit becomes the next vertex. */
 #include "lib/bundle_pdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/mis.glsl"
@@ -14,12 +13,12 @@
 #endif
 
 layout(binding = 4) uniform usampler2D hit_texture;
-/* Whether emission is added, and the light (0 or 1); how many bundles begin a path; the density with which
- * VPLs find what emits, for each unit of its luminance. */
+/* Whether emission, and light of the current light, are added (0 or 1); number of bundles that begin a path;
+ * density with which VPLs find an emitter, per unit of its luminance. */
 layout(location = LSF_LOCATION_ADDED) uniform vec4 added;
 #if LSF_ENVIRONMENT
-/* Of the environment along the bundle and against it: what directions drawn by its radiance leave to the
- * bundle (xy), and the kernel of suppression without that of the vertex before (zw). */
+/* xy: weight of the environment along the bundle and against it, beside directions drawn by its radiance; zw:
+ * kernel of suppression for both, without that of the previous vertex. */
 layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec4 sky;
 #endif
 
@@ -46,7 +45,7 @@ layout(location = VERTEX_TARGET + 3) out uvec4 gloss_out;
 #endif
 
 #if LSF_PUNCTUAL
-/* Light of x0 that x2 reflects to the vertex, weighed against VPLs; both parts. */
+/* Light of x0 that x2 reflects to the vertex, weighted against VPLs; both parts. */
 light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3, vec3 position,
                             surface x2, light_parts through)
 {
@@ -92,7 +91,7 @@ light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3,
 #endif
 
 #if LSF_EMITTERS
-/* Weighs the emission of x2 against VPLs on it; both strategies suppress the lobe alike. */
+/* Weights the emission of x2 against VPLs placed on it; both strategies suppress the lobe equally. */
 void weigh_emission(shading_vertex v, vec3 direction, float distance2_3, surface x2,
                     inout vec3 emission, inout light_parts through)
 {
@@ -137,7 +136,7 @@ void main()
     float p_r = bundle.forward.w;
     bool along = dot(v.s.geometric_normal, bundle.forward.xyz) > 0.0;
     vec3 direction = along ? bundle.forward.xyz : -bundle.forward.xyz;
-    /* Of rays from the vertex alone the density is N p_r (equation 14). */
+    /* The density of rays from the vertex alone is N p_r (equation 14). */
     float kernel = suppression.x / (added.z * p_r);
 #if LSF_ENVIRONMENT
     if (hit.y == LSF_NO_NODE)
@@ -149,7 +148,7 @@ void main()
     light_parts reflected;
     reflected.irradiance = reflected.specular = vec3(0.0);
 #if LSF_STRAIGHT
-    /* Of light from the hit, by what it passes, and by the chance that the hit is there. */
+    /* Transmittance on the way from the hit, over the probability that the hit is present. */
     vec3 left = bundle_tint(v.position, direction, hit.y == LSF_NO_NODE ? 1e30 : uintBitsToFloat(hit.x));
 #endif
     if (hit.y == LSF_NO_NODE) {

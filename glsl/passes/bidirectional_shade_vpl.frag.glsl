@@ -1,6 +1,6 @@
-/* Connects the vertices to one VPL: path (x0, x1, x3), or (x0, x1, x2, x3) with LSF_DEEP; without x0 where
- * x1 emits itself. Both parts of the light are added to the targets; alpha holds the luminance that a
- * bound took away. Switches LSF_PUNCTUAL and LSF_EMITTERS: there are VPLs of that kind. */
+/* Connects the vertices to one VPL: path (x0, x1, x3), or (x0, x1, x2, x3) with LSF_DEEP; without x0 where x1
+ * emits light itself. Both parts of the light are added to the targets; alpha holds the luminance that a bound
+ * removed. Switches LSF_PUNCTUAL and LSF_EMITTERS: there are VPLs of that kind. */
 #include "lib/bundle_pdf.glsl"
 #include "lib/luminance.glsl"
 #include "lib/mis.glsl"
@@ -21,11 +21,11 @@ layout(location = 0) out vec4 irradiance_out;
 layout(location = 1) out vec4 specular_out;
 #endif
 
-/* What the VPL sends to the vertex for each unit of solid angle that it covers there, divided by its
- * density by area, times its weight. */
+/* Intensity of the VPL towards the vertex per unit of solid angle that it covers there, divided by its density by
+ * area, times its weight. */
 struct vpl_light {
     vec3 power;
-    float kernel_3; /* of suppression, at the vertex */
+    float kernel_3; /* kernel of suppression at the vertex */
     float density;  /* of VPLs by area */
 };
 
@@ -67,7 +67,7 @@ vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, floa
     l.density = p.vpl;
     float density = p.vpl + p.bundle;
     l.kernel_3 = suppression_kernel(density, cosine_3, distance2);
-    /* The rays of a directional light do not part. */
+    /* The rays of a directional light are parallel, so that their kernel is 0. */
     float kernel_0 = vpl.base_color.w != 0.0
                          ? 0.0
                          : suppression_kernel(density, cosine_0, vpl.to_light.w);
@@ -119,7 +119,7 @@ void main()
     vpl_light l = reflected_power(vpl, direction, cosine_3, distance2);
 #endif
 
-    /* It is seen from x3 under cosine_3 / distance2 for each area. */
+    /* Seen from x3, an area covers the solid angle cosine_3 / distance2 per unit. */
     light_parts f_3 = vertex_reflect(v, direction, l.kernel_3 + suppression.z);
     vec3 power = l.power * strategy.w;
 #if LSF_SHADOW_TINT

@@ -1,5 +1,5 @@
-/* One phase of the blur along one axis: the texel and a neighbour at either side, weighed 1 : 2 : 1.
- * The weights are derived in src/passes/blur.md. */
+/* One phase of the blur along one axis: the texel and a neighbour on either side, weighted 1 : 2 : 1. The weights
+ * are derived in src/passes/blur.md. */
 #include "lib/sparse_grid.glsl"
 #include "lib/view.glsl"
 #include "passes/blur_texel.glsl"
@@ -15,9 +15,9 @@ layout(location = 1) out vec4 specular_out;
 layout(location = 0) uniform ivec3 along; /* (1, 0) or (0, 1), phase */
 layout(location = 1) uniform vec4 law;    /* step at the viewer [texels], growth, 1 / texels along
                                            * the axis, normal_weight */
-layout(location = 2) uniform vec3 limits; /* cutoff, slope; squared; the phase's share of growth */
+layout(location = 2) uniform vec3 limits; /* squares of cutoff and slope; the phase's share of growth */
 
-/* A texel's width along the axis where view depth is z [normalised space]. */
+/* Width of a texel along the axis at view depth z [normalised space]. */
 float texel_size(float z)
 {
 #if LSF_ORTHOGRAPHIC
@@ -27,7 +27,7 @@ float texel_size(float z)
 #endif
 }
 
-/* What the texel at hand is, and the sums of what it takes from its neighbours. */
+/* The texel, and the sums that it takes from its neighbours. */
 struct exchange {
     vec3 position, normal, plane;
     float farthest; /* squared */

@@ -1,4 +1,4 @@
-/* What the blur compares of each texel, made once for all phases: 2 fetches of it instead of 4, and
+/* The values of each texel that the blur compares, computed once for all phases: two fetches instead of four, and
  * no view rays. See src/passes/blur.md. */
 #include "lib/gbuffer.glsl"
 #include "lib/gbuffer_textures.glsl"
@@ -10,7 +10,7 @@ layout(location = 0) out uvec4 guide_out;
 
 layout(location = 0) uniform vec2 brackets; /* min_roughness, phases */
 
-/* Phases that blur the specular part: brackets of equal width from min_roughness to 1. */
+/* Number of phases that blur the specular part: brackets of equal width from min_roughness to 1. */
 uint phases_of(ivec2 pixel)
 {
     float roughness = 1.0;
@@ -18,7 +18,7 @@ uint phases_of(ivec2 pixel)
     uvec2 gloss = texelFetch(gloss_texture, pixel, 0).xy;
     roughness = unpackUnorm2x16(gloss.x).x;
 #if LSF_ANISOTROPY
-    /* Along the tangent it is the rougher. */
+    /* The surface is rougher along the tangent. */
     float strength = unpackUnorm2x16(gloss.y).x;
     roughness = sqrt(lsf_alpha_along_tangent(roughness * roughness, strength));
 #endif

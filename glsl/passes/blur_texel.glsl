@@ -8,7 +8,7 @@
 
 #include "lib/octahedral.glsl"
 
-/* Of 2 x snorm16 as in the G-buffer, rounded. */
+/* Packs 2 x snorm16, as in the G-buffer, with rounding. */
 uint guide_normal_pack(uint normal)
 {
     ivec2 p = ivec2(round(unpackSnorm2x16(normal) * 63.0)) & 127;
@@ -17,7 +17,7 @@ uint guide_normal_pack(uint normal)
 
 vec3 guide_normal(uint bits)
 {
-    /* The sign is the highest bit of each. */
+    /* The shifts extend the sign, the highest bit of each. */
     vec2 p = vec2(int(bits << 25) >> 25, int(bits << 18) >> 25) / 63.0;
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0)

@@ -54,7 +54,8 @@ layout(location = LSF_INDIRECT_SPECULAR) out vec4 indirect_specular_out;
 layout(location = LSF_COVERAGE) out vec4 coverage_out;
 #endif
 
-/* By a surface, or by one that light came through: what is behind that is no background. */
+/* Whether a surface, or one that transmits light, covers the pixel: what is behind such a surface is no
+ * background. */
 bool covered(ivec2 pixel, float depth)
 {
 #if LSF_STRAIGHT
@@ -69,7 +70,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(depth_texture, pixel, 0).r;
     vec3 seen = vec3(0.0), direct = vec3(0.0), indirect = vec3(0.0);
-    float lost = 0.0; /* luminance that a bound took away */
+    float lost = 0.0; /* luminance that a bound removed */
     vec3 left = left_on_the_way(pixel);
 #if LSF_EMISSION
     seen += texelFetch(emission_texture, pixel, 0).rgb;
@@ -89,7 +90,7 @@ void main()
     direct += texelFetch(direct_texture, pixel, 0).rgb;
 #endif
 #if LSF_INDIRECT || LSF_SKY_LIGHT
-    vec3 reflected = vec3(0.0); /* by an irradiance of 1 */
+    vec3 reflected = vec3(0.0); /* reflectance for an irradiance of 1 */
     if (depth != 0.0) {
         surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
 #if LSF_TRANSMISSION

@@ -1,4 +1,4 @@
-/* Light that arrives at visible points from voxels and from beyond them, by cones. */
+/* Light that cones gather at visible points from voxels and from the environment. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/hash.glsl"
@@ -12,7 +12,7 @@ layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility, of g
 layout(location = 1) out vec4 specular_out;
 #endif
 
-/* Of a diffuse cone; directions drawn by the environment's radiance have the rest of it. */
+/* Light of a diffuse cone, weighted against directions drawn by the environment's radiance. */
 vec3 arriving(cone_light light, vec3 direction, float cosine)
 {
     vec3 radiance = light.radiance * grid.unit.x;
@@ -24,8 +24,8 @@ vec3 arriving(cone_light light, vec3 direction, float cosine)
 }
 
 #if LSF_SPECULAR && LSF_SEALED
-/* The specular lobe's light by a ray drawn from it: of voxels, and of the environment as directions drawn by its
- * radiance leave it. */
+/* Light of the specular lobe by a ray drawn from it: from voxels, and from the environment, weighted against
+ * directions drawn by its radiance. */
 vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 {
     vec3 number = hash_unit(hash(uvec3(gl_FragCoord.xy, 1u)));
@@ -44,20 +44,20 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 #endif
     float leaves = 1.0;
 #if LSF_SHEEN
-    /* What a sheen reflects itself, diffuse cones find. */
+    /* The sheen's own reflection is gathered by the diffuse cones. */
     leaves = sheen_leaves(s, max(dot(s.normal, to_viewer), LSF_COSINE_MIN), cosine);
     s.sheen = vec4(0.0);
 #endif
     return brdf_evaluate(s, to_viewer, direction, 0.0).specular * radiance * (leaves * cosine / pdf);
 }
 #elif LSF_SPECULAR
-layout(binding = 3) uniform sampler2D albedo_texture; /* of the specular lobe */
-layout(location = 0) uniform float lobe_spread; /* diameter by length of the specular cone, to alpha */
+layout(binding = 3) uniform sampler2D albedo_texture; /* albedo of the specular lobe */
+layout(location = 0) uniform float lobe_spread; /* ratio of the specular cone's diameter per unit length to alpha */
 
-/* A right angle: the lobes of rough surfaces are not round any more. */
+/* A right angle: the lobes of rougher surfaces are not round any more. */
 #define CONE_WIDEST 2.0
 
-/* ... by a cone along the mirror direction. */
+/* Light of the specular lobe by a cone along the mirror direction. */
 vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 {
     vec3 view_direction = lift_to_horizon(to_viewer, s.normal);
@@ -78,8 +78,8 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 }
 #endif
 
-/* Pixels of a tile of 4 x 4 take the turns 0 to 15 of 16, neighbours far from each other; tiles differ by
- * chance, in turn and ring: where few directions are the same, no edge shows twice. */
+/* Pixels of a tile of 4 x 4 have the rotations 0 to 15 of 16, with neighbours far from each other. Tiles differ at
+ * random in rotation and ring: where only few directions are shared, no edge repeats. */
 vec2 pixel_shift()
 {
     uvec2 pixel = uvec2(gl_FragCoord.xy), p = pixel & 3u;

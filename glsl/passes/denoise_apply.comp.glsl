@@ -1,5 +1,5 @@
-/* The filtered light with what the network changes of its logarithm, and the sums of light in the picture before and
- * after. */
+/* The filtered light with the network's change of its logarithm applied, and the sums of light in the picture
+ * before and after. */
 #include "passes/denoise_light.glsl"
 #include "passes/denoise_sums.glsl"
 
@@ -7,12 +7,12 @@ layout(binding = 7) uniform sampler2D factor_textures[1 + LSF_LOBE];
 layout(binding = 0, rgba32f) writeonly uniform image2D light_images[1 + LSF_LOBE];
 layout(std430, binding = LSF_BINDING_DENOISE_SOURCE) readonly buffer lsf_denoise_source_block
 {
-    uvec4 changes[]; /* of the logarithms of both parts */
+    uvec4 changes[]; /* changes of the logarithms of both parts */
 };
 
 layout(location = 0) uniform uint padded_width;
 
-/* light + unit (e^x - 1), where unit counts as bright as e^u - 1 = light / unit has it: a change of 0 keeps all bits. */
+/* light + unit (e^x - 1), where `unit` is the scale of the logarithm: a change of 0 keeps all bits. */
 vec3 changed(vec3 light, vec3 change, float unit)
 {
     return light + (max(light, 0.0) + unit) * (exp(clamp(change, -LSF_DENOISE_MOST, LSF_DENOISE_MOST)) - 1.0);

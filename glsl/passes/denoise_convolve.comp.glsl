@@ -1,9 +1,9 @@
-/* A convolution of 3 x 3 pixels, with zeros beyond the maps. A work group has 16 x 16 pixels and 8 features of the
- * target, an invocation four of the pixels. */
+/* A convolution of 3 x 3 pixels, with zeros outside the maps. A work group computes 16 x 16 pixels and 8 features
+ * of the target, an invocation four of the pixels. */
 #include "passes/denoise_layer.glsl"
 
 #define LSF_SIDE (LSF_DENOISE_TILE / 2)    /* invocations */
-#define LSF_READ (LSF_DENOISE_TILE + 2)    /* pixels, with those around them */
+#define LSF_READ (LSF_DENOISE_TILE + 2)    /* pixels, with a border of one */
 #define LSF_INVOCATIONS (LSF_SIDE * LSF_SIDE)
 
 layout(local_size_x = LSF_SIDE, local_size_y = LSF_SIDE) in;
@@ -15,7 +15,7 @@ layout(std430, binding = LSF_BINDING_DENOISE_SOURCE + 1) readonly buffer lsf_den
 
 shared vec4 low[LSF_READ * LSF_READ], high[LSF_READ * LSF_READ];
 
-/* The most of four pixels of the source. */
+/* The maximum of four pixels of the source. */
 void pool(uint group, uvec2 at, out vec4 most_low, out vec4 most_high)
 {
     uint width = 2u * size.x, place = (group * 2u * size.y + 2u * at.y) * width + 2u * at.x;

@@ -1,5 +1,5 @@
-/* A transposed convolution of 2 x 2 pixels: each pixel of the source becomes four of the target, each by weights of its
- * own. An invocation has one pixel of the source and 8 features of the target. */
+/* A transposed convolution of 2 x 2 pixels: each pixel of the source becomes four of the target, each by its own
+ * weights. An invocation computes one pixel of the source and 8 features of the target. */
 #include "passes/denoise_layer.glsl"
 
 layout(local_size_x = LSF_DENOISE_TILE / 2, local_size_y = LSF_DENOISE_TILE / 2) in;

@@ -1,4 +1,4 @@
-/* Makes the picture's light as bright in total as it was, each colour of each part by itself. */
+/* Restores the total brightness of the picture's light, for each channel of each part separately. */
 #include "shared/denoise_data.h"
 
 layout(local_size_x = LSF_DENOISE_TILE, local_size_y = LSF_DENOISE_TILE) in;
@@ -9,7 +9,8 @@ layout(std430, binding = LSF_BINDING_DENOISE_TOTAL) readonly buffer lsf_denoise_
     vec4 totals[];
 };
 
-/* Held to a factor of two: beyond, few pixels that are far too bright have more light than all others. */
+/* The factor is clamped to 1/2..2: beyond that, a few pixels that are far too bright hold more light than all
+ * others. */
 float gain(float before, float after)
 {
     return before > 0.0 && after > 0.0 ? clamp(before / after, 0.5, 2.0) : 1.0;

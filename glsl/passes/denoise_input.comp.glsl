@@ -1,4 +1,4 @@
-/* What the network gets of each pixel, without units; beyond the picture what its nearest pixel gets. */
+/* The inputs of the network for each pixel, without units; outside the picture those of the nearest pixel. */
 #include "lib/luminance.glsl"
 #include "lib/view.glsl"
 #include "passes/denoise_light.glsl"
@@ -22,7 +22,7 @@ layout(location = 0) uniform uvec2 padded_size;
 
 float features[LSF_DENOISE_INPUT_GROUPS * LSF_DENOISE_GROUP];
 
-/* A pure number, and as large for twice the light wherever there is much. */
+/* A dimensionless logarithm: doubling the light adds the same amount wherever it is bright. */
 vec3 compressed(vec3 light, float scale)
 {
     return scale > 0.0 ? log(1.0 + min(LSF_DENOISE_BEND * max(light, 0.0) / scale, 1e30)) : vec3(0.0);
@@ -48,7 +48,7 @@ void set_light(ivec2 pixel, int part, float scale)
 
 void set_surface(ivec2 pixel, vec4 mean)
 {
-    /* One of both is zero, but for a camera far off, of which both look the same way. */
+    /* One of the two is zero, except for a camera far away, for which both point the same way. */
     vec3 right = normalize(view.start_dx.xyz + view.forward_dx.xyz);
     vec3 up = normalize(view.start_dy.xyz + view.forward_dy.xyz), back = -normalize(view.forward.xyz);
     set(12, vec3(dot(mean.xyz, right), dot(mean.xyz, up), dot(mean.xyz, back)));

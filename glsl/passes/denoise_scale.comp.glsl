@@ -1,5 +1,5 @@
-/* Sums of the square roots of the filtered light's luminance, over pixels that tell any: with roots, few bright pixels
- * do not make all others dark. */
+/* Sums of the square roots of the filtered light's luminance, over the pixels where it is known. With square
+ * roots, a few bright pixels do not make all others dark. */
 #include "lib/luminance.glsl"
 #include "passes/denoise_light.glsl"
 #include "passes/denoise_sums.glsl"

@@ -1,4 +1,4 @@
-/* Sums over the picture in two steps, so that they come out the same each time: by work groups, then of these. */
+/* Sums over the picture in two steps, in the same order each time: within work groups, then over the work groups. */
 #ifndef LSF_PASSES_DENOISE_SUMS
 #define LSF_PASSES_DENOISE_SUMS
 
@@ -19,7 +19,7 @@ layout(std430, binding = LSF_BINDING_DENOISE_TOTAL) buffer lsf_denoise_total_blo
 
 shared vec4 sums[LSF_DENOISE_INVOCATIONS];
 
-/* Of the values of the group's invocations; for the first of them. */
+/* The sum over the group's invocations; valid in the first of them. */
 vec4 sum_of_group(vec4 value)
 {
     uint own = gl_LocalInvocationIndex;
@@ -33,7 +33,7 @@ vec4 sum_of_group(vec4 value)
     return sums[0];
 }
 
-/* Adds a value to those that the group adds up. */
+/* Adds a value to the sums of the group. */
 void sum_add(uint which, vec4 value)
 {
     vec4 sum = sum_of_group(value);

@@ -1,4 +1,4 @@
-/* Adds up what work groups have added up: one group, in a fixed order. */
+/* Adds up the sums of all work groups: one group, in a fixed order. */
 #include "passes/denoise_sums.glsl"
 
 layout(location = 0) uniform uint group_count;

@@ -1,8 +1,8 @@
-/* Light that one light sends to the eye by one reflection: f V E, added to the target. Switches LSF_SHADOW_SKY: not
- * one light's, but that of a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: what else
- * finds the environment, and leaves a share of it; LSF_SKY_PATTERN: light of these directions stays split, and pixels
- * take turns at that for their diffuse lobes; LSF_SKY_CONTROL, lsf_sky_control: they are told by how much less comes
- * from them than from an open sky, of which the light is known. */
+/* Light that one light sends to the eye by one reflection: f V E, added to the target. Switches LSF_SHADOW_SKY:
+ * instead of one light, a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: other strategies
+ * that find the environment, and share its light; LSF_SKY_PATTERN: light of these directions stays split, and
+ * pixels take turns in using them for their diffuse lobes; LSF_SKY_CONTROL, lsf_sky_control: the directions
+ * estimate only the difference from the light of an unoccluded sky, which is known. */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/luminance.glsl"
@@ -28,9 +28,9 @@ layout(location = 0) out vec4 radiance_out;
 layout(location = 0) uniform int sky_map_count;
 #endif
 #if LSF_SKY_PATTERN
-layout(location = 2) uniform ivec2 sky_turn; /* first direction of the batch; turn of the pattern */
+layout(location = 2) uniform ivec2 sky_turn; /* first direction of the batch; shift of the pattern */
 
-/* Whether a direction falls to the pixel's place in the pattern. */
+/* Whether a direction belongs to the pixel's position in the pattern. */
 bool takes_direction(ivec2 pixel, int direction)
 {
     const int tiles = LSF_SKY_PATTERN * LSF_SKY_PATTERN;
@@ -43,7 +43,7 @@ struct light_parts {
     vec3 irradiance, specular;
 };
 
-/* What surfaces leave of the light from a direction: visibility, and tint. */
+/* Visibility and tint of light from a direction. */
 float passing(surface s, vec3 position, vec3 direction, out vec3 tint)
 {
     tint = vec3(1.0);
@@ -62,7 +62,7 @@ float passing(surface s, vec3 position, vec3 direction, out vec3 tint)
     return visibility;
 }
 
-/* `density`: of the environment's directions, 0: the light is no part of it. */
+/* `density`: of the environment's directions, 0: the light does not belong to it. */
 brdf_value reflectance(surface s, vec3 view_direction, vec3 direction, float density, float kernel)
 {
 #if LSF_SKY_CHANCE
@@ -75,14 +75,14 @@ brdf_value reflectance(surface s, vec3 view_direction, vec3 direction, float den
 #endif
 }
 
-/* Whether light from a direction, `irradiance` on a plane that faces it, can be reflected. */
+/* Whether the surface can reflect light from a direction, with `irradiance` on a plane that faces it. */
 bool reaches(surface s, vec3 direction, vec3 irradiance)
 {
     return dot(s.normal, direction) > 0.0 && dot(s.geometric_normal, direction) > 0.0 &&
            max(irradiance.r, max(irradiance.g, irradiance.b)) > 0.0;
 }
 
-/* What a visible point reflects of it. */
+/* Light that the visible point reflects. */
 light_parts reflected(surface s, vec3 position, vec3 view_direction, vec3 direction, vec3 irradiance,
                float density, float kernel)
 {
@@ -104,20 +104,21 @@ layout(binding = 3) uniform sampler2D open_irradiance_texture;
 layout(binding = 4) uniform sampler2D open_specular_texture;
 #endif
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
-/* What directions of either sequence have found: in two layers sums, in two the largest squares. */
+/* Statistics of the directions of both sequences: sums in two layers, the largest squares in two more. */
 layout(binding = 0, rgba32f) uniform image2DArray control_image;
 #endif
-layout(location = 3) uniform vec2 control; /* the share of one direction; of light, one over what it is about */
-layout(location = 4) uniform int sequence; /* of the first direction, 0 or 1 */
+layout(location = 3) uniform vec2 control; /* the share of one direction; the reciprocal of the light's typical
+                                            * value */
+layout(location = 4) uniform int sequence; /* sequence of the first direction, 0 or 1 */
 
-/* Of directions of one sequence. */
+/* Sums over the directions of one sequence. */
 struct sky_part {
-    light_parts lit, open; /* the latter: were there no shadows */
-    int taken;             /* directions for the diffuse lobe */
+    light_parts lit, open; /* light that arrives, and light that would arrive unoccluded */
+    int taken;             /* directions used for the diffuse lobe */
     sky_found found;
 };
 
-/* By one direction, of which surfaces on the way leave a part. */
+/* Statistics of one direction; `left`: transmittance on the way. */
 sky_found found_by(vec3 diffuse, vec3 specular, vec3 left)
 {
     vec2 whole = control.y * vec2(luminance(diffuse), luminance(specular));
@@ -125,7 +126,7 @@ sky_found found_by(vec3 diffuse, vec3 specular, vec3 left)
     return sky_found(whole * lit, whole * whole, whole * whole);
 }
 
-/* The direction in turn. */
+/* Adds the current direction. */
 void add_direction(surface s, vec3 position, vec3 view_direction, bool takes, inout sky_part part)
 {
     vec3 direction = sky_maps[shadow_sky_map].to_sky.xyz, irradiance = sky_maps[shadow_sky_map].irradiance.rgb;
@@ -146,8 +147,8 @@ void add_direction(surface s, vec3 position, vec3 view_direction, bool takes, in
     }
 }
 
-/* What they found, less the share that is counted on of what they would without shadows, and that share of what this
- * is in the mean. */
+/* Control variate: the directions' light, less the share of their unoccluded light, plus that share of the
+ * unoccluded light's expectation. */
 light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2 share)
 {
     vec3 irradiance = control.x * float(part.taken) * open_sky.irradiance;
@@ -156,7 +157,7 @@ light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2
                        part.lit.specular + share.y * (specular - part.open.specular));
 }
 
-/* Of the batch. Each sequence counts on the share that the other one has found: they are independent. */
+/* The sum over the batch. Each sequence uses the share that the other one has found, which is independent of it. */
 light_parts controlled_sum(ivec2 pixel, sky_part parts[2], ivec2 directions)
 {
     light_parts open_sky = light_parts(texelFetch(open_irradiance_texture, pixel, 0).rgb, vec3(0.0));
@@ -231,7 +232,7 @@ void main()
 #endif
     }
 #if LSF_SKY_CONTROL
-    int others = (sky_map_count + sequence) / 2; /* of the second sequence */
+    int others = (sky_map_count + sequence) / 2; /* directions of the second sequence */
     sum = controlled_sum(pixel, parts, ivec2(sky_map_count - others, others));
 #endif
 #else
@@ -240,21 +241,22 @@ void main()
     vec3 direction = light_direction(position, irradiance, distance2);
 #if LSF_SCATTER
     if (s.through) {
-        /* What the lobe leaves to light that goes straight on, nothing brings of a lamp's. */
+        /* No strategy finds the light of a lamp that goes straight on, so that the scattered share stands for all
+         * of it. */
         irradiance /= scattered_share(s);
     } else if (LSF_STRAIGHT == 0 && s.transmission > 0.0 && dot(s.normal, direction) < 0.0 &&
                scattered_share(s) > 0.0) {
-        surface_look_through(s); /* other light from there, paths find */
+        surface_look_through(s); /* other light from there is found by paths */
         view_direction = surface_view(s, view_direction);
     }
 #endif
     sum = reflected(s, position, view_direction, direction, irradiance, 0.0, 0.0);
 #endif
 #if LSF_SKY_PATTERN
-    const float tiles = float(LSF_SKY_PATTERN * LSF_SKY_PATTERN); /* each takes one of as many directions */
+    const float tiles = float(LSF_SKY_PATTERN * LSF_SKY_PATTERN); /* each pixel uses one of so many directions */
     irradiance_out.rgb = tiles * sum.irradiance;
 #if LSF_SPECULAR
-    specular_out.rgb = sum.specular; /* of all: what a lobe shows is hardly ever a neighbour's to share */
+    specular_out.rgb = sum.specular; /* over all directions: neighbours can hardly share specular light */
 #endif
 #else
     radiance_out.rgb = surface_diffuse(s) / LSF_PI * sum.irradiance + sum.specular;

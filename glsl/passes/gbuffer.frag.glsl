@@ -37,7 +37,7 @@ void main()
         discard;
 #if LSF_STRAIGHT
     float passes = straight_chance(straight_transmittance(s, to_viewer));
-    /* By another number than that which decides whether what is blended is there. */
+    /* The random number is another than the one that decides whether a blended surface is present. */
     uint layer = ~layer_key(vertex_layer.x, vertex_layer.y, front);
     float number = chance_even_number(uvec3(layer, uvec2(gl_FragCoord.xy)));
 #if LSF_SCATTER
@@ -48,7 +48,7 @@ void main()
 #if LSF_SCATTER
     if (number >= passes * (1.0 - scattered) && number < passes) {
         surface_look_through(s);
-        emission = vec3(0.0); /* the surface itself is seen by other numbers */
+        emission = vec3(0.0); /* the surface itself is seen in other iterations */
         tint_out.rgb = vec3(share / (passes * scattered));
     } else if (number < passes)
         discard;
@@ -64,7 +64,7 @@ void main()
     emission_out = vec4(material_emits(front) ? emission : vec3(0.0), 1.0);
 #endif
 #if LSF_MOTION
-    /* Without the jitter, which both have alike. In pixels, y up as on the image plane. */
+    /* Without the jitter, which both positions share. In pixels, y up as on the image plane. */
     motion_out.xy = 0.5 * view.size.xy * (vertex_clip.xy / vertex_clip.w -
                                           vertex_previous_clip.xy / vertex_previous_clip.w);
 #ifdef LSF_HISTORY

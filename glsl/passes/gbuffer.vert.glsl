@@ -14,7 +14,7 @@ flat out float vertex_instance;
 #endif
 #endif
 
-/* Every pass that draws the scene must reach the same bits. */
+/* Every pass that draws the scene must compute the same bits. */
 invariant gl_Position;
 
 void main()

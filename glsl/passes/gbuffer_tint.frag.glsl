@@ -1,12 +1,12 @@
-/* Tints what is seen through the surfaces that chance has left out before it: of all of them the products, in
- * any order. Switch LSF_ABSORPTION: there are media. */
+/* Tint of the absent surfaces in front of the visible one: the product over all of them, in any order. Switch
+ * LSF_ABSORPTION: there are media. */
 #include "lib/material.glsl"
 #include "lib/straight.glsl"
 #include "lib/view.glsl"
 
 layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2D depth_texture;
 
-layout(location = 0) out vec4 tint_out; /* multiplied; alpha 0 tells that there was something */
+layout(location = 0) out vec4 tint_out; /* multiplied into the target; alpha 0 marks that there was a surface */
 #if LSF_ABSORPTION
 layout(location = 1) out vec4 absorption_out; /* added */
 #endif
@@ -34,8 +34,8 @@ void main()
 #endif
     tint_out = vec4(transmittance / max(passes, 1e-6), 0.0);
 #if LSF_ABSORPTION
-    /* From the front on the way is in the medium, from the back on out of it again. Behind all surfaces, no
-     * matter where: media are closed. */
+    /* The path enters the medium at its front and leaves it at its back. Behind all surfaces the position does not
+     * matter, because media are closed. */
     vec3 ray = view_ray_direction(sample_ndc(gl_FragCoord.xy));
     float way = ((seen > 0.0 ? view_depth(seen) : 0.0) - view_depth(gl_FragCoord.z)) * length(ray);
     absorption_out = vec4(0.0);

@@ -1,11 +1,11 @@
-/* What the filter changes of the picture: added to it. Of the filtered light no more is taken than the noise
- * explains: where light and filtered light differ by more than that, the difference is the filter's bias. */
+/* Adds the filter's change to the picture. Only the part that noise explains is taken: where light and filtered
+ * light differ by more, the difference is the filter's bias. */
 #include "lib/view.glsl"
 
 #include "lib/luminance.glsl"
 
 layout(binding = 2) uniform sampler2D window_textures[1 + LSF_LOBE];
-layout(binding = 4) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: it tells nothing */
+layout(binding = 4) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
 layout(binding = 6) uniform sampler2D filtered_textures[1 + LSF_LOBE];
 layout(binding = 8) uniform sampler2D factor_textures[1 + LSF_LOBE];
 layout(location = 2) uniform float uncertainty; /* relative variance of the variance; below 0: no limit */
@@ -18,10 +18,10 @@ vec4 window_value(ivec2 at, int part)
 
 #include "lib/light_window.glsl"
 
-/* The part of a pixel's change that its noise explains, and that of the window. */
+/* The part of the change that noise explains, by the pixel's own values and by those of the window. */
 float explained(vec3 change, float gone, vec4 window)
 {
-    /* Of both, the mean square of the change and the variance, the relative variance is 2 / sum of weights. */
+    /* Both the mean square of the change and the variance have a relative variance of 2 / sum of weights. */
     float noise = window.x * (1.0 + 2.0 * sqrt(4.0 / window.a + uncertainty));
     float alone = luminance(change) * luminance(change), most = 9.0 * gone * (1.0 + sqrt(uncertainty));
     return min(window.y > noise ? noise / window.y : 1.0, alone > most ? most / alone : 1.0);

@@ -1,10 +1,10 @@
-/* The first of two steps of lib/light_window.glsl, over the variance that the filter took out of a pixel's light, and
- * the square of what it changed it by. */
+/* The first of two steps of lib/light_window.glsl, over the variance that the filter removed from a pixel's light
+ * and the square of the change. */
 #include "lib/view.glsl"
 
 #include "lib/luminance.glsl"
 
-layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: it tells nothing */
+layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
 layout(binding = 4) uniform sampler2D filtered_textures[1 + LSF_LOBE];
 layout(location = 0) out vec4 window_out[1 + LSF_LOBE];
 

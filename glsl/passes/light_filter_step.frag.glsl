@@ -1,17 +1,17 @@
-/* One step of the a-trous filter: 3 x 3 neighbours `stride` pixels apart, weighed 1 : 2 : 1 along both axes, by how
- * far they see one surface and by how far their light differs by no more than noise. */
+/* One step of the a-trous filter: 3 x 3 neighbours `stride` pixels apart, weighted 1 : 2 : 1 along both axes, by
+ * the probability that they show one surface, and by how little their light differs beyond the noise. */
 #include "lib/view.glsl"
 
 #include "lib/light_guide.glsl"
 
-layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: it tells nothing */
+layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
 layout(location = 1) uniform int stride;
 layout(location = 2) uniform float tolerance; /* differences of luminance that count as noise [standard deviations] */
-layout(location = 4) uniform float correlation; /* of the noise of neighbours, for the steps before have mixed it */
+layout(location = 4) uniform float correlation; /* of the noise of neighbours, which earlier steps have mixed */
 layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
 
 struct tally {
-    vec3 difference; /* to the pixel's own light: a constant stays what it is to the bit */
+    vec3 difference; /* from the pixel's own light: a constant is kept to the bit */
     float sum, squares, variances;
 };
 

@@ -1,11 +1,11 @@
-/* Brings the variance closer to what neighbours on the same surface have on the average, the fewer iterations tell
- * it; after one iteration, which tells none, it is the variance among them. */
+/* Blends the variance with the average over neighbours on the same surface, more so the fewer iterations there
+ * are; after one iteration, it is the variance among them. */
 #include "lib/view.glsl"
 
 layout(binding = 2) uniform sampler2D window_textures[1 + LSF_LOBE];
-layout(binding = 4) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: it tells nothing */
+layout(binding = 4) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
 layout(location = 2) uniform float uncertainty; /* relative variance of the pixel's own variance */
-layout(location = 3) uniform bool halves;       /* the mean of a first part of the iterations is known */
+layout(location = 3) uniform bool halves;       /* the mean of the first part of the iterations is known */
 layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
 
 vec4 window_value(ivec2 at, int part)
@@ -20,7 +20,7 @@ float variance_of(float own, vec4 window)
     if (window_moments)
         return window.y;
     float variance = window.x, even = halves && variance > 0.0 ? min(window.y / variance, 1.0) : 1.0;
-    /* Variances of light differ by factors: their logarithms are mixed. */
+    /* Variances of light differ by factors, so that their logarithms are mixed. */
     float part = uncertainty / (1.0 + uncertainty);
     return pow(even, 1.0 - part) * variance * pow(max(own / max(variance, 1e-37), 1e-3), 1.0 - part);
 }

@@ -1,4 +1,4 @@
-/* The first of two steps of lib/light_window.glsl, over what divide gives. */
+/* The first of two steps of lib/light_window.glsl, over the outputs of light_filter_divide. */
 #include "lib/view.glsl"
 
 layout(binding = 2) uniform sampler2D window_textures[1 + LSF_LOBE];

@@ -1,4 +1,4 @@
-/* What lib/light_guide.glsl reads, from the means of normal and depth. */
+/* The guides that lib/light_guide.glsl reads, from the means of normal and depth. */
 #include "lib/luminance.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/pooling.glsl"
@@ -15,7 +15,7 @@ layout(location = 0) out vec4 guide_out;
 layout(location = 1) out vec4 slope_out;
 layout(location = 2) out vec2 turn_out;
 
-/* The slope of depth: of two one-sided differences the smaller, so that it is the surface's own beside an edge. */
+/* Slope of depth: the smaller of the two one-sided differences, which is the surface's own slope next to an edge. */
 float slope_along(ivec2 pixel, ivec2 along, float depth)
 {
     ivec2 size = textureSize(mean_texture, 0);
@@ -29,13 +29,13 @@ float slope_along(ivec2 pixel, ivec2 along, float depth)
     return abs(forward) < abs(backward) ? forward : backward;
 }
 
-/* A length of 0 stays one. */
+/* A vector of length 0 stays 0. */
 vec3 unit_or_zero(vec3 v)
 {
     return v * inversesqrt(max(dot(v, v), 1e-20));
 }
 
-/* How far the normal turns from a pixel to the next, of both sides the smaller [radians]. */
+/* Angle between the normals of neighbouring pixels, the smaller of both sides [radians]. */
 float turn_along(ivec2 pixel, ivec2 along, vec3 normal)
 {
     ivec2 last = textureSize(mean_texture, 0) - 1;
@@ -45,7 +45,7 @@ float turn_along(ivec2 pixel, ivec2 along, vec3 normal)
 }
 
 #if LSF_LOBE
-/* Of the lobe as it was sampled: glossy ones are spread over `lobe_kernel` (lib/brdf.glsl, kernel_alpha). */
+/* Alpha of the lobe as it was sampled: glossy lobes are spread over `lobe_kernel` (lib/brdf.glsl, kernel_alpha). */
 float alpha_at(ivec2 pixel, float turn)
 {
     vec4 factor = texelFetch(specular_factor_texture, pixel, 0);
@@ -67,7 +67,7 @@ void main()
     if (mean.w == 0.0)
         return;
     vec3 normal = unit_or_zero(mean.xyz);
-    /* Normals of one iteration that cancel out in the mean look nowhere in particular. */
+    /* Where the iterations' normals cancel in the mean, there is no direction. */
     guide_out.xy = dot(normal, normal) > 0.5 ? octahedral_place(normal) : vec2(0.0);
     guide_out.z = mean.w;
     turn_out = vec2(turn_along(pixel, ivec2(1, 0), normal), turn_along(pixel, ivec2(0, 1), normal));
@@ -76,7 +76,7 @@ void main()
 #endif
     vec2 slope = vec2(slope_along(pixel, ivec2(1, 0), mean.w), slope_along(pixel, ivec2(0, 1), mean.w));
     float variance = max(texelFetch(factor_texture, pixel, 0).a, 0.0) / iterations;
-    /* Over a plane depth is uniform along each axis: its variance is that of a box. */
+    /* Over a plane, depth is uniform along each axis; its variance is that of a box. */
     float spread = sqrt(max(variance - dot(slope, slope) / 12.0, 0.0));
     float alike = min(dot(mean.xyz, mean.xyz), 1.0);
     alike *= alike;

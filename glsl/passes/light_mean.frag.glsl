@@ -1,6 +1,5 @@
-/* Running means of the parts of reflected light and of what they were reflected by; see
- * src/passes/light_mean.md. Switches LSF_INDIRECT, LSF_SPLIT_DIRECT, LSF_SKY_LIGHT: there
- * is light of that kind. */
+/* Running means of the parts of reflected light and of the factors that reflected them; see
+ * src/passes/light_mean.md. Switches LSF_INDIRECT, LSF_SPLIT_DIRECT, LSF_SKY_LIGHT: there is light of that kind. */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/luminance.glsl"
@@ -37,10 +36,9 @@ layout(binding = 4, rgba32f) uniform image2D specular_factor_image;
 #endif
 layout(binding = 5, rg32f) uniform image2D half_image;
 layout(location = 0) uniform float weight; /* 1 / n */
-layout(location = 1) uniform bool keep;    /* the luminance of the means before */
+layout(location = 1) uniform bool keep;    /* keep the luminance of the previous means */
 
-/* The mean with one more value, by Welford 1962; in alpha the sum of squared deviations of the
- * luminance. */
+/* The mean with one more value, by Welford 1962; A is the sum of squared deviations of the luminance. */
 vec4 with_light(vec4 mean, vec3 x)
 {
     vec3 next = mean.rgb + (x - mean.rgb) * weight;

@@ -1,5 +1,5 @@
-/* The area that each VPL stands for, by the spread of those about it: of two that are merged first, the distance is
- * less than usual, of several it is not. */
+/* The area that each VPL stands for, from the spread of its neighbours in the tree: two that are merged first are
+ * closer together than average, several are not. */
 #include "passes/light_tree_links.glsl"
 
 #define ENOUGH 8u
@@ -14,7 +14,7 @@ void main()
     uint place = gl_GlobalInvocationID.x;
     if (place >= tree.live)
         return;
-    float disc2 = 0.0; /* of a single VPL nothing is known */
+    float disc2 = 0.0; /* a single VPL has no neighbours */
     if (tree.live > 1u) {
         uint node = parent_of_leaf(place);
         for (int i = 0; i < LSF_LIGHT_TREE_TURNS && node != 0u && nodes[node].count < ENOUGH; i++)

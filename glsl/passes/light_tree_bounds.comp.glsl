@@ -1,5 +1,5 @@
-/* Counts the VPLs that shine, and bounds their positions. Minima, maxima and sums of integers are the same in any
- * order. */
+/* Counts the VPLs that emit light, and bounds their positions. Minima, maxima and sums of integers do not depend
+ * on the order. */
 #include "passes/light_tree_codes.glsl"
 
 layout(local_size_x = LSF_LIGHT_TREE_GROUP) in;
@@ -7,7 +7,7 @@ layout(local_size_x = LSF_LIGHT_TREE_GROUP) in;
 shared uint group_live;
 shared uint group_low[3], group_high[3];
 
-/* A number whose order is that of floats. */
+/* Integers in the order of the floats. */
 uvec3 ordered(vec3 v)
 {
     uvec3 bits = floatBitsToUint(v);

@@ -8,7 +8,7 @@ vec3 from_ordered(uvec3 bits)
     return uintBitsToFloat(bits ^ mix(uvec3(0xffffffffu), uvec3(0x80000000u), greaterThanEqual(bits, uvec3(0x80000000u))));
 }
 
-/* Two zeros before each of ten bits. */
+/* Inserts two zeros before each of ten bits. */
 uvec3 spread_bits(uvec3 v)
 {
     v = (v | (v << 16)) & 0x030000ffu;
@@ -17,7 +17,7 @@ uvec3 spread_bits(uvec3 v)
     return (v | (v << 2)) & 0x09249249u;
 }
 
-/* Of the cube on the bounds' longest side: cells are cubes. */
+/* Position within the cube on the longest side of the bounds, so that cells are cubes. */
 uint position_code(vec3 position)
 {
     vec3 low = from_ordered(uvec3(tree.low_x, tree.low_y, tree.low_z));
@@ -28,8 +28,9 @@ uint position_code(vec3 position)
     return (bits.x << 2) | (bits.y << 1) | bits.z;
 }
 
-/* The octant, then three times which of the four triangles that the midpoints of the sides cut the octant's
- * triangle into on the sphere (G. Taubin, J. Rossignac 1998, "Geometric Compression Through Topological Surgery"). */
+/* The octant, then three subdivisions of the octant's triangle on the sphere: each picks one of the four triangles
+ * that the midpoints of its sides form (G. Taubin, J. Rossignac 1998, "Geometric Compression Through Topological
+ * Surgery"). */
 uint normal_code(vec3 normal)
 {
     vec3 n = abs(normal);

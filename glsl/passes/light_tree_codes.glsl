@@ -1,5 +1,5 @@
-/* Codes of the VPLs, in the order of which the tree is built: from the highest bit on, 1 for one that is dead,
- * 30 bits of a Morton code of its position, 9 of its normal, and its number in the cloud, which no two share. */
+/* Codes of the VPLs, whose order builds the tree. From the highest bit on: 1 for a dead VPL, 30 bits of a Morton
+ * code of its position, 9 of its normal, and its number in the cloud, which makes codes unique. */
 #ifndef LSF_PASSES_LIGHT_TREE_CODES
 #define LSF_PASSES_LIGHT_TREE_CODES
 
@@ -16,13 +16,13 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_CODES) buffer lsf_light_tree_cod
     uvec2 codes[]; /* high and low words */
 };
 
-/* Whether |x| is far from overflowing; by its bits, for compilers take it that nothing is no number. */
+/* Whether |x| is far from overflowing; tested by its bits, because compilers assume that there are no NaNs. */
 bool is_small(float x)
 {
     return (floatBitsToUint(x) & 0x7fffffffu) < floatBitsToUint(1e30);
 }
 
-/* Without light, or with numbers that are none. */
+/* Whether the record has no light, or values that are not finite. */
 bool light_is_dead(lsf_vpl_record record)
 {
     float light = luminance(record.intensity);

@@ -1,4 +1,4 @@
-/* How many codes of each tile have each digit. */
+/* Counts the codes of each tile with each digit. */
 #include "passes/light_tree_sort.glsl"
 
 shared uint tile_counts[LSF_LIGHT_TREE_DIGITS];

@@ -1,8 +1,8 @@
-/* The binary radix tree over sorted codes, each inner node by itself (T. Karras 2012, "Maximizing Parallelism in the
- * Construction of BVHs, Octrees, and k-d Trees", section 4). */
+/* The binary radix tree over sorted codes, one inner node per invocation (T. Karras 2012, "Maximizing Parallelism
+ * in the Construction of BVHs, Octrees, and k-d Trees", section 4). */
 #include "passes/light_tree_links.glsl"
 
-/* Leading bits that two codes share; -1 past either end. */
+/* Number of leading bits that two codes share; -1 past either end. */
 int shared_bits(int i, int j)
 {
     if (j < 0 || j >= int(tree.live))
@@ -11,7 +11,7 @@ int shared_bits(int i, int j)
     return differ.x != 0u ? 31 - findMSB(differ.x) : 63 - findMSB(differ.y);
 }
 
-/* The other end of the run of codes that node i, one of its ends, is over. */
+/* The other end of the run of codes below node i, which is one of its ends. */
 int other_end(int i, int direction)
 {
     int least = shared_bits(i, i - direction);
@@ -25,7 +25,7 @@ int other_end(int i, int direction)
     return i + length * direction;
 }
 
-/* The last code of the first half: those that share more bits with the first than the last does. */
+/* The last code of the left half: those that share more bits with the first code than the last one does. */
 int split(int first, int last)
 {
     int all = shared_bits(first, last);
@@ -40,7 +40,7 @@ int split(int first, int last)
     return low;
 }
 
-/* The link to what is over the codes from one place to another, `edge` the one at which it stands. */
+/* The link to the node over a run of codes; `edge` is the end of the run at which it is stored. */
 uint link_to(int edge, bool alone, uint parent)
 {
     parents[alone ? record_count + uint(edge) : uint(edge)] = parent;

@@ -1,11 +1,12 @@
-/* What inner nodes stand for, from the leaves up. A dispatch merges the nodes whose children were done by those before
- * it, left with right, and lists the parents that this makes ready for the next. The first one only lists. */
+/* The values of inner nodes, from the leaves up. A dispatch merges the nodes whose children the previous
+ * dispatches completed, left with right, and lists the parents that become ready for the next. The first dispatch
+ * only lists. */
 #include "passes/light_tree_links.glsl"
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_TURNS) buffer lsf_light_tree_turn_block
 {
     uvec4 turns[LSF_LIGHT_TREE_TURNS]; /* work groups in x, y and z, and nodes, of each dispatch */
-    uint ready[];                      /* nodes of this dispatch, and of the next, by turns in either half */
+    uint ready[];                      /* nodes of this dispatch and of the next, in alternating halves */
 };
 
 layout(location = 0) uniform vec3 limits; /* least similarity, largest deviation along the normal, largest diagonal */
@@ -16,21 +17,21 @@ uint place_of_ready(uint of_turn, uint i)
     return (of_turn & 1u) * ((record_count + 1u) / 2u) + i;
 }
 
-/* Of equal normals exactly 1, however many. */
+/* Exactly 1 for any number of equal normals. */
 float normal_similarity(uint a, uint b)
 {
     return a == b ? 1.0 : clamp(dot(octahedral_decode(a), octahedral_decode(b)), 0.0, 1.0);
 }
 
-/* Variances along other axes than they are given for; what is not along either is lost. */
+/* Variances along other axes than the given ones; the correlation between axes is lost. */
 vec3 turn_variance(vec3 variance, uint from, mat3 to)
 {
     mat3 turned = transpose(to) * light_tree_frame(octahedral_decode(from));
     return matrixCompMult(turned, turned) * variance;
 }
 
-/* With q the second child's share of the luminance and d the way from child to child:
- * q (1 - q) d^2 is what the means' squared distances from their mean add. */
+/* With q the second child's share of the luminance and d the vector between the children, the distance of their
+ * means adds q (1 - q) d^2. */
 void merge_spread(inout lsf_light_tree_node node, lsf_light_tree_node a, lsf_light_tree_node b, float q, mat3 frame)
 {
     vec3 d = b.position - a.position;
@@ -55,7 +56,7 @@ void merge(uint index)
     node.intensity = a.intensity + b.intensity;
     node.low = min(a.low, b.low);
     node.high = max(a.high, b.high);
-    /* Of opposite normals neither is the mean. */
+    /* Opposite normals have no mean; the first child's normal is kept. */
     float size = length(normal);
     node.normal = a.normal == b.normal || size < 1e-6 ? a.normal : octahedral_encode(normal / size);
     node.similarity = a.similarity * b.similarity * normal_similarity(a.normal, b.normal);

@@ -1,6 +1,7 @@
-/* Light that visible points get from a cloud of VPLs, by way of the tree over it; see
- * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (what is between is looked for: 1 among voxels, 2 among
- * triangles), LSF_VOXEL_PASSAGE (light goes on through what transmits), LSF_GLOSS and those of the libraries. */
+/* Light of a cloud of VPLs at visible points, sampled through the tree over it; see
+ * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (visibility is tested: 1 in voxels, 2 against
+ * triangles), LSF_VOXEL_PASSAGE (light continues through transmitting surfaces), LSF_GLOSS and those of the
+ * libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/sparse.glsl"
@@ -17,18 +18,19 @@
 
 layout(location = 5) uniform uint triangle_count;
 
-/* Above both surfaces, so that neither is in the way: further vertices of paths lie on planes that voxels hold. */
+/* Height of segments above both surfaces, so that neither occludes them: further vertices of paths lie on the
+ * planes of voxels. */
 #define SIGHT_LIFT (4.0 * VOXEL_PLANE)
 #endif
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_count_block
 {
-    uint counts[]; /* low and high words of LSF_LIGHT_TREE_SAMPLE_ */
+    uint counts[]; /* low and high words of the counts LSF_LIGHT_TREE_SAMPLE_ */
 };
 
 layout(location = 1) uniform uvec2 turn; /* iteration, seed */
 
-layout(location = 0) out vec4 irradiance_out; /* alpha: luminance that a bound took away */
+layout(location = 0) out vec4 irradiance_out; /* alpha: luminance that a bound removed */
 #if LSF_SPECULAR
 layout(location = 1) out vec4 specular_out; /* the same */
 #endif
@@ -40,7 +42,7 @@ void count(uint what, uint number)
         atomicAdd(counts[2u * what + 1u], 1u);
 }
 
-/* What comes of the point's light to the receiver. */
+/* Transmittance between the point and the receiver. */
 vec3 seen(light_receiver r, light_point p)
 {
 #if LSF_LIGHT_TREE_SIGHT == 2
@@ -59,7 +61,7 @@ vec3 seen(light_receiver r, light_point p)
 #endif
 }
 
-/* With which probability a sample is of the specular lobe. */
+/* Probability that a sample is for the specular lobe. */
 float specular_chance(light_receiver r)
 {
 #if LSF_SPECULAR
@@ -74,7 +76,8 @@ float specular_chance(light_receiver r)
 #endif
 }
 
-/* What the point sends to the receiver, over its probability; luminance that the bound takes in w of both parts. */
+/* Adds the light from the point to the receiver, over its probability; w of both parts is the luminance that the
+ * bound removes. */
 void add_light(light_receiver r, light_point p, bool specular, float probability)
 {
     vec3 way = p.position - r.position;

@@ -1,31 +1,32 @@
-/* Where the ways down begin: at the nodes of a cut through the tree (B. Walter et al. 2005, "Lightcuts: A Scalable
- * Approach to Illumination"; one for each point, C. Yuksel 2019, "Stochastic Lightcuts"). A node that a point sees under
- * a small angle is about as far away as all that is below it, so that its weight says what comes from there; that of a
- * larger one may hide a near light among far ones. Each sample takes one of the cut's nodes in proportion to its weight,
- * as the nodes come along (M. T. Chao 1982, "A General Purpose Unequal Probability Sampling Plan"). Switch
+/* Where the descents begin: at the nodes of a cut through the tree (B. Walter et al. 2005, "Lightcuts: A Scalable
+ * Approach to Illumination"; one for each point, C. Yuksel 2019, "Stochastic Lightcuts"). A node that a point sees
+ * under a small angle is about as far away as all VPLs below it, so that its weight predicts their light; a larger
+ * one may hide a near VPL among far ones. Each sample picks one of the cut's nodes in proportion to its weight, in
+ * a single pass over the nodes (M. T. Chao 1982, "A General Purpose Unequal Probability Sampling Plan"). Switch
  * LSF_LIGHT_TREE_SAMPLES, samples of a point. */
 #ifndef LSF_PASSES_LIGHT_TREE_SAMPLE_CUT
 #define LSF_PASSES_LIGHT_TREE_SAMPLE_CUT
 
 #include "passes/light_tree_sample_weight.glsl"
 
-/* Nodes that are opened, at most; software GL ends all loops of a shader together after 65535 turns. Any cut is
- * right. */
+/* Largest number of nodes that are opened; software GL ends all loops of a shader together after 65535 iterations.
+ * Any cut is unbiased. */
 #define CUT_MOST 512
 
-/* Variance of positions to the squared distance, at most, of the nodes of a cut, but for leaves; infinite: the root alone. */
+/* Largest ratio of the variance of positions to the squared distance for nodes of a cut, except leaves; infinite:
+ * the root alone. */
 layout(location = 3) uniform float cut_bound;
 
 struct light_pick {
     int lobe;   /* 0: diffuse, 1: specular (no bool: drivers over Vulkan fail on arrays of them) */
-    uint link;  /* LSF_LIGHT_TREE_NONE: nothing shines at the point */
-    float u;    /* 0 <= u < 1, what is left of the number that picks */
+    uint link;  /* LSF_LIGHT_TREE_NONE: no light reaches the point */
+    float u;    /* 0 <= u < 1, the random number, rescaled after each choice */
     float weight; /* of the link */
 };
 
 light_pick picks[LSF_LIGHT_TREE_SAMPLES];
 
-/* Of the cut's nodes so far, for samples of the diffuse and the specular lobe. */
+/* Sums over the cut's nodes so far, for samples of the diffuse and the specular lobe. */
 float weight_sums[2];
 
 void pick_among(uint link, float weight, int lobe)
@@ -47,8 +48,8 @@ void pick_among(uint link, float weight, int lobe)
     }
 }
 
-/* Fills the picks, whose lobes and numbers are given; `lobes`: which of the two any of them has. Returns how many nodes
- * were opened. */
+/* Fills the picks, whose lobes and random numbers are given; `lobes`: which of the two occur among them. Returns
+ * the number of nodes that were opened. */
 uint light_cut(light_receiver r, bvec2 lobes)
 {
     uint stack[WALK_DEPTH];

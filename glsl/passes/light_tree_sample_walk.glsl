@@ -1,24 +1,26 @@
-/* The way down the tree, and a point of where it ends. Switch LSF_LIGHT_TREE_SUBSTITUTE. */
+/* The random descent through the tree, and a point for the node at which it ends. Switch
+ * LSF_LIGHT_TREE_SUBSTITUTE. */
 #ifndef LSF_PASSES_LIGHT_TREE_SAMPLE_WALK
 #define LSF_PASSES_LIGHT_TREE_SAMPLE_WALK
 
 #include "lib/path_random.glsl"
 #include "passes/light_tree_sample_weight.glsl"
 
-/* A number of 24 bits decides so often, about, before too few of them are left. */
+/* Number of binary choices that are made with one random number of 24 bits, on average, before too few bits are
+ * left. */
 #define WALK_SHARED 8
 
-/* Variance of positions to the squared distance, at most, of nodes that stand for what is below them. */
+/* Largest ratio of the variance of positions to the squared distance for nodes that stand for all VPLs below them. */
 layout(location = 2) uniform float spread_bound;
 
 struct light_walk_end {
-    uint link;         /* LSF_LIGHT_TREE_NONE: in a dead branch, or there is no tree */
-    float probability; /* of having come there */
+    uint link;         /* LSF_LIGHT_TREE_NONE: the descent ended in a dead branch, or there is no tree */
+    float probability; /* probability of reaching it */
     uint steps;
 };
 
-/* From a link that was come to with this probability. `u`: one number, 0 <= u < 1; further ones are of `key` and
- * `index`. */
+/* Descends from a link that was reached with this probability. `u`: one number, 0 <= u < 1; further ones are
+ * hashed from `key` and `index`. */
 light_walk_end light_walk(light_receiver r, bool specular, uint link, float probability, float u, path_random_key key,
                           uint index)
 {
@@ -47,24 +49,24 @@ light_walk_end light_walk(light_receiver r, bool specular, uint link, float prob
     return end;
 }
 
-/* A point that shines for all that is below a node. */
+/* A point that emits the light of all VPLs below a node. */
 struct light_point {
     vec3 position, normal, intensity;
     float disc2; /* of a VPL there */
 };
 
-/* Three numbers of a normal distribution (G. E. P. Box, M. E. Muller 1958). */
+/* Three normally distributed numbers (G. E. P. Box, M. E. Muller 1958). */
 vec3 normal_numbers(vec4 u)
 {
     vec2 radius = sqrt(-2.0 * log(1.0 - u.xz)), angle = 2.0 * LSF_PI * u.yw;
     return vec3(radius.x * vec2(cos(angle.x), sin(angle.x)), radius.y * cos(angle.y));
 }
 
-/* From numbers of a standard normal distribution to the node's. */
+/* Scales numbers of a standard normal distribution to the node's distribution. */
 vec3 light_spread(lsf_light_tree_node node, mat3 frame, vec3 g)
 {
 #if LSF_LIGHT_TREE_COVARIANCE
-    /* Cholesky's factor of the covariance; rounding may leave a flat one below 0. */
+    /* Cholesky factor of the covariance; rounding may make the pivots of a flat one negative. */
     vec3 v = node.variance, c = node.covariance;
     float xx = sqrt(max(v.x, 0.0)), inverse_x = xx > 0.0 ? 1.0 / xx : 0.0;
     float yx = c.x * inverse_x, zx = c.y * inverse_x;
@@ -76,7 +78,7 @@ vec3 light_spread(lsf_light_tree_node node, mat3 frame, vec3 g)
 #endif
 }
 
-/* A leaf is where it is. */
+/* A leaf has no extent. */
 light_point light_point_at(uint link, vec4 u)
 {
     lsf_light_tree_node node = light_node(link);

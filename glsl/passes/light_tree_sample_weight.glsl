@@ -1,6 +1,6 @@
-/* What the VPLs below a node may contribute to a point, by which the way down is chosen: nothing where they do not, an
- * estimate else. Visibility counts as given. Switches LSF_LIGHT_TREE_SITES, 0 where luminance alone decides, and those of
- * lib/brdf.glsl. */
+/* Estimate of the light that the VPLs below a node contribute to a point, by which the descent chooses: 0 only
+ * where they contribute nothing. Visibility is ignored. Switches LSF_LIGHT_TREE_SITES, 0 where luminance alone
+ * decides, and those of lib/brdf.glsl. */
 #ifndef LSF_PASSES_LIGHT_TREE_SAMPLE_WEIGHT
 #define LSF_PASSES_LIGHT_TREE_SAMPLE_WEIGHT
 
@@ -8,7 +8,7 @@
 #include "lib/light_tree.glsl"
 #include "shared/light.h"
 
-/* Nodes above a leaf are fewer than the bits of a code. */
+/* Depth of the tree: no more than the bits of a code. */
 #define WALK_DEPTH 64
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) readonly buffer lsf_light_tree_area_block
@@ -16,8 +16,8 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) readonly buffer lsf_light
     float discs2[]; /* by record */
 };
 
-/* x: squared distances below which 1/d^2 is held, to those discs: VPLs are no nearer than that. y: suppression's
- * m'/d [sr] at unit distance, to the same. */
+/* x: squared distance below which 1/d^2 is clamped, relative to the squared radius of those discs: no VPL is
+ * closer than that. y: suppression's m'/d [sr] at unit distance, relative to the same. */
 layout(location = 0) uniform vec2 disc_scale;
 
 float light_bound2(float disc2)
@@ -25,14 +25,14 @@ float light_bound2(float disc2)
     return max(disc_scale.x * disc2, LSF_LIGHT_DISTANCE2_MIN);
 }
 
-/* As for brdf_evaluate, of a VPL that is seen under `geometry`, its cosine over the squared distance: the solid angle of its
- * disc, m' times. */
+/* `kernel` of brdf_evaluate for a VPL seen under `geometry`, its cosine over the squared distance: m' times the
+ * solid angle of its disc. */
 float light_kernel(float disc2, float geometry)
 {
     return disc_scale.y * disc2 * geometry;
 }
 
-/* Where light arrives, and towards whom it is reflected. */
+/* The visible point, and the direction in which it reflects light. */
 struct light_receiver {
     vec3 position, view;
     surface s;
@@ -51,8 +51,9 @@ light_receiver light_receiver_of(vec3 position, vec3 view, surface s)
     return r;
 }
 
-/* Of all directions into a box the largest cosine to the frame's z; 0 where the box is below (B. Walter et al. 2005,
- * "Lightcuts: A Scalable Approach to Illumination", section 4.1). `center` is where the box is from the point. */
+/* Upper bound of the cosine between the frame's z and directions into a box; 0 where the box is below (B. Walter
+ * et al. 2005, "Lightcuts: A Scalable Approach to Illumination", section 4.1). `center`: of the box, relative to
+ * the point. */
 float cosine_bound(mat3 frame, vec3 center, vec3 extent)
 {
     vec3 c = center * frame;
@@ -63,16 +64,16 @@ float cosine_bound(mat3 frame, vec3 center, vec3 extent)
 }
 
 #if LSF_SPECULAR
-/* What the specular lobe reflects of light from within a ball that encloses the box: along the mirror image of the
- * view where that meets the ball, else along the direction next to it. Never 0, as directions above the surface may be
- * in the box even if this one is not. */
+/* Reflection of the specular lobe for light from within a ball that encloses the box: along the mirror image of
+ * the view where that hits the ball, else along the closest direction to it. Never 0, because other directions
+ * into the box may be above the surface even if this one is not. */
 float specular_bound(light_receiver r, vec3 center, vec3 extent, float kernel)
 {
     float distance2 = dot(center, center), radius2 = dot(extent, extent);
     vec3 direction = r.mirrored;
     if (radius2 < distance2) {
         vec3 towards = center * inversesqrt(distance2);
-        float cosine = dot(towards, direction), reach = sqrt(1.0 - radius2 / distance2); /* cosine of the ball's own angle */
+        float cosine = dot(towards, direction), reach = sqrt(1.0 - radius2 / distance2); /* of the ball's radius */
         vec3 across = direction - cosine * towards;
         float size = length(across);
         if (cosine < reach && size > 1e-6)
@@ -85,8 +86,8 @@ float specular_bound(light_receiver r, vec3 center, vec3 extent, float kernel)
 }
 #endif
 
-/* Root mean square of what is above 0 of a normal distribution, whose integral is taken as S. R. Bowling et al. 2009
- * approximate it, "A logistic approximation to the cumulative normal distribution". */
+/* Root mean square of the positive part of a normal distribution, with the integral approximated as by S. R.
+ * Bowling et al. 2009, "A logistic approximation to the cumulative normal distribution". */
 float height_above(float mean, float variance)
 {
     if (mean * mean >= 36.0 * variance)
@@ -97,13 +98,13 @@ float height_above(float mean, float variance)
     return sqrt(variance * max((x * x + 1.0) * above + x * density, 0.0));
 }
 
-/* What light comes to from a link to a receiver. */
+/* Geometry between a link and a receiver. */
 struct light_way {
     float arrives, leaves, distance2; /* the cosines at both ends; the squared distance */
-    float disc2;                      /* of each of its VPLs */
+    float disc2;                      /* squared radius of the disc of each of its VPLs */
 };
 
-/* Of a VPL exact, of a node estimates; arrives is 0 where nothing in the box is above the surface. */
+/* Exact for a VPL, estimated for a node; `arrives` is 0 where nothing in the box is above the surface. */
 light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, vec3 center, vec3 extent)
 {
     light_way w;
@@ -117,20 +118,21 @@ light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, ve
         w.distance2 = max(w.distance2, light_bound2(w.disc2));
         return w;
     }
-    /* The mean squared distance: that to the box says nothing where a box is large or the point is in it. */
+    /* The mean squared distance is used: the distance to the box means nothing where the box is large or holds the
+     * point. */
     w.distance2 += light_variance(node);
-    /* Of a box that is partly above the surface most may be below: heights count as those of a normal distribution, yet
-     * as a hundredth of the box's, or what is above could be missed. */
+    /* Most of a box that is partly above the surface may be below it. Heights count as normally distributed, yet
+     * at least as a hundredth of the box's bound, so that no part above is missed. */
     float height = height_above(dot(r.s.normal, way), light_variance_along(node, r.s.normal, frame));
     w.arrives = clamp(height * inversesqrt(w.distance2), 0.01 * w.arrives, w.arrives);
     w.disc2 = light_disc2(node, frame);
-    /* As far as normals are alike, a point sees the VPLs as they see it, all under one normal. */
+    /* The more similar the normals are, the more the VPLs count as one with a common normal. */
     frame[2] = -frame[2];
     w.leaves = mix(1.0, cosine_bound(frame, center, extent), node.similarity);
     return w;
 }
 
-/* What is below a link may contribute, to the whole luminance `most`. */
+/* Estimate of the contribution of all VPLs below a link, whose total luminance is `most`. */
 float light_weight(light_receiver r, uint link, float most, bool specular)
 {
     lsf_light_tree_node node = light_node(link);

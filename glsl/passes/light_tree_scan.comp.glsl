@@ -1,5 +1,5 @@
-/* Where the codes of each tile with each digit go: after all with a lower digit, and those of the tiles before. One
- * work group, whose invocations take a digit each. */
+/* Target positions of the codes of each tile with each digit: after all codes with a lower digit, and those of
+ * earlier tiles. One work group, one digit per invocation. */
 #include "passes/light_tree_sort.glsl"
 
 shared uint sums[LSF_LIGHT_TREE_DIGITS];

@@ -1,5 +1,5 @@
-/* Moves the codes of a tile to where their digits go, row by row: in a row each takes the place behind those of its
- * digit in the lanes before it. */
+/* Moves the codes of a tile to the positions of their digits, row by row: within a row, each code goes behind
+ * those of the same digit in lower lanes. */
 #include "passes/light_tree_sort.glsl"
 
 #define MASK_WORDS (LSF_LIGHT_TREE_GROUP / 32)
@@ -9,8 +9,8 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_CODES + 1) writeonly buffer lsf_
     uvec2 sorted_codes[];
 };
 
-shared uint first[LSF_LIGHT_TREE_DIGITS];              /* where the next code with that digit goes */
-shared uint lanes[LSF_LIGHT_TREE_DIGITS * MASK_WORDS]; /* a bit for each that has the digit */
+shared uint first[LSF_LIGHT_TREE_DIGITS];              /* position of the next code with that digit */
+shared uint lanes[LSF_LIGHT_TREE_DIGITS * MASK_WORDS]; /* a bit for each lane that has the digit */
 
 void main()
 {
@@ -39,7 +39,7 @@ void main()
         if (there)
             sorted_codes[place] = code;
         barrier();
-        /* The last of those that are alike. */
+        /* The last lane with this digit updates the position. */
         if (there && before + 1u == all) {
             first[digit] = place + 1u;
             for (uint word = 0u; word < MASK_WORDS; word++)

@@ -1,6 +1,6 @@
 /* A radix sort of the codes from the lowest digit on (D. Merrill, A. Grimshaw 2010, "Revisiting Sorting for GPGPU
- * Stream Architectures", without its fused steps): each pass counts the digits of every tile, adds the counts up,
- * and moves the codes, keeping the order of those that are alike. The records' numbers are in order from the start. */
+ * Stream Architectures", without its fused steps): each pass counts the digits of every tile, adds up the counts,
+ * and moves the codes in a stable order. The records' numbers are in order from the start. */
 #ifndef LSF_PASSES_LIGHT_TREE_SORT
 #define LSF_PASSES_LIGHT_TREE_SORT
 
@@ -12,13 +12,13 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_CODES) readonly buffer lsf_light
 {
     uvec2 codes[]; /* high and low words */
 };
-/* Of each tile how many codes have each digit; then where the first of these goes. */
+/* The number of codes of each tile with each digit; later the position of the first of them. */
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_count_block
 {
     uint counts[];
 };
 
-layout(location = 0) uniform uint shift; /* of the digit in turn, from the code's lowest bit */
+layout(location = 0) uniform uint shift; /* of the current digit, from the code's lowest bit */
 layout(location = LSF_LOCATION_LIGHT_TREE_RECORDS) uniform uint record_count;
 
 uint code_digit(uvec2 code)

@@ -1,6 +1,6 @@
-/* Light of the environment that visible points would reflect to the eye if nothing stood before it; see
- * src/passes/open_sky.md. Switches LSF_ENVIRONMENT_MAP, LSF_SKY_CHANCE, LSF_GLOSS, LSF_SPECULAR, LSF_TRANSMISSION and
- * those of the libraries. */
+/* Light of the environment that visible points would reflect to the eye without occlusion; see
+ * src/passes/open_sky.md. Switches LSF_ENVIRONMENT_MAP, LSF_SKY_CHANCE, LSF_GLOSS, LSF_SPECULAR, LSF_TRANSMISSION
+ * and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
@@ -20,7 +20,7 @@ layout(binding = 3) uniform sampler2DArray control_texture;
 #endif
 layout(location = 0) uniform ivec2 counts; /* samples of each kind, a power of two; the iteration's number */
 layout(location = 1) uniform uint seed;
-layout(location = 2) uniform bool told; /* there were iterations before */
+layout(location = 2) uniform bool told; /* there were earlier iterations */
 
 layout(location = 0) out vec4 irradiance_out;
 #if LSF_SPECULAR
@@ -33,14 +33,14 @@ brdf_sampler p;
 int count; /* samples of each kind */
 vec3 irradiance = vec3(0.0), specular = vec3(0.0);
 
-/* Of one of the directions that the host draws, by the radiance alone [1/sr]. */
+/* Density of one of the directions that the host draws, by the radiance alone [1/sr]. */
 float drawn_density(vec3 radiance)
 {
     return sky_density(radiance) / sky_sampling.w;
 }
 
-/* `weight`: one over the density with which samples of both kinds find the direction; what `radiance` is may hold a
- * part of that. */
+/* `weight`: the reciprocal of the density with which samples of both kinds find the direction; `radiance` may
+ * already hold a part of it. */
 void add(vec3 direction, vec3 radiance, float density, float weight)
 {
     brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);
@@ -94,7 +94,8 @@ vec2 share_before(ivec2 pixel, int sequence)
 }
 #endif
 
-/* What is not counted on need not be known well: samples by the share that directions before this iteration tell. */
+/* Light that is not used need not be known well: the number of samples follows the share that directions before
+ * this iteration suggest. */
 int samples_of(ivec2 pixel)
 {
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
@@ -129,7 +130,7 @@ void main()
     key.pixel = uint(pixel.x) | uint(pixel.y) << 16;
     key.seed = seed;
     key.place = pixel;
-    /* A part of a sequence that begins at a multiple of its length. */
+    /* A part of a low-discrepancy sequence that begins at a multiple of its length. */
     count = samples_of(pixel);
     int parts = LSF_OPEN_SKY_DRAWN / count;
     int first = int(hash(uvec3(key.pixel, seed, counts.y)).x % uint(parts)) * count;

@@ -1,5 +1,5 @@
-/* Appends nodes to the texels' lists, for both ways to rasterise. Switches of
- * lib/ray_bundle.glsl, LSF_BUNDLE_SURFACES: not only distances are asked for, and LSF_ABSORPTION: there are media. */
+/* Appends nodes to the texels' lists, for both rasterisers. Switches of lib/ray_bundle.glsl, LSF_BUNDLE_SURFACES:
+ * surfaces are stored, not only distances, and LSF_ABSORPTION: there are media. */
 #ifndef LSF_PASSES_RAY_BUNDLE_APPEND
 #define LSF_PASSES_RAY_BUNDLE_APPEND
 
@@ -12,8 +12,8 @@
 
 layout(location = 0) uniform uint chain_room; /* nodes for chaining */
 
-/* Gives the fragment a node and stores its key. LSF_NO_NODE where there is no room left; the counter
- * then still tells how much was needed. */
+/* Allocates a node for the fragment and stores its key. LSF_NO_NODE where the buffer is full; the counter then
+ * still tells the capacity that is needed. */
 uint append_node(uint texel, uint key)
 {
     uint fragment = atomicAdd(bundle_keys[4u * texel], 1u);

@@ -1,4 +1,4 @@
-/* Appends every fragment of the scene to its texel's list. Switches of lib/material.glsl and
+/* Appends every fragment of the scene to the list of its texel. Switches of lib/material.glsl and
  * lib/ray_bundle.glsl. */
 #include "lib/material.glsl"
 #include "passes/ray_bundle_append.glsl"

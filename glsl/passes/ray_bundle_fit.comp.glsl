@@ -1,6 +1,6 @@
-/* Fits a bundle's window to the visible points: one work group for each bundle. The points of a tile
- * lie in the piece of the view that its corners and its nearest and farthest depth bound, and a linear
- * function is largest and smallest at that piece's corners. Switches LSF_ORTHOGRAPHIC, LSF_BUNDLE_GAPS. */
+/* Fits the window of a bundle to the visible points, one work group per bundle. The points of a tile lie in the
+ * part of the view that is bounded by the tile's corners and its least and greatest depth, and a linear function
+ * takes its extremes at the corners of that part. Switches LSF_ORTHOGRAPHIC, LSF_BUNDLE_GAPS. */
 #include "lib/bundle_map.glsl"
 #include "lib/view.glsl"
 
@@ -12,7 +12,7 @@ layout(std430, binding = LSF_BINDING_BUNDLE_NODES) buffer lsf_projection_block
 };
 layout(binding = 0) uniform sampler2D tiles;
 
-shared vec4 bounds[LSF_BUNDLE_FIT_SIZE]; /* least, largest along right, up */
+shared vec4 bounds[LSF_BUNDLE_FIT_SIZE]; /* minima and maxima along right and up */
 
 vec4 merge(vec4 a, vec4 b)
 {
@@ -56,7 +56,7 @@ void main()
     float texels = b.range.z;
     vec2 extent = vec2(lsf_bundle_extent(box.x, box.z, texels),
                        lsf_bundle_extent(box.y, box.w, texels));
-    /* The window came with the grid's offset [texels] in place of its centre. */
+    /* The host has stored the grid's offset [texels] in place of the window's centre. */
     vec2 center = 0.5 * (box.xy + box.zw) + b.window.xy * 2.0 * extent / texels;
     projections[gl_WorkGroupID.x].data.window = vec4(center, extent * b.right.w);
 }

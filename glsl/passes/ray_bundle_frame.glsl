@@ -1,6 +1,5 @@
-/* The view's rays in a bundle's coordinates. They are affine over the picture: what is seen lies at
- * start + view depth from the view's start on * along. With LSF_BUNDLE_GAPS that holds before gaps are taken
- * out. */
+/* The view's rays in a bundle's coordinates. They are affine over the picture: a visible point lies at start +
+ * along * (view depth from the view's start). With LSF_BUNDLE_GAPS that holds before gaps are removed. */
 #ifndef LSF_PASSES_RAY_BUNDLE_FRAME
 #define LSF_PASSES_RAY_BUNDLE_FRAME
 
@@ -11,8 +10,8 @@
 struct bundle_frame {
     vec3 start, along; /* texels, texels, steps of depth; with LSF_BUNDLE_GAPS in normalised space */
     vec3 forward;      /* the bundle's direction */
-    vec4 scale;        /* x, y: depth steps across a texel for a slope of 1; steps of a unit of length;
-                        * square of the steps within which a ray is still on the surface it left */
+    vec4 scale;        /* x, y: depth steps across a texel for a slope of 1; z: steps per unit of length; w:
+                        * squared steps within which a ray is still on the surface that it left */
 };
 
 #if LSF_BUNDLE_GAPS
@@ -21,14 +20,14 @@ vec3 along_axes(vec3 v)
     return vec3(dot(bundle.right.xyz, v), dot(bundle.up.xyz, v), dot(bundle.forward.xyz, v));
 }
 
-/* Texels, texels and steps of depth of a place along the axes. */
+/* Texel coordinates and depth step of coordinates along the axes. */
 vec3 map_place(vec3 q, float steps)
 {
     q = bundle_close(bundle, q);
     return vec3(bundle_place(q), (q.z - bundle.range.x) * steps);
 }
 #else
-/* A vector in normalised space as texels and depth steps. */
+/* A vector in normalised space in texels and depth steps. */
 vec3 to_map(vec3 v)
 {
     return bundle_coordinates(v) * vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw,
@@ -36,7 +35,7 @@ vec3 to_map(vec3 v)
 }
 #endif
 
-/* At a place in the region [fragment coordinates]. */
+/* The frame at a position in the region [fragment coordinates]. */
 bundle_frame frame_at(vec2 fragment)
 {
     vec2 ndc = sample_ndc(region_place(fragment));

@@ -1,9 +1,8 @@
-/* Rays in a bundle's coordinates, and what they meet. Switches LSF_ORTHOGRAPHIC, LSF_SPARSE, LSF_INTERLEAVE,
- * LSF_DEEP, LSF_BUNDLE_SURFACES (nodes hold surfaces, which tell them apart) and those of
- * lib/ray_bundle.glsl.
+/* Rays in a bundle's coordinates, and their hits. Switches LSF_ORTHOGRAPHIC, LSF_SPARSE, LSF_INTERLEAVE, LSF_DEEP,
+ * LSF_BUNDLE_SURFACES (nodes store surfaces, which break ties) and those of lib/ray_bundle.glsl.
  *
- * Lists are read as buffer textures, which software GL fetches for all lanes at once and storage
- * buffers lane by lane. */
+ * Lists are read as buffer textures, because software GL fetches those for all lanes at once and storage buffers
+ * lane by lane. */
 #ifndef LSF_PASSES_RAY_BUNDLE_RAY
 #define LSF_PASSES_RAY_BUNDLE_RAY
 
@@ -20,21 +19,21 @@ layout(location = 0) uniform bool from_position;
 layout(binding = 3) uniform usamplerBuffer head_fetch;
 layout(binding = 4) uniform usamplerBuffer key_fetch; /* four at once */
 layout(binding = 5) uniform usamplerBuffer chain_fetch;
-/* Slices; not known when compiled, or software GL unrolls the loop and walks through
- * empty slices, too. */
+/* Number of slices. It is no compile-time constant, because software GL would unroll the loop and visit empty
+ * slices, too. */
 layout(location = 2) uniform int slices_of_four;
 
 struct bundle_ray {
     int texel;
-    float depth;   /* of the origin, in steps of the keys */
-    vec2 to_depth; /* steps for a slope of 1: from the texel's centre to the ray */
+    float depth;   /* depth of the origin, in steps of the keys */
+    vec2 to_depth; /* depth steps for a slope of 1, from the texel's centre to the ray */
     float sign;    /* 1 along the bundle, -1 against it */
     float self;    /* as in bundle_frame */
     uvec4 first;   /* its texel's first slice */
-    int count;     /* fragments in its texel, 0 when there is no ray */
+    int count;     /* fragments in its texel, 0 where there is no ray */
 };
 
-/* On the map: texels, texels, steps of depth. */
+/* The ray's origin in texels and depth steps. */
 bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
 {
 #if LSF_DEEP
@@ -58,7 +57,7 @@ bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
     return depth != 0.0;
 }
 
-/* Which side of the bundle's plane a surface faces; no need for unit length. */
+/* Sign tells the side of the bundle's plane that a surface faces; not normalised. */
 float facing(uint normal, vec3 forward)
 {
     ivec2 p = ivec2(int(normal << 16) >> 16, int(normal) >> 16);
@@ -94,14 +93,14 @@ struct bundle_hit {
     bool tie; /* another node has the same key */
 };
 
-/* The node becomes the hit when its plane is nearer; between planes equally near the key decides, so
- * that the list's order does not. */
+/* The node becomes the hit when its plane is nearer. Between equally near planes the key decides, so that the
+ * order of the list does not. */
 void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hit)
 {
     vec2 slope = plane_key_slope(key);
     float depth = bundle_key_depth(key) + dot(slope, ray.to_depth);
     float distance = ray.sign * (depth - ray.depth);
-    /* The origin's own surface: its distance from the plane is the one along the ray over
+    /* The test excludes the origin's own surface, by the distance from the plane: the distance along the ray over
      * sqrt(1 + slope^2). */
     bool beyond = present && distance > 0.0 &&
                   distance * distance > ray.self * (1.0 + dot(slope, slope));
@@ -120,7 +119,7 @@ void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hi
     hit.node = nearer ? node : hit.node;
 }
 
-/* What lies in slices. */
+/* The nearest hit among the fragments in slices. */
 bundle_hit search_slices(bundle_ray ray)
 {
     const int texels = int(LSF_BUNDLE_TEXELS);

@@ -1,6 +1,6 @@
-/* Searches again where slices were not all: texels with chained nodes, and hits on surfaces that
- * coincide, among which the payload decides, so that the order in the texel's list does not matter.
- * Switches as in ray_bundle_ray.glsl. */
+/* Searches again where the slices do not decide: texels with chained nodes, and hits on surfaces that coincide,
+ * among which the payload decides, so that the order of the texel's list does not matter. Switches as in
+ * ray_bundle_ray.glsl. */
 #define LSF_BUNDLE_REST_ACCESS readonly
 #include "passes/ray_bundle_ray.glsl"
 #include "passes/ray_bundle_rest.glsl"
@@ -9,8 +9,8 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0, rg32ui) writeonly uniform uimage2D hits;
 
-/* Lanes without work walk through software GL's loops up to the cap: caps are low, and long lists
- * take several turns. */
+/* In software GL idle lanes run loops up to their bound, so that bounds are low and long lists take several
+ * rounds. */
 #define LSF_STEPS 64u
 #define LSF_TURNS 65535u
 

@@ -1,4 +1,4 @@
-/* Pixels whose search goes on in ray_bundle_rest.comp.glsl. */
+/* Pixels whose search continues in ray_bundle_rest.comp.glsl. */
 #ifndef LSF_PASSES_RAY_BUNDLE_REST
 #define LSF_PASSES_RAY_BUNDLE_REST
 

@@ -1,6 +1,6 @@
-/* The nearest fragment beyond each origin, along the bundle or against it, by the side that the
- * origin's surface faces. Pixels that take more than a look at the slices are listed for
- * ray_bundle_rest.comp.glsl: in software GL every lane pays for what one of them does. */
+/* The nearest fragment beyond each origin, along the bundle or against it, depending on the side that the origin's
+ * surface faces. Pixels that need more than the slices are listed for ray_bundle_rest.comp.glsl, because in
+ * software GL all lanes wait for the slowest. */
 #define LSF_BUNDLE_REST_ACCESS coherent
 #include "passes/ray_bundle_ray.glsl"
 #include "passes/ray_bundle_rest.glsl"

@@ -1,4 +1,4 @@
-/* Covers the region, and hands on the bundle_frame of its corners: fragments need no matrix. */
+/* Covers the region and passes on the bundle_frame of its corners, so that fragments need no matrix. */
 #include "passes/ray_bundle_frame.glsl"
 
 layout(location = 1) uniform vec2 region_size;

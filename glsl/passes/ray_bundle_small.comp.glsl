@@ -1,14 +1,13 @@
-/* Rasterises the small triangles of an instance, one invocation each, and lists the large ones for GL
- * to draw. In parallel projection all that a triangle hands to its fragments is affine over it, so
- * that it is set up once. Covers the same texels as GL does: vertices are snapped to the same
- * grid, and a sample on an edge belongs to the triangle whose left or top edge it is. Switches of
- * lib/material_surface.glsl and lib/ray_bundle.glsl. */
+/* Rasterises the small triangles of an instance, one per invocation, and lists the large ones for GL to draw. In
+ * parallel projection all attributes of a triangle are affine over it, so that they are set up once. It covers the
+ * same texels as GL: vertices are snapped to the same grid, and a sample on an edge belongs to the triangle whose
+ * left or top edge it is. Switches of lib/material_surface.glsl and lib/ray_bundle.glsl. */
 #include "lib/triangle_fetch.glsl"
 #include "passes/ray_bundle_append.glsl"
 
 layout(local_size_x = LSF_BUNDLE_SMALL_SIZE) in;
 
-layout(location = 8) uniform float subpixels; /* positions a texel, along each axis */
+layout(location = 8) uniform float subpixels; /* subpixel positions per texel, along each axis */
 layout(location = 27) uniform uint group_stride; /* coprime to the number of work groups */
 
 layout(std430, binding = LSF_BINDING_BUNDLE_LARGE) coherent buffer lsf_large_block
@@ -16,7 +15,7 @@ layout(std430, binding = LSF_BINDING_BUNDLE_LARGE) coherent buffer lsf_large_blo
     uint large[]; /* draws of five words each, one for each instance; then indices */
 };
 
-/* Texels, texels, depth: what the vertex shader and the viewport make of a vertex. */
+/* Texel coordinates and depth of a vertex after vertex shader and viewport. */
 vec3 to_map(uint vertex)
 {
     vec3 q = bundle_coordinates(triangle_position(vertex));
@@ -33,11 +32,11 @@ void list_large(uvec3 corners)
 }
 
 struct edge {
-    int value, right, up; /* at the first sample; its change from sample to sample */
+    int value, right, up; /* at the first sample; change from sample to sample */
 };
 
-/* Twice the area between the edge a b and the sample at `at`, times two and with the fill rule's bit:
- * above 0 inside. `at`, a and b in subpixels. */
+/* Twice the area between the edge a b and the sample at `at`, times two and with a bit for the fill rule: above 0
+ * inside. `at`, a and b in subpixels. */
 edge edge_of(ivec2 a, ivec2 b, ivec2 at, int step)
 {
     ivec2 d = b - a;
@@ -51,8 +50,8 @@ edge edge_of(ivec2 a, ivec2 b, ivec2 at, int step)
 
 void main()
 {
-    /* Software GL gives each thread a run of work groups, and a part of a mesh may be all in view or
-     * all out of it: runs take groups from all over the mesh. */
+    /* Software GL gives each thread a run of work groups, and parts of a mesh may be all in view or all outside.
+     * The stride mixes groups from all over the mesh. */
     uint group = gl_WorkGroupID.x * group_stride % gl_NumWorkGroups.x;
     uint triangle = group * uint(LSF_BUNDLE_SMALL_SIZE) + gl_LocalInvocationIndex;
     if (triangle >= range.y)
@@ -60,7 +59,7 @@ void main()
     uvec3 corners = triangle_corners(triangle);
     vec3 p0 = to_map(corners.x), p1 = to_map(corners.y), p2 = to_map(corners.z);
     vec2 low = min(p0.xy, min(p1.xy, p2.xy)), high = max(p0.xy, max(p1.xy, p2.xy));
-    int margin = (LSF_BUNDLE_SIDE - int(bundle.range.z)) / 2; /* texels that are not in use */
+    int margin = (LSF_BUNDLE_SIDE - int(bundle.range.z)) / 2; /* texels that are not used */
     if (!(min(high.x, high.y) >= float(margin) &&
           max(low.x, low.y) <= float(LSF_BUNDLE_SIDE - margin)))
         return;
@@ -91,7 +90,7 @@ void main()
     vec3 n = cross((p1 - p0) * to_space, (p2 - p0) * to_space);
     vec2 slope = n.z == 0.0 ? vec2(0.0) : -n.xy / n.z;
     vec2 depth_change = slope * bundle_texel_size() / bundle.range.y;
-    /* Barycentric coordinates of the second and third corner, and their change a texel. */
+    /* Barycentric coordinates of the second and third corner, and their change per texel. */
     vec2 f1 = p1.xy - p0.xy, f2 = p2.xy - p0.xy;
     float f_area = f1.x * f2.y - f1.y * f2.x;
     f_area = abs(f_area) > 1e-12 ? f_area : 1e-12;
@@ -130,7 +129,8 @@ void main()
     uint appended = 0u;
     ivec2 cell = ivec2(0);
     for (int turn = 0; turn < LSF_BUNDLE_SMALL_TEXELS && done < samples; turn++) {
-        /* On to the next sample inside: the dear part below is for lanes that have one. */
+        /* Advances to the next sample inside, because the expensive part below should run in all lanes that have
+         * one at once. */
         bool inside = false;
         ivec2 found = cell;
         for (int i = 0; i < LSF_BUNDLE_SMALL_TEXELS && !inside && done < samples; i++) {

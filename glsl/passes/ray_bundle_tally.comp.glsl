@@ -1,4 +1,4 @@
-/* Keeps account of the nodes: after each build, and at an iteration's end, when it says whether the
+/* Accounts for the nodes: after each build, and at the end of an iteration, where it decides whether the
  * iteration's picture may be kept. Sums have two words each, the low one first. */
 #include "shared/bundle_data.h"
 #include "shared/scene_data.h"
@@ -16,7 +16,7 @@ layout(std430, binding = LSF_BINDING_BUNDLE_NODES) readonly buffer lsf_head_bloc
 
 layout(location = 0) uniform uint chain_room;
 layout(location = 1) uniform bool iteration_ends;
-layout(location = 2) uniform uint iterations_done; /* when this one has ended well */
+layout(location = 2) uniform uint iterations_done; /* including this one if it succeeds */
 
 void add(inout uint low, inout uint high, uint count)
 {
@@ -28,7 +28,7 @@ void add(inout uint low, inout uint high, uint count)
 void main()
 {
     if (!iteration_ends) {
-        uint nodes = status.drawn_low; /* there are never 2^32 in a map */
+        uint nodes = status.drawn_low; /* a map has fewer than 2^32 of them */
         for (int i = LSF_BUNDLE_RASTERISED; i < LSF_BUNDLE_COUNTERS; i += 16)
             nodes += heads[i];
         add(status.new_nodes_low, status.new_nodes_high, nodes);

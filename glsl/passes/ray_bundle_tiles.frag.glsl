@@ -1,11 +1,11 @@
-/* Nearest and farthest depth of each tile of the picture: together with the tile's corners the
- * bounds of all points that it shows. */
+/* Least and greatest depth of each tile of the picture; with the tile's corners they bound all points that it
+ * shows. */
 #include "shared/bundle_data.h"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-layout(location = 0) uniform int tile_texels; /* LSF_BUNDLE_TILE squared; not known when compiled,
-                                               * or software GL unrolls the loop */
-layout(location = 0) out vec2 depths_out; /* least and largest, reverse-Z; least 2: nothing seen */
+layout(location = 0) uniform int tile_texels; /* LSF_BUNDLE_TILE squared; no compile-time constant, because
+                                               * software GL would unroll the loop */
+layout(location = 0) out vec2 depths_out; /* least and greatest, reverse-Z; a least of 2: the tile is empty */
 
 void main()
 {

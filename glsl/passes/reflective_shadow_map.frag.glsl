@@ -1,4 +1,4 @@
-/* Switches LSF_THIN_WALLS, where some transmit, and those of lib/material.glsl. */
+/* A reflective shadow map. Switches LSF_THIN_WALLS, where some transmit, and those of lib/material.glsl. */
 #include "lib/chance.glsl"
 #include "lib/light_projection.glsl"
 #include "lib/material.glsl"
@@ -12,7 +12,7 @@ layout(location = 2) out uvec4 gloss_out;
 
 void main()
 {
-    /* Before any discard, while the whole quad is alive. */
+    /* Derivatives come before any discard, while the whole quad is alive. */
     float z = gl_FragCoord.z;
     gradient_out = vec2(dFdx(z), dFdy(z)) / light_projection_depth_unit(z);
     surface s;
@@ -22,7 +22,7 @@ void main()
     if (!material_evaluate(to_light, s, emission, front))
         discard;
 #if LSF_THIN_WALLS
-    bool passable = !s.volume || light.intensity.w > 0.0; /* to a lamp, or to the sky */
+    bool passable = !s.volume || light.intensity.w > 0.0; /* for a lamp, or for the sky */
     if (passable && chance_number(uvec3(floatBitsToUint(z), uvec2(gl_FragCoord.xy))) <
                          straight_chance(straight_transmittance(s, to_light)))
         discard;

@@ -3,7 +3,7 @@
 
 layout(location = 0) uniform int face;
 
-/* What is drawn twice must reach the same bits. */
+/* Surfaces that are drawn twice must get the same bits. */
 invariant gl_Position;
 
 void main()

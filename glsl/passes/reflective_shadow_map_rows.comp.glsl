@@ -1,12 +1,12 @@
-/* Importance of a map's texels, by the flux that each reflects and how much of it visible points would
- * get if nothing stood between, and its running sums along a row. A row an invocation. */
+/* Importance of a map's texels, from the flux that each reflects and the share of it that would reach visible
+ * points without occlusion, and its prefix sums along a row. One row per invocation. */
 #include "lib/emission_pdf.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/hash.glsl"
 #include "lib/luminance.glsl"
 #include "lib/view.glsl"
 
-/* A square of visible points, one in each cell of the picture. */
+/* Visible points on a square grid, one in each cell of the picture. */
 #define POINTS_SIDE 4
 #define POINTS (POINTS_SIDE * POINTS_SIDE)
 
@@ -21,16 +21,16 @@ layout(binding = 3) uniform usampler2D seen_surface;
 layout(binding = 0, r32f) writeonly uniform image2DArray importance_image;
 layout(std430, binding = 1) writeonly buffer sum_block
 {
-    float sums[]; /* rows of running sums; then each row's total */
+    float sums[]; /* prefix sums of the rows; then each row's total */
 };
 
-shared vec4 points[POINTS]; /* position; the least squared distance at which they are lit */
-shared vec3 normals[POINTS]; /* 0: the cell shows none */
+shared vec4 points[POINTS]; /* position; smallest squared distance that counts */
+shared vec3 normals[POINTS]; /* 0: the cell is empty */
 shared uint point_count;
 
-/* Takes the visible point of a cell, where there is one. A point stands for the area that its cell shows;
- * no disc of that area gets more than pi times what arrives at it from straight above: the squared
- * distance is at least the disc's radius squared. */
+/* Loads the visible point of a cell, where there is one. A point stands for the area that its cell shows, and no
+ * disc of that area receives more than pi times the light that arrives at its centre from straight above: the
+ * squared distance is clamped to the disc's squared radius. */
 void find_point(uint cell)
 {
     vec3 random = hash_unit(hash(uvec3(cell, viewed.y, 0u)));
@@ -52,7 +52,7 @@ void find_point(uint cell)
     atomicAdd(point_count, 1u);
 }
 
-/* What visible points get from a Lambertian element at that place, on average. */
+/* Average light at the visible points from a Lambertian element at that position. */
 float share_of_view(vec3 position, vec3 normal)
 {
     if (point_count == 0u)
@@ -82,7 +82,7 @@ float importance(int face, ivec2 at)
 #endif
     vec3 flux = light.intensity.rgb * reflectance;
     if (light_projection_perspective()) {
-        /* Texels are alike but for the place's solid angle. */
+        /* Texels differ by the solid angle of their position alone. */
         vec3 to_point = position - light.position.xyz;
         float distance2 = max(dot(to_point, to_point), LSF_LIGHT_DISTANCE2_MIN);
         flux *= lsf_distance_attenuation(distance2, light.attenuation.x) * distance2 /

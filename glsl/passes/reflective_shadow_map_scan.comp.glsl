@@ -1,5 +1,5 @@
-/* Running sums of the rows' totals, and from the last what turns importance into density. One
- * work group: each invocation adds up a run of rows, then starts from the sum of the runs before. */
+/* Prefix sums of the rows' totals, and from the last one the factor from importance to density. One work group:
+ * each invocation adds up a run of rows, then starts from the sum of the runs before. */
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 

@@ -8,7 +8,7 @@ layout(location = 0) out vec2 gradient;
 void main()
 {
 #if LSF_GRADIENT
-    /* Before any discard, while the whole quad is alive. */
+    /* Derivatives come before any discard, while the whole quad is alive. */
     float z = gl_FragCoord.z;
     gradient = vec2(dFdx(z), dFdy(z)) / light_projection_depth_unit(z);
 #endif

@@ -1,4 +1,5 @@
-/* Surfaces that may be cut out, or all of them where none are listed, into a map of the environment. */
+/* Draws the surfaces that may be cut out, or all surfaces where no triangles are listed, into a map of the
+ * environment. */
 #include "lib/instance.glsl"
 #include "lib/mask_vertex.glsl"
 #include "lib/sky_map.glsl"

@@ -1,4 +1,4 @@
-/* Triangles of many texels, in normalised space, into a map of the environment. */
+/* Draws triangles that cover many texels, in normalised space, into a map of the environment. */
 #include "lib/sky_map.glsl"
 
 layout(location = 0) uniform int map;

@@ -1,26 +1,26 @@
-/* Draws triangles of few texels into a map of the environment, an invocation each. Setting up a triangle for the
- * pipeline costs more than such a few texels do. */
+/* Draws triangles that cover few texels into a map of the environment, one per invocation, because the pipeline's
+ * setup of a triangle costs more than so few texels. */
 #define LSF_BINDING_TRIANGLES 3
 #include "lib/scene_triangles.glsl"
 #include "lib/sky_map.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(location = 1) uniform uvec2 range; /* from the first triangle to before the second */
+layout(location = 1) uniform uvec2 range; /* first triangle, and the end of the range */
 layout(r32ui, binding = 0) uniform uimage2DArray map_image;
 layout(location = 0) uniform int map;
 
-/* Rounding of a place, of normalised space: a texel's centre that close outside an edge counts, so that no light
- * gets through between two triangles. */
+/* Rounding error of a position, in normalised space. A texel's centre this close outside an edge is covered, so
+ * that no light leaks between two triangles. */
 #define PLACE_ERROR 2.4e-7
 
-/* Affine over the map: at the centre of texel `first`, and the change from texel to texel. */
+/* Functions that are affine over the map: value at the centre of texel `first`, and change from texel to texel. */
 struct map_triangle {
-    ivec2 first, end;         /* texels whose centres its box holds */
-    vec3 edges, edges_x, edges_y; /* distances inwards from the edges, times their lengths */
+    ivec2 first, end;         /* texels whose centres its bounding box holds */
+    vec3 edges, edges_x, edges_y; /* distances inwards from the edges, times the edges' lengths */
     float depth;
     vec2 gradient;
-    vec2 depths; /* least and greatest, of its corners: slivers have no gradient to trust */
+    vec2 depths; /* least and greatest of its corners, because the gradient of slivers is unreliable */
     uint slopes; /* of keys */
 };
 
@@ -37,7 +37,7 @@ bool triangle_on_map(uint triangle, out map_triangle t)
     vec3 q2 = sky_map_project(map, scene_triangle_corner(triangle, 2u));
     vec4 texel = sky_maps[map].texel;
     float error = PLACE_ERROR / min(texel.x, texel.y);
-    /* Clamped before they become integers: corners may be far outside. */
+    /* The values are clamped before they become integers, because corners may be far outside. */
     t.first = ivec2(clamp(ceil(min(q0.xy, min(q1.xy, q2.xy)) - error - 0.5), 0.0, texel.w));
     t.end = ivec2(clamp(floor(max(q0.xy, max(q1.xy, q2.xy)) + error + 0.5), 0.0, texel.w));
     vec2 e1 = q1.xy - q0.xy, e2 = q2.xy - q0.xy, e3 = q2.xy - q1.xy;
@@ -81,7 +81,8 @@ void main()
         return;
     ivec2 at = t.first;
     while (at.y < t.end.y) {
-        /* On to the next texel that is covered: the dear part below is for lanes that have one. */
+        /* Advances to the next covered texel, because the expensive part below should run in all lanes that have
+         * one at once. */
         bool covered = false;
         ivec2 found = at;
         while (!covered && at.y < t.end.y) {

@@ -1,4 +1,4 @@
-/* Of what lets light straight through, what is there. Switches of lib/material.glsl. */
+/* Draws the transmitting surfaces that are present in this iteration. Switches of lib/material.glsl. */
 #include "lib/chance.glsl"
 #include "lib/material.glsl"
 #include "lib/sky_map_texel.glsl"

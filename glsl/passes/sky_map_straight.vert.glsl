@@ -1,4 +1,4 @@
-/* Surfaces with their material, into a map of the environment. */
+/* Draws surfaces with their materials into a map of the environment. */
 #include "lib/material_vertex.glsl"
 #include "lib/sky_map.glsl"
 
@@ -6,7 +6,7 @@ layout(location = 0) uniform int map;
 
 out float map_depth;
 
-/* What is drawn twice must reach the same bits. */
+/* Surfaces that are drawn twice must get the same bits. */
 invariant gl_Position;
 invariant map_depth;
 

@@ -1,4 +1,4 @@
-/* Tint of light that has passed what is not there, before what the map shows: of all of it the product, in any
+/* Tint of light that has passed the absent surfaces in front of the map's: the product over all of them, in any
  * order. Switches LSF_ABSORPTION (there are media) and those of lib/material.glsl. */
 #include "lib/material.glsl"
 #include "lib/sky_map.glsl"
@@ -20,7 +20,7 @@ void main()
     bool present = material_evaluate(to_sky, s, emission, front);
     bool enters = map_light_enters(front, to_sky);
     float shown = sky_map_depth(texelFetch(map_texture, ivec3(gl_FragCoord.xy, map), 0).r);
-    /* What is there itself lies at its own depth, but for the map's rounding. */
+    /* A surface that is present lies at its own depth in the map, within the map's rounding. */
     if (!present || map_depth <= shown + 2.0 * SKY_MAP_DEPTH_ERROR)
         discard;
     tint_out = vec4(straight_tint(s, to_sky) *

@@ -1,4 +1,4 @@
-/* For each pixel, which of the grid's points show the surface that it shows. */
+/* For each pixel, the points of the grid that show the same surface. */
 #include "lib/sparse_grid.glsl"
 #include "passes/sparse_guide.glsl"
 
@@ -16,14 +16,14 @@ float weight_of(ivec2 point, ivec2 picture, shown own, out float apart)
     return there ? guide_weight(own, other) : 0.0;
 }
 
-/* Ring by ring, until one has points of the same surface; the nearest of them. */
+/* Searches ring by ring until one has points of the same surface, and returns the nearest of them. */
 uint search(ivec2 point, ivec2 picture, shown own)
 {
     uint found = SPARSE_ALONE;
     float nearest = 1e30, apart;
     for (int ring = 1; ring <= int(guide.x) && found == SPARSE_ALONE; ring++)
         for (int i = 0; i < 8 * ring; i++) {
-            /* Each side from a corner up to the next. */
+            /* Each side runs from one corner up to the next. */
             int side = i / (2 * ring), along = i - side * 2 * ring - ring;
             ivec2 at = point + (side == 0   ? ivec2(along, -ring)
                                 : side == 1 ? ivec2(ring, along)

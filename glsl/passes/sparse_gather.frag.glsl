@@ -1,6 +1,5 @@
-/* Light from the order in which it was gathered into that of the grid, its second layer above the first;
- * there without the specular tint. With LSF_OUTLIERS what neighbours make unlikely is scaled to their
- * mean. */
+/* Reorders light from split order into that of the grid, with the second layer above the first; there without the
+ * specular tint. With LSF_OUTLIERS light that is improbable among its neighbours is scaled to their mean. */
 #include "lib/luminance.glsl"
 #include "passes/sparse_order.glsl"
 #if LSF_SPARSE || LSF_OUTLIERS
@@ -32,11 +31,11 @@ ivec2 place_of(ivec2 point, int layer)
 }
 
 #if LSF_OUTLIERS
-/* Neighbours without which there is no telling. */
+/* Fewer neighbours than this cannot tell an outlier. */
 #define LEAST_NEIGHBOURS 3.0
 #define TOLERANCE 2.0 /* standard deviations */
 
-/* Of what lies beside a point: the sum of colours, and of luminance less the point's own and its square. */
+/* Sums over the neighbours of a point: of colours, of luminance less the point's own, and of its square. */
 struct neighbours {
     float count, sum, squares;
     vec3 colour;
@@ -51,7 +50,7 @@ void add(inout neighbours n, vec3 light, float own)
     n.colour += light;
 }
 
-/* Differences to the point's own luminance are summed: where all are equal nothing changes. */
+/* Differences from the point's own luminance are summed, so that nothing changes where all are equal. */
 void hold(neighbours n, inout vec3 light)
 {
     if (n.count < LEAST_NEIGHBOURS)

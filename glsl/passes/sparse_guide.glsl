@@ -1,4 +1,4 @@
-/* How well light at one pixel stands for light at another; see src/passes/sparse.md. */
+/* Weights that say how well light at one pixel represents light at another; see src/passes/sparse.md. */
 #ifndef LSF_PASSES_SPARSE_GUIDE
 #define LSF_PASSES_SPARSE_GUIDE
 
@@ -8,10 +8,10 @@
 
 layout(location = 0) uniform vec3 guide; /* radius [points], 1 / slope^2, normal_weight */
 
-/* Weights below it count as none. */
+/* Smaller weights count as 0. */
 #define LSF_GUIDE_LEAST 0.0625
 
-/* What a pixel shows. */
+/* The surface in a pixel. */
 struct shown {
     bool lit;
     vec3 position, plane, normal;
@@ -26,7 +26,7 @@ shown shown_at(ivec2 pixel)
                  octahedral_decode(surface.x), octahedral_decode(surface.y));
 }
 
-/* 0 where they are of different surfaces. */
+/* 0 where they show different surfaces. */
 float guide_weight(shown own, shown other)
 {
     vec3 apart = other.position - own.position;
@@ -41,10 +41,10 @@ float apart_squared(shown own, shown other)
     return dot(apart, apart);
 }
 
-/* What a pixel's light is made of, one number a pixel. */
+/* Source of a pixel's light, one number per pixel. */
 #define SPARSE_DARK 0u  /* none */
 #define SPARSE_MIXED 1u /* the points around it */
-#define SPARSE_ALONE 2u /* none of the grid's: a point of its own, or a neighbour's own */
-#define SPARSE_ONE 3u   /* the point of that number plus this */
+#define SPARSE_ALONE 2u /* none of the grid's: its own point, or a neighbour's own */
+#define SPARSE_ONE 3u   /* the point with that number plus this */
 
 #endif

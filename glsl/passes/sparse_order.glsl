@@ -1,5 +1,5 @@
-/* Where points lie in the textures in which light is gathered: those of a tile of the interleaving pattern
- * side by side, and above them the second layer of the same. Switches LSF_SPARSE, LSF_INTERLEAVE. */
+/* Positions of points in the textures in which light is gathered: those of a tile of the interleaving pattern are
+ * adjacent, with the second layer of the same tile above them. Switches LSF_SPARSE, LSF_INTERLEAVE. */
 #ifndef LSF_PASSES_SPARSE_ORDER
 #define LSF_PASSES_SPARSE_ORDER
 
@@ -7,7 +7,7 @@
 #include "lib/sparse_grid.glsl"
 
 #if LSF_SPARSE
-/* A tile's rows of points, and the row where it would begin if there were one layer. */
+/* Number of rows of a tile's points, and the row at which the tile would begin with one layer. */
 int tile_rows(int tile)
 {
     return sparse_grid.y / LSF_INTERLEAVE + int(tile < sparse_grid.y % LSF_INTERLEAVE);

@@ -1,4 +1,4 @@
-/* What points see, in the order in which light is gathered there. */
+/* Copies the surfaces at the points into the order in which light is gathered. */
 #include "lib/gbuffer_copy.glsl"
 #include "lib/hash.glsl"
 #include "passes/sparse_order.glsl"
@@ -7,11 +7,11 @@
 #include "passes/sparse_guide.glsl"
 
 layout(binding = 3) uniform usampler2D source_texture;
-layout(location = 1) uniform uint turn; /* another number in each iteration */
+layout(location = 1) uniform uint turn; /* a different number in each iteration */
 layout(location = 2 + LSF_GLOSS) out uint pixel_out;
 
-/* One of the pixels of a point's block that none of the grid's points fits, each as likely as the
- * others; (-1, -1): there is none. */
+/* A random pixel of the point's block among those that no point of the grid represents, all with equal
+ * probability; (-1, -1): there is none. */
 ivec2 own_pixel(ivec2 point, ivec2 picture)
 {
     ivec2 corner = point * sparse_shape.x, found = ivec2(-1);

@@ -4,7 +4,7 @@
 
 #include "lib/specular_albedo.glsl"
 
-/* So that there is something left to divide. */
+/* A lower bound, because light is divided by the tint. */
 #define LEAST_TINT 1e-4
 
 vec3 specular_tint(ivec2 pixel)

@@ -1,4 +1,5 @@
-/* Light of the grid's points for every pixel, guided by what pixels show. See src/passes/sparse.md. */
+/* Interpolates light of the grid's points to every pixel, guided by the surfaces that pixels show. See
+ * src/passes/sparse.md. */
 #include "lib/luminance.glsl"
 #include "lib/sparse.glsl"
 #include "passes/sparse_guide.glsl"
@@ -54,7 +55,7 @@ void mix_around(ivec2 pixel, ivec2 picture, shown own)
         float weight = parts.x * parts.y * guide_weight(own, shown_at(sparse_pixel(point)));
         if (weight == 0.0)
             continue;
-        /* Differences to the first of them: a constant stays what it is to the bit. */
+        /* Differences from the first of them are interpolated, so that a constant is kept to the bit. */
         if (sum == 0.0)
             take(point);
         sum += weight;
@@ -69,8 +70,8 @@ void mix_around(ivec2 pixel, ivec2 picture, shown own)
 #endif
 }
 
-/* Own points of the blocks around: the nearest of the same surface; else of all points around the nearest
- * that is lit, of those that face the same way if there are such. */
+/* Own points of the surrounding blocks: the nearest of the same surface; else, of all points around, the nearest
+ * lit one, of those that face the same side if there are any. */
 void take_nearest(ivec2 pixel, ivec2 picture, shown own)
 {
     ivec2 block = pixel / sparse_shape.x, best = ivec2(-1);

@@ -1,5 +1,5 @@
-/* A frame's light blended with the history that was carried to it, by what either knows of the light as it is now;
- * src/passes/temporal.md has the weights. Switch LSF_LOBE: there is specular light. */
+/* Blends the light of a frame with the history reprojected to it, weighted by how well either knows the current
+ * light; src/passes/temporal.md derives the weights. Switch LSF_LOBE: there is specular light. */
 #include "lib/view.glsl"
 
 #include "lib/light_clear.glsl"
@@ -11,17 +11,18 @@ layout(binding = 6) uniform sampler2D carried_textures[1 + LSF_LOBE]; /* A: sum 
 layout(binding = 8) uniform sampler2D reach_texture;
 layout(binding = 9) uniform sampler2D window_textures[1 + LSF_LOBE]; /* of temporal_window */
 layout(location = 1) uniform float iterations;
-layout(location = 2) uniform float limit;       /* samples of the history, for each of the frame's */
-layout(location = 4) uniform float independent; /* neighbours whose noise differs, at most */
-layout(location = 5) uniform bool changed;      /* light may be otherwise */
+layout(location = 2) uniform float limit;       /* samples of the history per sample of the frame */
+layout(location = 4) uniform float independent; /* number of neighbours with independent noise, at most */
+layout(location = 5) uniform bool changed;      /* lighting may have changed */
 layout(location = 0) out vec4 history_out[1 + LSF_LOBE];
 layout(location = 1 + LSF_LOBE) out vec4 light_out[1 + LSF_LOBE];
 layout(location = 2 + 2 * LSF_LOBE) out float count_out[1 + LSF_LOBE];
 
-/* From so many samples on their own deviations tell their variance; before, that among neighbours does. */
+/* Number of samples from which their own deviations estimate their variance; with fewer, neighbours do. */
 #define ENOUGH 4.0
 
-/* Of a lobe that drifts by a part of its width each frame, frames that are farther back saw other light. */
+/* Samples of the history that saw the current light: a lobe that drifts by a fraction of its width each frame saw
+ * other light in earlier frames. */
 float within_lobe(vec4 reach, int part)
 {
     if (part == 0)
@@ -29,10 +30,10 @@ float within_lobe(vec4 reach, int part)
     return reach.z > 0.0 ? iterations / reach.z : reach.y;
 }
 
-/* What a window of neighbours on the same surface tells. */
+/* Statistics of a window of neighbours on the same surface. */
 struct window {
     float scatter;              /* variance of the frame's light among 3 x 3 of them */
-    float difference, variance; /* of the frame's light from the history, and of that mean */
+    float difference, variance; /* mean of the frame's light less the history, and the variance of that mean */
 };
 
 /* Sums of weights: of differences, and of scatters. */
@@ -86,7 +87,8 @@ void look_around(light_guide g, ivec2 pixel, out window windows[1 + LSF_LOBE])
         windows[part] = window_of(tallies[part], own[part].x);
 }
 
-/* Samples that the history may count for: its mean square error is its variance and the square of what it is off. */
+/* Largest number of samples that the history may count for: its mean square error is its variance plus the square
+ * of its bias. */
 float trusted(float samples, window around)
 {
     float off = max(around.difference * around.difference - around.variance, 0.0);
@@ -121,7 +123,7 @@ void blend(ivec2 pixel, int part, window around)
     float variance = total > 1.0 ? deviations / (total * (total - 1.0)) : 0.0;
     if (iterations == 1.0 && total < ENOUGH)
         variance = max(variance, around.scatter / total);
-    /* As the mean of as many iterations, at least 2, would have it. */
+    /* The sum of squared deviations that a mean of as many iterations would have, at least 2. */
     float n = max(iterations, 2.0), tint = luminance(factor);
     light_out[part] = vec4(light_out[part].rgb + factor * change, variance * n * (n - 1.0) * tint * tint);
 }

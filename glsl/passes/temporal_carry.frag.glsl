@@ -1,32 +1,34 @@
-/* The history of the frame before, where its surfaces are now: of the four texels around a point's former place those
- * that show the same instance, plane and side, by their bilinear weights. Switch LSF_LOBE: there is specular light. */
+/* Reprojects the history of the previous frame: of the four texels around a point's previous position, those that
+ * show the same instance, plane and side, by their bilinear weights. Switch LSF_LOBE: there is specular light. */
 #include "lib/view.glsl"
 #include "shared/brdf.h"
 
 #include "lib/light_guide.glsl"
 
-layout(binding = 2) uniform sampler2D motion_texture; /* pixels, former depth, instance */
+layout(binding = 2) uniform sampler2D motion_texture; /* motion [pixels], previous depth, instance */
 layout(binding = 4) uniform usampler2D old_guide_texture;
 layout(binding = 5) uniform sampler2D old_diffuse_texture;
 layout(binding = 6) uniform sampler2D old_diffuse_count_texture;
 layout(location = 0) out vec4 diffuse_out;
-layout(location = 1) out vec4 reach_out; /* samples of diffuse and of specular light; lobes' drift */
+layout(location = 1) out vec4 reach_out; /* samples of diffuse and of specular light; drift of the lobes */
 #if LSF_LOBE
 layout(binding = 7) uniform sampler2D old_specular_texture;
 layout(binding = 8) uniform sampler2D old_specular_count_texture;
 layout(location = 3) out vec4 specular_out;
-layout(location = 5) uniform vec4 former_eye; /* W 0: the direction that all rays ran along */
+layout(location = 5) uniform vec4 former_eye; /* previous eye; W 0: the direction of all rays */
 #endif
 layout(binding = 9) uniform sampler2D old_picture_texture; /* A: its samples */
-layout(location = 2) out vec4 picture_out;                 /* A: less than 0 where it is to be held to what is seen */
+layout(location = 2) out vec4 picture_out;                 /* A: below 0 where it is to be clamped to its
+                                                            * neighbourhood */
 layout(location = 4) uniform bool kept;
-layout(location = 6) uniform bool changed; /* light may be otherwise */
+layout(location = 6) uniform bool changed; /* lighting may have changed */
 
-/* Pixels that a point may be off the plane of what it is taken for: each may lie anywhere in its pixel. */
+/* Distance [pixels] of a point from the plane of the history's point: each may lie anywhere in its pixel. */
 #define OFF_PLANE 2.0
-/* Of the angle between normals, 25 degrees: less than that of creases, more than what a turn takes in a frame. */
+/* Least cosine between the normals, 25 degrees: less than the angle of creases, more than a rotation within a
+ * frame. */
 #define SAME_SIDE 0.9
-/* Pixels that neighbours may move apart in a frame where the picture is as rigid. */
+/* Largest difference of motion between neighbours [pixels] for which the picture counts as rigid. */
 #define PARALLAX 0.25
 
 bool finite(vec4 v)
@@ -34,7 +36,8 @@ bool finite(vec4 v)
     return !any(isnan(v)) && !any(isinf(v));
 }
 
-/* Whether the history saw the pixel's surface there, or beside it: pixels on edges show it now and then. */
+/* Whether the history holds the pixel's surface there or in a neighbouring texel: pixels on edges show it in some
+ * iterations only. */
 bool seen_before(light_guide g, vec4 motion, ivec2 corner)
 {
     ivec2 size = textureSize(guide_texture, 0);
@@ -51,14 +54,14 @@ bool seen_before(light_guide g, vec4 motion, ivec2 corner)
     return false;
 }
 
-/* Lanczos' window of three texels to each side, which blurs least of what rings little. */
+/* Lanczos window of three texels to each side, a compromise between blur and ringing. */
 float lanczos(float x)
 {
     float a = LSF_PI * x;
     return abs(x) < 1e-4 ? 1.0 : abs(x) < 3.0 ? 3.0 * sin(a) * sin(a / 3.0) / (a * a) : 0.0;
 }
 
-/* Between texels; no brighter or darker than the four around. */
+/* Interpolates between texels, clamped to the range of the four around. */
 vec4 old_picture(vec2 from)
 {
     ivec2 size = textureSize(guide_texture, 0), corner = ivec2(floor(from));
@@ -84,7 +87,8 @@ vec4 old_picture(vec2 from)
     return vec4(clamp(sum / weight, low, high), samples);
 }
 
-/* The picture of the frame before, moved as the nearest surface around the pixel, so that edges keep both sides. */
+/* The picture of the previous frame, moved like the nearest surface around the pixel, so that both sides of edges
+ * move together. */
 vec4 carried_picture(ivec2 pixel, light_guide g)
 {
     ivec2 size = textureSize(guide_texture, 0);
@@ -119,11 +123,11 @@ vec4 carried_picture(ivec2 pixel, light_guide g)
 }
 
 #if LSF_LOBE
-/* How far the mirrored direction moves within the lobe from frame to frame, in widths of the lobe. */
+/* Movement of the mirrored direction within the lobe from frame to frame, in widths of the lobe. */
 float lobe_drift(light_guide g)
 {
     vec3 former = former_eye.w == 0.0 ? -former_eye.xyz : normalize(former_eye.xyz - g.position);
-    /* Along the normal of the facets that would mirror the former direction to the viewer. */
+    /* The normal of the microfacets that would mirror the previous direction to the viewer. */
     vec3 h = g.view + reflect(-former, g.normal);
     float nh = dot(g.normal, h);
     vec3 across = h - nh * g.normal;
@@ -178,7 +182,7 @@ void main()
 #if LSF_LOBE
     specular_out /= max(sums.y, 1e-6);
     reach_out.z = lobe_drift(g);
-    /* Reflections move otherwise than what reflects them. */
+    /* Reflections do not move like the surface that reflects them. */
     if (reach_out.z > PARALLAX)
         picture_out.a = -abs(picture_out.a);
 #endif

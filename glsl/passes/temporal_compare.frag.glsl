@@ -1,5 +1,5 @@
-/* Luminance of a frame's light without tint, and how far it is from the history that was carried to it; for
- * temporal_window. Switch LSF_LOBE: there is specular light. */
+/* Luminance of a frame's light without tint, and its difference from the reprojected history; for temporal_window.
+ * Switch LSF_LOBE: there is specular light. */
 #include "lib/light_clear.glsl"
 
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* of lsf_light_mean_part */

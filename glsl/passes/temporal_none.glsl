@@ -1,4 +1,4 @@
-/* Where there is no luminance, or no difference, to tell. */
+/* Value of a luminance, or of a difference, that is unknown. */
 #ifndef LSF_PASSES_TEMPORAL_NONE
 #define LSF_PASSES_TEMPORAL_NONE
 

@@ -1,5 +1,5 @@
-/* The picture with the light that the history changes, and what of the frame the next one's points are compared with.
- * Switch LSF_LOBE: there is specular light. */
+/* The picture with the history's change of its light, and the values of the frame to which points of the next one
+ * are compared. Switch LSF_LOBE: there is specular light. */
 #include "lib/view.glsl"
 
 #include "lib/light_guide.glsl"
@@ -15,7 +15,8 @@ layout(binding = 8) uniform sampler2D blended_specular_texture;
 layout(location = 0) out vec4 picture_out;
 layout(location = 1) out uvec4 guide_out;
 
-/* Pixels that depths within a pixel may deviate by: more is an edge, whose light is no one surface's. */
+/* Deviation of depth within a pixel [pixels] above which it shows an edge, whose light belongs to no single
+ * surface. */
 #define ONE_SURFACE 1.0
 
 void main()

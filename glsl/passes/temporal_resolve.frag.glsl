@@ -1,9 +1,10 @@
-/* The picture blended with those of the frames before, so that edges, textures and shadows have the samples of all. Where
- * things move apart or light has changed, what was there before is held to what is seen around the pixel now. */
+/* Blends the picture with those of the previous frames, so that edges, textures and shadows have the samples of
+ * all of them. Where neighbours move apart or lighting has changed, the history is clamped to the pixel's current
+ * neighbourhood. */
 layout(binding = 0) uniform sampler2D picture_texture;
-layout(binding = 1) uniform sampler2D carried_texture; /* A: samples; less than 0: to be held */
+layout(binding = 1) uniform sampler2D carried_texture; /* A: samples; below 0: to be clamped */
 layout(location = 1) uniform float iterations;
-layout(location = 2) uniform float limit; /* samples of those before, for each of the frame's */
+layout(location = 2) uniform float limit; /* samples of the history per sample of the frame */
 layout(location = 0) out vec4 picture_out; /* A: samples */
 
 bool finite(vec3 v)
@@ -11,7 +12,8 @@ bool finite(vec3 v)
     return !any(isnan(v)) && !any(isinf(v));
 }
 
-/* Within a standard deviation of the neighbours' mean (Salvi 2016, "An Excursion in Temporal Supersampling"). */
+/* Clamps to within a standard deviation of the neighbours' mean (Salvi 2016, "An Excursion in Temporal
+ * Supersampling"). */
 vec3 held(ivec2 pixel, vec3 before)
 {
     ivec2 size = textureSize(picture_texture, 0);

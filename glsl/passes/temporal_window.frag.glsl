@@ -1,4 +1,4 @@
-/* What 3 x 3 neighbours on one surface tell of a frame's light: the first of two steps, of which temporal_blend takes
+/* Statistics of a frame's light over 3 x 3 neighbours on one surface: the first of two steps; temporal_blend takes
  * the second, 3 pixels apart. Switch LSF_LOBE: there is specular light. */
 #include "lib/view.glsl"
 
@@ -10,14 +10,14 @@ layout(location = 0) out vec4 window_out[1 + LSF_LOBE]; /* mean and variance of 
                                                          * variance of the light, below 0: unknown; weight of the
                                                          * first two, 0: unknown */
 
-/* Weight, mean and variance of what has some. */
+/* Weight, mean and variance of the known values. */
 struct tally {
     float sum, first, second;
 };
 
 void add(inout tally t, float value, float origin, float w)
 {
-    float d = value - origin; /* small numbers, or their squares lose all digits */
+    float d = value - origin; /* small numbers, because squares of large ones lose all digits */
     if (value == NONE)
         return;
     t.sum += w;

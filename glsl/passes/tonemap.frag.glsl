@@ -4,7 +4,7 @@
 layout(binding = 0) uniform sampler2D radiance_texture;
 layout(location = 0) uniform float exposure_scale; /* 2^EV */
 layout(location = 1) uniform int curve;
-layout(location = 2) uniform vec4 window; /* its lower left corner, and texels to its pixels */
+layout(location = 2) uniform vec4 window; /* its lower left corner, and texels per pixel */
 layout(location = 3) uniform bool rows_from_top;
 layout(location = 0) out vec4 display_out;
 

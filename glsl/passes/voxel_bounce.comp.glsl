@@ -1,5 +1,4 @@
-/* What voxels reflect of the light that arrives at them from others and from beyond, on each side of
- * their surface. */
+/* Light from other voxels and from the environment that voxels reflect, on each side of their surface. */
 #include "lib/environment.glsl"
 #include "lib/sky.glsl"
 #include "lib/voxel_reflect.glsl"
@@ -17,16 +16,17 @@ layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D gloss_texture;
 #if LSF_TRANSMISSION
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_texture;
 #endif
-layout(location = 0) uniform bvec3 sum_of; /* what was there, the base, what is reflected */
+layout(location = 0) uniform bvec3 sum_of; /* terms of the output: its previous value, the base, the reflected
+                                            * light */
 
-/* Voxels take the turns of a 4 x 4 x 4 pattern. */
+/* Rotation of the cone set, from a pattern of 4 x 4 x 4 voxels. */
 float cell_turn(ivec3 cell)
 {
     uvec3 c = uvec3(cell) & 3u;
     return float((c.x * 5u + c.y * 9u + c.z * 3u) & 15u) / 16.0;
 }
 
-/* The mean radiance that a side sees, weighted by the cosine to its shading normal and by what it reflects. */
+/* Mean radiance at a side, weighted by the cosine to its shading normal and by its reflectance. */
 vec3 gather(reflector material, vec3 place, vec3 n, vec3 shading, float turn)
 {
     vec3 tangent, bitangent;

@@ -1,5 +1,5 @@
-/* What each voxel sends out. Switches LSF_EMIT: what it emits, in the place of what was there, else what
- * follows is added; LSF_REFLECT: what it reflects of the light in turn, from the side that faces it. */
+/* Light that voxels send out. Switches LSF_EMIT: their emission, which replaces the previous value, else the
+ * following is added; LSF_REFLECT: the light of the current light that the side facing it reflects. */
 #include "lib/voxel_reflect.glsl"
 #include "lib/voxel_shading.glsl"
 #include "lib/voxel_sides.glsl"
@@ -12,8 +12,8 @@
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
-/* The shadow map has the unit of points here. Theirs is that of gloss then, and gloss has that of
- * radiance, which is an image in this pass. */
+/* The shadow map uses the unit of points here. Points use that of gloss, and gloss that of radiance, which is an
+ * image in this pass. */
 layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
 #if LSF_REFLECT && LSF_VOXEL_GLOSS
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform usampler3D gloss_texture;
@@ -25,11 +25,11 @@ layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_te
 layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D emission_texture;
 #endif
 
-/* Places in voxels are kept to 2^-10 of a voxel; the receiver is lifted off its surface by as much. */
+/* Points in voxels are stored to 2^-10 of a voxel, and the receiver is lifted off its surface by as much. */
 #define LIFT (1.0 / 1024.0)
 
 #if LSF_SKY
-/* Rays that find the environment from a voxel by chance, drawn by the cosine. */
+/* Number of cosine-distributed rays that find the environment from a voxel. */
 layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 #endif
 
@@ -59,7 +59,7 @@ vec3 reflected(ivec3 cell, vec3 n, vec3 shading, out bool front)
     vec3 side = front ? n : -n;
     float cosine = max(dot(front ? shading : -shading, to_light), 0.0);
 #if LSF_SKY
-    float density = light.intensity.w; /* 0: no part of the environment */
+    float density = light.intensity.w; /* 0: the light is no part of the environment */
     if (density > 0.0)
         irradiance *= density / (density + sky_rays * cosine / LSF_PI);
 #endif
@@ -87,7 +87,7 @@ void put(ivec3 cell, int slice, float share, vec3 radiance)
     imageStore(radiance_image, texel, min(sum, RADIANCE_MAX));
 }
 
-/* Where a side's radiance belongs; returns the slices, a bit each. */
+/* Stores the radiance of a side; returns the slices written, a bit each. */
 uint put_side(ivec3 cell, vec3 n, bool front, vec3 radiance)
 {
 #if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_AXES
@@ -96,7 +96,7 @@ uint put_side(ivec3 cell, vec3 n, bool front, vec3 radiance)
         int slice = lobe_slice(axis, n[axis], front);
 #if !LSF_EMIT
         if (n[axis] == 0.0)
-            continue; /* where emission has put nothing */
+            continue; /* emission has written nothing there */
 #endif
         put(cell, slice, n[axis] * n[axis], radiance);
         slices |= n[axis] == 0.0 ? 0u : 1u << slice;

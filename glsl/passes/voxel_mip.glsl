@@ -1,8 +1,8 @@
-/* A texel of a radiance pyramid's level from the eight below it. Switch LSF_VOXEL_SIDES: 1, where the
- * texel is their mean, or LSF_VOXEL_SIDES_AXES, where it is what one sees of them along the slice's
- * direction: the nearer of each pair before the farther, then the mean of the four pairs (Crassin,
- * Neyret, Sainz, Green and Eisemann 2011, "Interactive Indirect Illumination Using Voxel Cone
- * Tracing", section 6.2). Radiance is multiplied by opacity throughout. */
+/* A texel of a level of the radiance pyramid from the eight below it. Switch LSF_VOXEL_SIDES: 1, where the texel
+ * is their mean, or LSF_VOXEL_SIDES_AXES, where it is their view along the slice's direction: in each pair the
+ * nearer texel occludes the farther one, and the four pairs are averaged (Crassin, Neyret, Sainz, Green and
+ * Eisemann 2011, "Interactive Indirect Illumination Using Voxel Cone Tracing", section 6.2). Radiance is
+ * multiplied by opacity throughout. */
 #ifndef LSF_VOXEL_MIP
 #define LSF_VOXEL_MIP
 
@@ -10,7 +10,7 @@
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
 
-/* The pair that begins at texel `front` and goes on by `onward`. */
+/* The pair of texels `front` and `front` + `onward`. */
 vec4 mip_pair(ivec3 front, ivec3 onward, int level)
 {
     vec4 near = texelFetch(radiance_texture, front, level);
@@ -22,7 +22,7 @@ vec4 mip_pair(ivec3 front, ivec3 onward, int level)
 #endif
 }
 
-/* From the texels of the level below. */
+/* The texel from those of the level below. */
 vec4 mip_texel(ivec3 cell, int side, int level)
 {
     int axis = side >> 1, slab = int(grid.size.z) >> (level - 1);

@@ -1,4 +1,4 @@
-/* Level 2, of which a brick is a texel. */
+/* Level 2, of which a brick is one texel. */
 #define VOXEL_BRICK_LANES 1
 #include "lib/voxel_brick.glsl"
 #include "passes/voxel_mip.glsl"

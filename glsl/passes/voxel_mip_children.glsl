@@ -1,13 +1,13 @@
-/* The eight texels of level 1 in a brick, those that hold voxels. */
+/* The eight texels of level 1 in a brick that hold voxels. */
 #ifndef LSF_PASSES_VOXEL_MIP_CHILDREN
 #define LSF_PASSES_VOXEL_MIP_CHILDREN
 
 #include "lib/voxel_brick.glsl"
 
-/* Of two times two columns of voxels, as half a brick's bits have them. */
+/* Mask of two times two columns of voxels in the bits of half a brick. */
 const uint corner_voxels = 0x00330033u;
 
-/* A bit each. */
+/* A bit for each texel that holds voxels. */
 uint brick_children(lsf_voxel_brick_data brick)
 {
     uint children = 0u;
@@ -24,10 +24,10 @@ ivec3 child_cell(lsf_voxel_brick_data brick, int child)
     return 2 * voxel_brick_unpack(brick.place) + ivec3(child & 1, (child >> 1) & 1, child >> 2);
 }
 
-/* What the pass does to a texel of level 1. */
+/* The including shader defines the operation on a texel of level 1. */
 void visit_child(ivec3 cell, int side);
 
-/* All of the bricks' texels that hold voxels, those of a brick shared among its lanes. */
+/* Visits all texels of the bricks that hold voxels; those of a brick are shared among its lanes. */
 void visit_children()
 {
     uint at;

@@ -1,4 +1,4 @@
-/* Empties levels 1 and 2 where bricks held voxels. */
+/* Clears levels 1 and 2 where bricks held voxels. */
 #include "passes/voxel_mip.glsl"
 #include "passes/voxel_mip_children.glsl"
 

@@ -1,4 +1,4 @@
-/* Level 1, where bricks hold voxels. */
+/* Level 1, in bricks that hold voxels. */
 #include "passes/voxel_mip.glsl"
 #include "passes/voxel_mip_children.glsl"
 

@@ -1,4 +1,4 @@
-/* A whole level: the coarse ones, in which little is empty. */
+/* A whole level, for the coarse ones, of which little is empty. */
 #include "passes/voxel_mip.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;

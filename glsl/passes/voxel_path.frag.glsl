@@ -1,7 +1,7 @@
-/* Uni-directional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches
- * LSF_EMISSION (surfaces shine), LSF_EMITTERS (points on them are drawn), LSF_ENVIRONMENT,
- * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS, LSF_VOXEL_BENT, LSF_TRANSMISSION, LSF_ABSORPTION (there
- * are media) and those of the libraries. */
+/* Unidirectional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches LSF_EMISSION
+ * (surfaces emit), LSF_EMITTERS (points on them are sampled), LSF_ENVIRONMENT, LSF_SPLIT_DIRECT,
+ * LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS, LSF_VOXEL_BENT, LSF_TRANSMISSION, LSF_ABSORPTION (there are
+ * media) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
@@ -46,18 +46,18 @@ layout(location = 3) out vec4 direct_specular_out;
 #endif
 #endif
 
-/* Where a path has come to. */
+/* The current vertex of a path. */
 struct path_vertex {
-    vec3 position, view; /* [voxels]; unit, back along the path */
+    vec3 position, view; /* [voxels]; unit, towards the previous vertex */
     surface s;
 };
 
-/* Light in the two parts that compose wants. */
+/* The two parts of light that compose takes. */
 struct light_parts {
     vec3 irradiance, specular;
 };
 
-light_parts indirect, direct; /* sums over the pixel's paths; direct: from the first segment */
+light_parts indirect, direct; /* sums over the pixel's paths; direct: light found by the first segment */
 
 void add_light(light_parts through, vec3 radiance, bool is_direct)
 {
@@ -72,13 +72,13 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
     indirect.specular += through.specular * radiance;
 }
 
-/* The voxel that a path meets on its way from v; in its last segment only where something shines on the way. */
+/* The voxel that a path from v hits. The last segment is traced only if there may be emission on it. */
 bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
 {
     vec3 lift = voxel_lift(v.s.geometric_normal);
     vec3 start = v.position + lift;
 #if LSF_TRANSMISSION
-    /* Through the surface it starts on its way, where this leaves the plane's voxels soon. */
+    /* A ray through the surface starts where it leaves the voxels of the plane. */
     float sinks = -dot(v.s.geometric_normal, direction);
     bool inside = v.s.volume && v.s.front == (sinks > 0.0);
     if (inside) {
@@ -102,7 +102,7 @@ bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
     return voxel_leave_start(ray) && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
 }
 
-/* A voxel's surface as it is seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
+/* The surface of a voxel, seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
 path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 {
     path_vertex v;
@@ -128,7 +128,7 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     v.s.f0 = gloss.z * gloss.z;
     v.s.metallic = gloss.w;
 #if LSF_ANISOTROPY
-    /* The inverse of lsf_alpha_along_tangent, and the turn from the frame of n to that of -n. */
+    /* The inverse of lsf_alpha_along_tangent, and the rotation from the frame of n to that of -n. */
     float alpha = lsf_alpha_from_roughness(gloss.y);
     v.s.anisotropy = sqrt(clamp((gloss.x * gloss.x - alpha) / max(1.0 - alpha, 1e-4), 0.0, 1.0));
     vec3 t, b, own_t, own_b;
@@ -142,7 +142,7 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 #if LSF_TRANSMISSION
     transmission_unpack(texelFetch(voxel_transmission_bits, cell, 0).r, v.s);
     transmission_turn(v.s, side == 0);
-    /* Light goes on from where it meets the surface, not from the voxel's own point. */
+    /* The path continues from its hit with the plane, not from the voxel's stored point. */
     float meets = dot(n, direction);
     if (v.s.transmission > 0.0 && meets != 0.0) {
         vec3 there = origin + direction * (dot(n, v.position - origin) / meets);
@@ -152,8 +152,8 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     return v;
 }
 
-/* Absorption of the medium that a ray from v goes through, which came through `before`; 0: air. Media do not
- * nest. */
+/* Absorption of the medium around a ray that leaves v; `before`: that around the previous segment; 0: air. Media
+ * do not nest. */
 vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)
 {
 #if LSF_ABSORPTION
@@ -165,13 +165,13 @@ vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)
     return before;
 }
 
-/* Beer and Lambert's law: what is left of light after a way in the grid. */
+/* Beer-Lambert law: transmittance over a vector in the grid. */
 vec3 left_after(vec3 absorption, vec3 way)
 {
     return exp(-absorption * (length(way) * grid.origin.w));
 }
 
-/* Emission of the voxel towards one side, in the grid's unit. */
+/* Emission of one side of the voxel, in the grid's unit. */
 vec3 emission_of(ivec3 cell, int side)
 {
 #if LSF_EMISSION
@@ -181,7 +181,7 @@ vec3 emission_of(ivec3 cell, int side)
     return vec3(0.0);
 }
 
-/* What light from a direction counts for: `through` the path so far, times f cos / density. */
+/* Throughput for light from a direction: `through` the path so far, times f cos / density. */
 light_parts reflect_by(light_parts through, path_vertex v, brdf_value f, float weight, int segment)
 {
     if (segment == 0)
@@ -191,7 +191,7 @@ light_parts reflect_by(light_parts through, path_vertex v, brdf_value f, float w
 }
 
 #if LSF_EMITTERS
-/* Light of points that are drawn on emitters, its share of what the segment from v finds. */
+/* Adds light of points drawn on emitters, weighted against segments from v that hit them. */
 void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v, vec3 absorption,
                   path_random_key key, uint index, int segment)
 {
@@ -216,7 +216,7 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
     }
 }
 
-/* Of what a segment finds by its direction, drawn from v with density `pdf`: a voxel that shines. */
+/* Weight of the emission of a voxel that a direction drawn from v with density `pdf` hits. */
 float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_vertex met, vec3 emission)
 {
     float drawn = emitter_density_met(v.position, direction, met.position, met.s.geometric_normal,
@@ -225,9 +225,8 @@ float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_verte
 }
 #endif
 
-/* The way on from v: draws a direction with density `pdf` and takes what it counts for into `through`. False: no
- * light comes from there. A direction through the surface has the density 0 here: no other way finds what
- * it meets. */
+/* Draws the next direction from v with density `pdf` and multiplies its weight into `through`. False: no light is
+ * reflected from there. A direction through the surface gets density 0, because no other strategy finds its hits. */
 bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segment,
                     inout light_parts through, out vec3 direction, out float pdf)
 {
@@ -251,9 +250,9 @@ bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segmen
 }
 
 #if LSF_ENVIRONMENT
-/* Radiance from outside along a direction drawn with density `pdf`; directions drawn by this radiance have
- * the rest of it: from a visible point, which sends out `count` paths, by its BRDF, from voxels by the
- * cosine, as voxel_light has it. What passes a surface nothing else finds. */
+/* Radiance of the environment along a direction drawn with density `pdf`, weighted against directions drawn by
+ * this radiance: at a visible point, which has `count` paths, by its BRDF, at voxels by the cosine, as in
+ * voxel_light. Light through a surface is found by no other strategy. */
 vec3 sky_found(path_vertex v, vec3 direction, float pdf, int segment, float count)
 {
     vec3 radiance = environment_radiance(direction);
@@ -264,7 +263,7 @@ vec3 sky_found(path_vertex v, vec3 direction, float pdf, int segment, float coun
 }
 #endif
 
-/* The `index`-th path of all iterations, one of `count` of this one. */
+/* Traces the path with number `index` among those of all iterations, one of `count` of this one. */
 void add_path(path_vertex v, path_random_key key, uint index, int count)
 {
     light_parts through = light_parts(vec3(1.0), vec3(1.0));
@@ -294,8 +293,8 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
         through.irradiance *= left;
         through.specular *= left;
 #endif
-        /* What the last segment meets may shine, but has no bounce left to reflect with; and what the
-         * first one meets shines as direct light. */
+        /* The last segment collects emission, with no bounce left to reflect other light; emission at the first
+         * hit counts as direct light. */
         vec3 radiance = vec3(0.0);
         if (segment < lengths.x)
             radiance = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
@@ -332,7 +331,7 @@ void main()
 #if LSF_GLOSS
         gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
 #endif
-        /* More of them the rougher it is, by the larger of its roughnesses. */
+        /* The number of samples grows with the larger of the surface's roughnesses. */
         float roughness = surface_widest_roughness(v.s);
         int count = int(mix(float(lengths.z), float(lengths.w), roughness) + 0.5);
         path_random_key key;

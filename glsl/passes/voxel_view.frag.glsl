@@ -1,4 +1,4 @@
-/* The first voxel that a pixel's ray meets. */
+/* The first voxel on a pixel's ray. */
 #include "lib/view.glsl"
 #include "lib/voxel_trace.glsl"
 

@@ -1,7 +1,7 @@
-/* A fragment a column of voxels. */
+/* Each fragment is a column of voxels. */
 #include "passes/voxelize_mark.glsl"
 
-in flat ivec2 triangle; /* and the axis that it is seen along */
+in flat ivec2 triangle; /* number, and the axis of projection */
 
 void main()
 {

@@ -1,7 +1,7 @@
-/* Enlarges a triangle, seen along its normal's longest axis, to all pixel centres whose pixels it touches:
- * the Minkowski sum with a pixel, whose corners are those of a pixel at each corner of the triangle
- * (Hasselgren, Akenine-Moeller and Ohlsson 2005, GPU Gems 2, chapter 42, first algorithm). Slivers need
- * nothing of their own: no corner lies farther out than a pixel. */
+/* Conservative rasterisation: enlarges a triangle, projected along its normal's longest axis, to cover the centres
+ * of all pixels that it touches. The result is the Minkowski sum with a pixel, whose corners are those of a pixel
+ * at each corner of the triangle (Hasselgren, Akenine-Moeller and Ohlsson 2005, GPU Gems 2, chapter 42, first
+ * algorithm). Slivers are no special case: no corner lies farther out than a pixel. */
 #include "lib/voxel.glsl"
 
 layout(triangles) in;
@@ -12,11 +12,11 @@ layout(location = 27) uniform float side; /* of the viewport [pixels] */
 in vec3 corner[3];
 out flat ivec2 triangle;
 
-/* Half a pixel, and what snapping to the raster's subpixels (2^-4 at least: GL 4.5, table 23.55) and its
- * fill rule may take off. */
+/* Half a pixel, plus what snapping to the raster's subpixels (2^-4 at least: GL 4.5, table 23.55) and its fill
+ * rule may remove. */
 #define REACH (0.5 + 1.0 / 16.0)
 
-/* The corner of a pixel that is farthest out from the left of e. */
+/* The pixel corner that is farthest to the right of e. */
 vec2 outermost(vec2 e)
 {
     return vec2(e.y >= 0.0 ? 1.0 : -1.0, e.x >= 0.0 ? -1.0 : 1.0);

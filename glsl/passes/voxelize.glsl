@@ -1,5 +1,6 @@
-/* A triangle of the instance in turn in the grid. LSF_VOXELIZE_ID_BITS of a bid tell the triangle. Switch
- * LSF_VOXEL_CHANCE: surfaces that transmit are there by chance, for cones that march cannot go on behind one. */
+/* A triangle of the current instance in the grid. The lowest LSF_VOXELIZE_ID_BITS of a bid are the triangle's
+ * number. Switch LSF_VOXEL_CHANCE: transmitting surfaces are present with some probability, because marching cones
+ * cannot continue behind them. */
 #ifndef LSF_PASSES_VOXELIZE
 #define LSF_PASSES_VOXELIZE
 
@@ -10,10 +11,10 @@
 #define LSF_VOXEL_CHANCE 0
 #endif
 
-layout(location = 0) uniform uint first_triangle; /* of the instance among all */
+layout(location = 0) uniform uint first_triangle; /* of the instance, in the numbering of all triangles */
 
-/* Rounding of positions in a grid of 512 voxels is 2^-15 of a voxel, that of distances to edges a few
- * times as much; what comes closer than this counts as touching. [voxels] */
+/* Positions in a grid of 512 voxels are rounded to 2^-15 of a voxel, and distances to edges to a few times as
+ * much; triangles that come closer than this touch. [voxels] */
 const float slack = 1.0 / 4096.0;
 
 const uint id_mask = (1u << LSF_VOXELIZE_ID_BITS) - 1u;
@@ -21,12 +22,12 @@ const uint id_mask = (1u << LSF_VOXELIZE_ID_BITS) - 1u;
 struct voxel_triangle {
     uint id;
     uvec3 corners;
-    int axis;           /* that columns run along */
-    vec3 a, b, c;       /* [voxels], turned so that this axis is z */
+    int axis;           /* axis of the columns */
+    vec3 a, b, c;       /* [voxels], permuted so that this axis is z */
     vec3 ab, bc, ca;    /* b - a and so on, without the rounding of a and b */
-    vec3 normal;        /* turned; its length is twice the area */
+    vec3 normal;        /* permuted; its length is twice the area */
     vec2 plane_slope;   /* of z over x and y */
-    ivec2 low, columns; /* that its bounds cover */
+    ivec2 low, columns; /* covered by its bounds */
     ivec2 depth;        /* first and last voxel along z */
 };
 
@@ -55,8 +56,8 @@ int longest_axis(vec3 v)
     return m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
 }
 
-/* In double precision up to normal and edges: rounding would turn those of a sliver the more, the narrower
- * it is. `axis`: that columns run along, -1 for the normal's longest. False when it has no area. */
+/* Normal and edges are computed in double precision, because rounding rotates those of a sliver the more, the
+ * narrower it is. `axis`: that of the columns, -1 for the normal's longest. False when the triangle has no area. */
 bool triangle_load(uint triangle, int axis, out voxel_triangle t)
 {
     t.id = first_triangle + triangle;
@@ -83,8 +84,8 @@ bool triangle_load(uint triangle, int axis, out voxel_triangle t)
     return true;
 }
 
-/* The point of an edge, from `corner` along e, that is closest to p: how far along, 0..1, and its distance's
- * square. */
+/* The point of an edge, from `corner` along e, that is closest to p: its position along the edge, 0..1, and its
+ * squared distance. */
 vec2 closest_on_edge(vec3 p, vec3 corner, vec3 e)
 {
     vec3 way = p - corner;
@@ -93,7 +94,7 @@ vec2 closest_on_edge(vec3 p, vec3 corner, vec3 e)
     return vec2(at, dot(way, way));
 }
 
-/* Barycentric coordinates of the triangle's point that is closest to p: p's projection where that lies
+/* Barycentric coordinates of the point of the triangle that is closest to p: p's projection where that lies
  * inside, else the closest point of the nearest edge. */
 vec3 closest_weights(voxel_triangle t, vec3 p)
 {
@@ -111,12 +112,12 @@ vec3 closest_weights(voxel_triangle t, vec3 p)
                               : vec3(on_ca.x, 0.0, 1.0 - on_ca.x);
 }
 
-/* Voxels to a cube's side in which a layer decides as one whether it is there; the fewer of its cubes meet, the
- * fewer rays meet two of them on their way through one sheet of voxels. */
+/* Side [voxels] of the cubes for each of which a layer draws once whether it is present. Larger cubes make fewer
+ * rays meet two of them while they cross one sheet of voxels. */
 #define BLEND_CUBE 32u
 
-/* Of an instance, what faces to one side of a plane is a layer, what faces to the other another: its front and its
- * back. Plane and cubes lie elsewhere in each iteration. */
+/* The parts of an instance that face to either side of a plane are two layers, such as its front and its back.
+ * Plane and cubes move with each iteration. */
 uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
 {
 #if LSF_BLEND || LSF_VOXEL_CHANCE
@@ -131,8 +132,8 @@ uvec3 voxel_layer_key(voxel_triangle t, ivec3 cell)
 }
 
 #if LSF_VOXEL_CHANCE
-/* With which probability a surface that transmits is not there: its transmittance to diffuse light, of which
- * Schlick's term takes f0 + (f90 - f0) / 21, without its colour. */
+/* Probability that a transmitting surface is absent: its transmittance for diffuse light without its colour, with
+ * the mean of Schlick's term, f0 + (f90 - f0) / 21. */
 float voxel_passes(surface s)
 {
     float f0 = largest(surface_f0(s));
@@ -142,10 +143,11 @@ float voxel_passes(surface s)
 }
 #endif
 
-/* The surface about the voxel's centre; false where an alpha mask cuts it out, or a blended one is not there. */
+/* The surface closest to the voxel's centre; false where an alpha mask, or the draw for a blended surface, removes
+ * it. */
 bool surface_in(voxel_triangle t, ivec3 cell, vec3 weights, out surface s, out vec3 emission)
 {
-    /* A voxel's face has the area 1, the triangle half of its normal's length. */
+    /* The face of a voxel has the area 1, and the triangle half the length of its normal. */
     material_point point = triangle_point(t.corners, weights, 2.0 / length(t.normal));
     point.key = voxel_layer_key(t, cell);
     if (!material_surface(triangle_material(), point, s, emission))

@@ -1,5 +1,5 @@
-/* What spares rays work: what each voxel keeps of those beside it, VOXEL_BESIDE in lib/voxel.glsl; and which bricks
- * hold voxels that emit. Switch LSF_EMISSION. */
+/* Precomputed bits that save rays work: those of each voxel about its neighbours, VOXEL_BESIDE in lib/voxel.glsl,
+ * and those of bricks that hold emitting voxels. Switch LSF_EMISSION. */
 #include "lib/voxel_brick.glsl"
 #include "lib/voxel_trace.glsl"
 
@@ -10,7 +10,7 @@ layout(binding = 1, r32ui) uniform uimage3D shining_image;
 layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
 #endif
 
-/* Voxels of one plane have the same normal, and points that are rounded to 2^-11 along each axis. */
+/* Voxels of one plane have equal normals, and points rounded to 2^-11 along each axis. */
 #define SAME_PLANE (1.0 / 512.0)
 
 vec3 point_in(ivec3 cell)
@@ -30,7 +30,7 @@ uint look_beside(ivec3 cell, uint normal)
         vec3 beside_n = voxel_normal_unpack(other), beside_q = point_in(beside);
         float height = dot(n, beside_q - q);
         bool same = ((normal ^ other) & VOXEL_NORMAL_BITS) == 0u && abs(height) < SAME_PLANE;
-        /* Whether the other's plane comes through the cell, so that a ray may cross it there. */
+        /* Whether the neighbour's plane passes through the cell, so that a ray may cross it there. */
         float reach = 0.5 * (abs(beside_n.x) + abs(beside_n.y) + abs(beside_n.z)) + 2.0 * VOXEL_PLANE;
         if (!same && abs(dot(beside_n, vec3(cell) + 0.5 - beside_q)) < reach)
             seen |= 1u << side;
@@ -51,7 +51,7 @@ void main()
     bool shines = false;
     for (int n = voxel_brick_lane(); n < voxels; n += VOXEL_BRICK_LANES) {
         ivec3 cell = voxel_brick_cell(brick, n);
-        /* Others may read it meanwhile, but only the normal's bits, which stay the same. */
+        /* Other invocations may read the word meanwhile, but only the bits of the normal, which do not change. */
         uint normal = imageLoad(normal_image, cell).r & VOXEL_NORMAL_BITS;
         imageStore(normal_image, cell, uvec4(normal | look_beside(cell, normal) << VOXEL_BESIDE_SHIFT));
 #if LSF_EMISSION

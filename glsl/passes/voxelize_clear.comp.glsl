@@ -1,4 +1,4 @@
-/* Empties what was occupied. Switch LSF_EMISSION. */
+/* Clears the voxels that were occupied. Switch LSF_EMISSION. */
 #include "lib/voxel_brick.glsl"
 
 layout(binding = 0, r32ui) writeonly uniform uimage3D key_image;

@@ -1,4 +1,4 @@
-/* Lists each brick's voxels with it, and how many of them each instance has won. */
+/* Lists each brick's voxels with the brick, and counts the voxels that each instance has won. */
 #include "lib/voxel_brick.glsl"
 #include "passes/voxelize_list.glsl"
 

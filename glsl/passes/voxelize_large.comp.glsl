@@ -1,5 +1,5 @@
-/* Tiles of large triangles. An invocation takes a row of a tile's columns, so that what it costs to
- * load the triangle is shared. */
+/* Tiles of large triangles. Each invocation takes a row of a tile's columns, so that the cost of loading the
+ * triangle is shared. */
 #include "passes/voxelize_mark.glsl"
 
 layout(local_size_x = LSF_VOXELIZE_TILE * LSF_VOXELIZE_GROUP_TILES) in;

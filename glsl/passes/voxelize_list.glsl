@@ -6,10 +6,10 @@
 
 layout(binding = 0, r32ui) readonly uniform uimage3D key_image;
 
-/* An instance, in the order of draws. */
+/* An instance, in draw order. */
 struct voxelize_draw {
-    uint groups_x, groups_y, groups_z; /* a dispatch over its voxels */
-    uint first, count;                 /* of its voxels in the list */
+    uint groups_x, groups_y, groups_z; /* dispatch over its voxels */
+    uint first, count;                 /* range of its voxels in the list */
     uint listed;
     uint first_triangle, triangles;    /* among all */
 };
@@ -29,7 +29,7 @@ uint winner(ivec3 cell)
     return mask - (imageLoad(key_image, cell).r & mask);
 }
 
-/* The draw whose triangle it is, by bisection. */
+/* The draw to which a triangle belongs, by bisection. */
 uint draw_of(uint triangle)
 {
     uint low = 0u, high = uint(draws.length());

@@ -1,6 +1,6 @@
-/* Which voxels a triangle touches, exactly: all but those that the axes of the box, of the triangle's
- * plane, or of their nine edge pairs separate from it (Akenine-Moeller 2001; as edge functions in the three
- * projections: Schwarz and Seidel 2010, section 4). It bids for each of them. */
+/* The voxels that a triangle touches, exactly: all except those that the axes of the box, of the triangle's plane,
+ * or of their nine edge pairs separate from it (Akenine-Moeller 2001; as edge functions in the three projections:
+ * Schwarz and Seidel 2010, section 4). The triangle bids for each of them. */
 #include "passes/voxelize.glsl"
 
 layout(binding = 0, r32ui) coherent uniform uimage3D key_image;
@@ -11,8 +11,8 @@ layout(std430, binding = LSF_BINDING_BRICKS) coherent buffer lsf_brick_block
     lsf_voxel_brick_data bricks[];
 };
 
-/* Whether the unit square at `low` reaches the inner side of the edge from p along e, where the
- * triangle turns to the left (1) or to the right (-1). */
+/* Whether the unit square at `low` reaches the inner side of the edge from p along e; `left`: 1 where the triangle
+ * is counter-clockwise, -1 where it is clockwise. */
 bool edge_reaches(vec2 p, vec2 e, float left, vec2 low)
 {
     vec2 inward = left * vec2(-e.y, e.x);
@@ -41,8 +41,9 @@ bool edges_reach_zx(voxel_triangle t, vec2 low)
            edge_reaches(t.c.zx, t.ca.zx, left, low);
 }
 
-/* The bid: nearer to the voxel's centre wins, then the first triangle. The distance is that of the triangle,
- * not of its plane: of two in one plane each gets the voxels whose centres lie over it. */
+/* The bid: the triangle nearer to the voxel's centre wins, then the one with the lower number. The distance is
+ * that of the triangle, not of its plane: of two triangles in one plane, each gets the voxels whose centres lie
+ * over it. */
 void bid(voxel_triangle t, ivec3 cell, vec3 low)
 {
     vec3 weights = closest_weights(t, low + 0.5);
@@ -55,10 +56,10 @@ void bid(voxel_triangle t, ivec3 cell, vec3 low)
     vec3 nearest_point = t.a * weights.x + t.b * weights.y + t.c * weights.z;
     float distance = length(nearest_point - (low + 0.5));
     const uint nearest = 0xffffffffu >> LSF_VOXELIZE_ID_BITS;
-    /* What meets a voxel is at most half its diagonal away, sqrt(3) / 2. */
+    /* A triangle that touches a voxel is at most half the voxel's diagonal away, sqrt(3) / 2. */
     uint near = uint((1.0 - min(distance / 0.8661, 1.0)) * float(nearest));
     uint key = (near << LSF_VOXELIZE_ID_BITS) | (id_mask - t.id);
-    /* Keys only grow: what is beaten now stays so, and needs no atomic operation. */
+    /* Keys only grow: a bid that is beaten now stays beaten and needs no atomic operation. */
     if (imageLoad(key_image, cell).r >= key || imageAtomicMax(key_image, cell, key) != 0u)
         return;
     imageAtomicOr(occupancy_image[0], occupancy_texel(cell), occupancy_bit(cell));
@@ -88,8 +89,8 @@ voxel_walk walk_begin()
     return w;
 }
 
-/* The voxels along z that the plane passes through over the column's square; none where the triangle does
- * not reach it. */
+/* The voxels along z that the plane passes through over the column's square; none where the triangle does not
+ * reach the column. */
 void walk_column(voxel_triangle t, vec2 low, inout voxel_walk w)
 {
     float middle = t.a.z + dot(t.plane_slope, low + 0.5 - t.a.xy);
@@ -121,7 +122,7 @@ void visit_column(voxel_triangle t, ivec2 column)
             bid_inside(t, vec3(w.low, float(z)));
 }
 
-/* All columns. The dear part is for lanes that have found a voxel, each in a column of its own. */
+/* Visits all columns. The expensive part runs in lanes that have each found a voxel in their own column. */
 void visit_all(voxel_triangle t)
 {
     int columns = t.columns.x * t.columns.y;

@@ -1,4 +1,4 @@
-/* The voxels that each instance has won, in its part of the list. */
+/* Writes the voxels that each instance has won to the instance's part of the list. */
 #include "lib/voxel_brick.glsl"
 #include "passes/voxelize_list.glsl"
 

@@ -1,4 +1,4 @@
-/* An invocation a triangle: small ones are done here, of large ones tiles are listed for work groups to
+/* One triangle per invocation: small ones are voxelized here, large ones are listed as tiles for work groups to
  * share. */
 #include "passes/voxelize_mark.glsl"
 
@@ -6,11 +6,11 @@ layout(local_size_x = LSF_VOXELIZE_GROUP) in;
 
 layout(std430, binding = LSF_BINDING_TILES) coherent buffer lsf_tile_block
 {
-    uint tiles[]; /* header as of the list of bricks; then triangle and tile */
+    uint tiles[]; /* header as in the list of bricks; then pairs of triangle and tile */
 };
 
-/* False when they do not all fit in the list: the invocation then does the triangle itself, and what
- * room there was holds no triangle. */
+/* False when the tiles do not all fit in the list: the invocation then voxelizes the triangle itself, and the
+ * slots that were free are marked as empty. */
 bool list_tiles(uint triangle, ivec2 columns)
 {
     ivec2 count = (columns + LSF_VOXELIZE_TILE - 1) / LSF_VOXELIZE_TILE;

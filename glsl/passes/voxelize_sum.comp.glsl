@@ -1,4 +1,4 @@
-/* Where in the list each instance's voxels begin. */
+/* The start of each instance's voxels in the list. */
 #include "passes/voxelize_list.glsl"
 
 layout(local_size_x = 1) in;

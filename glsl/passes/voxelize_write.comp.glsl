@@ -1,5 +1,5 @@
-/* The surface of the winning triangle of each voxel that the instance in turn has won. */
-/* What has won was there. */
+/* Writes the surface of the winning triangle of each voxel that the current instance has won. */
+/* A triangle that has won is present. */
 #undef LSF_MASK
 #undef LSF_BLEND
 #define LSF_MASK 0
@@ -10,7 +10,7 @@
 
 layout(local_size_x = LSF_VOXELIZE_GROUP) in;
 
-layout(location = 28) uniform uint draw; /* the instance's place in the order of draws */
+layout(location = 28) uniform uint draw; /* number of the instance in draw order */
 
 layout(binding = 1, r32ui) writeonly uniform uimage3D albedo_image;
 layout(binding = 2, r32ui) writeonly uniform uimage3D normal_image;
@@ -37,7 +37,7 @@ void write_surface(voxel_triangle t, ivec3 cell)
     if (!surface_in(t, cell, weights, s, emission))
         return;
 #if LSF_VOXEL_CHANCE
-    /* What it reflects counts for all the iterations in which it is not there. */
+    /* Its reflection is weighted for the iterations in which it is absent. */
     s.transmission = 1.0 - (1.0 - s.transmission) / (1.0 - voxel_passes(s));
 #endif
     lsf_material_data material = triangle_material();

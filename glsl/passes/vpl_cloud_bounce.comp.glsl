@@ -1,9 +1,10 @@
-/* Light paths go on through the voxels, from the first vertex that vpl_cloud_light has found or from a point on an
- * emitter. A diffuse virtual point light of intensity I sends out the flux pi I, in directions whose density is
- * cos / pi: a path that is drawn by it carries pi I whatever the direction. Each vertex is a virtual point light of
- * what it reflects; the path goes on from it with the probability that keeps its largest channel as bright as before
- * (Russian roulette), and ends there otherwise. Where it meets what transmits, chance decides whether it passes. Switches
- * LSF_EMISSION, LSF_TRANSMISSION, LSF_VOXEL_PASSAGE and those of the libraries. */
+/* Continues light paths through the voxels, from the first vertex that vpl_cloud_light has found or from a point
+ * on an emitter. A diffuse virtual point light of intensity I sends out the flux pi I, in directions of density
+ * cos / pi, so that a path in such a direction carries pi I whichever it is. Each vertex is a virtual point light
+ * with the intensity that it reflects. The path continues from it with the probability that keeps its largest
+ * channel as bright as before (Russian roulette), and ends there otherwise. At transmitting surfaces the path
+ * passes with a probability of their transmittance. Switches LSF_EMISSION, LSF_TRANSMISSION, LSF_VOXEL_PASSAGE and
+ * those of the libraries. */
 #include "lib/cosine.glsl"
 #include "lib/hash.glsl"
 #include "lib/voxel_reflect.glsl"
@@ -19,16 +20,16 @@ layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D voxel_gloss;
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D voxel_transmission_bits;
 #endif
 
-layout(location = 2) uniform uint vertices; /* that a path may have */
-layout(location = 3) uniform float offset;  /* 0..1, of paths from their points on emitters */
+layout(location = 2) uniform uint vertices; /* largest number of vertices of a path */
+layout(location = 3) uniform float offset;  /* 0..1, shifts the assignment of paths to points on emitters */
 
 float largest_of(vec3 v)
 {
     return max(v.r, max(v.g, v.b));
 }
 
-/* Where the path begins; paths from emitters follow those from lights. As many of them leave from each point on
- * average, which shares its light among them. */
+/* The start of the path; paths from emitters follow those from lights. On average the same number of paths leaves
+ * each point, and they share its light. */
 lsf_vpl_record path_start(uint path, out uint vertex)
 {
     bool of_light = path < cloud_shape.z;
@@ -55,7 +56,7 @@ reflector material_of(ivec3 cell)
     return voxel_material_unpack(texelFetch(voxel_albedo, cell, 0).r, gloss, transmission);
 }
 
-/* What the voxel that the ray has met reflects of light of this intensity. */
+/* The VPL of the voxel that the ray has hit, for light of this intensity. */
 lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint depth)
 {
     uint normal = texelFetch(voxel_normal, cell, 0).r, point = texelFetch(voxel_point, cell, 0).r;
@@ -76,13 +77,13 @@ lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint dept
     return lsf_vpl_record(voxel_to_position(place), octahedral_encode(side), reflected, depth);
 }
 
-/* On to the voxel that reflects the light; `left`: what is left of it. False: there is none. */
+/* Advances to the voxel that reflects the light; `left`: transmittance on the way. False: there is none. */
 bool meet(inout voxel_ray ray, uint path, uint vertex, out ivec3 cell, out vec3 left)
 {
     left = vec3(1.0);
 #if LSF_VOXEL_PASSAGE
     voxel_passage passage = voxel_passage_begin();
-    float weight = 1.0; /* of what chance has decided */
+    float weight = 1.0; /* reciprocal of the probability of passing */
     for (uint i = 0u; i < uint(VOXEL_PASSAGE_MOST); i++) {
         bool sheet;
         if (!voxel_ray_meet(ray, VOXEL_FAR, true, cell))

@@ -1,5 +1,5 @@
-/* Virtual point lights on emissive surfaces: one of n points that was drawn with the density p by area stands for 1 /
- * (n p) of it. */
+/* Virtual point lights on emissive surfaces: one of n points drawn with the density p by area stands for the area
+ * 1 / (n p). */
 #include "lib/emitter.glsl"
 #include "lib/vpl_cloud.glsl"
 

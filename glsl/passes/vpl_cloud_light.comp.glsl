@@ -1,7 +1,7 @@
-/* The first vertices of light paths from the light in turn. A path that is one of n of its light and was drawn with
- * the density p carries the flux I / (n p). The surface that it meets sends the part that it reflects out again as a
- * diffuse one does: the intensity along its normal is that part over pi. */
-#include "lib/reflectance.glsl" /* whose table light_ray.glsl includes under a condition */
+/* The first vertices of light paths from the current light. One of n paths of a light, drawn with the density p,
+ * carries the flux I / (n p). The surface that it hits reflects a part of that diffusely, so that the intensity
+ * along its normal is that part over pi. */
+#include "lib/reflectance.glsl" /* its table is included by light_ray.glsl under a condition */
 #include "lib/light_ray.glsl"
 #include "lib/vpl_cloud.glsl"
 

@@ -1,21 +1,21 @@
-/* Draws virtual point lights from a light's reflective shadow map. */
+/* Samples virtual point lights from the reflective shadow map of a light. */
 #include "lib/light_ray.glsl"
 #include "lib/vpl_write.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(location = 0) uniform uvec2 range; /* the first VPL, and how many */
+layout(location = 0) uniform uvec2 range; /* the first VPL, and their number */
 layout(location = 1) uniform vec2 map_shape; /* as in vpl_map_write */
 
 layout(std430, binding = 3) readonly buffer random_block
 {
-    vec4 random[]; /* two numbers for the direction, one for the map's turn; the probability of
-                    * having picked the light */
+    vec4 random[]; /* two numbers for the direction, one for the map's rotation; the probability of having chosen
+                    * the light */
 };
 
-/* How far a VPL may be off its surface beside the rounding of its position: the error of an octahedral
- * normal (see lib/octahedral.glsl) on the way from the texel's centre, and four roundings (2^-24) of the
- * distance from the light, by the texel's depth and centre, the ray's direction and its length. */
+/* Distance of a VPL from its surface beyond the rounding of its position: the error of an octahedral normal (see
+ * lib/octahedral.glsl) over the distance from the texel's centre, and four roundings (2^-24) of the distance from
+ * the light: of the texel's depth and centre, the ray's direction and its length. */
 #define NORMAL_ERROR 1e-4
 #define DISTANCE_ERROR 2.4e-7
 

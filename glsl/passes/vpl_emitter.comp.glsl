@@ -1,4 +1,4 @@
-/* Places a VPL on an emissive surface; the host has drawn it (scene/emitters.h). */
+/* Places a VPL at a point of an emissive surface that the host has drawn (scene/emitters.h). */
 #include "lib/vpl_write.glsl"
 
 layout(local_size_x = 1) in;
@@ -6,7 +6,7 @@ layout(local_size_x = 1) in;
 layout(location = 0) uniform uint index;
 layout(location = 1) uniform vec4 position; /* w: the map's turn */
 layout(location = 2) uniform vec4 normal;   /* w: density by area */
-layout(location = 3) uniform vec4 radiance; /* w: the density that weights are made of */
+layout(location = 3) uniform vec4 radiance; /* w: the density that goes into the weights */
 layout(location = 4) uniform vec2 map_shape; /* as in vpl_map_write */
 
 void main()

@@ -1,4 +1,4 @@
-/* The triangles that vpl_small.comp.glsl listed, each into one octant of a VPL's map. */
+/* Draws the triangles that vpl_small.comp.glsl has listed into one octant each of a VPL's map. */
 #define LSF_BINDING_TRIANGLES 3
 #include "lib/hemisphere_clip.glsl"
 #include "lib/scene_triangles.glsl"

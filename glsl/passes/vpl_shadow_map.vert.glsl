@@ -1,4 +1,4 @@
-/* The scene into one octant of a VPL's map. */
+/* Draws the scene into one octant of a VPL's map. */
 #include "lib/hemisphere_clip.glsl"
 #include "lib/instance.glsl"
 #include "lib/mask_vertex.glsl"

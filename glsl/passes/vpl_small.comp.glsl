@@ -1,6 +1,5 @@
-/* Draws the scene's triangles into a VPL's map: those of a few texels here, the others are listed
- * for vpl_large.vert.glsl. Setting up a triangle for the pipeline costs more than such a few texels
- * do. */
+/* Draws the scene's triangles into a VPL's map: those that cover a few texels here, the others are listed for
+ * vpl_large.vert.glsl, because the pipeline's setup of a triangle costs more than so few texels. */
 #define LSF_BINDING_TRIANGLES 3
 #include "lib/hemisphere.glsl"
 #include "lib/scene_triangles.glsl"
@@ -20,8 +19,8 @@ layout(location = 0) uniform uint triangle_count;
 
 #define FEW_TEXELS 16
 
-/* Rounding of a place on the map, of its side: a texel's centre that close outside an edge counts, so
- * that no ray gets through between two triangles. */
+/* Rounding error of a position on the map, relative to its side. A texel's centre this close outside an edge is
+ * covered, so that no ray gets through between two triangles. */
 #define PLACE_ERROR 2.4e-7
 
 void list_large(uint triangle, uint octant)
@@ -35,7 +34,7 @@ float cross2(vec2 a, vec2 b)
     return a.x * b.y - a.y * b.x;
 }
 
-/* Draws the triangle where it covers centres, if it lies in this octant and is small enough. */
+/* Draws the triangle where it covers texel centres, if it lies in this octant and is small enough. */
 bool draw_small(vec2 octant, vec3 local[3])
 {
     float texels = light.map_shape.z;
@@ -78,7 +77,7 @@ bool draw_small(vec2 octant, vec3 local[3])
                                   cross2(e1, center - corner[0]));
         if (any(lessThan(inside, -tolerance)))
             continue;
-        /* Between the corners' depths, however thin the triangle. */
+        /* The depth stays between those of the corners, however thin the triangle. */
         vec3 weights = max(inside, vec3(0.0));
         float sum = weights.x + weights.y + weights.z;
         float z = sum > 0.0 ? dot(weights, depth) / sum : depth[0];

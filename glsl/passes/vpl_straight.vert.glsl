@@ -1,4 +1,4 @@
-/* Surfaces with their material, into one octant of a VPL's map. */
+/* Draws surfaces with their materials into one octant of a VPL's map. */
 #include "lib/hemisphere_clip.glsl"
 #include "lib/material_vertex.glsl"
 

@@ -1,4 +1,4 @@
-/* The lists of a ray-bundle, for shaders of others. */
+/* The lists of a ray-bundle, for user shaders. */
 #ifndef LSF_SANDBOX_BUNDLE
 #define LSF_SANDBOX_BUNDLE
 

@@ -1,4 +1,4 @@
-/* Light from outside the scene, for shaders of others. */
+/* The environment's radiance, for user shaders. */
 #ifndef LSF_SANDBOX_ENVIRONMENT
 #define LSF_SANDBOX_ENVIRONMENT
 

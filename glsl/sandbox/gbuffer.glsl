@@ -1,5 +1,5 @@
-/* What each pixel sees, for shaders of others. A pixel is its fragment coordinates; outside of the picture the
- * nearest one counts. */
+/* The surfaces that pixels show, for user shaders. A pixel is given by its fragment coordinates; outside of the
+ * picture the nearest one is used. */
 #ifndef LSF_SANDBOX_GBUFFER
 #define LSF_SANDBOX_GBUFFER
 

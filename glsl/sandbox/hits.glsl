@@ -1,4 +1,4 @@
-/* What a ray-bundle's rays from the visible points meet, for shaders of others. */
+/* Hits of a ray-bundle's rays from the visible points, for user shaders. */
 #ifndef LSF_SANDBOX_HITS
 #define LSF_SANDBOX_HITS
 

@@ -1,4 +1,4 @@
-/* The scene's lights, for shaders of others. */
+/* The scene's lights, for user shaders. */
 #ifndef LSF_SANDBOX_LIGHTS
 #define LSF_SANDBOX_LIGHTS
 

@@ -1,4 +1,4 @@
-/* The picture of a technique, for shaders of others. A pixel is its fragment coordinates. */
+/* The picture of a technique, for user shaders. A pixel is given by its fragment coordinates. */
 #ifndef LSF_SANDBOX_PICTURE
 #define LSF_SANDBOX_PICTURE
 

@@ -1,4 +1,4 @@
-/* Light that voxels send out, for shaders of others. */
+/* Light that voxels send out, for user shaders. */
 #ifndef LSF_SANDBOX_RADIANCE
 #define LSF_SANDBOX_RADIANCE
 
@@ -6,8 +6,8 @@
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D sandbox_voxel_radiance;
 
-/* Along an axis the lobe of the surfaces that face who looks; slices lie along z, and half a texel of each stays
- * out of its neighbour. */
+/* The lobe of surfaces that face a viewer along an axis. Slices lie along z; coordinates keep half a texel away
+ * from the neighbouring slice. */
 vec4 sandbox_lobe(vec3 voxel, int slice, float level)
 {
     vec3 size = grid.size.xyz;

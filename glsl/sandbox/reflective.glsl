@@ -1,4 +1,4 @@
-/* One light's reflective shadow map, for shaders of others. */
+/* The reflective shadow map of one light, for user shaders. */
 #ifndef LSF_SANDBOX_REFLECTIVE
 #define LSF_SANDBOX_REFLECTIVE
 

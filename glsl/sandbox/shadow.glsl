@@ -1,4 +1,4 @@
-/* One light's shadow map, for shaders of others. */
+/* The shadow map of one light, for user shaders. */
 #ifndef LSF_SANDBOX_SHADOW
 #define LSF_SANDBOX_SHADOW
 

@@ -1,5 +1,5 @@
-/* The camera, for shaders of others. Lengths and positions are those of normalised space; a pixel is its fragment
- * coordinates. */
+/* The camera, for user shaders. Lengths and positions are those of normalised space; a pixel is given by its
+ * fragment coordinates. */
 #ifndef LSF_SANDBOX_VIEW
 #define LSF_SANDBOX_VIEW
 

@@ -1,5 +1,5 @@
-/* The scene as voxels, for shaders of others. Lengths and positions are those of normalised space where nothing
- * else is said. */
+/* The scene as voxels, for user shaders. Lengths and positions are those of normalised space unless stated
+ * otherwise. */
 #ifndef LSF_SANDBOX_VOXELS
 #define LSF_SANDBOX_VOXELS
 
@@ -38,7 +38,7 @@ bool lsf_voxel_trace(vec3 position, vec3 direction, float end, out ivec3 cell, o
     return met;
 }
 
-/* A plane of unit normal n touches cells up to |n|_1 of a cell above it, and what bends a little more. */
+/* A plane of unit normal n touches cells up to |n|_1 of a cell above it; curved surfaces touch a little more. */
 vec3 lsf_voxel_leave(vec3 position, vec3 normal)
 {
     vec3 tilt = abs(normal);

@@ -1,6 +1,7 @@
-/* What a surface reflects of light from one direction to all sides together (and, both being
- * reciprocal, of light from all sides to one direction): the integrals over the other direction of
- * the lobes of shared/brdf.h times its cosine, without the parts that depend on colours,
+/* Directional albedo: the share of light from one direction that a surface reflects to all sides
+ * (or, by reciprocity, from all sides to one direction). It is the integral over the other
+ * direction of the lobes of shared/brdf.h times its cosine, without the factors that depend on
+ * colours,
  *
  *   specular   f0 A + f90 B      A = int (1 - s) D V nl,   B = int s D V nl,   s = (1 - v.h)^5
  *   diffuse    1 - f0 - (f90 - f0) C      C = int s nl / pi
@@ -15,7 +16,7 @@
 
 #define LSF_ALBEDO_SIDE 16
 
-/* Two lines a roughness. */
+/* Two lines for each roughness. */
 /* clang-format off */
 /* A at roughness j / 15 (rows) and cosine (i / 15)^2. */
 LSF_SHARED_CONSTANT float lsf_albedo_front[LSF_ALBEDO_SIDE * LSF_ALBEDO_SIDE] = {
@@ -93,7 +94,7 @@ LSF_SHARED_CONSTANT float lsf_albedo_diffuse_loss[LSF_ALBEDO_SIDE] = {
     0.0115f, 0.0087f, 0.0063f, 0.0042f, 0.0025f, 0.0013f, 0.0005f, 0.0001f};
 /* clang-format on */
 
-/* The specular lobe's, for f0 of one channel. */
+/* The specular lobe's albedo for f0 of one channel. */
 LSF_SHARED_FUNCTION float lsf_specular_albedo(float f0, float f90, float cosine, float roughness)
 {
     float x = sqrt(min(max(cosine, 0.0f), 1.0f)) * 15.0f,
@@ -110,7 +111,7 @@ LSF_SHARED_FUNCTION float lsf_specular_albedo(float f0, float f90, float cosine,
     return low + (high - low) * ty;
 }
 
-/* What of a diffuse lobe of 1 is left below a dielectric's reflection. */
+/* The share of a diffuse lobe of 1 that remains below a dielectric's reflection. */
 LSF_SHARED_FUNCTION float lsf_diffuse_albedo(float f0, float f90, float cosine)
 {
     float x = sqrt(min(max(cosine, 0.0f), 1.0f)) * 15.0f;

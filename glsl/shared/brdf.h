@@ -6,22 +6,22 @@
  *   f = (1 - metallic) (1 - F(f0_dielectric)) ((1 - t) base / pi  +  t base f_t)  +  F(f0) V D
  *   f0_dielectric = ((ior - 1) / (ior + 1))^2,  f0 = mix(f0_dielectric, base, metallic)
  *
- * KHR_materials_specular tints and weighs the dielectric's reflection: f0_dielectric = w min(tint
- * ((ior - 1) / (ior + 1))^2, 1), which grows to w at grazing angles; the largest of its channels is
- * what the lobes below do without. A clear coat (KHR_materials_clearcoat) of weight w reflects w
- * F_c(v.h) V D by a normal and a roughness of its own; light passes it on its way in and on its way
- * out, so that all below is multiplied by (1 - w F_c(n.v)) (1 - w F_c(n.l)): the extension's own
- * sum has the first of the two alone, and is not reciprocal.
+ * KHR_materials_specular tints and weights the dielectric's reflection: f0_dielectric = w min(tint
+ * ((ior - 1) / (ior + 1))^2, 1), which grows to w at grazing angles; the lobes below are attenuated
+ * by the largest of its channels. A clear coat (KHR_materials_clearcoat) of weight w reflects w
+ * F_c(v.h) V D with a normal and a roughness of its own; light passes it twice, so that the layers
+ * below are multiplied by (1 - w F_c(n.v)) (1 - w F_c(n.l)): the extension's own sum has the first
+ * of the two factors alone and is not reciprocal.
  *
  * F: Schlick, D: Trowbridge-Reitz (GGX), V: height-correlated Smith visibility, G / (4 nl nv).
- * t is the material's transmission and f_t the specular lobe on the surface's other side: through a
- * thin wall that of the reflection, mirrored; into a medium, Walter, Marschner, Li and Torrance
- * 2007, "Microfacet Models for Refraction through Rough Surfaces". Seen from within a denser
- * medium, F is that of the angle outside, and 1 where light cannot leave.
+ * t is the material's transmission and f_t the specular lobe on the surface's other side: for a
+ * thin wall the mirrored reflection lobe; for a medium, Walter, Marschner, Li and Torrance 2007,
+ * "Microfacet Models for Refraction through Rough Surfaces". Seen from within a denser medium, F is
+ * that of the angle outside, and 1 where light cannot leave.
  *
- * Radiance is divided by the square of the index of the medium that it is in, everywhere: so
- * divided, it is the same on both sides of a surface that lets all light pass (E. Veach 1997,
- * section 5.2), and what shines or looks in air is as it was.
+ * All radiance is divided by the square of the index of the medium that it is in: it is then the
+ * same on both sides of a surface that transmits all light (E. Veach 1997, section 5.2), and
+ * unchanged for lights and cameras in air.
  *
  * All cosines are of unit vectors and clamped by the caller to (0, 1]; every function stays finite
  * there for alpha >= LSF_ALPHA_MIN. `h` is the half vector, `t` and `b` the tangent frame. */
@@ -44,7 +44,7 @@ LSF_SHARED_FUNCTION float lsf_alpha_from_roughness(float roughness)
     return max(roughness * roughness, LSF_ALPHA_MIN);
 }
 
-/* KHR_materials_anisotropy: alpha along the tangent; along the bitangent it stays `alpha`. */
+/* KHR_materials_anisotropy: alpha along the tangent; along the bitangent it remains `alpha`. */
 LSF_SHARED_FUNCTION float lsf_alpha_along_tangent(float alpha, float strength)
 {
     return alpha + (1.0f - alpha) * strength * strength;
@@ -63,7 +63,7 @@ LSF_SHARED_FUNCTION float lsf_fresnel_schlick(float f0, float vh)
     return f0 + (1.0f - f0) * (m2 * m2 * m);
 }
 
-/* The same up to f90 at grazing angles. */
+/* The same, reaching f90 at grazing angles. */
 LSF_SHARED_FUNCTION float lsf_fresnel_schlick_to(float f0, float f90, float vh)
 {
     float m = 1.0f - vh;
@@ -71,12 +71,12 @@ LSF_SHARED_FUNCTION float lsf_fresnel_schlick_to(float f0, float f90, float vh)
     return f0 + (f90 - f0) * (m2 * m2 * m);
 }
 
-/* Refractive indices nearer to 1 than this turn no ray: the half vector of the directions on both
- * sides has lost too many digits. */
+/* Rays are not refracted by indices nearer to 1 than this: the half vector of the directions on
+ * both sides has lost too many digits. */
 #define LSF_REFRACTION_MIN (1.0f / 128.0f)
 
-/* Index beyond a surface over the index before it: `ior` is that of what is behind the front; 1
- * where rays go straight on. */
+/* Index behind a surface over the index in front of it; `ior` is that of the medium behind the
+ * surface's front. 1: rays go straight on. */
 LSF_SHARED_FUNCTION float lsf_relative_ior(float ior, bool front)
 {
     if (ior < 1.0f + LSF_REFRACTION_MIN)
@@ -84,13 +84,14 @@ LSF_SHARED_FUNCTION float lsf_relative_ior(float ior, bool front)
     return front ? ior : 1.0f / ior;
 }
 
-/* Cosine beyond a surface of a ray that comes with cosine vh: Snell's law; 0: nothing passes. */
+/* Cosine on the far side of a surface for a ray that arrives with cosine vh: Snell's law; 0:
+ * total reflection. */
 LSF_SHARED_FUNCTION float lsf_refracted_cosine(float vh, float eta)
 {
     return sqrt(max(0.0f, 1.0f - (1.0f - vh * vh) / (eta * eta)));
 }
 
-/* Schlick's term of a surface that light meets from either side. */
+/* Schlick's term for a surface that light reaches from either side. */
 LSF_SHARED_FUNCTION float lsf_fresnel_interface(float f0, float vh, float eta)
 {
     return lsf_fresnel_schlick(f0, eta < 1.0f ? lsf_refracted_cosine(vh, eta) : vh);
@@ -101,16 +102,17 @@ LSF_SHARED_FUNCTION float lsf_fresnel_interface_to(float f0, float f90, float vh
     return lsf_fresnel_schlick_to(f0, f90, eta < 1.0f ? lsf_refracted_cosine(vh, eta) : vh);
 }
 
-/* Solid angle of half vectors to that of refracted directions, |d omega_h / d omega_l| (Walter et
- * al. 2007, equation 17); vh > 0 and lh < 0 are the cosines at the half vector. */
+/* Ratio of the solid angle of half vectors to that of refracted directions, |d omega_h / d
+ * omega_l| (Walter et al. 2007, equation 17); vh > 0 and lh < 0 are the cosines at the half
+ * vector. */
 LSF_SHARED_FUNCTION float lsf_refraction_jacobian(float vh, float lh, float eta)
 {
     float sum = vh + eta * lh;
     return eta * eta * -lh / max(sum * sum, 1e-12f);
 }
 
-/* GGX distribution of normals [1/sr]. sin^2 of h is passed apart, because 1 - nh^2 loses all its
- * digits near the peak: sin2_h = |cross(n, h)|^2. */
+/* GGX distribution of normals [1/sr]. sin^2 of h is passed separately, because 1 - nh^2 loses
+ * all its digits near the peak: sin2_h = |cross(n, h)|^2. */
 LSF_SHARED_FUNCTION float lsf_ggx_d(float nh, float sin2_h, float alpha)
 {
     float a2 = alpha * alpha;
@@ -145,13 +147,13 @@ LSF_SHARED_FUNCTION float lsf_ggx_v_anisotropic(float nl, float nv, float tl, fl
     return 0.5f / max(v + l, 1e-12f);
 }
 
-/* A clear coat's reflection from the front: index 1.5. */
+/* Reflectance of a clear coat at normal incidence, for an index of 1.5. */
 #define LSF_COAT_F0 0.04f
 
-/* Mean of a clear coat's Schlick term over a hemisphere, by the cosine: f0 + (1 - f0) / 21. */
+/* Mean of a clear coat's Schlick term over a cosine-weighted hemisphere: f0 + (1 - f0) / 21. */
 #define LSF_COAT_MEAN (LSF_COAT_F0 + (1.0f - LSF_COAT_F0) / 21.0f)
 
-/* What a clear coat of that weight lets through under the cosine nv. */
+/* Transmittance of a clear coat of that weight under the cosine nv. */
 LSF_SHARED_FUNCTION float lsf_coat_passes(float weight, float nv)
 {
     return 1.0f - weight * lsf_fresnel_schlick(LSF_COAT_F0, min(max(nv, LSF_COSINE_MIN), 1.0f));

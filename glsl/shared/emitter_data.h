@@ -1,4 +1,4 @@
-/* A point on an emissive triangle, storage buffer LSF_BINDING_EMITTERS: drawn by the host
+/* A point on an emissive triangle, storage buffer LSF_BINDING_EMITTERS, drawn by the host
  * (scene/emitters.h). Normalised space. */
 #ifndef LSF_SHARED_EMITTER_DATA_H
 #define LSF_SHARED_EMITTER_DATA_H
@@ -7,13 +7,13 @@
 
 struct lsf_emitter_point_data {
     vec4 position; /* xyz */
-    vec4 normal;   /* xyz: unit, the way it shines; w: density by area of sides with which it was
-                      drawn */
-    vec4 radiance; /* rgb; w: sides that shine, 1 or 2 */
+    vec4 normal;   /* xyz: unit, on the emitting side; w: density by area of sides with which it
+                    * was drawn */
+    vec4 radiance; /* rgb; w: number of sides that emit, 1 or 2 */
 };
 
-/* The points of an iteration, one for each cell of the square of LSF_EMITTER_CELLS to a side that
- * random numbers are drawn from. */
+/* Points of an iteration: one for each cell of a square with LSF_EMITTER_CELLS cells a side,
+ * from which random numbers are taken. */
 #define LSF_EMITTER_CELLS 64
 
 #define LSF_BINDING_EMITTERS 1

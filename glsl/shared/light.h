@@ -5,8 +5,8 @@
 #include "shared/brdf.h"
 #include "shared/shared.h"
 
-/* Squared distance below which 1/d^2 is held, in normalised units: a light that touches a surface
- * stays finite. 1e-6 of the scene's half extent. */
+/* Squared distance below which 1/d^2 is clamped, in normalised units: light at a surface that
+ * touches the light stays finite. 1e-6 of the scene's half extent. */
 #define LSF_LIGHT_DISTANCE2_MIN 1e-12f
 
 /* 1/d^2 with the recommended window max(min(1 - (d/range)^4, 1), 0). `inverse_range2` is
@@ -32,8 +32,8 @@ LSF_SHARED_FUNCTION float lsf_spot_scale(float cos_inner, float cos_outer)
     return 1.0f / max(0.001f, cos_inner - cos_outer);
 }
 
-/* What of the ramp the cone's axis reaches: 1 unless the cone is narrower than lsf_spot_scale can
- * tell apart. */
+/* Largest value of the ramp, on the cone's axis: 1 unless the cone is narrower than
+ * lsf_spot_scale can resolve. */
 LSF_SHARED_FUNCTION float lsf_spot_axis(float scale, float offset)
 {
     return max(min(scale + offset, 1.0f), 0.0f);
@@ -53,7 +53,7 @@ LSF_SHARED_FUNCTION float lsf_spot_integral(float scale, float offset)
     return lsf_spot_inner(scale, offset) + 2.0f * LSF_PI * (axis * axis * axis) / (3.0f * scale);
 }
 
-/* The cosine below which (from the axis on) a fraction u of that integral lies. */
+/* The cosine c for which a fraction u of that integral lies between the axis and c. */
 LSF_SHARED_FUNCTION float lsf_spot_cosine(float u, float scale, float offset)
 {
     float solid_angle = u * lsf_spot_integral(scale, offset);

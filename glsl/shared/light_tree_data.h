@@ -5,28 +5,29 @@
 
 #include "shared/shared.h"
 
-/* What a link leads to: an inner node by its number, or with LSF_LIGHT_TREE_LEAF a record of the
+/* A link leads to an inner node by its number, or with LSF_LIGHT_TREE_LEAF to a record of the
  * cloud. LSF_LIGHT_TREE_NONE: there is no VPL at all. */
 #define LSF_LIGHT_TREE_LEAF 0x80000000u
 #define LSF_LIGHT_TREE_NONE 0xffffffffu
 
-/* Of a record's number in its code, whose last bits it is. */
+/* Bits of a record's number, the lowest ones of its code. */
 #define LSF_LIGHT_TREE_ID_BITS 24
 
 struct lsf_light_tree_data {
     uint live;                                        /* VPLs in the tree */
     uint root;                                        /* link */
     uint low_x, low_y, low_z, high_x, high_y, high_z; /* bounds of their positions, each a float
-                                                       * whose order as a uint is that of floats */
+                                                       * encoded so that its order as a uint is
+                                                       * that of floats */
 };
 
 /* An inner node. `variance` is along the axes of light_tree_frame, or with the switch
- * LSF_LIGHT_TREE_COVARIANCE along those of the space, and `covariance` its xy, xz and yz. */
+ * LSF_LIGHT_TREE_COVARIANCE along those of normalised space, with xy, xz and yz in `covariance`. */
 struct lsf_light_tree_node {
     vec3 position;    /* mean of the positions below it, by luminance */
     float similarity; /* of the normals below it, 0..1 */
     vec3 intensity;   /* the sum [W/sr] */
-    uint normal;      /* mean, as lib/octahedral.glsl packs it */
+    uint normal;      /* mean normal, packed as in lib/octahedral.glsl */
     vec3 low;         /* box that encloses the positions */
     uint left;        /* link */
     vec3 high;
@@ -34,30 +35,30 @@ struct lsf_light_tree_node {
     vec3 variance; /* of the positions */
     uint count;    /* VPLs below it */
     vec3 covariance;
-    uint usable; /* 1 where it may stand for all that is below it, else 0 */
+    uint usable; /* 1 where it may stand for all VPLs below it, else 0 */
 };
 
-/* Keys that a work group sorts: rows, one key for each of its invocations. */
+/* Keys that a work group sorts, one for each of its invocations in each row. */
 #define LSF_LIGHT_TREE_GROUP 256
 #define LSF_LIGHT_TREE_ROWS 8
 #define LSF_LIGHT_TREE_TILE (LSF_LIGHT_TREE_GROUP * LSF_LIGHT_TREE_ROWS)
 
-/* A pass of the sort looks at so many bits. */
+/* Bits of the digit that a pass of the sort uses. */
 #define LSF_LIGHT_TREE_DIGIT_BITS 8
 #define LSF_LIGHT_TREE_DIGITS (1 << LSF_LIGHT_TREE_DIGIT_BITS)
 
-/* What is counted of samples: all, those in branches that hold nothing for their point, and nodes
- * that were left on the way down. */
+/* Counters of samples: all, those that end in a dead branch, and nodes that were rejected during
+ * the descent. */
 #define LSF_LIGHT_TREE_SAMPLE_ALL 0
 #define LSF_LIGHT_TREE_SAMPLE_DEAD 1
 #define LSF_LIGHT_TREE_SAMPLE_STEPS 2
 #define LSF_LIGHT_TREE_SAMPLE_COUNTS 3
 
-/* Location of the number of records in the cloud, in all that builds the tree. */
+/* Location of the number of records in the cloud, in all shaders that build the tree. */
 #define LSF_LOCATION_LIGHT_TREE_RECORDS 1
 
-/* Nodes above a leaf are fewer than the bits of a code. They are merged in so many dispatches, from
- * the leaves up. */
+/* Number of dispatches that merge nodes, from the leaves up: at least the depth of the tree,
+ * which is at most the bits of a code. */
 #define LSF_LIGHT_TREE_TURNS 64
 
 /* Storage buffers. */
@@ -65,7 +66,7 @@ struct lsf_light_tree_node {
 #define LSF_BINDING_LIGHT_TREE 2
 #define LSF_BINDING_LIGHT_TREE_NODES 3
 #define LSF_BINDING_LIGHT_TREE_AREAS 4
-#define LSF_BINDING_LIGHT_TREE_CODES 5 /* and, in the sort, the next: where they go */
+#define LSF_BINDING_LIGHT_TREE_CODES 5 /* and, in the sort, the next binding: their target */
 #define LSF_BINDING_LIGHT_TREE_COUNTS 7
 #define LSF_BINDING_LIGHT_TREE_PARENTS 6
 #define LSF_BINDING_LIGHT_TREE_TURNS 7

@@ -1,5 +1,4 @@
-/* Directions drawn by the environment's radiance for light without shadows, of which pixels take
- * parts. */
+/* Directions drawn by the environment's radiance for unoccluded light; pixels use parts of them. */
 #ifndef LSF_SHARED_OPEN_SKY_DATA_H
 #define LSF_SHARED_OPEN_SKY_DATA_H
 
@@ -9,8 +8,7 @@
 #define LSF_BINDING_OPEN_SKY 3  /* storage buffer */
 
 struct lsf_open_sky_data {
-    vec4 direction; /* xyz: unit; w: density by the radiance alone [1/sr], as lsf_sky_density has
-                     * it */
+    vec4 direction; /* xyz: unit; w: density by the radiance alone [1/sr], as in lsf_sky_density */
     vec4 radiance;  /* rgb: over the density with which it was drawn */
 };
 #ifndef GL_core_profile

@@ -1,5 +1,5 @@
-/* Where the sandbox binds what a shader of somebody else's names, beside the units and bindings of
- * the library's own files. */
+/* Bindings of the sandbox for the resources that a user shader names, besides the units and
+ * bindings of the library's own files. */
 #ifndef LSF_SHARED_SANDBOX_DATA_H
 #define LSF_SHARED_SANDBOX_DATA_H
 
@@ -17,13 +17,13 @@
 #define LSF_UNIT_REFLECTIVE_GLOSS 43
 #define LSF_UNIT_BUNDLE_HITS 44
 
-/* Storage buffer of the scene's lights; the VPLs' otherwise. */
+/* Storage buffer of the scene's lights; in other passes that of the VPLs. */
 #define LSF_BINDING_SANDBOX_LIGHTS 1
 
 /* A light without its map; as in shared/light_data.h. */
 struct lsf_sandbox_light_data {
     vec4 position;    /* xyz */
-    vec4 direction;   /* xyz: unit, the way the light shines */
+    vec4 direction;   /* xyz: unit, away from the light */
     vec4 intensity;   /* rgb: W/sr in normalised units; directional W/m^2 */
     vec4 attenuation; /* 1/range^2, spot scale, spot offset (light.h), type */
 };

@@ -4,9 +4,9 @@
 
 #include "shared/shared.h"
 
-/* One primitive placed by one node; transforms go from object to normalised space. Vertex shaders
- * read it as attributes that advance once a draw, which software GL fetches once for all vertices.
- */
+/* One primitive placed by one node; transforms go from object to normalised space. Vertex
+ * shaders read it as attributes that advance once per draw, because software GL fetches such
+ * attributes once for all vertices. */
 struct lsf_instance_data {
     vec4 transform_0, transform_1, transform_2; /* rows of the 3x4 matrix */
     vec4 normal_0, normal_1, normal_2;          /* rows of the normals' 3x3 matrix in x y z;
@@ -35,8 +35,8 @@ struct lsf_material_data {
         anisotropy_slot, transmission_slot;
 };
 
-/* What few materials have beyond that, in a table of its own: one after the other, by the
- * material's number. */
+/* Further parameters that few materials have, in a table of their own, in the order of the
+ * materials' numbers. */
 struct lsf_lobe_data {
     vec4 specular; /* rgb: tint of f0; w: weight */
     vec4 coat;     /* factor, roughness, scale of the normal */
@@ -62,7 +62,7 @@ struct lsf_lobe_data {
 #define LSF_ATTRIBUTE_PREVIOUS_TRANSFORM 12 /* 3 rows */
 #define LSF_ATTRIBUTE_PREVIOUS_POSITION 15
 
-/* Bindings: storage buffers and texture units of the scene, the same in every pass. */
+/* Storage buffers and texture units of the scene, the same in every pass. */
 #define LSF_BINDING_MATERIALS 0
 #define LSF_UNIT_BASE_COLOR 0
 #define LSF_UNIT_METALLIC_ROUGHNESS 1
@@ -71,7 +71,7 @@ struct lsf_lobe_data {
 #define LSF_UNIT_ANISOTROPY 4
 #define LSF_UNIT_ENVIRONMENT 5
 #define LSF_UNIT_TRANSMISSION 13
-#define LSF_UNIT_LOBES 24 /* the table of lsf_lobe_data, and textures of what it holds */
+#define LSF_UNIT_LOBES 24 /* the table of lsf_lobe_data, and its textures */
 #define LSF_UNIT_SPECULAR 25
 #define LSF_UNIT_SPECULAR_COLOR 26
 #define LSF_UNIT_COAT 27
@@ -79,9 +79,9 @@ struct lsf_lobe_data {
 #define LSF_UNIT_COAT_NORMAL 29
 #define LSF_UNIT_SHEEN_COLOR 30
 #define LSF_UNIT_SHEEN_ROUGHNESS 31
-#define LSF_UNIT_SEEN_DEPTH 14 /* depth of what is seen, for surfaces before it */
+#define LSF_UNIT_SEEN_DEPTH 14 /* depth of the visible surface, for surfaces in front of it */
 
-/* Texture units of the light in turn. */
+/* Texture units of the current light. */
 #define LSF_UNIT_SHADOW_DEPTH 6
 #define LSF_UNIT_SHADOW_GRADIENT 7
 #define LSF_UNIT_SHADOW_TINT 12 /* see lib/shadow.glsl */
@@ -90,7 +90,7 @@ struct lsf_lobe_data {
 
 /* Location of the radiance of an environment without a map. */
 #define LSF_LOCATION_ENVIRONMENT 10
-/* Location of the region in turn; see lib/region.glsl. */
+/* Location of the current region; see lib/region.glsl. */
 #define LSF_LOCATION_REGION 11
 /* Locations of bidirectional_shade; see lib/mis.glsl and lib/shading_vertex.glsl. */
 #define LSF_LOCATION_STRATEGY 12
@@ -104,34 +104,34 @@ struct lsf_lobe_data {
 #define LSF_LOCATION_CONE 18
 #define LSF_LOCATION_CONE_STEPS 19
 #define LSF_LOCATION_CONE_TURN 20
-#define LSF_LOCATION_CONE_SET 21 /* LSF_CONE_MAX of them */
+#define LSF_LOCATION_CONE_SET 21 /* LSF_CONE_MAX locations */
 #define LSF_CONE_MAX 32
-/* Location of what decides by chance; see lib/chance.glsl. */
+/* Location of the seed of stochastic transparency; see lib/chance.glsl. */
 #define LSF_LOCATION_CHANCE 60
 /* Locations of the grid of points at which light is gathered; see lib/sparse_grid.glsl. */
 #define LSF_LOCATION_SPARSE_GRID 61
 #define LSF_LOCATION_SPARSE_SHAPE 62
 /* Location of the density of directions drawn by the environment's radiance; see lib/sky.glsl. */
 #define LSF_LOCATION_SKY (LSF_LOCATION_CONE_SET + LSF_CONE_MAX)
-/* Location of what finds the environment by chance, in passes/direct_light.frag.glsl and
- * passes/voxel_light.comp.glsl; and of how a bundle shares it, in
- * passes/bidirectional_shade_hit.frag.glsl. */
+/* Location of the number of rays that find the environment otherwise, in
+ * passes/direct_light.frag.glsl and passes/voxel_light.comp.glsl; and of a bundle's weights
+ * against them, in passes/bidirectional_shade_hit.frag.glsl. */
 #define LSF_LOCATION_SKY_CHANCE (LSF_LOCATION_SKY + 1)
-/* Location of what glossy lobes are spread over; see lib/straight.glsl. */
+/* Location of the solid angle over which glossy lobes are spread; see lib/straight.glsl. */
 #define LSF_LOCATION_LOBE_ANGLE (LSF_LOCATION_SKY_CHANCE + 1)
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0
-#define LSF_BINDING_LIGHT 1 /* the light in turn, or the VPL in turn as a light with a map */
+#define LSF_BINDING_LIGHT 1 /* the current light, or the current VPL as a light with a map */
 #define LSF_BINDING_BUNDLE 2
 #define LSF_BINDING_VOXEL 3
 
 /* Storage buffers. */
 #define LSF_BINDING_VPL 1           /* the VPLs of an iteration */
-#define LSF_BINDING_SPARSE_COUNTS 7 /* pixels that no point of the grid fits */
-#define LSF_BINDING_BUNDLE_NODES 2  /* 2 to 7: the nodes of the bundle in turn */
+#define LSF_BINDING_SPARSE_COUNTS 7 /* pixels that no point of the grid represents */
+#define LSF_BINDING_BUNDLE_NODES 2  /* 2 to 7: the nodes of the current bundle */
 
-/* A ray-bundle search that met nothing. */
+/* Result of a ray-bundle search without a hit. */
 #define LSF_NO_NODE 0xffffffffu
 
 #include "shared/shared_end.h"

@@ -1,8 +1,8 @@
 /* Lets C, C++ and GLSL include the same declarations: include shared.h first, shared_end.h last.
  * Structs shared with GPU buffers use only float, uint, vec2, vec4 and mat4 members (std430,
  * std140 and C agree on those when a struct's size is a multiple of 16 bytes and vec4 and mat4
- * come at multiples of 16), and vec3 where it does, too, and a float or uint follows; functions use
- * scalars only, and literals end in f. */
+ * are at multiples of 16), and vec3 where it is at such a multiple, too, and a float or uint
+ * follows. Functions use scalars only, and literals end in f. */
 #ifdef GL_core_profile
 #define LSF_SHARED_FUNCTION
 #define LSF_SHARED_CONSTANT const

@@ -1,4 +1,4 @@
-/* Ends what shared.h began: the GLSL names are C macros no longer. */
+/* Ends the scope of shared.h: the GLSL names are no longer C macros. */
 #ifndef GL_core_profile
 #undef uint
 #undef vec2

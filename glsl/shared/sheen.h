@@ -5,9 +5,9 @@
  *   f = color D V / max(1, E(n.v), E(n.l)),  D = (2 + 1 / a) sin^(1/a) / (2 pi),  a = roughness^2
  *   V = 1 / ((1 + L(n.v) + L(n.l)) 4 n.v n.l)
  *
- * What is below is multiplied by min(1 - c E'(n.v), 1 - c E'(n.l)) with c the largest channel of
- * the color, E the albedo of D V by direction and E' = min(E, 1). The divisor is 1 where E is below
- * 1: L is a fit, with which sharp lobes would reflect more than all light at grazing angles (E
+ * Layers below are multiplied by min(1 - c E'(n.v), 1 - c E'(n.l)) with c the largest channel of
+ * the color, E the directional albedo of D V and E' = min(E, 1). The divisor is 1 where E is below
+ * 1: L is a fit, with which sharp lobes would reflect more light than arrives at grazing angles (E
  * reaches 2.8). */
 #ifndef LSF_SHARED_SHEEN_H
 #define LSF_SHARED_SHEEN_H
@@ -99,7 +99,8 @@ LSF_SHARED_FUNCTION float lsf_sheen_albedo(float cosine, float roughness)
     return low + (high - low) * ty;
 }
 
-/* What a sheen whose largest channel is `color` leaves of what is below, by both albedos. */
+/* Factor by which a sheen whose largest channel is `color` attenuates the layers below, from the
+ * albedos of both directions. */
 LSF_SHARED_FUNCTION float lsf_sheen_leaves(float color, float albedo_v, float albedo_l)
 {
     return 1.0f - color * min(max(albedo_v, albedo_l), 1.0f);

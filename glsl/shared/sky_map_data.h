@@ -1,15 +1,16 @@
-/* Maps of some directions of the environment, one a layer, uniform buffer LSF_BINDING_LIGHT in the
- * place of a light's. Normalised space. */
+/* Maps of some directions of the environment, one in each layer, in the uniform buffer of a
+ * light, LSF_BINDING_LIGHT. Normalised space. */
 #ifndef LSF_SHARED_SKY_MAP_DATA_H
 #define LSF_SHARED_SKY_MAP_DATA_H
 
 #include "shared/shared.h"
 
-/* Layers of a batch at most. */
+/* Largest number of layers in a batch. */
 #define LSF_SKY_MAPS_MAX 8
 
-/* A point's place on the map and its depth are affine: dot(row.xyz, p) + row.w. Depths are 0 to 1
- * over what can be lit, 1 on the sky's side; what only casts shadows may lie outside. */
+/* Affine functions for a point's position on the map and its depth: dot(row.xyz, p) + row.w.
+ * Depths are 0 to 1 over all points that can be lit, 1 on the sky's side; points that only cast
+ * shadows may lie outside. */
 struct lsf_sky_map_data {
     vec4 right, up;  /* place, in texels */
     vec4 towards;    /* depth */
@@ -17,8 +18,8 @@ struct lsf_sky_map_data {
     vec4 irradiance; /* rgb: on a plane that faces the sky there [W/m^2]; w: the kernel that
                       * suppresses glossy lobes [sr], see brdf_evaluate */
     vec4 texel;      /* width and height of a texel, extent of depths; texels along a side */
-    vec4 error;      /* x: how far what is lit may be off its surface by rounding */
-    vec4 unused;     /* a batch begins at a multiple of 256 bytes */
+    vec4 error;      /* x: distance of receivers from their surfaces by rounding */
+    vec4 unused;     /* pads a batch to a multiple of 256 bytes */
 };
 
 #include "shared/shared_end.h"

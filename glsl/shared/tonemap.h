@@ -36,7 +36,7 @@
 #define LSF_TONEMAP_KNEE 0.76f
 #define LSF_TONEMAP_DESATURATION 0.15f
 
-/* Where exposed radiance is cut off: the curve is within 1e-6 of white there, and further up its
+/* Exposed radiance is clamped to this: the curve is within 1e-6 of white there, and beyond its
  * products would overflow. */
 #define LSF_TONEMAP_LARGEST 1e6f
 
@@ -47,7 +47,7 @@ LSF_SHARED_FUNCTION float lsf_tonemap_expose(float radiance, float exposure_scal
     return exposed > 0.0f ? min(exposed, LSF_TONEMAP_LARGEST) : 0.0f;
 }
 
-/* Maps one channel of an exposed pixel, whose smallest and largest channels are given, to 0..1. */
+/* Maps one channel of an exposed pixel to 0..1, given the pixel's smallest and largest channels. */
 LSF_SHARED_FUNCTION float lsf_tonemap_neutral(float value, float smallest, float largest)
 {
     float veil = smallest < 2.0f * LSF_TONEMAP_VEIL
@@ -81,13 +81,13 @@ LSF_SHARED_FUNCTION float lsf_tonemap_display(float value, float smallest, float
     return lsf_srgb_encode(lsf_tonemap_neutral(value, smallest, largest));
 }
 
-/* A matrix's row, times a colour. */
+/* A row of a matrix times a colour. */
 LSF_SHARED_FUNCTION float lsf_tonemap_row(float x, float y, float z, float r, float g, float b)
 {
     return x * r + y * g + z * b;
 }
 
-/* Saturates before its square, of the largest radiance, would lose the ratio. */
+/* Saturates before the square of the largest radiance would lose the ratio. */
 LSF_SHARED_FUNCTION float lsf_tonemap_aces_curve(float v)
 {
     return (v * (v + 0.0245786f) - 0.000090537f) / (v * (0.983729f * v + 0.432951f) + 0.238081f);
@@ -110,7 +110,7 @@ LSF_SHARED_FUNCTION float lsf_tonemap_aces(int channel, float r, float g, float 
 
 LSF_SHARED_FUNCTION float lsf_tonemap_agx_curve(float linear_value)
 {
-    float stops = log2(max(linear_value, 1e-9f) / 0.18f); /* that is far below the darkest */
+    float stops = log2(max(linear_value, 1e-9f) / 0.18f); /* far below the darkest stop */
     float v = min(max((stops + 10.0f) / LSF_AGX_STOPS, 0.0f), 1.0f) - LSF_AGX_PIVOT;
     float power = v < 0.0f ? 3.0f : 3.25f;
     float end = v < 0.0f ? LSF_AGX_PIVOT : 1.0f - LSF_AGX_PIVOT;

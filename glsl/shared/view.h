@@ -13,7 +13,7 @@ struct lsf_view_data {
     mat4 clip;                      /* of a position less the start; with the iteration's jitter */
     mat4 previous_clip;             /* the same jitter, at the previous frame's time */
     vec4 previous_start;            /* xyz */
-    vec4 start, start_dx, start_dy; /* start.w: how far positions found from depths may be off */
+    vec4 start, start_dx, start_dy; /* start.w: error of positions computed from depths */
     vec4 forward, forward_dx, forward_dy;
     vec4 size;   /* width, height, 1 / width, 1 / height [pixels] */
     vec4 jitter; /* xy: ndc of the sample minus ndc of the pixel's centre */

@@ -4,13 +4,12 @@
 
 #include "shared/shared.h"
 
-/* A cloud is a buffer of as many as it has room for. Any of them may be dead, and is no light: its
- * intensity is 0. */
+/* A cloud is a buffer of a fixed number of records. Any of them may be dead, with intensity 0. */
 struct lsf_vpl_record {
     vec3 position;
-    uint normal;    /* unit geometric normal of the side that shines, as octahedral_encode has it */
+    uint normal;    /* unit geometric normal of the emitting side, by octahedral_encode */
     vec3 intensity; /* I along the normal [W/sr]; along another direction w it is I max(n.w, 0) */
-    uint depth;     /* times that the light was reflected; 0: on a surface that emits */
+    uint depth;     /* number of reflections of the light; 0: on an emissive surface */
 };
 
 #include "shared/shared_end.h"
