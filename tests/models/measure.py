@@ -91,7 +91,7 @@ def measure_reference(options, path, folder, name, arguments):
 def measure_once(options, path, folder, technique, result, seed):
     samples, seconds, directions, _ = TECHNIQUES[technique]
     more = 1 if seed <= 2 else 2
-    reference = "direct" if technique == "direct" else "all"
+    reference = reference_of(technique)
     target = str(folder / f"{technique}_{seed}")
     said = picture(
         options, "render", path, target,
@@ -113,9 +113,14 @@ def mean_of(runs, value):
     return mean, spread / max(1, len(runs) - 1)
 
 
+def reference_of(technique):
+    """Which of a model's references holds the light that the technique renders."""
+    return "direct" if technique == "direct" else "all"
+
+
 def bias(result, technique):
     """Of the worst channel, relative to the mean of the brightest, and its standard error."""
-    reference = result["direct" if technique == "direct" else "all"]
+    reference = result[reference_of(technique)]
     whole = max(reference["mean"])
     worst = (0.0, 0.0)
     if not whole > 0.0:
@@ -176,7 +181,7 @@ def table(options, models):
         result = json.loads(kept.read_text()) if kept.exists() else {"runs": {}}
         cells = []
         for name, (_, _, _, bound) in TECHNIQUES.items():
-            if len(result["runs"].get(name, [])) < 2:
+            if len(result["runs"].get(name, [])) < 2 or "apart" not in result.get(reference_of(name), {}):
                 cells.append("")
                 continue
             value, error = bias(result, name)
