@@ -32,7 +32,7 @@ struct light_guide {
 
 vec2 center_ndc(ivec2 pixel)
 {
-    return (vec2(pixel) + 0.5) * (2.0 * view.size.zw) - 1.0;
+    return (vec2(pixel) + 0.5) * (2.0 * view.jitter.z * view.size.zw) - 1.0;
 }
 
 /* The pixel's lobe at the peak of the neighbour's lobe, relative to its own peak, times the similarity of both
@@ -66,9 +66,9 @@ light_guide light_guide_at(ivec2 pixel)
     g.alike = slope.w;
     /* Widths of a pixel by which a surface recedes from the viewer for each unit of depth. */
 #if LSF_ORTHOGRAPHIC
-    float widths = 1.0 / (abs(view.depth.x) * 2.0 * length(view.start_dx.xyz) * view.size.z);
+    float widths = 1.0 / (abs(view.depth.x) * 2.0 * length(view.start_dx.xyz) * view.jitter.z * view.size.z);
 #else
-    float widths = 1.0 / (max(abs(g.depth - view.depth.x), 1e-20) * 2.0 * length(view.forward_dx.xyz) * view.size.z);
+    float widths = 1.0 / (max(abs(g.depth - view.depth.x), 1e-20) * 2.0 * length(view.forward_dx.xyz) * view.jitter.z * view.size.z);
 #endif
     /* The same for the distance from the surface's own plane, which is smaller by the plane's slope. */
     g.scale = widths * inversesqrt(1.0 + dot(g.slope, g.slope) * widths * widths);

@@ -1,8 +1,13 @@
 /* Reorders light from split order into that of the grid, with the second layer above the first; there without the
  * specular tint. With LSF_OUTLIERS light that is improbable among its neighbours is scaled to their mean. */
 #include "lib/luminance.glsl"
+#include "lib/pixel_side.glsl"
 #include "passes/sparse_order.glsl"
-#if LSF_SPARSE || LSF_OUTLIERS
+
+/* Whether neighbours are asked, or will be. */
+#define LSF_SHARED ((LSF_SPARSE && LSF_PIXEL_SIDE == 1) || LSF_OUTLIERS)
+
+#if LSF_SHARED
 #include "lib/sparse.glsl"
 #include "passes/sparse_guide.glsl"
 #if LSF_SPECULAR
@@ -17,7 +22,7 @@ layout(binding = 4) uniform sampler2D specular_texture;
 layout(location = 1) out vec4 specular_out;
 #endif
 
-#if LSF_SPECULAR && (LSF_SPARSE || LSF_OUTLIERS)
+#if LSF_SPECULAR && LSF_SHARED
 #include "passes/sparse_tint.glsl"
 #endif
 
@@ -97,7 +102,7 @@ void main()
 #if LSF_SPECULAR
     specular_out = texelFetch(specular_texture, place, 0);
 #endif
-#if LSF_SPARSE || LSF_OUTLIERS
+#if LSF_SHARED
 #if LSF_SPARSE
     ivec2 pixel = place_pixel(place), points = sparse_grid.xy;
 #else

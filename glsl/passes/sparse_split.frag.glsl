@@ -1,14 +1,17 @@
 /* Copies the surfaces at the points into the order in which light is gathered. */
 #include "lib/gbuffer_copy.glsl"
 #include "lib/hash.glsl"
+#include "lib/pixel_side.glsl"
 #include "passes/sparse_order.glsl"
 
 #if LSF_SPARSE
+layout(location = 2 + LSF_GLOSS) out uint pixel_out;
+#endif
+#if LSF_SPARSE && LSF_PIXEL_SIDE == 1
 #include "passes/sparse_guide.glsl"
 
 layout(binding = 3) uniform usampler2D source_texture;
 layout(location = 1) uniform uint turn; /* a different number in each iteration */
-layout(location = 2 + LSF_GLOSS) out uint pixel_out;
 
 /* A random pixel of the point's block among those that no point of the grid represents, all with equal
  * probability; (-1, -1): there is none. */
@@ -31,7 +34,11 @@ ivec2 own_pixel(ivec2 point, ivec2 picture)
 void main()
 {
     ivec2 place = ivec2(gl_FragCoord.xy);
-#if LSF_SPARSE
+#if LSF_SPARSE && LSF_PIXEL_SIDE > 1
+    ivec2 pixel = sparse_pixel(interleave_pixel(place, sparse_grid.xy));
+    gbuffer_copy(pixel);
+    pixel_out = uint(pixel.x) | uint(pixel.y) << 16;
+#elif LSF_SPARSE
     ivec2 picture = textureSize(source_texture, 0);
     int layer;
     ivec2 point = sparse_point(place, layer);

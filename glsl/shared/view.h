@@ -15,8 +15,9 @@ struct lsf_view_data {
     vec4 previous_start;            /* xyz */
     vec4 start, start_dx, start_dy; /* start.w: error of positions computed from depths */
     vec4 forward, forward_dx, forward_dy;
-    vec4 size;   /* width, height, 1 / width, 1 / height [pixels] */
-    vec4 jitter; /* xy: ndc of the sample minus ndc of the pixel's centre */
+    vec4 size;   /* width, height, 1 / width, 1 / height of what is seen [sample points] */
+    vec4 jitter; /* xy: ndc of the sample minus ndc of the centre of its part of a pixel; z: sample
+                  * points along a pixel's side */
     vec4 depth;  /* a, b, scene units per normalised unit, view depth of the start */
 };
 

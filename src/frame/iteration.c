@@ -89,7 +89,7 @@ static float position_error(const lsf_state *state)
 static void set_view(struct lsf_view_data *view, const lsf_plan *plan, const lsf_state *state)
 {
     const lsf_camera_state *camera = &state->camera;
-    float width = (float)plan->width, height = (float)plan->height;
+    float width = (float)plan->seen_width, height = (float)plan->seen_height;
     memset(view, 0, sizeof *view);
     view->start = vec4_from(camera->start);
     view->start_dx = vec4_from(camera->start_dx);
@@ -277,7 +277,7 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done)
     lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_PIXEL), point);
     float x = (2.0f * point[0] - 1.0f) * iteration->view.size.z;
     float y = (2.0f * point[1] - 1.0f) * iteration->view.size.w;
-    iteration->view.jitter = (lsf_vec4){x, y, 0.0f, 0.0f};
+    iteration->view.jitter = (lsf_vec4){x, y, (float)iteration->plan->pixel_side, 0.0f};
     iteration->view.clip = clip_matrix(&iteration->state->camera, x, y);
     iteration->view.previous_clip = clip_matrix(&iteration->previous_camera, x, y);
     iteration->view.previous_start = vec4_from(iteration->previous_camera.start);

@@ -1,5 +1,6 @@
 #include "frame/sparse_grid.h"
 
+#include "math/sampling.h"
 #include "shared/scene_data.h"
 
 static uint32_t least(uint32_t a, uint32_t b)
@@ -28,18 +29,23 @@ bool lsf_sparse_grid_is_sparse(const lsf_plan *plan)
 void lsf_sparse_grid_points(const lsf_plan *plan, uint32_t size[2])
 {
     uint32_t finest = plan->stride > 1 ? plan->finest_stride : 1;
-    size[0] = points(plan->width, finest);
-    size[1] = points(plan->height, finest);
+    size[0] = points(plan->seen_width, finest);
+    size[1] = points(plan->seen_height, finest);
+}
+
+bool lsf_sparse_grid_is_of_pixels(const lsf_plan *plan)
+{
+    return plan->pixel_side > 1;
 }
 
 void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2])
 {
     lsf_sparse_grid_points(plan, size);
-    if (plan->stride <= 1)
+    if (plan->stride <= 1 || lsf_sparse_grid_is_of_pixels(plan))
         return;
     /* Two layers of stride 2 may be one row higher than one layer of stride 1. */
     uint32_t layered = plan->finest_stride > 1 ? plan->finest_stride : 2;
-    uint32_t rows = 2 * points(plan->height, layered);
+    uint32_t rows = 2 * points(plan->seen_height, layered);
     size[1] = rows > size[1] ? rows : size[1];
 }
 
@@ -47,6 +53,13 @@ void lsf_sparse_grid_switch(lsf_plan *plan)
 {
     lsf_plan_switch_add(plan, "LSF_SPARSE", lsf_sparse_grid_is_sparse(plan),
                         "indirect light is gathered at fewer points than there are pixels");
+}
+
+void lsf_sparse_grid_pixel_switch(lsf_plan *plan)
+{
+    if (lsf_sparse_grid_is_of_pixels(plan))
+        lsf_plan_switch_add(plan, "LSF_PIXEL_SIDE", (int)plan->pixel_side,
+                            "a pixel has as many sample points along each side");
 }
 
 /* The i-th position in a square whose width is a power of two: after each 4^k of them the
@@ -70,12 +83,22 @@ lsf_sparse_grid lsf_sparse_grid_at(const lsf_plan *plan, uint32_t done, uint32_t
         before -= stride * stride;
     }
     lsf_sparse_grid grid = {.stride = stride,
-                            .width = points(plan->width, stride),
-                            .height = points(plan->height, stride),
+                            .width = points(plan->seen_width, stride),
+                            .height = points(plan->seen_height, stride),
                             .layers = stride > 1 ? 2 : 1};
+    if (lsf_sparse_grid_is_of_pixels(plan)) {
+        /* By any rule of its number a place within the pixel would keep to a part of the
+         * sequences by which light is sampled. */
+        uint32_t number = lsf_hash(seed, index);
+        grid.layers = 1;
+        grid.phase[0] = number % stride;
+        grid.phase[1] = number / stride % stride;
+        return grid;
+    }
     place_in_square(index % (stride * stride), stride, grid.phase);
-    grid.phase[0] = (grid.phase[0] ^ (seed & (stride - 1))) % least(stride, plan->width);
-    grid.phase[1] = (grid.phase[1] ^ (seed >> 16 & (stride - 1))) % least(stride, plan->height);
+    grid.phase[0] = (grid.phase[0] ^ (seed & (stride - 1))) % least(stride, plan->seen_width);
+    grid.phase[1] =
+        (grid.phase[1] ^ (seed >> 16 & (stride - 1))) % least(stride, plan->seen_height);
     return grid;
 }
 

@@ -23,6 +23,9 @@ typedef struct lsf_sparse_grid {
 uint32_t lsf_sparse_grid_finest(uint32_t stride, uint32_t iterations);
 /* Whether some iteration has fewer points than pixels. */
 bool lsf_sparse_grid_is_sparse(const lsf_plan *plan);
+/* Whether points are one of several sample points of each pixel, drawn anew in each iteration: what
+ * they gather stands for the pixel, and nothing is upsampled. */
+bool lsf_sparse_grid_is_of_pixels(const lsf_plan *plan);
 /* Width and height of textures that hold both layers in every iteration; those of the picture
  * where the plan is not sparse. */
 void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2]);
@@ -30,6 +33,8 @@ void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2]);
 void lsf_sparse_grid_points(const lsf_plan *plan, uint32_t size[2]);
 /* Adds the switch LSF_SPARSE to the pass added last. */
 void lsf_sparse_grid_switch(lsf_plan *plan);
+/* Adds LSF_PIXEL_SIDE, where it is above 1. */
+void lsf_sparse_grid_pixel_switch(lsf_plan *plan);
 /* Sets the uniforms of lib/sparse_grid.glsl in the program in use, where the plan is sparse. */
 void lsf_sparse_grid_set(const lsf_plan *plan, const lsf_sparse_grid *grid);
 /* The grid of the frame's iteration number `done`; `index` counts over all frames, so that

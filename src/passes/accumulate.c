@@ -12,6 +12,7 @@ void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     if ((plan->aovs & LSF_AOV_NORMAL) && plan->straight)
         lsf_scene_gpu_scatter_switch(plan);
+    lsf_sparse_grid_pixel_switch(plan);
     for (uint32_t i = 0; i < layer_count; i++) {
         char name[64];
         snprintf(name, sizeof name, "accumulate.%s", layer_names[i]);
@@ -37,11 +38,12 @@ static bool create_program(lsf_accumulate *pass, const lsf_plan *plan, lsf_accum
     const lsf_define defines[] = {
         {"LSF_SOURCE", (int)source},
         {"LSF_ORTHOGRAPHIC", plan->orthographic},
+        {"LSF_PIXEL_SIDE", (int)plan->pixel_side},
         {"LSF_SCATTER", lsf_plan_switch_value(plan, "accumulate", "LSF_SCATTER")}};
     lsf_program_desc desc = {.label = "accumulate",
                              .files = {"lib/fullscreen.vert.glsl", "passes/accumulate.frag.glsl"},
                              .defines = defines,
-                             .define_count = defines[2].value ? 3 : 2};
+                             .define_count = defines[3].value ? 4 : 3};
     pass->programs[source] = lsf_program_get(pass->context, &desc, error);
     return pass->programs[source] != 0;
 }

@@ -27,7 +27,7 @@ static void plan_layer(lsf_plan *plan, bool wanted, const char *define, int laye
     lsf_plan_switch_add(plan, define, wanted ? (*target)++ : 0, "%s; its attachment's number",
                         row->why);
     if (wanted)
-        lsf_plan_textures_add(plan, row, 1, 0, plan->width, plan->height);
+        lsf_plan_textures_add(plan, row, 1, 0, plan->seen_width, plan->seen_height);
 }
 
 void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
@@ -61,7 +61,7 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_scene_gpu_environment_switches(plan, "an environment is seen");
     lsf_plan_switch_add(plan, "LSF_BACKGROUND", !plan->background.environment,
                         "something else is seen instead of the environment");
-    lsf_plan_textures_add(plan, &textures[RADIANCE], 1, 0, plan->width, plan->height);
+    lsf_plan_textures_add(plan, &textures[RADIANCE], 1, 0, plan->seen_width, plan->seen_height);
     int target = 1;
     plan_layer(plan, (plan->aovs & LSF_AOV_EMISSION) != 0, "LSF_SEEN", SEEN, &target);
     plan_layer(plan, use->indirect && (plan->aovs & LSF_AOV_INDIRECT_DIFFUSE),
@@ -101,8 +101,8 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
 {
     const lsf_gbuffer_maps *gbuffer = parts->gbuffer;
     lsf_timer_begin(pass->timer);
-    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
-                         pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->seen_width,
+                         iteration->plan->seen_height, pass->program);
     lsf_bind_texture(0, gbuffer->seen.depth);
     lsf_bind_texture(1, gbuffer->emission);
     lsf_bind_texture(2, parts->direct);

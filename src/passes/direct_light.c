@@ -45,18 +45,18 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
                             "their light is told by the open sky's");
     if (use->sky.control == LSF_SKY_CONTROL_SHARE) {
         const lsf_texture_desc desc = {
-            NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, plan->width, plan->height, 4, 1};
+            NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, plan->seen_width, plan->seen_height, 4, 1};
         lsf_plan_texture_desc_add(plan, "direct_light.control", &desc,
                                   "what directions of the environment have found");
     }
     if (plan->sky_pattern > 0)
-        lsf_plan_texture_add(plan, "direct_light.sky_irradiance", GL_RGBA32F, plan->width,
-                             plan->height, "light of the environment, to be filtered");
+        lsf_plan_texture_add(plan, "direct_light.sky_irradiance", GL_RGBA32F, plan->seen_width,
+                             plan->seen_height, "light of the environment, to be filtered");
     if (plan->sky_pattern > 0 && plan->requirements.specular)
-        lsf_plan_texture_add(plan, "direct_light.sky_specular", GL_RGBA32F, plan->width,
-                             plan->height, "light of the environment, to be filtered");
-    lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->width, plan->height,
-                         "the sum over lights");
+        lsf_plan_texture_add(plan, "direct_light.sky_specular", GL_RGBA32F, plan->seen_width,
+                             plan->seen_height, "light of the environment, to be filtered");
+    lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->seen_width,
+                         plan->seen_height, "the sum over lights");
 }
 
 /* Program and timer of a pass; both stay 0, with success, when the plan does not list it. */
@@ -146,8 +146,9 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_timer *timer = sky ? pass->sky_timer : pass->timer;
     lsf_timer_begin(timer);
     bool split = sky && pass->sky_framebuffer;
-    lsf_begin_fullscreen(split ? pass->sky_framebuffer : pass->framebuffer, iteration->plan->width,
-                         iteration->plan->height, sky ? pass->sky_program : pass->program);
+    lsf_begin_fullscreen(split ? pass->sky_framebuffer : pass->framebuffer,
+                         iteration->plan->seen_width, iteration->plan->seen_height,
+                         sky ? pass->sky_program : pass->program);
     lsf_blend_add(split && pass->sky.specular ? 2 : 1);
     lsf_surface_maps_bind(inputs->seen);
     lsf_shadow_bind(inputs->shadow);

@@ -14,6 +14,11 @@ const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
      "added to the mipmap level; below 0 sharper and noisier, above 0 blurrier"},
     {"gbuffer.frame_time", LSF_OPTION_FLOAT, offsetof(lsf_gbuffer_params, frame_time), 0.0, 1e6,
      NULL, "s", "motion is measured from this much earlier"},
+    {"gbuffer.side", LSF_OPTION_ENUM, offsetof(lsf_gbuffer_params, side), 0, 0, "auto|1|2|4",
+     "points",
+     "sampled along a pixel's side in an iteration, with direct light of their own, for what "
+     "bounces there is one of them; auto: 1, but more under an environment as long as they are "
+     "fewer than the triangles in its shadow maps"},
 };
 
 static void plan_switches(lsf_plan *plan)
@@ -49,7 +54,7 @@ static void plan_switches(lsf_plan *plan)
 /* The light that is absorbed and emitted between the visible surface and the eye. */
 static void plan_way(lsf_plan *plan)
 {
-    uint32_t w = plan->width, h = plan->height;
+    uint32_t w = plan->seen_width, h = plan->seen_height;
     if (!plan->straight)
         return;
     lsf_plan_texture_add(plan, "gbuffer.tint", GL_RGBA16F, w, h,
@@ -62,7 +67,7 @@ static void plan_way(lsf_plan *plan)
 void lsf_gbuffer_plan(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
-    uint32_t w = plan->width, h = plan->height;
+    uint32_t w = plan->seen_width, h = plan->seen_height;
     lsf_plan_pass_add(plan, "gbuffer", "what each pixel sees");
     lsf_plan_reads(plan, "view scene");
     lsf_plan_texture_add(plan, "gbuffer.depth", GL_DEPTH_COMPONENT32F, w, h,
@@ -170,7 +175,8 @@ static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_dr
 {
     static const GLfloat zero[4] = {0};
     glBindFramebuffer(GL_FRAMEBUFFER, pass->tint_framebuffer);
-    lsf_begin_surfaces(iteration->plan->width, iteration->plan->height, pass->tint_program);
+    lsf_begin_surfaces(iteration->plan->seen_width, iteration->plan->seen_height,
+                       pass->tint_program);
     lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
     set_lobe_angle(pass, iteration);
     glDisable(GL_DEPTH_TEST);
@@ -189,7 +195,7 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
     static const GLfloat zero[4] = {0}, one[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     lsf_timer_begin(pass->timer);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->framebuffer);
-    lsf_begin_surfaces(iteration->plan->width, iteration->plan->height, pass->program);
+    lsf_begin_surfaces(iteration->plan->seen_width, iteration->plan->seen_height, pass->program);
     GLint at = 0;
     glClearNamedFramebufferfv(pass->framebuffer, GL_DEPTH, 0, zero);
     glClearNamedFramebufferuiv(pass->framebuffer, GL_COLOR, at++, zero_uint);

@@ -9,11 +9,13 @@
 typedef struct lsf_gbuffer_params {
     float texture_lod_bias; /* added to the level that the iteration count gives */
     float frame_time;       /* seconds; motion is measured from this much earlier */
+    int32_t side; /* sample points along a pixel's side: one more than the logarithm; 0: by
+                   * the plan */
 } lsf_gbuffer_params;
 
-#define LSF_GBUFFER_PARAMS_DEFAULTS .texture_lod_bias = 0.0f, .frame_time = 1.0f / 60.0f
+#define LSF_GBUFFER_PARAMS_DEFAULTS .texture_lod_bias = 0.0f, .frame_time = 1.0f / 60.0f, .side = 0
 
-#define LSF_GBUFFER_OPTION_COUNT 2
+#define LSF_GBUFFER_OPTION_COUNT 3
 extern const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT];
 
 typedef struct lsf_gbuffer {

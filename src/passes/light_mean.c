@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "frame/sparse_grid.h"
 
 #define AT(member) offsetof(lsf_light_mean, member)
 
@@ -41,6 +42,7 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
     lsf_plan_switch_add(plan, "LSF_SKY_LIGHT", use->sky, "directions of the environment");
+    lsf_sparse_grid_pixel_switch(plan);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
 }
 

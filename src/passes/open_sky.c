@@ -32,7 +32,8 @@ void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)
     lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", (int)use->control,
                         "how much of this light is counted on");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", 0, "never: random numbers are computed");
-    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->seen_width,
+                          plan->seen_height);
     lsf_plan_buffer_add(plan, "open_sky.drawn", LSF_OPEN_SKY_DRAWN * sizeof(lsf_open_sky_data),
                         "directions drawn by the environment's radiance");
 }
@@ -88,8 +89,8 @@ void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
         return;
     lsf_timer_begin(pass->timer);
     draw_directions(pass, iteration);
-    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
-                         pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->seen_width,
+                         iteration->plan->seen_height, pass->program);
     lsf_surface_maps_bind(seen);
     lsf_bind_texture(3, control);
     lsf_scene_gpu_bind_environment(iteration->scene);

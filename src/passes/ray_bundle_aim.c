@@ -17,10 +17,11 @@ void lsf_ray_bundle_aim_plan(lsf_plan *plan)
     lsf_plan_reads(plan, "view gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_ray_bundle_gap_switch(plan);
-    lsf_plan_texture_add(
-        plan, "ray_bundle.tiles", GL_RG32F, (plan->width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
-        (plan->height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
-        "nearest and farthest depth of %d x %d pixels", LSF_BUNDLE_TILE, LSF_BUNDLE_TILE);
+    lsf_plan_texture_add(plan, "ray_bundle.tiles", GL_RG32F,
+                         (plan->seen_width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
+                         (plan->seen_height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
+                         "nearest and farthest depth of %d x %d pixels", LSF_BUNDLE_TILE,
+                         LSF_BUNDLE_TILE);
 }
 
 bool lsf_ray_bundle_aim_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error)
@@ -111,8 +112,8 @@ static void fit(lsf_ray_bundle *pass, const lsf_iteration *iteration, GLuint dep
     const lsf_plan *plan = iteration->plan;
     lsf_timer_begin(pass->bounds_timer);
     lsf_begin_fullscreen(
-        pass->tiles_framebuffer, (plan->width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
-        (plan->height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE, pass->tiles_program);
+        pass->tiles_framebuffer, (plan->seen_width + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE,
+        (plan->seen_height + LSF_BUNDLE_TILE - 1) / LSF_BUNDLE_TILE, pass->tiles_program);
     lsf_bind_texture(0, depth);
     glUniform1i(0, LSF_BUNDLE_TILE * LSF_BUNDLE_TILE);
     lsf_draw_fullscreen(pass->context);

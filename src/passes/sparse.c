@@ -56,7 +56,7 @@ lsf_region lsf_sparse_region(const lsf_sparse_grid *grid, uint32_t size, uint32_
 }
 
 /* Conditions of textures, beside LSF_TEXTURE_SPECULAR. */
-enum { SPLIT = 2, GATHER = 4, SPARSE = 8 };
+enum { SPLIT = 2, GATHER = 4, SPARSE = 8, SHARED = 16 };
 
 #define AT(member) offsetof(lsf_sparse, member)
 
@@ -71,9 +71,9 @@ static const lsf_texture_row places[] = {
      "of points"},
 };
 
-/* Of the picture's size. */
+/* Of the size of what is seen. */
 static const lsf_texture_row pixels[] = {
-    {"sparse.source", GL_R32UI, AT(source), SPARSE, "points that a pixel takes light of"},
+    {"sparse.source", GL_R32UI, AT(source), SHARED, "points that a pixel takes light of"},
     {"upsampled.irradiance", GL_RGBA32F, AT(light.irradiance), SPARSE, "of all pixels"},
     {"upsampled.specular", GL_RGBA32F, AT(light.specular), SPARSE | LSF_TEXTURE_SPECULAR,
      "of all pixels"},
@@ -85,6 +85,7 @@ static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
     const lsf_requirements *r = &plan->requirements;
     bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
     lsf_sparse_grid_switch(plan);
+    lsf_sparse_grid_pixel_switch(plan);
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)interleave, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
@@ -103,7 +104,9 @@ static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
 static uint32_t given(const lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
 {
     bool sparse = lsf_sparse_grid_is_sparse(plan), split = sparse || interleave > 1;
-    return (split ? SPLIT : 0) | (split || params->outliers ? GATHER : 0) | (sparse ? SPARSE : 0);
+    bool shared = sparse && !lsf_sparse_grid_is_of_pixels(plan);
+    return (split ? SPLIT : 0) | (split || params->outliers ? GATHER : 0) | (sparse ? SPARSE : 0) |
+           (shared ? SHARED : 0);
 }
 
 void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
@@ -111,7 +114,7 @@ void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint
     uint32_t there = given(plan, params, interleave);
     if (there == 0)
         lsf_plan_omit(plan, "sparse", "light is gathered at every pixel, all by the same samples");
-    if (there & SPARSE) {
+    if (there & SHARED) {
         lsf_plan_pass_add(plan, "sparse_fit", "pixels whose surface every %u-th of them shows",
                           plan->stride);
         lsf_plan_remark(plan,
@@ -134,7 +137,7 @@ void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint
 void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
 {
     uint32_t there = given(plan, params, interleave), size[2];
-    bool tint = there & SPARSE || params->outliers;
+    bool tint = there & SHARED || params->outliers;
     if (there & GATHER) {
         lsf_plan_pass_add(plan, "sparse_gather", "light back into the order of points");
         lsf_plan_reads(plan, "bidirectional_shade|cone_trace|light_tree_sample|voxel_path");
@@ -150,7 +153,12 @@ void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uin
 void lsf_sparse_plan_upsample(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
 {
     uint32_t there = given(plan, params, interleave);
-    if (there & SPARSE) {
+    if (there & SPARSE && !(there & SHARED)) {
+        lsf_plan_pass_add(plan, "sparse_spread", "light of points at their places in pixels");
+        lsf_plan_fills(plan, "upsampled");
+        lsf_plan_reads(plan, "sparse");
+        plan_switches(plan, interleave, false);
+    } else if (there & SPARSE) {
         lsf_plan_pass_add(plan, "sparse_upsample", "light of points for every pixel");
         lsf_plan_fills(plan, "upsampled");
         lsf_plan_reads(plan, "view gbuffer points.pixels sparse blur");
@@ -158,7 +166,8 @@ void lsf_sparse_plan_upsample(lsf_plan *plan, const lsf_sparse_params *params, u
         lsf_plan_buffer_add(plan, "sparse.counts", LSF_SPARSE_COUNTS * sizeof(GLuint),
                             "pixels that no point fits");
     }
-    lsf_plan_textures_add(plan, pixels, LSF_COUNT(pixels), there, plan->width, plan->height);
+    lsf_plan_textures_add(plan, pixels, LSF_COUNT(pixels), there, plan->seen_width,
+                          plan->seen_height);
 }
 
 /* A stage: its framebuffer, program and timer. */
@@ -198,6 +207,7 @@ bool lsf_sparse_create(lsf_sparse *pass, lsf_context *context, const lsf_plan *p
         glClearNamedBufferData(pass->count_buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT,
                                &zero);
     const lsf_surface_maps *split = &pass->split;
+    bool spread = lsf_plan_find_pass(plan, "sparse_spread") != NULL;
     const stage stages[] = {
         {"sparse_fit",
          "passes/sparse_fit.frag.glsl",
@@ -217,8 +227,8 @@ bool lsf_sparse_create(lsf_sparse *pass, lsf_context *context, const lsf_plan *p
          &pass->gathered_framebuffer,
          &pass->gather_program,
          &pass->gather_timer},
-        {"sparse_upsample",
-         "passes/sparse_upsample.frag.glsl",
+        {spread ? "sparse_spread" : "sparse_upsample",
+         spread ? "passes/sparse_spread.frag.glsl" : "passes/sparse_upsample.frag.glsl",
          {.color_count = 2, .colors = {pass->light.irradiance, pass->light.specular}},
          &pass->light_framebuffer,
          &pass->upsample_program,
@@ -245,7 +255,8 @@ static void fit(lsf_sparse *pass, const lsf_iteration *iteration, const lsf_surf
 {
     const lsf_plan *plan = iteration->plan;
     lsf_timer_begin(pass->fit_timer);
-    begin(pass, iteration, pass->source_framebuffer, pass->fit_program, plan->width, plan->height);
+    begin(pass, iteration, pass->source_framebuffer, pass->fit_program, plan->seen_width,
+          plan->seen_height);
     lsf_surface_maps_bind(seen);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->fit_timer);
@@ -288,8 +299,8 @@ void lsf_sparse_upsample(lsf_sparse *pass, const lsf_iteration *iteration,
 {
     const lsf_plan *plan = iteration->plan;
     lsf_timer_begin(pass->upsample_timer);
-    begin(pass, iteration, pass->light_framebuffer, pass->upsample_program, plan->width,
-          plan->height);
+    begin(pass, iteration, pass->light_framebuffer, pass->upsample_program, plan->seen_width,
+          plan->seen_height);
     lsf_surface_maps_bind(seen);
     lsf_bind_texture(LSF_UNIT_PLACES, pass->split.pixels);
     lsf_bind_texture(3, pass->source);

@@ -26,7 +26,8 @@ void lsf_voxel_view_plan(lsf_plan *plan, uint32_t sides)
     lsf_plan_reads(plan, "view voxelize voxel_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)sides, "sides that radiance is kept for");
-    lsf_plan_textures_add(plan, layers, LSF_COUNT(layers), plan->aovs, plan->width, plan->height);
+    lsf_plan_textures_add(plan, layers, LSF_COUNT(layers), plan->aovs, plan->seen_width,
+                          plan->seen_height);
 }
 
 bool lsf_voxel_view_create(lsf_voxel_view *pass, lsf_context *context, const lsf_plan *plan,
@@ -59,8 +60,8 @@ void lsf_voxel_view_run(lsf_voxel_view *pass, const lsf_iteration *iteration,
                         const lsf_voxels *voxels, GLuint radiance)
 {
     lsf_timer_begin(pass->timer);
-    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->width, iteration->plan->height,
-                         pass->program);
+    lsf_begin_fullscreen(pass->framebuffer, iteration->plan->seen_width,
+                         iteration->plan->seen_height, pass->program);
     lsf_voxels_bind(voxels);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, radiance);
     lsf_draw_fullscreen(pass->context);

@@ -56,6 +56,9 @@ struct lsf_plan {
     const char *technique;
     lsf_requirements requirements;
     uint32_t width, height, samples, bounces, aovs;
+    uint32_t pixel_side; /* sample points along a pixel's side in an iteration, a power of two */
+    uint32_t seen_width, seen_height; /* of the picture of all sample points, which passes see; the
+                                       * means have one value a pixel */
     uint32_t sky_lights; /* directions in each iteration from which the environment lights */
     lsf_islands islands; /* for techniques that draw maps over the whole scene; else none */
     lsf_plan_grain grain;
@@ -73,8 +76,8 @@ struct lsf_plan {
     uint32_t sky_pattern; /* side of the pattern in which pixels take different directions of the
                            * environment; 0: their light is not filtered, and all pixels take all
                            * directions */
-    uint32_t stride; /* pixels from point to point at which indirect light is gathered, a power of
-                      * two; 0 is 1 */
+    uint32_t stride; /* sample points from point to point at which indirect light is gathered, a
+                      * power of two; 0 is 1 */
     uint32_t finest_stride; /* stride to which it falls as iterations go on; used where stride is
                              * above 1 */
     uint32_t tiles;         /* of pixels, to which samples are dealt out in turn; 0 is 1 */

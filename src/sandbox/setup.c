@@ -296,8 +296,9 @@ static bool begin_plan(lsf_sandbox_setup *setup, const lsf_sandbox_text *text, l
         setup->plan = lsf_alloc(1, sizeof *setup->plan);
         if (!setup->plan)
             return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
-        setup->plan->width = params.width;
-        setup->plan->height = params.height;
+        setup->plan->width = setup->plan->seen_width = params.width;
+        setup->plan->height = setup->plan->seen_height = params.height;
+        setup->plan->pixel_side = 1;
         if (setup->picture) {
             setup->plan->requirements = setup->picture->requirements;
             setup->plan->transmission = setup->picture->transmission;

@@ -11,7 +11,8 @@ static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_param
         light.sky.control = params->sky_light.control == LSF_SKY_LIGHT_WHOLE
                                 ? LSF_SKY_CONTROL_WHOLE
                                 : LSF_SKY_CONTROL_SHARE;
-        while (2 * light.sky.open_samples <= (uint32_t)params->sky_light.open)
+        uint32_t points = plan->pixel_side * plan->pixel_side; /* of a pixel share its samples */
+        while (2 * points * light.sky.open_samples <= (uint32_t)params->sky_light.open)
             light.sky.open_samples *= 2;
     }
     if (use) {

@@ -27,7 +27,7 @@ static float view_depth(const lsf_iteration *iteration, float depth)
  * no memory is left. */
 static float median_depth(const lsf_iteration *iteration, GLuint texture)
 {
-    uint32_t width = iteration->plan->width, height = iteration->plan->height;
+    uint32_t width = iteration->plan->seen_width, height = iteration->plan->seen_height;
     uint32_t rows = height < MAX_ROWS ? height : MAX_ROWS;
     uint64_t count = 0;
     float median = NAN, *depths = lsf_alloc((uint64_t)rows * width, sizeof *depths);

@@ -144,6 +144,50 @@ static uint32_t sky_pattern(uint32_t directions, int32_t interleave)
     return side;
 }
 
+/* Whether one sample point of a pixel can gather what bounces for all of them. */
+static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *technique)
+{
+    const lsf_pass_params *pass_params = &setup->pass_params;
+    return technique && !setup->params.temporal && !(setup->params.aovs & LSF_AOV_MOTION) &&
+           setup->plan->stride == 1 && !pass_params->sparse.outliers &&
+           !lsf_blur_wanted(&pass_params->blur);
+}
+
+enum { LONGEST_SIDE = 4 };
+
+/* Sample points of a pixel cost little beside maps that draw more triangles than there are points,
+ * and take the noise off edges and textures that is most of what few iterations leave. */
+static uint32_t pixel_side(const lsf_setup *setup, const lsf_technique *technique)
+{
+    const lsf_plan *plan = setup->plan;
+    int32_t wanted = setup->pass_params.gbuffer.side;
+    if (!can_share_pixels(setup, technique))
+        return 1;
+    if (wanted > 0)
+        return 1u << (wanted - 1);
+    uint64_t drawn = plan->sky_lights * plan->requirements.triangles;
+    uint64_t pixels = (uint64_t)plan->width * plan->height;
+    uint32_t side = 1;
+    while (!setup->params.raw && side < LONGEST_SIDE && 4 * side * side * pixels <= drawn)
+        side *= 2;
+    return side;
+}
+
+/* What an iteration sees, and where light that bounces is gathered there. */
+static void set_seen(lsf_setup *setup, const lsf_technique *technique)
+{
+    lsf_plan *plan = setup->plan;
+    uint32_t side = plan->pixel_side = pixel_side(setup, technique);
+    plan->seen_width = side * plan->width;
+    plan->seen_height = side * plan->height;
+    if (side == 1)
+        return;
+    plan->stride = plan->finest_stride = technique->bounces ? side : 1;
+    lsf_plan_remark(plan, "%u points of each pixel are sampled in an iteration%s (gbuffer.side)",
+                    side * side,
+                    technique->bounces ? ", one of which gathers the light that bounces" : "");
+}
+
 static bool begin_plan(lsf_setup *setup, lsf_error *error)
 {
     const lsf_render_params *params = &setup->params;
@@ -169,6 +213,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->aovs = params->aovs;
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
+    set_seen(setup, technique);
     bool shared = !technique || !draws_itself(technique);
     plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
     if (plan->filtered && plan->sky_lights > 0)

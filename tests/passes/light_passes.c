@@ -82,6 +82,9 @@ void light_passes_init(light_passes *p, const lsf_scene *scene, int32_t rsm_reso
                          .requirements = scene->requirements,
                          .width = 16,
                          .height = 16,
+                         .pixel_side = 1,
+                         .seen_width = 16,
+                         .seen_height = 16,
                          .samples = 1};
     lsf_scene_gpu_plan(&p->plan, scene);
     lsf_iteration_plan(&p->plan);

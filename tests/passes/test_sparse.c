@@ -142,7 +142,8 @@ static void phases_fill_the_picture(void **unused)
     (void)unused;
     for (size_t s = 0; s < LSF_COUNT(sizes); s++) {
         uint32_t w = sizes[s][0], h = sizes[s][1], first = 0;
-        lsf_plan plan = {.width = w, .height = h, .stride = sizes[s][2], .finest_stride = 1};
+        lsf_plan plan = {
+            .seen_width = w, .seen_height = h, .stride = sizes[s][2], .finest_stride = 1};
         for (uint32_t stride = sizes[s][2]; stride > 1; stride /= 2) {
             uint32_t turns[64 * 48] = {0};
             bool small = w < stride || h < stride; /* phases are those of pixels then */
