@@ -2,7 +2,7 @@
  * of two; and stability at the extremes. */
 #include <math.h>
 
-#include "render_gl.h"
+#include "light_rules.h"
 
 /* A floor, a box and a sphere under a point light, a spot and a sun; lengths times `scale`. */
 static lsf_scene *extreme_scene(float scale)
@@ -245,34 +245,15 @@ static void depth_range(void **unused)
     destroy_scene(scene);
 }
 
-/* Each GL allocation fails in turn: a clear error, and nothing is left behind. */
 static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
     lsf_scene *scene = extreme_scene(1.0f);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
-    params.width = params.height = 16;
     params.aovs = LSF_AOV_MOTION | LSF_AOV_EMISSION;
     params.rgb8 = true;
-    uint32_t failures = 0;
-    for (;; failures++) {
-        lsf_error error = {0};
-        lsf_context_fail_allocation(context, failures + 1);
-        lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
-        if (renderer) {
-            lsf_renderer_destroy(renderer);
-            break;
-        }
-        assert_int_equal(error.code, LSF_ERROR_RENDER);
-        assert_true(error.message[0] != '\0');
-        assert_int_equal(lsf_context_get_info(context).gl_bytes, 0);
-    }
-    print_message("%u allocations failed in turn\n", failures);
-    assert_true(failures > 20);
-    gl_test_check(context);
-    lsf_context_destroy(context);
+    assert_every_allocation_may_fail(scene, params, 20);
     destroy_scene(scene);
 }
 

@@ -3,9 +3,8 @@
 #include <math.h>
 
 #include "base/base.h"
+#include "light_rules.h"
 #include "plan/plan.h"
-#include "render_gl.h"
-#include "shared/brdf.h"
 #include "techniques/setup.h"
 
 static const char *const options[] = {"cloud.count=16384", "voxel.resolution=64",
@@ -22,130 +21,60 @@ static lsf_render_params params_of(uint32_t samples, uint32_t bounces)
                                .option_count = LSF_COUNT(options)};
 }
 
-static void expect(const char *what, const lsf_image *image, double expected, double allowed)
-{
-    double rgb[3];
-    mean_rgb(image, 0, rgb);
-    print_message("%s: %.5f, expected %.5f\n", what, rgb[1], expected);
-    for (int c = 0; c < 3; c++)
-        assert_true(fabs(rgb[c] / expected - 1.0) <= allowed);
-}
-
-/* A closed box seen from inside, every wall emitting 1 and reflecting rho: L = 1 + rho + ... +
- * rho^(N + 1): emission seen, direct light of the walls, N bounces. VPLs close to the point that
- * they light, in edges and corners, are bounded: some light is lost. */
+/* VPLs close to the point that they light, in edges and corners, are bounded: some light is lost.
+ */
 static void energy_in_a_furnace(void **unused)
 {
     (void)unused;
     static const uint32_t bounces[] = {0, 1, 3};
+    lsf_scene *scene = furnace_scene(0.5f);
     for (size_t i = 0; i < LSF_COUNT(bounces); i++) {
-        const float rho = 0.5f;
-        lsf_scene *scene = build_scene();
-        lsf_material *material = build_material(scene, rho, rho, rho);
-        for (int c = 0; c < 3; c++)
-            material->emission[c] = 1.0f;
-        build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
-        scene->diffuse_only = true;
-        finish_gl_scene(scene);
-        double expected = 1.0, power = 1.0;
-        for (uint32_t k = 0; k <= bounces[i]; k++)
-            expected += power *= (double)rho;
         lsf_image *image = render_gl_from(scene, params_of(8, bounces[i]), 24,
                                           lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
-        expect("furnace", image, expected, 0.03);
+        assert_mean("furnace", image, furnace_radiance(0.5f, bounces[i]), 0.03);
         lsf_image_destroy(image);
-        lsf_scene_destroy(scene);
     }
-}
-
-/* A light I in the middle of a sphere of radius R: every point has the irradiance I / R^2, and the
- * radiance rho / pi I / R^2 (1 + rho + ... + rho^N) after N bounces. */
-static void bounces_in_a_sphere(void **unused)
-{
-    (void)unused;
-    const double rho = 0.6;
-    for (uint32_t bounces = 0; bounces <= 4; bounces += 2) {
-        lsf_scene *scene = build_scene();
-        build_material(scene, (float)rho, (float)rho, (float)rho);
-        build_sphere(scene, 4, true);
-        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 0, 0), lsf_f3(0, -1, 0), 3.0f);
-        scene->diffuse_only = true;
-        finish_gl_scene(scene);
-        double expected = 0.0, power = rho / (double)LSF_PI * 3.0;
-        for (uint32_t k = 0; k <= bounces; k++, power *= rho)
-            expected += power;
-        lsf_image *image = render_gl_from(scene, params_of(8, bounces), 24, lsf_f3(0, 0, 0.5f),
-                                          lsf_f3(0.3f, 0.2f, -1));
-        expect("sphere", image, expected, 0.03);
-        lsf_image_destroy(image);
-        lsf_scene_destroy(scene);
-    }
-}
-
-/* A white sphere under a constant environment cannot be seen: its light comes straight, none is
- * counted twice. */
-static void white_furnace(void **unused)
-{
-    (void)unused;
-    lsf_scene *scene = build_scene();
-    build_material(scene, 1.0f, 1.0f, 1.0f);
-    build_sphere(scene, 4, false);
-    scene->diffuse_only = true;
-    build_environment(scene, 0.5f);
-    finish_gl_scene(scene);
-    lsf_image *image =
-        render_gl_from(scene, params_of(16, 3), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
-    expect("white furnace", image, 0.5, 0.02);
-    lsf_image_destroy(image);
     lsf_scene_destroy(scene);
 }
 
-/* A room of two walls with a glossy box, a lamp and a light. */
-static lsf_scene *room(float intensity)
+static void bounces_in_a_sphere(void **unused)
 {
-    lsf_scene *scene = build_scene();
-    build_material(scene, 0.7f, 0.6f, 0.5f);
-    build_floor(scene, 0.0f, 2.0f);
-    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
-    lsf_material *glossy = build_material(scene, 0.8f, 0.5f, 0.2f);
-    glossy->roughness = 0.3f;
-    glossy->metallic = 0.5f;
-    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
-    lsf_material *lamp = build_material(scene, 0.1f, 0.1f, 0.1f);
-    for (int c = 0; c < 3; c++)
-        lamp->emission[c] = 4.0f * intensity;
-    build_quad(scene, lsf_f3(-2, 0.5f, 1), lsf_f3(-2, 0.5f, -1), lsf_f3(-2, 2, -1),
-               lsf_f3(-2, 2, 1));
-    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.5f, 2, 0.5f), lsf_f3(0, -1, 0), 8.0f * intensity);
-    finish_gl_scene(scene);
-    return scene;
+    (void)unused;
+    lsf_scene *scene = lit_sphere_scene(0.6f);
+    for (uint32_t bounces = 0; bounces <= 4; bounces += 2) {
+        lsf_image *image = render_gl_from(scene, params_of(8, bounces), 24, lsf_f3(0, 0, 0.5f),
+                                          lsf_f3(0.3f, 0.2f, -1));
+        assert_mean("sphere", image, lit_sphere_radiance(0.6f, bounces), 0.03);
+        lsf_image_destroy(image);
+    }
+    lsf_scene_destroy(scene);
+}
+
+/* Light of the environment comes straight, and none is counted twice. */
+static void white_furnace(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = white_sphere_scene(4);
+    lsf_image *image =
+        render_gl_from(scene, params_of(16, 3), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
+    assert_mean("white furnace", image, 0.5, 0.02);
+    lsf_image_destroy(image);
+    lsf_scene_destroy(scene);
 }
 
 static void same_bits_again(void **unused)
 {
     (void)unused;
-    lsf_scene *scene = room(1.0f);
+    lsf_scene *scene = lit_room_scene(1.0f);
     lsf_render_params params = corner_params(params_of(2, 2), 33);
     assert_same_for_any_threads(scene, &params);
     lsf_scene_destroy(scene);
 }
 
-/* Light times 2^k gives the picture times 2^k, to the bit. */
 static void light_scales(void **unused)
 {
     (void)unused;
-    static const float scales[] = {0x1p-40f, 0x1p40f};
-    lsf_scene *scene = room(1.0f);
-    lsf_image *expected = render_corner(scene, params_of(2, 2), 33);
-    for (int i = 0; i < 2; i++) {
-        lsf_scene *scaled = room(scales[i]);
-        lsf_image *image = render_corner(scaled, params_of(2, 2), 33);
-        assert_scaled_pixels(image, expected, scales[i]);
-        lsf_image_destroy(image);
-        lsf_scene_destroy(scaled);
-    }
-    lsf_image_destroy(expected);
-    lsf_scene_destroy(scene);
+    assert_light_scales(params_of(2, 2));
 }
 
 static bool has_pass(const lsf_scene *scene, uint32_t bounces, const char *const *passes)
@@ -197,33 +126,11 @@ static void only_what_is_required(void **unused)
     }
 }
 
-/* Each GL allocation fails in turn: a clear error, and nothing is left behind. Then there is as
- * much as the plan says. */
 static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
-    lsf_scene *scene = room(1.0f);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    lsf_render_params params = params_of(1, 2);
-    params.width = params.height = 16;
-    uint32_t failures = 0;
-    for (bool created = false; !created; failures++) {
-        lsf_error error = {0};
-        lsf_context_fail_allocation(context, failures + 1);
-        lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
-        created = renderer != NULL;
-        if (created)
-            assert_int_equal(lsf_context_get_info(context).gl_bytes,
-                             lsf_plan_bytes(lsf_renderer_plan(renderer)));
-        else
-            assert_int_equal(error.code, LSF_ERROR_RENDER);
-        lsf_renderer_destroy(renderer);
-        assert_int_equal(lsf_context_get_info(context).gl_bytes, 0);
-    }
-    print_message("%u allocations failed in turn\n", failures - 1);
-    assert_true(failures > 40);
-    gl_test_check(context);
-    lsf_context_destroy(context);
+    lsf_scene *scene = lit_room_scene(1.0f);
+    assert_every_allocation_may_fail(scene, params_of(1, 2), 40);
     lsf_scene_destroy(scene);
 }
 

@@ -3,8 +3,7 @@
 #include <math.h>
 
 #include "base/base.h"
-#include "render_gl.h"
-#include "shared/brdf.h"
+#include "light_rules.h"
 
 enum { MAX_OPTIONS = 4 };
 
@@ -20,24 +19,13 @@ static lsf_render_params params_of(uint32_t samples, uint32_t bounces, const cha
     return params;
 }
 
-static void expect(const char *what, const lsf_image *image, double expected, double allowed)
-{
-    double rgb[3];
-    mean_rgb(image, 0, rgb);
-    print_message("%s: %.5f, expected %.5f\n", what, rgb[1], expected);
-    for (int c = 0; c < 3; c++)
-        assert_true(fabs(rgb[c] / expected - 1.0) <= allowed);
-}
-
 static const char *const coarse_grid[MAX_OPTIONS] = {"voxel.resolution=32"};
 static const char *const by_texture[MAX_OPTIONS] = {"voxel.resolution=32",
                                                     "voxel_path.sequence=texture"};
 static const char *const upsampled[MAX_OPTIONS] = {"voxel.resolution=32", "sparse.grid=2"};
 static const char *const blurred[MAX_OPTIONS] = {"voxel.resolution=32", "sparse.blur=5"};
 
-/* A closed box seen from inside, every wall emitting 1 and reflecting rho:
- * L = 1 + rho + ... + rho^(N + 1): emission seen, direct light of the walls, N bounces. Voxels hold
- * albedo in 11 bits and emission in 9. */
+/* Voxels hold albedo in 11 bits and emission in 9. */
 static void energy_in_a_furnace(void **unused)
 {
     (void)unused;
@@ -53,20 +41,11 @@ static void energy_in_a_furnace(void **unused)
         {"blurred", 0.5f, 2, blurred},
     };
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
-        lsf_scene *scene = build_scene();
-        float rho = cases[i].albedo;
-        lsf_material *material = build_material(scene, rho, rho, rho);
-        for (int c = 0; c < 3; c++)
-            material->emission[c] = 1.0f;
-        build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
-        scene->diffuse_only = true;
-        finish_gl_scene(scene);
-        double expected = 1.0, power = 1.0;
-        for (uint32_t k = 0; k <= cases[i].bounces; k++)
-            expected += power *= (double)rho;
+        lsf_scene *scene = furnace_scene(cases[i].albedo);
         lsf_image *image = render_gl_from(scene, params_of(4, cases[i].bounces, cases[i].options),
                                           12, lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
-        expect(cases[i].name, image, expected, 0.002);
+        assert_mean(cases[i].name, image, furnace_radiance(cases[i].albedo, cases[i].bounces),
+                    0.002);
         lsf_image_destroy(image);
         lsf_scene_destroy(scene);
     }
@@ -85,75 +64,37 @@ static void open_plane(void **unused)
     finish_gl_scene(scene);
     lsf_image *image =
         render_gl_from(scene, params_of(2, 1, NULL), 16, lsf_f3(0, 1, 0.5f), lsf_f3(0, 0, 0));
-    expect("open plane", image, 0.35, 1e-4);
+    assert_mean("open plane", image, 0.35, 1e-4);
     lsf_image_destroy(image);
     lsf_scene_destroy(scene);
 }
 
-/* A white sphere under a constant environment cannot be seen, but for paths that its own voxels
- * catch. Facets lie deeper than the sphere by less than a voxel. */
+/* The sphere's own voxels catch few paths. Facets lie deeper than the sphere by less than a voxel.
+ */
 static void white_furnace(void **unused)
 {
     (void)unused;
     static const char *const fine[MAX_OPTIONS] = {"voxel.resolution=128"};
-    lsf_scene *scene = build_scene();
-    build_material(scene, 1.0f, 1.0f, 1.0f);
-    build_sphere(scene, 4, false);
-    scene->diffuse_only = true;
-    build_environment(scene, 0.5f);
-    finish_gl_scene(scene);
+    lsf_scene *scene = white_sphere_scene(4);
     lsf_image *image =
         render_gl_from(scene, params_of(8, 3, fine), 24, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0));
-    expect("white furnace", image, 0.5, 0.01);
+    assert_mean("white furnace", image, 0.5, 0.01);
     lsf_image_destroy(image);
     lsf_scene_destroy(scene);
 }
 
-/* A light I in the middle of a sphere of radius R: every point has the irradiance I / R^2, and the
- * radiance rho / pi I / R^2 (1 + rho + ... + rho^N) after N bounces. */
 static void bounces_in_a_sphere(void **unused)
 {
     (void)unused;
-    const double rho = 0.6;
+    static const char *const options[MAX_OPTIONS] = {"voxel.resolution=64"};
+    lsf_scene *scene = lit_sphere_scene(0.6f);
     for (uint32_t bounces = 0; bounces <= 4; bounces += 2) {
-        lsf_scene *scene = build_scene();
-        build_material(scene, (float)rho, (float)rho, (float)rho);
-        build_sphere(scene, 4, true);
-        build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 0, 0), lsf_f3(0, -1, 0), 3.0f);
-        scene->diffuse_only = true;
-        finish_gl_scene(scene);
-        double expected = 0.0, power = rho / (double)LSF_PI * 3.0;
-        for (uint32_t k = 0; k <= bounces; k++, power *= rho)
-            expected += power;
-        static const char *const options[MAX_OPTIONS] = {"voxel.resolution=64"};
         lsf_image *image = render_gl_from(scene, params_of(8, bounces, options), 16,
                                           lsf_f3(0, 0, 0.5f), lsf_f3(0.3f, 0.2f, -1));
-        expect("sphere", image, expected, 0.02);
+        assert_mean("sphere", image, lit_sphere_radiance(0.6f, bounces), 0.02);
         lsf_image_destroy(image);
-        lsf_scene_destroy(scene);
     }
-}
-
-/* A room of two walls with a glossy anisotropic box, a lamp and a light. */
-static lsf_scene *room(float intensity)
-{
-    lsf_scene *scene = build_scene();
-    build_material(scene, 0.7f, 0.6f, 0.5f);
-    build_floor(scene, 0.0f, 2.0f);
-    build_quad(scene, lsf_f3(-2, 0, -2), lsf_f3(2, 0, -2), lsf_f3(2, 3, -2), lsf_f3(-2, 3, -2));
-    lsf_material *glossy = build_material(scene, 0.8f, 0.5f, 0.2f);
-    glossy->roughness = 0.3f;
-    glossy->metallic = 0.5f;
-    glossy->anisotropy_strength = 0.6f;
-    build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
-    lsf_material *lamp = build_material(scene, 0.1f, 0.1f, 0.1f);
-    for (int c = 0; c < 3; c++)
-        lamp->emission[c] = 4.0f * intensity;
-    build_quad(scene, lsf_f3(-2, 0.5f, 1), lsf_f3(-2, 0.5f, -1), lsf_f3(-2, 2, -1),
-               lsf_f3(-2, 2, 1));
-    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.5f, 2, 0.5f), lsf_f3(0, -1, 0), 8.0f * intensity);
-    finish_gl_scene(scene);
-    return scene;
+    lsf_scene_destroy(scene);
 }
 
 static void same_bits_again(void **unused)
@@ -162,7 +103,7 @@ static void same_bits_again(void **unused)
     static const char *const single[MAX_OPTIONS] = {"voxel.resolution=32", "sparse.grid=2",
                                                     "sparse.blur=5"};
     const char *const *const options[] = {coarse_grid, single};
-    lsf_scene *scene = room(1.0f);
+    lsf_scene *scene = lit_room_scene(1.0f);
     for (int k = 0; k < 2; k++) {
         lsf_render_params params = corner_params(params_of(2, 2, options[k]), 33);
         assert_same_for_any_threads(scene, &params);
@@ -170,29 +111,17 @@ static void same_bits_again(void **unused)
     lsf_scene_destroy(scene);
 }
 
-/* Light times 2^k gives the picture times 2^k, to the bit. */
 static void light_scales(void **unused)
 {
     (void)unused;
-    static const float scales[] = {0x1p-40f, 0x1p40f};
-    lsf_scene *scene = room(1.0f);
-    lsf_image *expected = render_corner(scene, params_of(2, 2, coarse_grid), 33);
-    for (int i = 0; i < 2; i++) {
-        lsf_scene *scaled = room(scales[i]);
-        lsf_image *image = render_corner(scaled, params_of(2, 2, coarse_grid), 33);
-        assert_scaled_pixels(image, expected, scales[i]);
-        lsf_image_destroy(image);
-        lsf_scene_destroy(scaled);
-    }
-    lsf_image_destroy(expected);
-    lsf_scene_destroy(scene);
+    assert_light_scales(params_of(2, 2, coarse_grid));
 }
 
 /* The layers add up to the picture, and paths of either sequence to the same one. */
 static void layers_and_sequences(void **unused)
 {
     (void)unused;
-    lsf_scene *scene = room(1.0f);
+    lsf_scene *scene = lit_room_scene(1.0f);
     double sum[2][3];
     for (int k = 0; k < 2; k++) {
         lsf_render_params params = params_of(64, 1, k ? by_texture : coarse_grid);
@@ -250,35 +179,13 @@ static void sealed_room(void **unused)
     }
 }
 
-/* Each GL allocation fails in turn: a clear error, and nothing is left behind. Then there is as
- * much as the plan says. */
 static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
     static const char *const options[MAX_OPTIONS] = {
         "voxel.resolution=16", "sparse.grid=2", "sparse.blur=5", "voxel_path.sequence=texture"};
-    lsf_scene *scene = room(1.0f);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    lsf_render_params params = params_of(1, 1, options);
-    params.width = params.height = 16;
-    uint32_t failures = 0;
-    for (bool created = false; !created; failures++) {
-        lsf_error error = {0};
-        lsf_context_fail_allocation(context, failures + 1);
-        lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
-        created = renderer != NULL;
-        if (created)
-            assert_int_equal(lsf_context_get_info(context).gl_bytes,
-                             lsf_plan_bytes(lsf_renderer_plan(renderer)));
-        else
-            assert_int_equal(error.code, LSF_ERROR_RENDER);
-        lsf_renderer_destroy(renderer);
-        assert_int_equal(lsf_context_get_info(context).gl_bytes, 0);
-    }
-    print_message("%u allocations failed in turn\n", failures - 1);
-    assert_true(failures > 40);
-    gl_test_check(context);
-    lsf_context_destroy(context);
+    lsf_scene *scene = lit_room_scene(1.0f);
+    assert_every_allocation_may_fail(scene, params_of(1, 1, options), 40);
     lsf_scene_destroy(scene);
 }
 
