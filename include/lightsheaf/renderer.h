@@ -143,6 +143,8 @@ lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *param
 void lsf_plan_destroy(lsf_plan *plan);           /* NULL allowed */
 uint64_t lsf_plan_bytes(const lsf_plan *plan);   /* GL bytes of all resources */
 uint32_t lsf_plan_bounces(const lsf_plan *plan); /* indirect ones; 0: the technique has none */
+/* The file of the denoiser's weights; NULL: there is no denoiser, or it has the library's own. */
+const char *lsf_plan_weights(const lsf_plan *plan);
 char *lsf_plan_describe(const lsf_plan *plan, bool json); /* malloc'ed; NULL without memory */
 /* Passes in order, the resources that they fill and read, bytes and switches that are on, as a
  * graph for Graphviz. malloc'ed; NULL without memory. */

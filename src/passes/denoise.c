@@ -55,8 +55,9 @@ void lsf_denoise_plan(lsf_plan *plan, const lsf_net *net)
     uint32_t width = padded(plan->width, net), height = padded(plan->height, net);
     uint64_t groups = (uint64_t)tiles(plan->width) * tiles(plan->height);
     if (net)
-        lsf_plan_pass_add(plan, "denoise", "a network of %u stages goes on from filtered light",
-                          net->stages);
+        lsf_plan_pass_add(plan, "denoise", "a network of %u stages%s%s goes on from filtered light",
+                          net->stages, plan->weights ? " from " : "",
+                          plan->weights ? plan->weights : "");
     else
         lsf_plan_pass_add(plan, "denoise", "records what a network would be given");
     lsf_plan_reads(plan, "view light_mean light_filter");

@@ -173,6 +173,7 @@ void lsf_plan_destroy(lsf_plan *plan)
     free(plan->passes);
     free(plan->resources);
     free(plan->omissions);
+    free(plan->weights);
     free(plan);
 }
 
@@ -181,6 +182,13 @@ uint32_t lsf_plan_bounces(const lsf_plan *plan)
     if (!plan)
         return 0;
     return plan->bounces;
+}
+
+const char *lsf_plan_weights(const lsf_plan *plan)
+{
+    if (!plan)
+        return NULL;
+    return plan->weights;
 }
 
 uint64_t lsf_plan_bytes(const lsf_plan *plan)

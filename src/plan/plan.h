@@ -83,6 +83,7 @@ struct lsf_plan {
     uint32_t tiles;         /* of pixels, to which samples are dealt out in turn; 0 is 1 */
     bool filtered;          /* light_filter removes noise from the mean */
     bool temporal;          /* light is kept from frame to frame */
+    char *weights;          /* file of the denoiser's; NULL: the library's own, or no denoiser */
     bool failed;            /* memory ran out while the plan was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;

@@ -329,13 +329,24 @@ static bool records(const lsf_setup *setup)
     return wants_network(setup) && lsf_denoise_record_path();
 }
 
+#define WEIGHTS "LIGHTSHEAF_DENOISER_WEIGHTS"
+
 /* Where it is to be recorded there may be none yet. */
 static bool load_network(lsf_setup *setup, lsf_error *error)
 {
     if (!wants_network(setup) || !filters(setup, setup->technique) || records(setup))
         return true;
-    setup->net = lsf_net_load(getenv("LIGHTSHEAF_DENOISER_WEIGHTS"), error);
+    setup->net = lsf_net_load(getenv(WEIGHTS), error);
     return setup->net != NULL;
+}
+
+static void plan_denoiser(lsf_setup *setup)
+{
+    lsf_plan *plan = setup->plan;
+    const char *weights = setup->net ? getenv(WEIGHTS) : NULL;
+    plan->weights = weights ? lsf_format("%s", weights) : NULL;
+    plan->failed |= weights && !plan->weights;
+    lsf_denoise_plan(plan, setup->net);
 }
 
 static bool plan_technique(lsf_setup *setup, lsf_error *error)
@@ -367,7 +378,7 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
     if (split && plan->filtered) {
         lsf_light_filter_plan(plan, &setup->pass_params.light_filter);
         if (setup->net || records(setup))
-            lsf_denoise_plan(plan, setup->net);
+            plan_denoiser(setup);
     } else if (!plan->filtered)
         lsf_plan_omit(plan, "light_filter", "%s",
                       params->raw ? "the raw picture is asked for"

@@ -35,9 +35,23 @@ void lsf_imprint_add_option(lsf_string *options, const lsf_command_option *optio
         lsf_imprint_add_word(options, value);
 }
 
-static char *make_command(const lsf_settings *settings, const char *scene_path)
+/* The environment that the command takes. */
+static void add_environment(lsf_string *text, const char *weights)
+{
+    char *word = weights ? lsf_format("LIGHTSHEAF_DENOISER_WEIGHTS=%s", weights) : NULL;
+    if (word) {
+        lsf_string_add(text, "env");
+        lsf_imprint_add_word(text, word);
+        lsf_string_add(text, " ");
+    }
+    text->failed |= weights && !word;
+    free(word);
+}
+
+static char *make_command(const lsf_settings *settings, const char *scene_path, const char *weights)
 {
     lsf_string text = {0};
+    add_environment(&text, weights);
     lsf_string_add(&text, "lightsheaf %s", settings->command->name);
     if (settings->operands.count > 0)
         lsf_imprint_add_word(&text, scene_path);
@@ -52,9 +66,10 @@ static char *make_command(const lsf_settings *settings, const char *scene_path)
 }
 
 bool lsf_imprint_make(lsf_imprint *imprint, const lsf_settings *settings, const char *scene_path,
-                      const char *technique, uint32_t bounces, uint32_t samples, lsf_error *error)
+                      const char *technique, uint32_t bounces, uint32_t samples,
+                      const char *weights, lsf_error *error)
 {
-    *imprint = (lsf_imprint){.command = make_command(settings, scene_path)};
+    *imprint = (lsf_imprint){.command = make_command(settings, scene_path, weights)};
     if (!imprint->command)
         return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", scene_path);
     snprintf(imprint->seed, sizeof imprint->seed, "%" PRIu64, settings->seed);
@@ -64,9 +79,10 @@ bool lsf_imprint_make(lsf_imprint *imprint, const lsf_settings *settings, const 
         {"lightsheaf.version", lsf_version()},    {"lightsheaf.command", imprint->command},
         {"lightsheaf.scene", scene_path},         {"lightsheaf.technique", technique},
         {"lightsheaf.bounces", imprint->bounces}, {"lightsheaf.samples", imprint->samples},
-        {"lightsheaf.seed", imprint->seed},
+        {"lightsheaf.seed", imprint->seed},       {"lightsheaf.denoiser_weights", weights},
     };
     memcpy(imprint->texts, texts, sizeof texts);
+    imprint->text_count = LSF_COUNT(texts) - !weights;
     return true;
 }
 

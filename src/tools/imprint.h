@@ -14,14 +14,16 @@ void lsf_imprint_add_option(lsf_string *options, const lsf_command_option *optio
                             const char *value);
 
 typedef struct lsf_imprint {
-    lsf_image_text texts[7];
+    lsf_image_text texts[8];
+    uint32_t text_count;
     char *command; /* the shell command without its --output */
     char seed[24], bounces[16], samples[16];
 } lsf_imprint;
 
-/* Finish it either way. */
+/* `weights`: file of the denoiser's; NULL: none. Finish it either way. */
 bool lsf_imprint_make(lsf_imprint *imprint, const lsf_settings *settings, const char *scene_path,
-                      const char *technique, uint32_t bounces, uint32_t samples, lsf_error *error);
+                      const char *technique, uint32_t bounces, uint32_t samples,
+                      const char *weights, lsf_error *error);
 void lsf_imprint_finish(lsf_imprint *imprint);
 
 #endif

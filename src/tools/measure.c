@@ -112,7 +112,7 @@ static bool describe_run(lsf_measure_job *job, lsf_error *error)
     lsf_measurement *m = &job->measurement;
     const lsf_settings *settings = &job->settings;
     lsf_imprint imprint;
-    bool good = lsf_imprint_make(&imprint, settings, job->scene_path, "", 0, 0, error);
+    bool good = lsf_imprint_make(&imprint, settings, job->scene_path, "", 0, 0, NULL, error);
     m->scene = good ? strdup(job->scene_path) : NULL;
     m->command = good ? strdup(imprint.command) : NULL;
     lsf_imprint_finish(&imprint);

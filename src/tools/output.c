@@ -267,7 +267,7 @@ bool lsf_destination_save(const lsf_destination *destination, int half, const ls
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     params.format = destination->format;
     params.texts = imprint->texts;
-    params.text_count = LSF_COUNT(imprint->texts);
+    params.text_count = imprint->text_count;
     params.exposure = destination->exposure;
     params.curve = destination->curve;
     if (!lsf_image_save(image, half < 0 ? destination->path : destination->half_paths[half],

@@ -92,9 +92,10 @@ static bool save_one(reference_job *job, int half, const lsf_image *image, uint3
                      lsf_error *error)
 {
     lsf_imprint imprint;
-    bool good = lsf_imprint_make(&imprint, job->settings, job->scene_path, TECHNIQUE,
-                                 lsf_summary_bounces(job->settings, job->scene), samples, error) &&
-                lsf_destination_save(job->destination, half, image, &imprint, error);
+    bool good =
+        lsf_imprint_make(&imprint, job->settings, job->scene_path, TECHNIQUE,
+                         lsf_summary_bounces(job->settings, job->scene), samples, NULL, error) &&
+        lsf_destination_save(job->destination, half, image, &imprint, error);
     lsf_imprint_finish(&imprint);
     return good;
 }

@@ -93,7 +93,7 @@ static bool save_rgb8(render_job *job, const lsf_imprint *imprint, lsf_error *er
 {
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     params.texts = imprint->texts;
-    params.text_count = LSF_COUNT(imprint->texts);
+    params.text_count = imprint->text_count;
     uint32_t width = job->settings->resolution[0], height = job->settings->resolution[1];
     uint8_t *rgb = lsf_alloc((uint64_t)width * height, 3);
     bool good =
@@ -118,9 +118,10 @@ static bool save(render_job *job, lsf_error *error)
         return false;
     double start = lsf_now();
     lsf_imprint imprint;
-    bool good = lsf_imprint_make(&imprint, job->settings, job->scene_path, job->settings->technique,
-                                 lsf_plan_bounces(lsf_renderer_plan(job->renderer)),
-                                 job->stats.samples, error);
+    bool good =
+        lsf_imprint_make(&imprint, job->settings, job->scene_path, job->settings->technique,
+                         lsf_plan_bounces(lsf_renderer_plan(job->renderer)), job->stats.samples,
+                         lsf_plan_weights(lsf_renderer_plan(job->renderer)), error);
     good = good &&
            (job->maps_on_gpu ? save_rgb8(job, &imprint, error) : save_float(job, &imprint, error));
     lsf_imprint_finish(&imprint);
@@ -162,6 +163,7 @@ static void report(const render_job *job, lsf_json *json)
         .technique = job->settings->technique,
         .bounces = bounces,
         .samples = job->stats.samples,
+        .weights = lsf_plan_weights(lsf_renderer_plan(job->renderer)),
         .interrupted = lsf_interrupted(),
         .exposure = job->destination->exposure,
         .seconds = seconds,

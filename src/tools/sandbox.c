@@ -65,7 +65,7 @@ static bool save_display(sandbox_job *job, const lsf_imprint *imprint, lsf_error
     const uint32_t *size = job->settings->resolution;
     lsf_image_save_params params = {LSF_IMAGE_SAVE_PARAMS_DEFAULTS};
     params.texts = imprint->texts;
-    params.text_count = LSF_COUNT(imprint->texts);
+    params.text_count = imprint->text_count;
     uint8_t *rgb = lsf_alloc((uint64_t)size[0] * size[1], 3);
     bool good =
         rgb || lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", job->destination->path);
@@ -95,7 +95,7 @@ static bool save(sandbox_job *job, uint32_t number, lsf_error *error)
     snprintf(what, sizeof what, "%s", job->destination->path);
     lsf_watch_step(what, false);
     bool good = lsf_imprint_make(&imprint, settings, lsf_sandbox_shader(settings), "sandbox", 0,
-                                 number + 1, error);
+                                 number + 1, NULL, error);
     good =
         good && (display ? save_display(job, &imprint, error) : save_float(job, &imprint, error));
     lsf_imprint_finish(&imprint);

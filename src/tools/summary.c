@@ -166,8 +166,10 @@ void lsf_summary_add(lsf_json *json, const lsf_summary *summary)
     lsf_json_integer(json, "samples", summary->samples);
     lsf_json_bool(json, "interrupted", summary->interrupted);
     lsf_json_number(json, "exposure", (double)summary->exposure);
-    if (summary->stats)
+    if (summary->stats) {
         lsf_json_number(json, "lost_share", summary->stats->lost_share);
+        lsf_json_string(json, "denoiser_weights", summary->weights);
+    }
     add_options(json, settings);
     lsf_summary_add_device(json, summary->device);
 

@@ -18,7 +18,8 @@ typedef struct lsf_summary {
     const char *const *half_paths; /* two, or NULL */
     const char *technique;         /* "path tracing" for the reference */
     uint32_t bounces;
-    uint32_t samples; /* taken */
+    uint32_t samples;    /* taken */
+    const char *weights; /* file of the denoiser's; NULL: the library's own, or no denoiser */
     bool interrupted;
     float exposure; /* EV; NAN: none, in a float format */
     const lsf_summary_seconds *seconds;

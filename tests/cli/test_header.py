@@ -2,12 +2,13 @@
 import json
 import os
 import shlex
+import shutil
 import struct
 import subprocess
 import unittest
 import zlib
 
-from command import COMMAND, FILE, CommandTest, main
+from command import COMMAND, FILE, SOURCE_ROOT, CommandTest, main
 
 SMALL = ("--resolution", "8,8", "--technique", "direct", "--quiet")
 KEYS = {f"lightsheaf.{name}" for name in ("version", "command", "scene", "technique", "bounces", "samples",
@@ -49,6 +50,27 @@ class Headers(CommandTest):
         again = texts["lightsheaf.command"].replace("lightsheaf", shlex.quote(COMMAND), 1)
         subprocess.run(["sh", "-c", f"{again} -o again.exr -q"], cwd=self.folder, check=True)
         self.assertEqual(self.read("again.exr"), self.read("it's a $scene;.exr"))
+
+    def test_weights_of_the_denoiser(self):
+        """Those of the environment are named where a network ran, and are part of the command."""
+        name = "my weights.lsfd"
+        shutil.copy(os.path.join(SOURCE_ROOT, "data/denoiser/weights.lsfd"), self.path(name))
+        given = {**os.environ, "LIGHTSHEAF_DENOISER_WEIGHTS": name}
+        own = {key: value for key, value in os.environ.items() if key != "LIGHTSHEAF_DENOISER_WEIGHTS"}
+        scene = os.path.join(SOURCE_ROOT, "data/scenes/cornell_point.gltf")
+        for env, kind, weights in ((given, "network", name), (own, "network", None), (given, "atrous", None)):
+            self.run_command("render", scene, "-o", "a.exr", "-s", "1", "-t", "cone", "-r", "16,16", "--json", "a.json",
+                             "-D", f"light_filter.kind={kind}", env=env)
+            texts = self.texts("a.exr")
+            self.assertEqual(self.read_json("a.json")["denoiser_weights"], weights)
+            self.assertEqual(texts.get("lightsheaf.denoiser_weights"), weights)
+            command = texts["lightsheaf.command"]
+            self.assertEqual(command.startswith(f"env 'LIGHTSHEAF_DENOISER_WEIGHTS={name}' lightsheaf render "),
+                             weights is not None)
+            again = command.replace(" lightsheaf ", f" {shlex.quote(COMMAND)} ", 1)
+            if weights:
+                subprocess.run(["sh", "-c", f"{again} -o again.exr -q"], cwd=self.folder, env=own, check=True)
+                self.assertEqual(self.read("again.exr"), self.read("a.exr"))
 
     @unittest.skipUnless("reference" in os.environ.get("LSF_MODULES", ""), "no path tracer")
     def test_reference(self):
