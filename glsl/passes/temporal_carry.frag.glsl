@@ -1,5 +1,6 @@
 /* Reprojects the history of the previous frame: of the four texels around a point's previous position, those that
- * show the same instance, plane and side, by their bilinear weights. Switch LSF_LOBE: there is specular light. */
+ * show the same instance, plane and side, by their bilinear weights. Switches LSF_LOBE: there is specular light;
+ * LSF_DENOISED: denoised light has a history, too. */
 #include "lib/view.glsl"
 #include "shared/brdf.h"
 
@@ -16,6 +17,11 @@ layout(binding = 7) uniform sampler2D old_specular_texture;
 layout(binding = 8) uniform sampler2D old_specular_count_texture;
 layout(location = 3) out vec4 specular_out;
 layout(location = 5) uniform vec4 former_eye; /* previous eye; W 0: the direction of all rays */
+#endif
+#if LSF_DENOISED
+layout(binding = 10) uniform sampler2D old_denoised_textures[1 + LSF_LOBE];
+layout(binding = 12) uniform sampler2D old_denoised_count_texture;
+layout(location = 3 + LSF_LOBE) out vec4 denoised_out[1 + LSF_LOBE]; /* A: samples */
 #endif
 layout(binding = 9) uniform sampler2D old_picture_texture; /* A: its samples */
 layout(location = 2) out vec4 picture_out;                 /* A: below 0 where it is to be clamped to its
@@ -142,6 +148,11 @@ void main()
 #if LSF_LOBE
     specular_out = vec4(0.0);
 #endif
+#if LSF_DENOISED
+    vec2 denoised_sums = vec2(0.0);
+    for (int part = 0; part <= LSF_LOBE; part++)
+        denoised_out[part] = vec4(0.0);
+#endif
     light_guide g = light_guide_at(pixel);
     vec4 motion = texelFetch(motion_texture, pixel, 0);
     if (kept)
@@ -176,7 +187,21 @@ void main()
                 sums.y += w;
             }
 #endif
+#if LSF_DENOISED
+            vec2 samples = texelFetch(old_denoised_count_texture, at, 0).rg;
+            for (int part = 0; part <= LSF_LOBE; part++) {
+                if (samples[part] == 0.0)
+                    continue;
+                vec3 light = texelFetch(old_denoised_textures[part], at, 0).rgb;
+                denoised_out[part] += w * vec4(light, samples[part]);
+                denoised_sums[part] += w;
+            }
+#endif
         }
+#if LSF_DENOISED
+    for (int part = 0; part <= LSF_LOBE; part++)
+        denoised_out[part] /= max(denoised_sums[part], 1e-6);
+#endif
     diffuse_out /= max(sums.x, 1e-6);
     reach_out.xy = counts / max(sums, vec2(1e-6));
 #if LSF_LOBE

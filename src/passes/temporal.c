@@ -10,9 +10,14 @@ const lsf_option_row lsf_temporal_options[LSF_TEMPORAL_OPTION_COUNT] = {
      "frames", "light of the frames before counts for no more than this"},
     {"temporal.lag", LSF_OPTION_INT, offsetof(lsf_temporal_params, lag), 1, 65536, NULL, "frames",
      "1 % is left by then of lights that were changed"},
+    {"temporal.denoised_frames", LSF_OPTION_INT, offsetof(lsf_temporal_params, denoised_frames), 0,
+     65536, NULL, "frames",
+     "denoised light of the frames before counts for no more than this, less where its brightness "
+     "changes; with light_filter.kind=network; 0: not at all"},
 };
 
 #define AT(member) offsetof(lsf_temporal, member)
+#define DENOISED 2u /* a network denoises light */
 
 static const lsf_texture_row textures[] = {
     {"temporal.guide", GL_RGBA32UI, AT(guide), 0, "what the light of the frame before fell on"},
@@ -33,19 +38,33 @@ static const lsf_texture_row textures[] = {
     {"temporal.specular_window", GL_RGBA32F, AT(parts[1].window), LSF_TEXTURE_SPECULAR,
      "the same of neighbours"},
     {"temporal.specular", GL_RGBA32F, AT(parts[1].light), LSF_TEXTURE_SPECULAR, "for light_filter"},
+    {"temporal.denoised_diffuse", GL_RGBA32F, AT(parts[0].denoised), DENOISED,
+     "denoised light with that of frames before"},
+    {"temporal.denoised_specular", GL_RGBA32F, AT(parts[1].denoised),
+     DENOISED | LSF_TEXTURE_SPECULAR, "denoised light with that of frames before"},
+    {"temporal.denoised_diffuse_carried", GL_RGBA32F, AT(parts[0].denoised_carried), DENOISED,
+     "to where it is now"},
+    {"temporal.denoised_specular_carried", GL_RGBA32F, AT(parts[1].denoised_carried),
+     DENOISED | LSF_TEXTURE_SPECULAR, "to where it is now"},
+    {"temporal.denoised_count", GL_RG32F, AT(denoised_count), DENOISED, "of its samples"},
     {"temporal.picture", GL_RGBA32F, AT(picture), 0, "with light of frames before"},
     {"temporal.picture_carried", GL_RGBA32F, AT(carried_picture), 0, "that of the frame before"},
     {"temporal.resolved", GL_RGBA32F, AT(resolved), 0, "the result"},
 };
 
-void lsf_temporal_plan(lsf_plan *plan)
+void lsf_temporal_plan(lsf_plan *plan, const lsf_temporal_params *params, bool denoised)
 {
+    denoised = denoised && params->denoised_frames > 0;
     lsf_plan_pass_add(plan, "temporal", "blends light with that of the frames before");
     lsf_plan_reads(plan, "view gbuffer light_mean light_guide accumulate light_filter");
+    if (denoised)
+        lsf_plan_reads(plan, "denoise");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
                         "materials have a specular lobe");
-    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
+    lsf_plan_switch_add(plan, "LSF_DENOISED", denoised, "a network denoises light");
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), denoised ? DENOISED : 0, plan->width,
+                          plan->height);
 }
 
 static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
@@ -57,7 +76,8 @@ static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
     } rows[] = {
         {"temporal.carried",
          &pass->carry_framebuffer,
-         {diffuse->carried, pass->reach, pass->carried_picture, specular->carried}},
+         {diffuse->carried, pass->reach, pass->carried_picture, specular->carried,
+          diffuse->denoised_carried, specular->denoised_carried}},
         {"temporal.compared", &pass->compare_framebuffer, {pass->compared}},
         {"temporal.window", &pass->window_framebuffer, {diffuse->window, specular->window}},
         {"temporal.blended",
@@ -65,12 +85,16 @@ static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
          {diffuse->history, specular->history, diffuse->light, specular->light, diffuse->count,
           specular->count}},
         {"temporal.picture", &pass->picture_framebuffer, {pass->picture, pass->guide}},
+        {"temporal.denoised",
+         &pass->denoised_framebuffer,
+         {diffuse->denoised, specular->denoised, pass->denoised_count}},
         {"temporal.resolved", &pass->resolve_framebuffer, {pass->resolved}},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
         lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 6, .layer = -1};
         memcpy(desc.colors, rows[i].colors, sizeof rows[i].colors);
-        if (!(*rows[i].framebuffer = lsf_framebuffer_create(pass->context, &desc, error)))
+        bool used = rows[i].framebuffer != &pass->denoised_framebuffer || diffuse->denoised;
+        if (used && !(*rows[i].framebuffer = lsf_framebuffer_create(pass->context, &desc, error)))
             return false;
     }
     return true;
@@ -79,20 +103,22 @@ static bool create_framebuffers(lsf_temporal *pass, lsf_error *error)
 static bool create_programs(lsf_temporal *pass, const lsf_plan *plan, lsf_error *error)
 {
     const struct {
-        const char *name, *file;
+        const char *file;
         GLuint *program;
+        bool used;
     } rows[] = {
-        {"temporal", "passes/temporal_carry.frag.glsl", &pass->carry_program},
-        {"temporal", "passes/temporal_picture.frag.glsl", &pass->picture_program},
-        {"temporal", "passes/temporal_resolve.frag.glsl", &pass->resolve_program},
-        {"temporal", "passes/temporal_compare.frag.glsl", &pass->compare_program},
-        {"temporal", "passes/temporal_window.frag.glsl", &pass->window_program},
-        {"temporal", "passes/temporal_blend.frag.glsl", &pass->blend_program},
+        {"passes/temporal_carry.frag.glsl", &pass->carry_program, true},
+        {"passes/temporal_picture.frag.glsl", &pass->picture_program, true},
+        {"passes/temporal_denoised.frag.glsl", &pass->denoised_program, pass->parts[0].denoised},
+        {"passes/temporal_resolve.frag.glsl", &pass->resolve_program, true},
+        {"passes/temporal_compare.frag.glsl", &pass->compare_program, true},
+        {"passes/temporal_window.frag.glsl", &pass->window_program, true},
+        {"passes/temporal_blend.frag.glsl", &pass->blend_program, true},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
         const char *const files[5] = {"lib/fullscreen.vert.glsl", rows[i].file};
-        if (lsf_plan_find_pass(plan, rows[i].name) &&
-            !(*rows[i].program = lsf_plan_program(plan, pass->context, rows[i].name, files, error)))
+        if (rows[i].used &&
+            !(*rows[i].program = lsf_plan_program(plan, pass->context, "temporal", files, error)))
             return false;
     }
     return true;
@@ -135,10 +161,12 @@ static bool lags(const lsf_temporal *pass, uint32_t frames)
     return frames < (uint32_t)pass->params.lag;
 }
 
-/* The share of changed lights that is left after `lag` frames, in light and in the picture each.
- * Each frame keeps w of both, w^lag = x, and the two in turn keep x (1 + lag (1 - w)) < x (1 -
- * ln x): 1 %. */
-#define LEFT 0.0013f
+/* The share of changed lights that is left after `lag` frames, in each of what is kept. Each frame
+ * keeps w of it, w^lag = x, and light and picture in turn keep x (1 + lag (1 - w)) < x (1 - ln x):
+ * 1 %. With denoised light between them it is x (1 + lag (1 - w) + lag (lag + 1) (1 - w)^2 / 2) <
+ * x (1 - ln x + (ln x)^2 / 2). */
+#define LEFT_OF_TWO 0.0013f
+#define LEFT_OF_THREE 0.00022f
 
 /* Samples that the history may stand for, for each of the frame's. */
 static float history_limit(const lsf_temporal *pass, uint32_t frames_since)
@@ -146,7 +174,8 @@ static float history_limit(const lsf_temporal *pass, uint32_t frames_since)
     float limit = (float)pass->params.frames;
     if (!lags(pass, frames_since))
         return limit;
-    float left = powf(LEFT, (float)pass->still_frames / (float)pass->params.lag);
+    float all = pass->parts[0].denoised ? LEFT_OF_THREE : LEFT_OF_TWO;
+    float left = powf(all, (float)pass->still_frames / (float)pass->params.lag);
     return fminf(limit, left / (1.0f - left));
 }
 
@@ -177,6 +206,13 @@ static void begin(const lsf_plan *plan, GLuint framebuffer, GLuint program,
     lsf_begin_fullscreen(framebuffer, plan->width, plan->height, program);
     lsf_guide_maps_bind(&inputs->guide);
     lsf_bind_texture(2, inputs->motion);
+}
+
+/* Binds a texture of either part. */
+static void bind_parts(GLuint binding, GLuint diffuse, GLuint specular)
+{
+    lsf_bind_texture(binding, diffuse);
+    lsf_bind_texture(binding + 1, specular);
 }
 
 /* For lib/light_guide.glsl: half a pixel off the plane for each that a neighbour is away, and half
@@ -212,15 +248,12 @@ void lsf_temporal_carry(lsf_temporal *pass, const lsf_iteration *iteration,
     lsf_bind_texture(7, pass->parts[1].history);
     lsf_bind_texture(8, pass->parts[1].count);
     lsf_bind_texture(9, pass->resolved);
+    if (pass->denoised_count) {
+        bind_parts(10, pass->parts[0].denoised, pass->parts[1].denoised);
+        lsf_bind_texture(12, pass->denoised_count);
+    }
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
-}
-
-/* Binds a texture of either part. */
-static void bind_parts(GLuint binding, GLuint diffuse, GLuint specular)
-{
-    lsf_bind_texture(binding, diffuse);
-    lsf_bind_texture(binding + 1, specular);
 }
 
 /* Binds the inputs of compare and blend. */
@@ -276,6 +309,21 @@ void lsf_temporal_blend(lsf_temporal *pass, const lsf_iteration *iteration, uint
     lsf_timer_end(pass->timer);
 }
 
+void lsf_temporal_blend_denoised(lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
+                                 const GLuint denoised[2])
+{
+    lsf_timer_begin(pass->timer);
+    lsf_begin_fullscreen(pass->denoised_framebuffer, plan->width, plan->height,
+                         pass->denoised_program);
+    glUniform1f(1, (float)iterations);
+    glUniform1f(2, fminf((float)pass->params.denoised_frames,
+                         history_limit(pass, pass->frames_since_lights)));
+    bind_parts(2, denoised[0], denoised[1]);
+    bind_parts(4, pass->parts[0].denoised_carried, pass->parts[1].denoised_carried);
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
 void lsf_temporal_resolve(lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
                           GLuint picture)
 {
@@ -299,7 +347,8 @@ void lsf_temporal_destroy(lsf_temporal *pass)
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     GLuint *framebuffers[] = {&pass->carry_framebuffer,   &pass->compare_framebuffer,
                               &pass->window_framebuffer,  &pass->blend_framebuffer,
-                              &pass->picture_framebuffer, &pass->resolve_framebuffer};
+                              &pass->picture_framebuffer, &pass->denoised_framebuffer,
+                              &pass->resolve_framebuffer};
     for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
         lsf_framebuffer_destroy(pass->context, framebuffers[i]);
     lsf_timer_destroy(pass->timer);

@@ -10,11 +10,12 @@
 typedef struct lsf_temporal_params {
     int32_t frames; /* most frames that light of earlier frames counts for */
     int32_t lag;    /* frames after which 1 % is left of lights that were changed */
+    int32_t denoised_frames; /* most frames that denoised light of earlier frames counts for */
 } lsf_temporal_params;
 
-#define LSF_TEMPORAL_PARAMS_DEFAULTS .frames = 32, .lag = 8
+#define LSF_TEMPORAL_PARAMS_DEFAULTS .frames = 32, .lag = 8, .denoised_frames = 0
 
-#define LSF_TEMPORAL_OPTION_COUNT 2
+#define LSF_TEMPORAL_OPTION_COUNT 3
 extern const lsf_option_row lsf_temporal_options[LSF_TEMPORAL_OPTION_COUNT];
 
 /* Mean light and what it is multiplied by, as lsf_light_mean_part. */
@@ -42,6 +43,9 @@ typedef struct lsf_temporal_part {
     GLuint carried; /* RGBA32F: the history of the frame before, where it is now */
     GLuint light;   /* RGBA32F, output: with it, as lsf_light_mean_part of `iterations` */
     GLuint window;  /* RGBA32F: how far neighbours are from it */
+    /* 0 where no network denoises: */
+    GLuint denoised;         /* RGBA32F, output: with that of the frames before; A as it came */
+    GLuint denoised_carried; /* RGBA32F: that of the frame before, where it is now; A: samples */
 } lsf_temporal_part;
 
 typedef struct lsf_temporal {
@@ -52,11 +56,12 @@ typedef struct lsf_temporal {
     GLuint compared;                  /* RGBA32F: the frame's light with its history */
     GLuint reach;                     /* RGBA32F: samples that are carried, and drift of lobes */
     GLuint picture;                   /* RGBA32F, output: with light of the frames before */
+    GLuint denoised_count;            /* RG32F: samples of both parts' denoised light */
     GLuint carried_picture, resolved; /* RGBA32F: that of the frame before; output of resolve */
     GLuint carry_framebuffer, compare_framebuffer, window_framebuffer, blend_framebuffer,
-        picture_framebuffer, resolve_framebuffer;
+        picture_framebuffer, denoised_framebuffer, resolve_framebuffer;
     GLuint carry_program, compare_program, window_program, blend_program, picture_program,
-        resolve_program;
+        denoised_program, resolve_program;
     float independent;       /* neighbours whose noise differs, at most */
     lsf_camera_state camera; /* of the history, and of the frame in progress */
     lsf_camera_state next_camera;
@@ -67,7 +72,8 @@ typedef struct lsf_temporal {
     lsf_timer *timer;
 } lsf_temporal;
 
-void lsf_temporal_plan(lsf_plan *plan);
+/* `denoised`: a network denoises light, which is blended as well. */
+void lsf_temporal_plan(lsf_plan *plan, const lsf_temporal_params *params, bool denoised);
 /* `independent`: pixels next to each other that have samples of their own; 0: all. */
 bool lsf_temporal_create(lsf_temporal *pass, lsf_context *context, const lsf_plan *plan,
                          const lsf_temporal_params *params, uint32_t independent, lsf_error *error);
@@ -84,6 +90,10 @@ void lsf_temporal_carry(lsf_temporal *pass, const lsf_iteration *iteration,
  */
 void lsf_temporal_blend(lsf_temporal *pass, const lsf_iteration *iteration, uint32_t iterations,
                         const lsf_temporal_inputs *inputs);
+/* Blends the denoised light of both parts with that of the frames before, where that is planned:
+ * parts[].denoised. */
+void lsf_temporal_blend_denoised(lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
+                                 const GLuint denoised[2]);
 /* Blends the picture that was made of it with those of the frames before, in `resolved`. */
 void lsf_temporal_resolve(lsf_temporal *pass, const lsf_plan *plan, uint32_t iterations,
                           GLuint picture);

@@ -218,8 +218,15 @@ static void filter(lsf_renderer *renderer, GLuint picture)
     /* One iteration has no variance of its own, but with light of the frames before. */
     uint32_t iterations = temporal && renderer->samples == 1 ? 2 : renderer->samples;
     lsf_light_filter_run(&renderer->light_filter, &renderer->iteration, iterations, &inputs);
+    const GLuint *done = denoise(renderer, &inputs);
+    const GLuint blended[2] = {kept[0].denoised, kept[1].denoised};
+    if (blended[0]) {
+        lsf_temporal_blend_denoised(&renderer->temporal, renderer->setup.plan, renderer->samples,
+                                    done);
+        done = blended;
+    }
     lsf_light_filter_finish(&renderer->light_filter, &renderer->iteration, iterations, &inputs,
-                            denoise(renderer, &inputs));
+                            done);
 }
 
 GLuint lsf_renderer_picture(lsf_renderer *renderer)

@@ -372,7 +372,7 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
         lsf_light_guide_plan(plan);
     }
     if (split && plan->temporal)
-        lsf_temporal_plan(plan);
+        lsf_temporal_plan(plan, &setup->pass_params.temporal, plan->filtered && setup->net);
     else if (plan->temporal)
         lsf_plan_omit(plan, "temporal", "no light is noisy but for edges and shadows");
     if (split && plan->filtered) {

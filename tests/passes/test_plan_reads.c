@@ -247,7 +247,7 @@ static const struct plan_case {
     const char *technique;
     bool raw, temporal;
     uint32_t aovs;
-    const char *options[2];
+    const char *options[3];
 } cases[] = {
     {"direct", .aovs = LSF_AOV_NORMAL | LSF_AOV_MOTION},
     {"bidirectional", .aovs = LSF_AOV_DIRECT},
@@ -259,7 +259,9 @@ static const struct plan_case {
     {"voxel_path", .raw = true, .options = {"voxel.method=raster", "environment.directions=0"}},
     {"cone", .options = {"sparse.grid=2", "sparse.blur=1"}},
     {"cone", .raw = true, .options = {"cone.sealed=off", "sparse.outliers=on"}},
-    {"cone", .temporal = true, .options = {"light_filter.kind=network", "denoise.processor=gl"}},
+    {"cone", .temporal = true,
+     .options = {"light_filter.kind=network", "denoise.processor=gl",
+                 "temporal.denoised_frames=4"}},
     {"substitute_tree", .options = {"sparse.grid=2", "cloud.count=8192"}},
     {"substitute_tree", .raw = true, .options = {"rsm.pdf=adaptive", "cloud.count=8192"}},
 };
@@ -268,7 +270,8 @@ static void check(const struct plan_case *c)
 {
     const char *options[] = {
         "voxel.resolution=32",  "rsm.resolution=32", "vpl.shadow_resolution=32",
-        "bundle.resolution=32", c->options[0],       c->options[1]};
+        "bundle.resolution=32", c->options[0],       c->options[1],
+        c->options[2]};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
     params.technique = c->technique;
     params.samples = 2;
@@ -276,7 +279,8 @@ static void check(const struct plan_case *c)
     params.temporal = c->temporal;
     params.aovs = c->aovs;
     params.options = options;
-    params.option_count = 4u + (c->options[0] != NULL) + (c->options[1] != NULL);
+    params.option_count =
+        4u + (c->options[0] != NULL) + (c->options[1] != NULL) + (c->options[2] != NULL);
     params = corner_params(params, SIZE);
     lsf_scene *scene = rich_scene();
     lsf_error error = {0};

@@ -19,11 +19,16 @@ typedef struct world {
     uint32_t box;
 } world;
 
-static world begin_world(lsf_render_params params)
+/* `filter`, `denoised`: options. */
+static world begin_filtered(lsf_render_params params, const char *filter, const char *denoised)
 {
-    static const char *const options[] = {"light_filter.steps=0",     "voxel.resolution=32",
-                                          "rsm.resolution=64",        "bundle.resolution=64",
-                                          "vpl.shadow_resolution=64", "cloud.count=8192"};
+    const char *const options[] = {filter,
+                                   denoised,
+                                   "voxel.resolution=32",
+                                   "rsm.resolution=64",
+                                   "bundle.resolution=64",
+                                   "vpl.shadow_resolution=64",
+                                   "cloud.count=8192"};
     lsf_error error = {0};
     world w = {.scene = build_scene(), .context = gl_test_context(LSF_BACKEND_OSMESA, NULL)};
     build_corner(w.scene);
@@ -41,6 +46,11 @@ static world begin_world(lsf_render_params params)
     if (!w.renderer)
         fail_msg("%s", error.message);
     return w;
+}
+
+static world begin_world(lsf_render_params params)
+{
+    return begin_filtered(params, "light_filter.steps=0", "temporal.denoised_frames=4");
 }
 
 static lsf_render_params keeping(const char *technique)
@@ -83,6 +93,15 @@ static void run_frame(const world *w, double turned, uint32_t first_sample, floa
 {
     lsf_view view = view_turned(turned);
     frame_of(w, (lsf_frame){.view = &view, .first_sample = first_sample}, pixels);
+}
+
+/* So many more iterations of the same frame. */
+static void go_on(const world *w, int iterations, float pixels[VALUES])
+{
+    lsf_error error = {0};
+    for (int i = 0; i < iterations; i++)
+        assert_true(lsf_renderer_iterate(w->renderer, &error));
+    assert_true(lsf_renderer_read_into(w->renderer, 0, pixels, ROW_BYTES, &error));
 }
 
 static double mean_of(const float *pixels)
@@ -177,35 +196,44 @@ static void set_lamp(const world *w, float intensity)
         fail_msg("%s", error.message);
 }
 
-/* Two sequences with the same samples, one of which had the lamp. */
+/* Two sequences with the same samples, one of which had the lamp; ends both. */
+static void check_lamp(world a, world b, const char *what)
+{
+    enum { OFF = 6, LAG = 8 };
+    float lit[VALUES], dark[VALUES];
+    double lamp = 0.0, left = 0.0;
+    set_lamp(&a, 5.0f);
+    set_lamp(&b, 1e-6f);
+    for (int k = 0; k < OFF + LAG; k++) {
+        if (k == OFF) {
+            set_lamp(&a, 0.0f);
+            set_lamp(&b, 0.0f);
+        }
+        run_frame(&a, 0.3 * k, 0, lit);
+        run_frame(&b, 0.3 * k, 0, dark);
+        left = mean_of(lit) - mean_of(dark);
+        if (k < OFF)
+            lamp = left;
+    }
+    end_world(&a);
+    end_world(&b);
+    print_message("%s: %.2f %% of the lamp is left\n", what, 100.0 * left / lamp);
+    assert_true(fabs(left) < 0.01 * lamp);
+}
+
 static void lamp_is_forgotten(void **unused)
 {
     (void)unused;
     static const char *const techniques[] = {"bidirectional", "voxel_path", "cone",
                                              "substitute_tree"};
-    enum { OFF = 6, LAG = 8 };
-    for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
-        float lit[VALUES], dark[VALUES];
-        double lamp = 0.0, left = 0.0;
-        world a = begin_world(keeping(techniques[t])), b = begin_world(keeping(techniques[t]));
-        set_lamp(&a, 5.0f);
-        set_lamp(&b, 1e-6f);
-        for (int k = 0; k < OFF + LAG; k++) {
-            if (k == OFF) {
-                set_lamp(&a, 0.0f);
-                set_lamp(&b, 0.0f);
-            }
-            run_frame(&a, 0.3 * k, 0, lit);
-            run_frame(&b, 0.3 * k, 0, dark);
-            left = mean_of(lit) - mean_of(dark);
-            if (k < OFF)
-                lamp = left;
-        }
-        end_world(&a);
-        end_world(&b);
-        print_message("%s: %.2f %% of the lamp is left\n", techniques[t], 100.0 * left / lamp);
-        assert_true(fabs(left) < 0.01 * lamp);
-    }
+    for (size_t t = 0; t < LSF_COUNT(techniques); t++)
+        check_lamp(begin_world(keeping(techniques[t])), begin_world(keeping(techniques[t])),
+                   techniques[t]);
+    world denoised[2];
+    for (int i = 0; i < 2; i++)
+        denoised[i] = begin_filtered(keeping("voxel_path"), "light_filter.kind=network",
+                                     "temporal.denoised_frames=32");
+    check_lamp(denoised[0], denoised[1], "denoised");
 }
 
 static void move_box(const world *w, double x)
@@ -254,6 +282,46 @@ static void box_leaves_no_ghost(void **unused)
     /* Pictures of that age and more count for 0.0013^(3 / 8) = 8 %, and newer ones are partly
      * alike; without what forgets them it is 29 %. */
     assert_true(fabs(ghost) < 0.15);
+}
+
+/* --- denoised light, with that of frames before and without */
+
+static double apart(const float *a, const float *b)
+{
+    double sum = 0.0;
+    for (int i = 0; i < VALUES; i++)
+        sum += fabs((double)a[i] - (double)b[i]);
+    return sum / VALUES;
+}
+
+/* The first frame has the same bits; later ones have as much light; and once the camera stands
+ * still, both go to the same picture. */
+static void denoised_light_is_kept(void **unused)
+{
+    (void)unused;
+    enum { PAN = 8, STILL = 60 };
+    float with[VALUES], without[VALUES];
+    const char *network = "light_filter.kind=network";
+    world a = begin_filtered(keeping("voxel_path"), network, "temporal.denoised_frames=32");
+    world b = begin_filtered(keeping("voxel_path"), network, "temporal.denoised_frames=0");
+    double last = 0.0;
+    for (int k = 0; k < PAN; k++) {
+        run_frame(&a, k, 0, with);
+        run_frame(&b, k, 0, without);
+        assert_true(k > 0 || memcmp(with, without, sizeof with) == 0);
+        last = apart(with, without) / mean_of(without);
+        print_message("frame %d: %.4f apart, %.4f of the light\n", k, last,
+                      mean_of(with) / mean_of(without));
+        assert_true(fabs(mean_of(with) / mean_of(without) - 1.0) < 0.02);
+    }
+    assert_true(last > 1e-4);
+    go_on(&a, STILL, with);
+    go_on(&b, STILL, without);
+    double still = apart(with, without) / mean_of(without);
+    print_message("after %d more iterations: %.4f apart\n", STILL, still);
+    assert_true(still < last / 4.0);
+    end_world(&a);
+    end_world(&b);
 }
 
 /* --- what is as it was */
@@ -307,18 +375,24 @@ static void plan_has_it_on_request(void **unused)
     (void)unused;
     static const char *const mine[] = {"gbuffer.motion", "temporal.diffuse_history",
                                        "temporal.resolved", "scene.previous_transforms"};
+    static const char *const networks[] = {"light_filter.kind=atrous", "light_filter.kind=network"};
     lsf_scene *scene = build_scene();
     lsf_error error = {0};
     build_corner(scene);
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
     finish_gl_scene(scene);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
-    for (int on = 0; on < 2; on++) {
+    for (int test = 0; test < 4; test++) {
+        bool on = test % 2, network = test / 2;
         params.temporal = on;
+        const char *const options[] = {networks[network], "temporal.denoised_frames=4"};
+        params.options = options;
+        params.option_count = LSF_COUNT(options);
         lsf_plan *plan = lsf_plan_create(scene, &params, &error);
         assert_non_null(plan);
         for (size_t i = 0; i < LSF_COUNT(mine); i++)
             assert_int_equal(lsf_plan_find(plan, mine[i]) != NULL, on);
+        assert_int_equal(lsf_plan_find(plan, "temporal.denoised_diffuse") != NULL, on && network);
         lsf_plan_destroy(plan);
     }
     params.raw = true;
@@ -332,8 +406,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_frames_are_one),   cmocka_unit_test(pan_is_clean),
         cmocka_unit_test(lamp_is_forgotten),      cmocka_unit_test(box_leaves_no_ghost),
-        cmocka_unit_test(cut_begins_anew),        cmocka_unit_test(unread_frames_count),
-        cmocka_unit_test(plan_has_it_on_request),
+        cmocka_unit_test(denoised_light_is_kept), cmocka_unit_test(cut_begins_anew),
+        cmocka_unit_test(unread_frames_count),    cmocka_unit_test(plan_has_it_on_request),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
