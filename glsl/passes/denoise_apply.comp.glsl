@@ -18,28 +18,50 @@ vec3 changed(vec3 light, vec3 change, float unit)
     return light + (max(light, 0.0) + unit) * (exp(clamp(change, -LSF_DENOISE_MOST, LSF_DENOISE_MOST)) - 1.0);
 }
 
+/* What light is near the pixel, at least and at most. */
+vec3 within_neighbours(ivec2 pixel, int part, vec3 light)
+{
+    ivec2 size = textureSize(filtered_textures[part], 0);
+    vec3 low = vec3(1e38), high = vec3(0.0);
+    for (int j = -LSF_DENOISE_NEAR; j <= LSF_DENOISE_NEAR; j++)
+        for (int i = -LSF_DENOISE_NEAR; i <= LSF_DENOISE_NEAR; i++) {
+            vec4 filtered = texelFetch(filtered_textures[part], clamp(pixel + ivec2(i, j), ivec2(0), size - 1), 0);
+            low = filtered.a < 0.0 ? low : min(low, filtered.rgb);
+            high = filtered.a < 0.0 ? high : max(high, filtered.rgb);
+        }
+    return clamp(light, low, high);
+}
+
+/* `part` is a constant in each call: not every driver finds images by a number that it has to compute. */
+void apply(ivec2 pixel, int part, vec3 change)
+{
+    vec4 before = vec4(0.0), after = vec4(0.0);
+    if (all(lessThan(pixel, textureSize(filtered_textures[part], 0)))) {
+        float scale = light_scale(totals[LSF_DENOISE_SUM_SCALE * LSF_DENOISE_SUMS]);
+        vec4 light = texelFetch(light_textures[part], pixel, 0);
+        vec4 filtered = texelFetch(filtered_textures[part], pixel, 0);
+        vec3 factor = texelFetch(factor_textures[part], pixel, 0).rgb;
+        if (filtered.a >= 0.0 && scale > 0.0) {
+            filtered.rgb = max(changed(filtered.rgb, change, part_unit(part) * scale / LSF_DENOISE_BEND), 0.0);
+            if (part == 1) /* what is dark in a reflection is not made bright */
+                filtered.rgb = within_neighbours(pixel, part, filtered.rgb);
+            before.rgb = factor * light.rgb;
+            after.rgb = factor * filtered.rgb;
+        }
+        imageStore(light_images[part], pixel, filtered);
+    }
+    sum_add(2u * uint(part), before);
+    sum_add(2u * uint(part) + 1u, after);
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool inside = all(lessThan(pixel, textureSize(filtered_textures[0], 0)));
-    float scale = light_scale(totals[LSF_DENOISE_SUM_SCALE * LSF_DENOISE_SUMS]);
     uvec4 texel = inside ? changes[uint(pixel.y) * padded_width + uint(pixel.x)] : uvec4(0u);
     vec2 a = unpackHalf2x16(texel.x), b = unpackHalf2x16(texel.y), c = unpackHalf2x16(texel.z);
-    vec3 change[2] = vec3[](vec3(a, b.x), vec3(b.y, c));
-    for (int part = 0; part <= LSF_LOBE; part++) {
-        vec4 before = vec4(0.0), after = vec4(0.0);
-        if (inside) {
-            vec4 light = texelFetch(light_textures[part], pixel, 0);
-            vec4 filtered = texelFetch(filtered_textures[part], pixel, 0);
-            vec3 factor = texelFetch(factor_textures[part], pixel, 0).rgb;
-            if (filtered.a >= 0.0 && scale > 0.0) {
-                filtered.rgb = max(changed(filtered.rgb, change[part], part_unit(part) * scale / LSF_DENOISE_BEND), 0.0);
-                before.rgb = factor * light.rgb;
-                after.rgb = factor * filtered.rgb;
-            }
-            imageStore(light_images[part], pixel, filtered);
-        }
-        sum_add(2u * uint(part), before);
-        sum_add(2u * uint(part) + 1u, after);
-    }
+    apply(pixel, 0, vec3(a, b.x));
+#if LSF_LOBE
+    apply(pixel, 1, vec3(b.y, c));
+#endif
 }

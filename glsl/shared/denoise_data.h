@@ -14,6 +14,9 @@
 /* Largest change of a logarithm by the network. */
 #define LSF_DENOISE_MOST 10.0f
 
+/* Radius [pixels] of the neighbourhood whose filtered specular light bounds that of its middle. */
+#define LSF_DENOISE_NEAR 2
+
 /* Side [pixels] of a work group over the picture or a feature map. */
 #define LSF_DENOISE_TILE 16
 

@@ -122,29 +122,28 @@ def _soft(values, weight, radius=6, times=2):
     return values
 
 
-# Whose filtered light tells how bright it is. Lobes of cones are wide, and trees of lights seldom find what is seen
-# in a metal.
-TELLS = (("bidirectional", "cone", "voxel_path", "substitute_tree"), ("bidirectional", "voxel_path"))
+# Whose filtered light tells how bright the diffuse part is.
+TELLS = ("bidirectional", "cone", "voxel_path", "substitute_tree")
 
 
 def agree(frames):
-    """Takes soft errors out of clean light: of few VPLs it has about as much as one filtered iteration of another
+    """Takes soft errors out of clean diffuse light: of few VPLs it has about as much as one filtered iteration of another
     technique, of independent random numbers. So where it is soft, clean light becomes the median of itself and of
-    what the other techniques' iterations say; its edges and shadows stay. `frames`: technique -> (frames, CHANNELS,
-    height, width), changed in place."""
+    what the other techniques' iterations say; its edges and shadows stay. Of specular light means over neighbours
+    would carry what is bright in a reflection into what is dark. `frames`: technique -> (frames, CHANNELS, height,
+    width), changed in place."""
     # Clean light is the same for all, but for the scale.
     sums = {name: np.expm1(array[:, 20:26].astype(np.float32)).sum((1, 2, 3), dtype=np.float64)
             for name, array in frames.items()}
-    clean = {name: array[:, 20:26].astype(np.float32) for name, array in frames.items()}
+    clean = {name: array[:, 20:23].astype(np.float32) for name, array in frames.items()}
     for name, array in frames.items():
-        for part, tells in enumerate(TELLS):
-            own, told = clean[name][:, 3 * part:3 * part + 3], array[:, 26 + part].astype(np.float32)
-            said = [own]
-            for other in tells:
-                if other in frames and other != name:
-                    ratio = (sums[name] / np.maximum(sums[other], 1e-20))[:, None, None, None]
-                    light = np.expm1(frames[other][:, 6 + 3 * part:9 + 3 * part].astype(np.float32))
-                    said.append(np.log1p(light * ratio))
-            off = np.median(np.stack(said), 0) - own
-            weight = np.broadcast_to(told[:, None], off.shape)
-            array[:, 20 + 3 * part:23 + 3 * part] = np.maximum(own + _soft(off, weight) * weight, 0.0)
+        own, told = clean[name], array[:, 26].astype(np.float32)
+        said = [own]
+        for other in TELLS:
+            if other in frames and other != name:
+                ratio = (sums[name] / np.maximum(sums[other], 1e-20))[:, None, None, None]
+                light = np.expm1(frames[other][:, 6:9].astype(np.float32))
+                said.append(np.log1p(light * ratio))
+        off = np.median(np.stack(said), 0) - own
+        weight = np.broadcast_to(told[:, None], off.shape)
+        array[:, 20:23] = np.maximum(own + _soft(off, weight) * weight, 0.0)

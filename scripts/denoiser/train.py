@@ -25,7 +25,7 @@ def arguments():
     parser.add_argument("--rate", type=float, default=1e-3, help="learning rate at the beginning")
     parser.add_argument("--batch", type=int, default=4, help="crops in a step")
     parser.add_argument("--crop", type=int, default=64, help="side of a crop in pixels, a multiple of 32")
-    parser.add_argument("--frames", type=int, default=2, help="frames of a sequence that a step takes")
+    parser.add_argument("--frames", type=int, default=2, help="frames of a sequence that every second step takes; the others take two, at least 2")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--bfloat16", action="store_true", help="convolutions in bfloat16, which some processors do faster")
@@ -60,18 +60,27 @@ def augment(crop, rng):
     return crop
 
 
+def walk(length, frames, rng):
+    """Numbers of so many frames of a sequence, one after the other; where it has too few, there and back again."""
+    first = rng.integers(max(length - frames, 0) + 1)
+    return [first + min(k % (2 * length - 2), -k % (2 * length - 2)) for k in range(frames)]
+
+
 def draw(sequences, args, rng):
-    """A batch of crops: (frames, batch, channels, side, side)."""
+    """A batch of crops: (frames, batch, channels, side, side). Half of them are long, for the state, of sequences in
+    which more than two frames differ; half have two frames, and as many crops more."""
     import numpy as np
+    long = args.frames > 2 and rng.random() < 0.5
+    frames, crops = (args.frames, args.batch) if long else (2, args.batch * args.frames // 2)
     batch = []
-    while len(batch) < args.batch:
+    while len(batch) < crops:
         sequence = sequences[rng.integers(len(sequences))]
-        if len(sequence) < args.frames:
+        if len(sequence) < 2 + long:
             continue
-        first = rng.integers(len(sequence) - args.frames + 1)
         y = rng.integers(sequence.shape[2] - args.crop + 1)
         x = rng.integers(sequence.shape[3] - args.crop + 1)
-        crop = np.array(sequence[first:first + args.frames, :, y:y + args.crop, x:x + args.crop], np.float32)
+        crop = sequence[:, :, y:y + args.crop, x:x + args.crop]
+        crop = np.array(crop[walk(len(sequence), frames, rng)], np.float32)
         if crop[:, 26:28].mean() > 0.1:  # most of it is not background
             batch.append(augment(crop, rng))
     import torch
