@@ -43,7 +43,7 @@ void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params
     lsf_plan_pass_add(plan, "light_filter", "%d steps over the mean of light, once a picture",
                       params->steps);
     lsf_plan_reads(plan, "view light_mean light_guide temporal");
-    lsf_plan_reads(plan, "denoise");
+    lsf_plan_reads(plan, "temporal.denoised_diffuse|denoise");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
                         "materials have a specular lobe");

@@ -8,8 +8,8 @@
 #include "plan/option.h"
 
 typedef struct lsf_temporal_params {
-    int32_t frames; /* most frames that light of earlier frames counts for */
-    int32_t lag;    /* frames after which 1 % is left of lights that were changed */
+    int32_t frames;          /* most frames that light of earlier frames counts for */
+    int32_t lag;             /* frames after which 1 % is left of lights that were changed */
     int32_t denoised_frames; /* most frames that denoised light of earlier frames counts for */
 } lsf_temporal_params;
 
