@@ -125,13 +125,19 @@ static void set_guide(const lsf_light_filter *pass)
 }
 
 /* Relative variance of a variance that is known from so many iterations of heavy-tailed noise:
- * (kurtosis - 1) / (n - 1). Where pixels of a pattern share samples few tell it: the kurtosis is
- * that of light which one sample in 64 finds. Else it is 9, that of an exponential distribution.
- * One iteration tells next to nothing. */
-static float uncertainty_of(const lsf_plan *plan, float iterations)
+ * (kurtosis - 1) / (n - 1), with the kurtosis of an exponential distribution. One iteration tells
+ * next to nothing. */
+static float uncertainty_of(float iterations)
 {
-    float kurtosis = plan->pattern > 1 ? 64.0f : 9.0f;
+    const float kurtosis = 9.0f;
     return (kurtosis - 1.0f) / (iterations > 1.5f ? iterations - 1.0f : 0.01f);
+}
+
+/* Whether neighbours that take different samples of light that bounces share them with others of
+ * the same place in the pattern: what one of these finds alone stands out from all around it. */
+static bool shares_samples(const lsf_plan *plan)
+{
+    return plan->pattern > 1 && lsf_plan_switch_value(plan, "light_mean", "LSF_INDIRECT");
 }
 
 /* Sets `light` to the parts without tint, with their variances. */
@@ -158,7 +164,7 @@ static void divide(const lsf_light_filter *pass, const lsf_plan *plan, float ite
     begin(plan, pass->light_framebuffer, pass->variance);
     set_guide(pass);
     glUniform1i(1, alone);
-    glUniform1f(2, uncertainty_of(plan, iterations));
+    glUniform1f(2, uncertainty_of(iterations));
     glUniform1i(3, inputs->half != 0);
     bind_parts(2, pass->turns[1]);
     bind_parts(4, pass->turns[0]);
@@ -184,8 +190,7 @@ static float correlation_before(int32_t step)
 static void run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterations)
 {
     const GLuint *light = pass->light;
-    float first =
-        7.0f * (plan->pattern > 1 ? 1.0f + sqrtf(uncertainty_of(plan, iterations)) : 1.0f);
+    float first = 7.0f * (shares_samples(plan) ? 1.0f + sqrtf(uncertainty_of(iterations)) : 1.0f);
     for (int32_t i = 0; i < pass->params.steps; i++) {
         begin(plan, pass->turn_framebuffers[i % 2], pass->step);
         set_guide(pass);
@@ -217,7 +222,7 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
     lsf_blend_add(1);
     set_guide(pass);
     glUniform1i(1, false);
-    glUniform1f(2, pass->params.limit ? uncertainty_of(plan, iterations) : -1.0f);
+    glUniform1f(2, pass->params.limit ? uncertainty_of(iterations) : -1.0f);
     bind_parts(2, pass->turns[window]);
     bind_parts(4, pass->light);
     bind_parts(6, filtered);
