@@ -1,10 +1,12 @@
-/* The tree over a cloud of VPLs: its buffers, and the nodes that links lead to. Switch LSF_LIGHT_TREE_COVARIANCE.
- * Shaders that build the tree define LIGHT_TREE_ACCESS as empty, because they write it. */
+/* The tree over a cloud of VPLs: its buffers, and the nodes that links lead to. Switches LSF_SPECULAR (VPLs may have
+ * lobes), LSF_LIGHT_TREE_COVARIANCE. Shaders that build the tree define LIGHT_TREE_ACCESS as empty, because they write
+ * it. */
 #ifndef LSF_LIB_LIGHT_TREE
 #define LSF_LIB_LIGHT_TREE
 
 #include "lib/luminance.glsl"
 #include "lib/octahedral.glsl"
+#include "lib/vpl_lobe.glsl"
 #include "shared/light_tree_data.h"
 #include "shared/vpl_record.h"
 
@@ -45,7 +47,16 @@ lsf_light_tree_node light_leaf(uint record)
     leaf.similarity = 1.0;
     leaf.variance = leaf.covariance = vec3(0.0);
     leaf.left = leaf.right = LSF_LIGHT_TREE_NONE;
-    leaf.count = leaf.usable = 1u;
+    leaf.count = 1u;
+    leaf.usable = LSF_LIGHT_TREE_USABLE;
+#if LSF_SPECULAR
+    if (vpl_has_lobe(cloud[record])) {
+        vpl_lobe lobe = vpl_lobe_unpack(cloud[record]);
+        leaf.normal = octahedral_encode(vpl_lobe_axis(octahedral_decode(leaf.normal), lobe));
+        leaf.similarity = vpl_lobe_mean_cosine(lsf_alpha_from_roughness(lobe.roughness));
+        leaf.usable = LSF_LIGHT_TREE_LOBES;
+    }
+#endif
     return leaf;
 }
 

@@ -10,18 +10,25 @@ struct reflector {
     float transmission, roughness, f0, metallic;
 };
 
-/* The albedo of all lobes together for light at that cosine. */
-vec3 reflectance(reflector m, float cosine)
+/* The albedos of the diffuse and of the specular lobe for light at that cosine. */
+void reflectances(reflector m, float cosine, out vec3 diffuse, out vec3 specular)
 {
-    vec3 diffuse = (1.0 - m.transmission) * m.base_color;
+    diffuse = (1.0 - m.transmission) * m.base_color;
+    specular = vec3(0.0);
 #if LSF_SPECULAR
     diffuse *= (1.0 - m.metallic) * lsf_diffuse_albedo(m.f0, 1.0, cosine);
     float none = lsf_specular_albedo(0.0, 1.0, cosine, m.roughness);
     float all = lsf_specular_albedo(1.0, 1.0, cosine, m.roughness);
-    return diffuse + mix(vec3(none), vec3(all), mix(vec3(m.f0), m.base_color, m.metallic));
-#else
-    return diffuse;
+    specular = mix(vec3(none), vec3(all), mix(vec3(m.f0), m.base_color, m.metallic));
 #endif
+}
+
+/* The albedo of all lobes together for light at that cosine. */
+vec3 reflectance(reflector m, float cosine)
+{
+    vec3 diffuse, specular;
+    reflectances(m, cosine, diffuse, specular);
+    return diffuse + specular;
 }
 
 #endif

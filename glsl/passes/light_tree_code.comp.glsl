@@ -1,4 +1,4 @@
-/* Writes the code of each VPL. */
+/* Writes the code of each VPL. Switch LSF_SPECULAR. */
 #include "passes/light_tree_codes.glsl"
 
 layout(local_size_x = LSF_LIGHT_TREE_GROUP) in;
@@ -70,7 +70,11 @@ void main()
     uvec2 code = uvec2(CODE_DEAD, i);
     if (!light_is_dead(record)) {
         uint normal = normal_code(octahedral_decode(record.normal));
-        code.x = (position_code(record.position) << 1) | (normal >> 8);
+        uint place = position_code(record.position);
+#if LSF_SPECULAR
+        place = (place >> 1) | (vpl_has_lobe(record) ? CODE_LOBE : 0u);
+#endif
+        code.x = (place << 1) | (normal >> 8);
         code.y |= normal << LSF_LIGHT_TREE_ID_BITS;
     }
     codes[i] = code;

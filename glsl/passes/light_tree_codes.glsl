@@ -1,5 +1,7 @@
 /* Codes of the VPLs, whose order builds the tree. From the highest bit on: 1 for a dead VPL, 30 bits of a Morton
- * code of its position, 9 of its normal, and its number in the cloud, which makes codes unique. */
+ * code of its position, 9 of its normal, and its number in the cloud, which makes codes unique. With the switch
+ * LSF_SPECULAR the first of the 30 bits is 1 for a VPL with a lobe, and the last one is left out: VPLs with lobes have a
+ * subtree of their own. */
 #ifndef LSF_PASSES_LIGHT_TREE_CODES
 #define LSF_PASSES_LIGHT_TREE_CODES
 
@@ -9,6 +11,7 @@
 layout(location = LSF_LOCATION_LIGHT_TREE_RECORDS) uniform uint record_count;
 
 #define CODE_DEAD 0x80000000u
+#define CODE_LOBE 0x20000000u /* of the 30 bits of place */
 #define CODE_ID_MASK ((1u << LSF_LIGHT_TREE_ID_BITS) - 1u)
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_CODES) buffer lsf_light_tree_code_block

@@ -1,6 +1,6 @@
 /* The values of inner nodes, from the leaves up. A dispatch merges the nodes whose children the previous
  * dispatches completed, left with right, and lists the parents that become ready for the next. The first dispatch
- * only lists. */
+ * only lists. Switch LSF_SPECULAR. */
 #include "passes/light_tree_links.glsl"
 
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_TURNS) buffer lsf_light_tree_turn_block
@@ -46,6 +46,18 @@ void merge_spread(inout lsf_light_tree_node node, lsf_light_tree_node a, lsf_lig
 #endif
 }
 
+#if LSF_SPECULAR
+/* The mean of unit vectors along the axes is the mean cosine long. With diffuse VPLs among them nothing is known. */
+void merge_lobes(inout lsf_light_tree_node node, lsf_light_tree_node a, lsf_light_tree_node b, float q, bool both)
+{
+    vec3 mean = mix(a.similarity * octahedral_decode(a.normal), b.similarity * octahedral_decode(b.normal), q);
+    float size = length(mean);
+    node.similarity = both ? size : 0.0;
+    if (both && size > 1e-6)
+        node.normal = octahedral_encode(mean / size);
+}
+#endif
+
 void merge(uint index)
 {
     lsf_light_tree_node node = nodes[index], a = light_node(node.left), b = light_node(node.right);
@@ -60,11 +72,20 @@ void merge(uint index)
     float size = length(normal);
     node.normal = a.normal == b.normal || size < 1e-6 ? a.normal : octahedral_encode(normal / size);
     node.similarity = a.similarity * b.similarity * normal_similarity(a.normal, b.normal);
+#if LSF_SPECULAR
+    bvec2 lobes = equal(uvec2(a.usable, b.usable), uvec2(LSF_LIGHT_TREE_LOBES));
+    if (any(lobes))
+        merge_lobes(node, a, b, q, all(lobes));
+#endif
     mat3 frame = light_tree_frame(octahedral_decode(node.normal));
     merge_spread(node, a, b, q, frame);
     float across = light_variance_along(node, frame[2], frame);
     node.usable = node.similarity >= limits.x && across <= limits.y * limits.y &&
-                          distance(node.low, node.high) <= limits.z ? 1u : 0u;
+                          distance(node.low, node.high) <= limits.z ? LSF_LIGHT_TREE_USABLE : 0u;
+#if LSF_SPECULAR
+    if (any(lobes))
+        node.usable = all(lobes) ? LSF_LIGHT_TREE_LOBES : 0u;
+#endif
     nodes[index] = node;
 }
 

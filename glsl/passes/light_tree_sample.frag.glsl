@@ -90,8 +90,11 @@ void add_light(light_receiver r, light_point p, bool specular, float probability
     if (intensity == vec3(0.0))
         return;
     float held2 = max(distance2, light_bound2(p.disc2));
-    brdf_value f = brdf_evaluate(r.s, r.view, direction, light_kernel(p.disc2, leaves / held2));
+    float kernel = light_kernel(p.disc2, leaves / held2);
+    brdf_value f = brdf_evaluate(r.s, r.view, direction, kernel);
     float geometry = leaves * arrives / probability;
+    if (p.record != LSF_LIGHT_TREE_NONE)
+        geometry *= light_lobe(p.record, p.normal, -direction, kernel);
     float bounded = geometry / held2, lost = geometry / distance2 - bounded;
 #if LSF_SPECULAR
     if (specular) {

@@ -29,7 +29,7 @@ light_walk_end light_walk(light_receiver r, bool specular, uint link, float prob
         lsf_light_tree_node node = nodes[end.link];
 #if LSF_LIGHT_TREE_SUBSTITUTE
         vec3 way = node.position - r.position;
-        if (!specular && node.usable != 0u && light_variance(node) <= spread_bound * dot(way, way))
+        if (!specular && node.usable == LSF_LIGHT_TREE_USABLE && light_variance(node) <= spread_bound * dot(way, way))
             break;
 #endif
         float most = luminance(node.intensity);
@@ -53,6 +53,7 @@ light_walk_end light_walk(light_receiver r, bool specular, uint link, float prob
 struct light_point {
     vec3 position, normal, intensity;
     float disc2; /* of a VPL there */
+    uint record; /* of the VPL that it is, LSF_LIGHT_TREE_NONE of a node's point */
 };
 
 /* Three normally distributed numbers (G. E. P. Box, M. E. Muller 1958). */
@@ -82,9 +83,11 @@ vec3 light_spread(lsf_light_tree_node node, mat3 frame, vec3 g)
 light_point light_point_at(uint link, vec4 u)
 {
     lsf_light_tree_node node = light_node(link);
-    light_point p = light_point(node.position, octahedral_decode(node.normal), node.intensity, 0.0);
+    light_point p = light_point(node.position, octahedral_decode(node.normal), node.intensity, 0.0, LSF_LIGHT_TREE_NONE);
     if (light_is_leaf(link)) {
-        p.disc2 = discs2[light_record(link)];
+        p.record = light_record(link);
+        p.normal = octahedral_decode(cloud[p.record].normal);
+        p.disc2 = discs2[p.record];
         return p;
     }
     mat3 frame = light_tree_frame(p.normal);

@@ -17,8 +17,9 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) readonly buffer lsf_light
 };
 
 /* x: squared distance below which 1/d^2 is clamped, relative to the squared radius of those discs: no VPL is
- * closer than that. y: suppression's m'/d [sr] at unit distance, relative to the same. */
-layout(location = 0) uniform vec2 disc_scale;
+ * closer than that. y: suppression's m'/d [sr] at unit distance, relative to the same. z: least alpha of the lobes of
+ * VPLs. */
+layout(location = 0) uniform vec3 disc_scale;
 
 float light_bound2(float disc2)
 {
@@ -98,10 +99,42 @@ float height_above(float mean, float variance)
     return sqrt(variance * max((x * x + 1.0) * above + x * density, 0.0));
 }
 
-/* Geometry between a link and a receiver. */
+/* By what a VPL's light is more than that of a diffuse one, in a direction above its surface. Its lobe is spread over a
+ * kernel, as for receivers, and no narrower than samples can find. */
+float light_lobe(uint record, vec3 normal, vec3 direction, float kernel)
+{
+#if LSF_SPECULAR
+    if (vpl_has_lobe(cloud[record]) && dot(normal, direction) > 0.0) {
+        vpl_lobe lobe = vpl_lobe_unpack(cloud[record]);
+        float nv = dot(normal, lobe.from), alpha = lsf_alpha_from_roughness(lobe.roughness);
+        alpha = max(max(alpha, disc_scale.z), kernel_alpha(kernel, 1.0, sqrt(mix(nv * nv, 1.0, alpha * alpha))));
+        return vpl_lobe_towards(normal, lobe.from, direction, alpha);
+    }
+#endif
+    return 1.0;
+}
+
+#if LSF_SPECULAR
+/* The same of all below a node, with the cosine: half as if the lobes' axes and the places below it, seen from the point,
+ * were one distribution of von Mises and Fisher (K. V. Mardia, P. E. Jupp 2000, "Directional Statistics"; its
+ * concentration by A. Banerjee et al. 2005, equation 4.4), half as if they shone evenly over a hemisphere, for lobes have
+ * long tails. */
+float lobes_share(lsf_light_tree_node node, vec3 towards, float distance2, float kernel)
+{
+    float mean = node.similarity, alpha2 = max(kernel_alpha(kernel, 1.0, 1.0), disc_scale.z);
+    alpha2 *= alpha2;
+    float inverse = (1.0 - mean * mean) / max(mean * (3.0 - mean * mean), 1e-6);
+    float kappa = 1.0 / clamp(max(inverse, 2.0 * alpha2) + light_variance(node) / distance2, 1e-6, 1e3);
+    float cosine = dot(towards, octahedral_decode(node.normal)) * inversesqrt(max(dot(towards, towards), 1e-30));
+    float density = kappa / (2.0 * LSF_PI * (1.0 - exp(-2.0 * kappa))) * exp(kappa * (cosine - 1.0));
+    return 0.5 * (LSF_PI * density + 0.5);
+}
+#endif
+
+/* What light comes to from a link to a receiver. */
 struct light_way {
-    float arrives, leaves, distance2; /* the cosines at both ends; the squared distance */
-    float disc2;                      /* squared radius of the disc of each of its VPLs */
+    float arrives, leaves, distance2; /* the cosines at both ends, that of the VPL times its lobe; the squared distance */
+    float kernel;                     /* as light_kernel has it, of each of its VPLs */
 };
 
 /* Exact for a VPL, estimated for a node; `arrives` is 0 where nothing in the box is above the surface. */
@@ -110,14 +143,17 @@ light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, ve
     light_way w;
     w.arrives = cosine_bound(r.frame, center, extent);
     vec3 way = node.position - r.position;
-    mat3 frame = light_tree_frame(octahedral_decode(node.normal));
     w.distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
     if (light_is_leaf(link)) {
-        w.leaves = max(-dot(frame[2], way) * inversesqrt(w.distance2), 0.0);
-        w.disc2 = discs2[light_record(link)];
-        w.distance2 = max(w.distance2, light_bound2(w.disc2));
+        uint record = light_record(link);
+        vec3 back = -way * inversesqrt(w.distance2), normal = octahedral_decode(cloud[record].normal);
+        w.leaves = max(dot(normal, back), 0.0);
+        w.distance2 = max(w.distance2, light_bound2(discs2[record]));
+        w.kernel = light_kernel(discs2[record], w.leaves / w.distance2);
+        w.leaves *= light_lobe(record, normal, back, w.kernel);
         return w;
     }
+    mat3 frame = light_tree_frame(octahedral_decode(node.normal));
     /* The mean squared distance is used: the distance to the box means nothing where the box is large or holds the
      * point. */
     w.distance2 += light_variance(node);
@@ -125,10 +161,18 @@ light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, ve
      * at least as a hundredth of the box's bound, so that no part above is missed. */
     float height = height_above(dot(r.s.normal, way), light_variance_along(node, r.s.normal, frame));
     w.arrives = clamp(height * inversesqrt(w.distance2), 0.01 * w.arrives, w.arrives);
-    w.disc2 = light_disc2(node, frame);
+    float disc2 = light_disc2(node, frame);
+#if LSF_SPECULAR
+    if (node.usable == LSF_LIGHT_TREE_LOBES) {
+        w.kernel = light_kernel(disc2, 1.0 / w.distance2);
+        w.leaves = lobes_share(node, -way, w.distance2, w.kernel);
+        return w;
+    }
+#endif
     /* The more similar the normals are, the more the VPLs count as one with a common normal. */
     frame[2] = -frame[2];
     w.leaves = mix(1.0, cosine_bound(frame, center, extent), node.similarity);
+    w.kernel = light_kernel(disc2, w.leaves / w.distance2);
     return w;
 }
 
@@ -144,7 +188,7 @@ float light_weight(light_receiver r, uint link, float most, bool specular)
     weight *= w.arrives * geometry;
 #if LSF_SPECULAR
     if (specular && weight > 0.0)
-        weight *= specular_bound(r, center, extent, light_kernel(w.disc2, geometry));
+        weight *= specular_bound(r, center, extent, w.kernel);
 #endif
 #endif
     return weight;

@@ -1,10 +1,11 @@
 /* Continues light paths through the voxels, from the first vertex that vpl_cloud_light has found or from a point
  * on an emitter. A diffuse virtual point light of intensity I sends out the flux pi I, in directions of density
- * cos / pi, so that a path in such a direction carries pi I whichever it is. Each vertex is a virtual point light
+ * cos / pi, so that a path in such a direction carries pi I whichever it is. One with a lobe g sends it out in
+ * directions of another density p: a path carries I g cos / p. Each vertex is a virtual point light
  * with the intensity that it reflects. The path continues from it with the probability that keeps its largest
  * channel as bright as before (Russian roulette), and ends there otherwise. At transmitting surfaces the path
- * passes with a probability of their transmittance. Switches LSF_EMISSION, LSF_TRANSMISSION, LSF_VOXEL_PASSAGE and
- * those of the libraries. */
+ * passes with a probability of their transmittance. Switches LSF_EMISSION, LSF_SPECULAR, LSF_TRANSMISSION,
+ * LSF_VOXEL_PASSAGE and those of the libraries. */
 #include "lib/cosine.glsl"
 #include "lib/hash.glsl"
 #include "lib/voxel_reflect.glsl"
@@ -57,24 +58,23 @@ reflector material_of(ivec3 cell)
 }
 
 /* The VPL of the voxel that the ray has hit, for light of this intensity. */
-lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint depth)
+lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint depth, inout float u)
 {
     uint normal = texelFetch(voxel_normal, cell, 0).r, point = texelFetch(voxel_point, cell, 0).r;
     vec3 n = voxel_normal_unpack(normal), shading = voxel_normal_unpack(voxel_shading_bits(cell, normal));
     float meets = dot(n, ray.direction);
-    vec3 side = meets <= 0.0 ? n : -n;
-    float cosine = max((meets <= 0.0 ? -1.0 : 1.0) * dot(shading, ray.direction), 0.0);
+    float side = meets <= 0.0 ? 1.0 : -1.0;
     vec3 place = vec3(cell) + voxel_point_unpack(point);
     if (meets != 0.0) {
         vec3 there = ray.origin + ray.direction * (dot(n, place - ray.origin) / meets);
         place = clamp(there, vec3(cell), vec3(cell + 1));
     }
-    vec3 reflected = intensity * reflectance(material_of(cell), cosine);
 #if LSF_EMISSION
     if (voxel_unlit(point))
-        reflected = vec3(0.0);
+        intensity = vec3(0.0);
 #endif
-    return lsf_vpl_record(voxel_to_position(place), octahedral_encode(side), reflected, depth);
+    return cloud_reflect(voxel_to_position(place), side * n, side * shading, ray.direction, material_of(cell), intensity,
+                         depth, u);
 }
 
 /* Advances to the voxel that reflects the light; `left`: transmittance on the way. False: there is none. */
@@ -120,6 +120,15 @@ void main()
         orthonormal_basis(n, t, b);
         vec3 local = cosine_direction(disc_draw(u.xy));
         vec3 direction = normalize(local.x * t + local.y * b + local.z * n);
+#if LSF_SPECULAR
+        if (vpl_has_lobe(v)) {
+            float weight;
+            direction = vpl_lobe_draw(n, vpl_lobe_unpack(v), u.xy, weight);
+            if (weight <= 0.0)
+                return;
+            v.intensity *= weight;
+        }
+#endif
         voxel_ray ray;
         ivec3 cell;
         vec3 left;
@@ -127,7 +136,7 @@ void main()
             !voxel_leave_start(ray) || !meet(ray, path, vertex, cell, left))
             return;
         float carried = largest_of(v.intensity);
-        v = reflect_from(cell, ray, v.intensity * left, v.depth + 1u);
+        v = reflect_from(cell, ray, v.intensity * left, (v.depth_and_lobe & LSF_VPL_DEPTH_MASK) + 1u, u.z);
         cloud[cloud_slot(path, vertex)] = v;
         float goes_on = min(largest_of(v.intensity) / carried, 1.0);
         if (u.z >= goes_on)

@@ -25,9 +25,9 @@ struct lsf_light_tree_data {
  * LSF_LIGHT_TREE_COVARIANCE along those of normalised space, with xy, xz and yz in `covariance`. */
 struct lsf_light_tree_node {
     vec3 position;    /* mean of the positions below it, by luminance */
-    float similarity; /* of the normals below it, 0..1 */
+    float similarity; /* of the normals below it, 0..1; of lobes the mean cosine to their axis */
     vec3 intensity;   /* the sum [W/sr] */
-    uint normal;      /* mean normal, packed as in lib/octahedral.glsl */
+    uint normal;      /* mean normal, of lobes mean axis, packed as in lib/octahedral.glsl */
     vec3 low;         /* box that encloses the positions */
     uint left;        /* link */
     vec3 high;
@@ -35,8 +35,12 @@ struct lsf_light_tree_node {
     vec3 variance; /* of the positions */
     uint count;    /* VPLs below it */
     vec3 covariance;
-    uint usable; /* 1 where it may stand for all VPLs below it, else 0 */
+    uint usable; /* LSF_LIGHT_TREE_USABLE, LSF_LIGHT_TREE_LOBES or 0 */
 };
+
+/* Nodes that may stand for all VPLs below them, and nodes below which all VPLs have lobes. */
+#define LSF_LIGHT_TREE_USABLE 1u
+#define LSF_LIGHT_TREE_LOBES 2u
 
 /* Keys that a work group sorts, one for each of its invocations in each row. */
 #define LSF_LIGHT_TREE_GROUP 256

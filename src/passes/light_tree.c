@@ -52,8 +52,10 @@ static uint32_t tiles_of(uint32_t capacity)
     return (capacity + LSF_LIGHT_TREE_TILE - 1) / LSF_LIGHT_TREE_TILE;
 }
 
-static void covariance_switch(lsf_plan *plan, const lsf_light_tree_params *params)
+static void switches(lsf_plan *plan, const lsf_light_tree_params *params)
 {
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
+                        "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_COVARIANCE", params->covariance,
                         "light_tree.covariance");
 }
@@ -65,10 +67,10 @@ void lsf_light_tree_plan(lsf_plan *plan, const lsf_light_tree_params *params, ui
     lsf_plan_pass_add(plan, "light_tree_sort", "%u virtual point lights by place and normal",
                       capacity);
     lsf_plan_reads(plan, cloud);
-    covariance_switch(plan, params);
+    switches(plan, params);
     lsf_plan_pass_add(plan, "light_tree", "a tree over virtual point lights");
     lsf_plan_reads(plan, cloud);
-    covariance_switch(plan, params);
+    switches(plan, params);
     lsf_plan_buffer_add(plan, "light_tree.tree", sizeof(struct lsf_light_tree_data),
                         "how many shine, and where");
     lsf_plan_buffer_add(plan, "light_tree.codes_0", n * 2 * sizeof(uint32_t),

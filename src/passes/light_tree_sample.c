@@ -43,6 +43,10 @@ const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_
      offsetof(lsf_light_tree_sample_params, kernel_samples), 0.0, 1e6, NULL, "samples",
      "virtual point lights over which a glossy lobe is spread; fewer: sharper and spikier, 0: "
      "exact"},
+    {"light_tree.lobe_alpha", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, lobe_alpha),
+     0.0, 1.0, NULL, "",
+     "least squared roughness of surfaces that cast specular light on others, in one iteration: it "
+     "falls with the sixth root of their number; 0: exact, with spikes"},
     {"light_tree.sight", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, sight), 0, 0,
      "voxels|exact|open", "",
      "what hides a sample: voxels; to measure by, each opaque triangle, of scenes with few, or "
@@ -156,12 +160,15 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
 }
 
 /* Areas of discs: the clouds of so many iterations count as one, each of whose VPLs stands for
- * as much less. */
+ * as much less. What is spread over alpha is off by alpha^2, and the variance of n samples in a
+ * lobe falls as 1 / (n alpha^2): their sum is least with alpha^2 as n^(-1/3) (A. Kaplanyan, C.
+ * Dachsbacher 2013, "Path Space Regularization for Holistic and Robust Light Transport"). */
 static void set_disc_scale(const lsf_light_tree_sample *pass, const lsf_iteration *iteration)
 {
     float clouds = lsf_iteration_expected(iteration), bound = pass->params.bound;
-    glUniform2f(LOCATION_DISC, bound * bound / clouds,
-                pass->params.kernel_samples * LSF_PI / clouds);
+    glUniform3f(LOCATION_DISC, bound * bound / clouds,
+                pass->params.kernel_samples * LSF_PI / clouds,
+                pass->params.lobe_alpha * powf(clouds, -1.0f / 6.0f));
 }
 
 /* Of variances to squared distances: 0 rad are any. */

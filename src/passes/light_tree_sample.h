@@ -32,6 +32,7 @@ typedef struct lsf_light_tree_sample_params {
                       * distance */
     float kernel_samples; /* least number of samples that a glossy lobe is spread over; 0: it is
                            * not */
+    float lobe_alpha;     /* least alpha of lobes of VPLs in a single iteration */
     int32_t sight;        /* lsf_light_tree_sight */
 } lsf_light_tree_sample_params;
 
@@ -41,9 +42,9 @@ typedef struct lsf_light_tree_sample_params {
 
 #define LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS                                                      \
     .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .cut = 0.5f, .samples = 4, .bound = 4.0f,   \
-    .kernel_samples = 16.0f, .sight = LSF_LIGHT_TREE_VOXELS
+    .kernel_samples = 16.0f, .lobe_alpha = 0.5f, .sight = LSF_LIGHT_TREE_VOXELS
 
-#define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 7
+#define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 8
 extern const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT];
 
 extern const char *const lsf_light_tree_sample_count_names[LSF_LIGHT_TREE_SAMPLE_COUNTS];

@@ -28,6 +28,11 @@ const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT] = {
      "VPLs",
      "of the substitute tree in an iteration, at most: 4096 of them on emissive surfaces, where "
      "there are any, the others where light was reflected"},
+    {"cloud.lobe_share", LSF_OPTION_FLOAT, offsetof(lsf_vpl_cloud_params, lobe_share), 0.0, 1.0,
+     NULL, "of what is reflected",
+     "virtual point lights shed specular light in its own directions where it is at least this "
+     "part, "
+     "as diffuse light elsewhere; 0: everywhere, with more noise"},
 };
 
 lsf_vpl_cloud_shape lsf_vpl_cloud_shape_of(const lsf_vpl_cloud_params *params,
@@ -132,8 +137,11 @@ bool lsf_vpl_cloud_create(lsf_vpl_cloud *pass, lsf_context *context, const lsf_p
                           const lsf_vpl_cloud_params *params, const lsf_vpl_cloud_use *use,
                           const lsf_scene *scene, const lsf_state *state, lsf_error *error)
 {
-    *pass = (lsf_vpl_cloud){
-        .context = context, .use = *use, .shape = lsf_vpl_cloud_shape_of(params, use)};
+    *pass = (lsf_vpl_cloud){.context = context,
+                            .use = *use,
+                            .shape = lsf_vpl_cloud_shape_of(params, use),
+                            .specular = plan->requirements.specular,
+                            .lobe_share = params->lobe_share};
     return lsf_plan_create_buffer(plan, context, "vpl_cloud.records", NULL, 0, &pass->records,
                                   error) &&
            (!use->emitters || lsf_emitter_points_create(&pass->emitters, context, plan,
@@ -162,6 +170,13 @@ static uint32_t paths_at_lights(const lsf_vpl_cloud *pass, float light_power)
         return pass->shape.paths;
     float share = 0.25f + 0.5f * light_power / (light_power + emitter_power);
     return (uint32_t)(share * (float)pass->shape.paths);
+}
+
+/* Sets uniforms of the program in use, whose paths meet surfaces. */
+static void set_lobes(const lsf_vpl_cloud *pass)
+{
+    if (pass->specular)
+        glUniform1f(4, pass->lobe_share);
 }
 
 /* Sets uniforms of the program in use. */
@@ -229,6 +244,7 @@ void lsf_vpl_cloud_light(lsf_vpl_cloud *pass, const lsf_iteration *iteration,
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
     glUseProgram(pass->light_program);
     set_shape(pass, iteration, run->light, run->first, run->count);
+    set_lobes(pass);
     glUniform1f(2, run->share);
     dispatch(run->count);
     lsf_timer_end(pass->light_timer);
@@ -245,6 +261,7 @@ void lsf_vpl_cloud_bounce(lsf_vpl_cloud *pass, const lsf_iteration *iteration,
     lsf_voxel_passage_bind(iteration);
     glUseProgram(pass->bounce_program);
     set_shape(pass, iteration, NO_LIGHT, pass->light_paths, pass->shape.paths - pass->light_paths);
+    set_lobes(pass);
     glUniform1ui(2, pass->shape.vertices);
     glUniform1f(3, lsf_random_float(seed, iteration->index));
     dispatch(pass->shape.paths);

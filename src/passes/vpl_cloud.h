@@ -1,4 +1,4 @@
-/* Diffuse virtual point lights in quantity, without a map each: the vertices of light paths. See
+/* Virtual point lights in quantity, without a map each: the vertices of light paths. See
  * vpl_cloud.md. */
 #ifndef LSF_PASSES_VPL_CLOUD_H
 #define LSF_PASSES_VPL_CLOUD_H
@@ -12,11 +12,13 @@
 
 typedef struct lsf_vpl_cloud_params {
     int32_t count; /* of records, at most */
+    float
+        lobe_share; /* least share of what a surface reflects by microfacets that keeps its lobe */
 } lsf_vpl_cloud_params;
 
-#define LSF_VPL_CLOUD_PARAMS_DEFAULTS .count = 100000
+#define LSF_VPL_CLOUD_PARAMS_DEFAULTS .count = 100000, .lobe_share = 0.5f
 
-#define LSF_VPL_CLOUD_OPTION_COUNT 1
+#define LSF_VPL_CLOUD_OPTION_COUNT 2
 extern const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT];
 
 /* The kinds of lights at which light paths begin, and how often surfaces may reflect them. */
@@ -49,6 +51,8 @@ typedef struct lsf_vpl_cloud {
     lsf_context *context;
     lsf_vpl_cloud_use use;
     lsf_vpl_cloud_shape shape;
+    bool specular; /* materials have specular lobes */
+    float lobe_share;
     uint32_t light_paths; /* of the iteration; the others begin on emitters */
     GLuint records;       /* output: struct lsf_vpl_record each */
     lsf_emitter_points emitters;

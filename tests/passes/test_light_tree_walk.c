@@ -115,7 +115,7 @@ static void draw_all(rig *r, bool substitute, bool sites, bool specular, float c
     glUseProgram(program);
     lsf_light_tree_bind(&r->tree.outputs);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, r->result);
-    glUniform2f(0, 1.0f, 0.0f);
+    glUniform3f(0, 1.0f, 0.0f, 0.0f);
     glUniform1f(2, 1e9f);
     glUniform1f(3, cut > 0.0f ? cut * cut : INFINITY);
     glUniform1i(5, specular);

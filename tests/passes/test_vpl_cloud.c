@@ -133,10 +133,11 @@ static void add_flux(const cloud_rig *rig, double weight, fluxes flux)
     double unscale = weight * M_PI / (rig->setup.state.scale * rig->setup.state.scale);
     for (uint32_t i = 0; i < rig->count; i++) {
         const struct lsf_vpl_record *r = &rig->records[i];
-        assert_true(r->depth <= BOUNCES);
-        flux[r->depth][0] += unscale * (double)r->intensity.x;
-        flux[r->depth][1] += unscale * (double)r->intensity.y;
-        flux[r->depth][2] += unscale * (double)r->intensity.z;
+        uint32_t depth = r->depth_and_lobe & LSF_VPL_DEPTH_MASK;
+        assert_true(depth <= BOUNCES);
+        flux[depth][0] += unscale * (double)r->intensity.x;
+        flux[depth][1] += unscale * (double)r->intensity.y;
+        flux[depth][2] += unscale * (double)r->intensity.z;
     }
 }
 
@@ -370,7 +371,7 @@ static void records_lie_on_surfaces(void **unused)
         }
         /* A voxel's point is kept to a 1023rd of its side, the grid has 32 of them along the box.
          */
-        assert_true(to_wall < (r->depth == 1 ? 1e-5 : 2.0 / 32 / 256));
+        assert_true(to_wall < (r->depth_and_lobe == 1 ? 1e-5 : 2.0 / 32 / 256));
     }
     assert_int_equal(live_vertices(&rig, 0), rig.cloud.shape.paths);
     /* Some 2 in 10,000 rays slip through between the voxels of two walls. */
