@@ -1,8 +1,8 @@
 /* Light that one light sends to the eye by one reflection: f V E, added to the target. Switches LSF_SHADOW_SKY:
  * instead of one light, a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: other strategies
- * that find the environment, and share its light; LSF_SKY_PATTERN: light of these directions stays split, and
- * pixels take turns in using them for their diffuse lobes; LSF_SKY_CONTROL, lsf_sky_control: the directions
- * estimate only the difference from the light of an unoccluded sky, which is known. */
+ * that find the environment, and share its light; LSF_SKY_SPLIT: light of these directions stays split;
+ * LSF_SKY_CONTROL, lsf_sky_control: the directions estimate only the difference from the light of an unoccluded sky,
+ * which is known. */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/luminance.glsl"
@@ -15,7 +15,7 @@
 #include "lib/straight.glsl"
 #include "lib/view.glsl"
 
-#if LSF_SKY_PATTERN
+#if LSF_SKY_SPLIT
 layout(location = 0) out vec4 irradiance_out;
 #if LSF_SPECULAR
 layout(location = 1) out vec4 specular_out;
@@ -27,18 +27,6 @@ layout(location = 0) out vec4 radiance_out;
 #if LSF_SHADOW_SKY
 layout(location = 0) uniform int sky_map_count;
 #endif
-#if LSF_SKY_PATTERN
-layout(location = 2) uniform ivec2 sky_turn; /* first direction of the batch; shift of the pattern */
-
-/* Whether a direction belongs to the pixel's position in the pattern. */
-bool takes_direction(ivec2 pixel, int direction)
-{
-    const int tiles = LSF_SKY_PATTERN * LSF_SKY_PATTERN;
-    int tile = (direction + sky_turn.y) % tiles;
-    return tile == pixel.x % LSF_SKY_PATTERN + pixel.y % LSF_SKY_PATTERN * LSF_SKY_PATTERN;
-}
-#endif
-
 struct light_parts {
     vec3 irradiance, specular;
 };
@@ -114,7 +102,6 @@ layout(location = 4) uniform int sequence; /* sequence of the first direction, 0
 /* Sums over the directions of one sequence. */
 struct sky_part {
     light_parts lit, open; /* light that arrives, and light that would arrive unoccluded */
-    int taken;             /* directions used for the diffuse lobe */
     sky_found found;
 };
 
@@ -127,10 +114,9 @@ sky_found found_by(vec3 diffuse, vec3 specular, vec3 left)
 }
 
 /* Adds the current direction. */
-void add_direction(surface s, vec3 position, vec3 view_direction, bool takes, inout sky_part part)
+void add_direction(surface s, vec3 position, vec3 view_direction, inout sky_part part)
 {
     vec3 direction = sky_maps[shadow_sky_map].to_sky.xyz, irradiance = sky_maps[shadow_sky_map].irradiance.rgb;
-    part.taken += int(takes);
     if (!reaches(s, direction, irradiance))
         return;
     brdf_value f = reflectance(s, view_direction, direction, sky_maps[shadow_sky_map].to_sky.w,
@@ -141,17 +127,15 @@ void add_direction(surface s, vec3 position, vec3 view_direction, bool takes, in
     part.found = sky_found_both(part.found, found_by(diffuse, specular, left));
     part.lit.specular += specular * left;
     part.open.specular += specular;
-    if (takes) {
-        part.lit.irradiance += diffuse * left;
-        part.open.irradiance += diffuse;
-    }
+    part.lit.irradiance += diffuse * left;
+    part.open.irradiance += diffuse;
 }
 
 /* Control variate: the directions' light, less the share of their unoccluded light, plus that share of the
  * unoccluded light's expectation. */
 light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2 share)
 {
-    vec3 irradiance = control.x * float(part.taken) * open_sky.irradiance;
+    vec3 irradiance = control.x * float(directions) * open_sky.irradiance;
     vec3 specular = control.x * float(directions) * open_sky.specular;
     return light_parts(part.lit.irradiance + share.x * (irradiance - part.open.irradiance),
                        part.lit.specular + share.y * (specular - part.open.specular));
@@ -183,7 +167,7 @@ light_parts controlled_sum(ivec2 pixel, sky_part parts[2], ivec2 directions)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-#if LSF_SKY_PATTERN
+#if LSF_SKY_SPLIT
     irradiance_out = vec4(0.0);
 #if LSF_SPECULAR
     specular_out = vec4(0.0);
@@ -208,27 +192,20 @@ void main()
 #if LSF_SKY_CONTROL
     light_parts nothing = light_parts(vec3(0.0), vec3(0.0));
     sky_part parts[2];
-    parts[0] = parts[1] = sky_part(nothing, nothing, 0, sky_found_nothing());
+    parts[0] = parts[1] = sky_part(nothing, nothing, sky_found_nothing());
 #endif
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
-        bool takes = true;
-#if LSF_SKY_PATTERN
-        takes = takes_direction(pixel, sky_turn.x + shadow_sky_map);
-#endif
 #if LSF_SKY_CONTROL
         if (((sequence + shadow_sky_map) & 1) == 0)
-            add_direction(s, position, view_direction, takes, parts[0]);
+            add_direction(s, position, view_direction, parts[0]);
         else
-            add_direction(s, position, view_direction, takes, parts[1]);
+            add_direction(s, position, view_direction, parts[1]);
 #else
-        if (!takes && LSF_SPECULAR == 0)
-            continue;
         light_parts r = reflected(s, position, view_direction, sky_maps[shadow_sky_map].to_sky.xyz,
                                   sky_maps[shadow_sky_map].irradiance.rgb, sky_maps[shadow_sky_map].to_sky.w,
                                   sky_maps[shadow_sky_map].irradiance.w);
+        sum.irradiance += r.irradiance;
         sum.specular += r.specular;
-        if (takes)
-            sum.irradiance += r.irradiance;
 #endif
     }
 #if LSF_SKY_CONTROL
@@ -252,11 +229,10 @@ void main()
 #endif
     sum = reflected(s, position, view_direction, direction, irradiance, 0.0, 0.0);
 #endif
-#if LSF_SKY_PATTERN
-    const float tiles = float(LSF_SKY_PATTERN * LSF_SKY_PATTERN); /* each pixel uses one of so many directions */
-    irradiance_out.rgb = tiles * sum.irradiance;
+#if LSF_SKY_SPLIT
+    irradiance_out.rgb = sum.irradiance;
 #if LSF_SPECULAR
-    specular_out.rgb = sum.specular; /* over all directions: neighbours can hardly share specular light */
+    specular_out.rgb = sum.specular;
 #endif
 #else
     radiance_out.rgb = surface_diffuse(s) / LSF_PI * sum.irradiance + sum.specular;

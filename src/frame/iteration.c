@@ -271,8 +271,10 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done)
     float point[2];
     iteration->done = done;
     iteration->index = iteration->first_index + done;
+    uint32_t places = lsf_sparse_grid_is_of_pixels(iteration->plan) ? LSF_PURPOSE_PIXEL_POINT
+                                                                    : LSF_PURPOSE_SPARSE_GRID;
     iteration->grid = lsf_sparse_grid_at(iteration->plan, done, iteration->index,
-                                         lsf_iteration_seed(iteration, LSF_PURPOSE_SPARSE_GRID));
+                                         lsf_iteration_seed(iteration, places));
     iteration->serial = iteration->serial_before + done + 1;
     lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_PIXEL), point);
     float x = (2.0f * point[0] - 1.0f) * iteration->view.size.z;

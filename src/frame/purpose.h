@@ -25,7 +25,7 @@ typedef enum lsf_purpose {
     /* Whether surfaces that transmit, and blended ones, are hit; see lib/straight.glsl and
      * lib/alpha.glsl. */
     LSF_PURPOSE_STRAIGHT_PIXEL,
-    LSF_PURPOSE_SKY_PATTERN, /* which pixels take which directions of the environment */
+    LSF_PURPOSE_PIXEL_POINT, /* which of a pixel's points gathers light that bounces */
     LSF_PURPOSE_VPL_CLOUD,
     LSF_PURPOSE_VPL_CLOUD_EMITTER,
     LSF_PURPOSE_VPL_CLOUD_DEAL, /* how many light paths each light has */

@@ -42,16 +42,15 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     lsf_plan_switch_add(plan, "LSF_DIRECT", use->direct,
                         "there are punctual lights, or directions of the environment");
     lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light comes by VPLs or bundles");
-    lsf_plan_switch_add(plan, "LSF_SKY_LIGHT", plan->sky_pattern > 0,
+    lsf_plan_switch_add(plan, "LSF_SKY_LIGHT", plan->sky_split,
                         "light of the environment's directions is filtered");
-    lsf_plan_switch_add(plan, "LSF_SPECULAR",
-                        (use->indirect || plan->sky_pattern > 0) && r->specular,
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", (use->indirect || plan->sky_split) && r->specular,
                         "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: lobes were evaluated before");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION",
-                        (use->indirect || plan->sky_pattern > 0) && plan->transmission,
+                        (use->indirect || plan->sky_split) && plan->transmission,
                         "light passes materials that transmit");
-    if (use->indirect || plan->sky_pattern > 0)
+    if (use->indirect || plan->sky_split)
         lsf_scene_gpu_scatter_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
@@ -67,7 +66,7 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     plan_layer(plan, use->indirect && (plan->aovs & LSF_AOV_INDIRECT_DIFFUSE),
                "LSF_INDIRECT_DIFFUSE", INDIRECT_DIFFUSE, &target);
     plan_layer(plan,
-               (use->split_direct || plan->straight || plan->sky_pattern > 0) &&
+               (use->split_direct || plan->straight || plan->sky_split) &&
                    (plan->aovs & LSF_AOV_DIRECT),
                "LSF_ALL_DIRECT", DIRECT, &target);
     plan_layer(plan,

@@ -37,8 +37,7 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
         lsf_plan_switch_add(plan, "LSF_SHADOW_SKY", 1, "directions of the environment");
         lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", (int)use->sky.chance,
                             "what else finds the environment");
-        lsf_plan_switch_add(plan, "LSF_SKY_PATTERN", (int)plan->sky_pattern,
-                            "their light is filtered: pixels of such a pattern take turns");
+        lsf_plan_switch_add(plan, "LSF_SKY_SPLIT", plan->sky_split, "their light is filtered");
     }
     if (plan->sky_lights > 0)
         lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", (int)use->sky.control,
@@ -49,10 +48,10 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
         lsf_plan_texture_desc_add(plan, "direct_light.control", &desc,
                                   "what directions of the environment have found");
     }
-    if (plan->sky_pattern > 0)
+    if (plan->sky_split)
         lsf_plan_texture_add(plan, "direct_light.sky_irradiance", GL_RGBA32F, plan->seen_width,
                              plan->seen_height, "light of the environment, to be filtered");
-    if (plan->sky_pattern > 0 && plan->requirements.specular)
+    if (plan->sky_split && plan->requirements.specular)
         lsf_plan_texture_add(plan, "direct_light.sky_specular", GL_RGBA32F, plan->seen_width,
                              plan->seen_height, "light of the environment, to be filtered");
     lsf_plan_texture_add(plan, "direct_light.radiance", GL_RGBA32F, plan->seen_width,
@@ -77,7 +76,7 @@ static bool create_sky(lsf_direct_light *pass, const lsf_plan *plan, lsf_error *
     if (!lsf_plan_create_texture_if_planned(plan, pass->context, "direct_light.control",
                                             &pass->control, error))
         return false;
-    if (plan->sky_pattern == 0)
+    if (!plan->sky_split)
         return true;
     if (!lsf_plan_create_texture(plan, pass->context, "direct_light.sky_irradiance",
                                  &pass->sky.irradiance, error) ||
@@ -114,15 +113,6 @@ void lsf_direct_light_clear(lsf_direct_light *pass)
             glClearTexImage(textures[i], 0, GL_RGBA, GL_FLOAT, NULL);
 }
 
-/* By how much the pattern of pixels is turned, drawn anew for each iteration: by any rule of its
- * number a pixel would keep to a part of the sequence of directions. */
-static GLint pattern_turn(const lsf_iteration *iteration)
-{
-    uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_SKY_PATTERN);
-    uint32_t side = iteration->plan->sky_pattern;
-    return (GLint)(lsf_hash(seed, iteration->index) % (side * side));
-}
-
 /* For directions that count on the light of an open sky. */
 static void set_control(const lsf_direct_light *pass, const lsf_iteration *iteration,
                         const lsf_direct_light_inputs *inputs)
@@ -156,8 +146,6 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
         glUniform1i(0, (GLint)inputs->directions);
     else if (iteration->plan->scattered)
         glUniform1f(LSF_LOCATION_LOBE_ANGLE, inputs->lobe_angle);
-    if (split)
-        glUniform2i(2, (GLint)inputs->first, pattern_turn(iteration));
     if (sky && pass->use.sky.chance != LSF_SKY_CHANCE_NONE)
         glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.sky.paths);
     if (sky && inputs->open)

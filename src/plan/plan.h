@@ -70,21 +70,19 @@ struct lsf_plan {
     bool voxel_chance; /* ... and through voxels, which are there by chance: cones march and cannot
                         * go on behind one */
     bool scattered; /* rough thin walls that are seen scatter the light that comes through them */
-    bool random_samples;  /* plain random numbers pick light samples, not low-discrepancy ones */
-    uint32_t pattern;     /* side of the pattern in which pixels take different samples, which a
-                           * filter pools; 1: no pattern */
-    uint32_t sky_pattern; /* side of the pattern in which pixels take different directions of the
-                           * environment; 0: their light is not filtered, and all pixels take all
-                           * directions */
-    uint32_t stride; /* sample points from point to point at which indirect light is gathered, a
-                      * power of two; 0 is 1 */
+    bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
+    uint32_t pattern;    /* side of the pattern in which pixels take different samples, which a
+                          * filter pools; 1: no pattern */
+    uint32_t stride;     /* sample points from point to point at which indirect light is gathered, a
+                          * power of two; 0 is 1 */
     uint32_t finest_stride; /* stride to which it falls as iterations go on; used where stride is
                              * above 1 */
     uint32_t tiles;         /* of pixels, to which samples are dealt out in turn; 0 is 1 */
     bool filtered;          /* light_filter removes noise from the mean */
-    bool temporal;          /* light is kept from frame to frame */
-    char *weights;          /* file of the denoiser's; NULL: the library's own, or no denoiser */
-    bool failed;            /* memory ran out while the plan was filled */
+    bool sky_split; /* ... and from light of the environment's directions, which stays split */
+    bool temporal;  /* light is kept from frame to frame */
+    char *weights;  /* file of the denoiser's; NULL: the library's own, or no denoiser */
+    bool failed;    /* memory ran out while the plan was filled */
     lsf_plan_pass *passes;
     uint64_t pass_count, pass_capacity;
     lsf_plan_resource *resources;

@@ -16,9 +16,8 @@ typedef struct direct {
 static bool needs_compose(const lsf_plan *plan, bool lit)
 {
     const lsf_requirements *r = &plan->requirements;
-    return r->emissive || r->unlit || r->environment || !lit || plan->straight ||
-           plan->sky_pattern > 0 || !plan->background.environment ||
-           (plan->aovs & LSF_AOV_EMISSION);
+    return r->emissive || r->unlit || r->environment || !lit || plan->straight || plan->sky_split ||
+           !plan->background.environment || (plan->aovs & LSF_AOV_EMISSION);
 }
 
 static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)

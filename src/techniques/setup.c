@@ -134,16 +134,6 @@ static bool filters(const lsf_setup *setup, const lsf_technique *technique)
            (params->sparse.interleave > 1 || draws_itself(technique));
 }
 
-/* The largest pattern, up to that of interleaving, in which each position gets as many
- * directions. */
-static uint32_t sky_pattern(uint32_t directions, int32_t interleave)
-{
-    uint32_t side = (uint32_t)interleave;
-    while (directions % (side * side) != 0)
-        side--;
-    return side;
-}
-
 /* Whether one sample point of a pixel can gather what bounces for all of them. */
 static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *technique)
 {
@@ -216,8 +206,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     set_seen(setup, technique);
     bool shared = !technique || !draws_itself(technique);
     plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
-    if (plan->filtered && plan->sky_lights > 0)
-        plan->sky_pattern = sky_pattern(plan->sky_lights, setup->pass_params.sparse.interleave);
+    plan->sky_split = plan->filtered && plan->sky_lights > 0;
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);
     plan->temporal = params->temporal;
