@@ -20,7 +20,7 @@ typedef struct lsf_compare_params {
     float relmse_epsilon;  /* added to the squared reference; NAN: 0.01 * mean(reference)^2 */
     float exposure;        /* EV before tone mapping, for SSIM, PSNR and FLIP */
     lsf_tone_curve curve;  /* likewise; LSF_TONE_CURVE_NONE for pictures made for display */
-    bool flip; /* FLIP and HDR-FLIP, too: some 70 ms for each exposure of 512 x 512 pixels */
+    bool flip; /* FLIP and HDR-FLIP, too: about 70 ms for each exposure of 512 x 512 pixels */
 } lsf_compare_params;
 
 #define LSF_COMPARE_PARAMS_DEFAULTS                                                                \
@@ -45,10 +45,10 @@ typedef struct lsf_compare_result {
     bool noise_corrected;        /* reference_b was given */
 } lsf_compare_result;
 
-/* Both images need R, G, B and the same size. LSF_ERROR_FILE when they do not match. Against two
- * halves, rmse is free of their noise, and relmse nearly so (it divides by the halves' mean, and
- * may be negative); means, bias, SSIM, PSNR and FLIP are against the halves' mean. When no finite
- * pixel is left the measures are NAN. */
+/* Both images need R, G, B and the same size; otherwise LSF_ERROR_FILE. Against two halves, rmse
+ * is free of their noise, and relmse nearly so (it divides by the halves' mean, and may be
+ * negative); means, bias, SSIM, PSNR and FLIP are against the halves' mean. When no finite pixel
+ * is left the measures are NAN. */
 bool lsf_compare(const lsf_image *test, const lsf_image *reference,
                  const lsf_compare_params *params, lsf_compare_result *result, lsf_error *error);
 

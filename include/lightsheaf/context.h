@@ -64,7 +64,7 @@ typedef struct lsf_context_wrap_params {
     bool (*make_current)(void *user); /* called at the start of each call; NULL: the application
                                        * keeps its context current */
     void *user;
-    const char *shader_dir; /* as lsf_context_params has it */
+    const char *shader_dir; /* as in lsf_context_params */
 } lsf_context_wrap_params;
 
 #define LSF_CONTEXT_WRAP_PARAMS_DEFAULTS                                                           \
@@ -97,8 +97,9 @@ lsf_context *lsf_context_wrap(const lsf_context_wrap_params *params, lsf_error *
 /* --- which context is current --- */
 
 bool lsf_context_make_current(lsf_context *context, lsf_error *error);
-/* Then another thread may use it; an application's own it has to take from this thread by itself.
- * LSF_ERROR_USAGE where this thread did not use it last. */
+/* Releases the context, so that another thread may use it; an application's own context has to
+ * be released from this thread by the application. LSF_ERROR_USAGE where this thread was not the
+ * last to use it. */
 bool lsf_context_release_current(lsf_context *context, lsf_error *error);
 
 /* Fails with LSF_ERROR_RENDER when the context was lost, or, with fail_on_gl_error, when any GL
@@ -116,7 +117,7 @@ typedef struct lsf_context_info {
 
 /* The strings live as long as the context. */
 lsf_context_info lsf_context_get_info(const lsf_context *context);
-/* From here on gl_bytes_peak is the most since this call. */
+/* Restarts gl_bytes_peak: it is the maximum since this call. */
 void lsf_context_restart_peak(lsf_context *context);
 
 #if defined(__GNUC__)

@@ -29,7 +29,7 @@ extern "C" {
 #define LSF_VERSION_MINOR 1
 #define LSF_VERSION_PATCH 0
 
-/* Whether these headers are of a version, or of a later one; for #if. */
+/* Whether these headers belong to a version, or to a later one; for #if. */
 #define LSF_VERSION_AT_LEAST(major, minor, patch)                                                  \
     (LSF_VERSION_MAJOR > (major) ||                                                                \
      (LSF_VERSION_MAJOR == (major) &&                                                              \
@@ -41,7 +41,7 @@ const char *lsf_version(void);
 /* Whether the library that is running has the ABI of the headers of this version: below 1.0, of the
  * same minor version; from then on, of the same major one and not an older one. */
 bool lsf_version_fits(uint32_t major, uint32_t minor);
-/* ... of the headers that the program was compiled with. */
+/* The same for the headers that the program was compiled with. */
 #define LSF_VERSION_FITS() lsf_version_fits(LSF_VERSION_MAJOR, LSF_VERSION_MINOR)
 
 #if defined(__GNUC__)

@@ -16,8 +16,8 @@ typedef enum lsf_log_level {
     LSF_LOG_ERROR,
 } lsf_log_level;
 
-/* `message` has no trailing newline and is valid during the call only. May be called from any
- * thread of the library. */
+/* `message` has no trailing newline and is valid during the call only. The handler may be called
+ * from any thread of the library. */
 typedef void (*lsf_log_handler)(lsf_log_level level, const char *message, void *user);
 
 /* Replaces the handler; NULL restores the default, which writes warnings and errors to stderr.

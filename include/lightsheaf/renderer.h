@@ -23,50 +23,50 @@ typedef enum lsf_aov {
     LSF_AOV_ALBEDO = 1 << 0,   /* albedo.R .G .B: base colour, 0..1 */
     LSF_AOV_NORMAL = 1 << 1,   /* normal.X .Y .Z: shading normal, scene space, towards the viewer */
     LSF_AOV_DEPTH = 1 << 2,    /* depth.Z: distance along the view axis, scene units, first
-                                * iteration; infinity where nothing is seen */
-    LSF_AOV_EMISSION = 1 << 3, /* emission.R .G .B: radiance of what is seen itself */
+                                * iteration; infinity where there is no surface */
+    LSF_AOV_EMISSION = 1 << 3, /* emission.R .G .B: emitted radiance of visible surfaces */
     LSF_AOV_DIRECT = 1 << 4,   /* direct.R .G .B: reflected direct light */
     LSF_AOV_INDIRECT_DIFFUSE = 1 << 5,  /* indirect_diffuse.R .G .B */
     LSF_AOV_INDIRECT_SPECULAR = 1 << 6, /* indirect_specular.R .G .B */
     LSF_AOV_MOTION = 1 << 7,            /* motion.X .Y: pixels from the previous frame's position */
-    /* What a voxel technique works with, as voxels; black with others. */
+    /* The voxels of a voxel technique; black with others. */
     LSF_AOV_VOXEL_ALBEDO = 1 << 8,   /* voxel_albedo.R .G .B */
     LSF_AOV_VOXEL_NORMAL = 1 << 9,   /* voxel_normal.X .Y .Z: scene space, towards the viewer */
-    LSF_AOV_VOXEL_RADIANCE = 1 << 10 /* voxel_radiance.R .G .B: of the side that is seen */
+    LSF_AOV_VOXEL_RADIANCE = 1 << 10 /* voxel_radiance.R .G .B: of the visible side */
 } lsf_aov;
 #define LSF_AOV_COUNT 11
-#define LSF_AOV_ALL (LSF_AOV_VOXEL_ALBEDO - 1) /* all but those of voxels */
+#define LSF_AOV_ALL (LSF_AOV_VOXEL_ALBEDO - 1) /* all except those of voxels */
 
 /* "albedo", "normal", ... ; 0 when unknown. */
 uint32_t lsf_aov_from_name(const char *name);
-/* The name of the one AOV that is the lowest set bit of `aovs`. */
+/* The name of the AOV that is the lowest set bit of `aovs`. */
 const char *lsf_aov_name(uint32_t aovs);
 
-/* What is seen where no surface is; what lights the scene stays the environment. */
+/* The background behind all surfaces; the scene is lit by the environment in any case. */
 typedef enum lsf_background {
     LSF_BACKGROUND_AUTO, /* the environment, or middle grey in front of the default sky */
     LSF_BACKGROUND_ENVIRONMENT,
     LSF_BACKGROUND_UNIFORM,     /* lsf_render_params.background_radiance */
-    LSF_BACKGROUND_TRANSPARENT, /* nothing: R, G and B are of surfaces alone, premultiplied by the
-                                 * share of the pixel that they cover, which is channel A */
+    LSF_BACKGROUND_TRANSPARENT, /* none: R, G and B are those of surfaces alone, premultiplied by
+                                 * the share of the pixel that they cover, which is channel A */
 } lsf_background;
 
-/* A camera that a program places. */
+/* A camera placed by the program. */
 typedef struct lsf_view {
     double position[3]; /* scene units */
-    float forward[3];   /* the way it looks; any length */
-    float up[3];        /* what is up in the picture, not along `forward`; any length */
+    float forward[3];   /* viewing direction; any length */
+    float up[3];        /* upwards in the picture, not along `forward`; any length */
     float fov_y;        /* degrees, of a perspective camera */
-    float height;       /* that the picture shows, scene units: makes it orthographic; else 0 */
+    float height;       /* of the visible region, scene units: makes it orthographic; else 0 */
     float near_plane;   /* scene units; 0: a thousandth of the scene's half extent */
 } lsf_view;
 
 /* Called between iterations, and within long ones about ten times a second: `done` of `total`
- * iterations. Return false to stop early: an iteration in progress is dropped, so that there may be
- * no picture yet. It makes no GL calls. */
+ * iterations. Return false to stop early: an iteration in progress is dropped, so that there may
+ * be no picture yet. It must make no GL calls. */
 typedef bool (*lsf_progress)(uint32_t done, uint32_t total, void *user);
 
-/* As many bounces as the scene asks for: lsf_requirements.bounces. */
+/* The number of bounces that the scene needs: lsf_requirements.bounces. */
 #define LSF_BOUNCES_AUTO UINT32_MAX
 #define LSF_BOUNCES_MAX 1000u
 
@@ -74,24 +74,24 @@ typedef struct lsf_render_params {
     const char *technique;  /* see lsf_technique_name */
     uint32_t width, height; /* pixels */
     uint32_t samples;       /* iterations; UINT32_MAX: as many as the time limit allows */
-    double time_limit;      /* seconds of rendering, after which all but a first iteration is
-                             * dropped, or not begun where it would be; infinity: none */
+    double time_limit;      /* seconds of rendering; iterations that exceed it are dropped, or
+                             * not begun if they would, except the first; infinity: none */
     uint32_t bounces;       /* indirect bounces; 0: direct light only; at most LSF_BOUNCES_MAX,
                              * or LSF_BOUNCES_AUTO */
     uint64_t seed;
     const char *camera;           /* name or index; NULL: the first */
-    const float *camera_position; /* three floats in scene units; NULL: the camera's own */
-    const float *camera_target;   /* three floats in scene units; NULL: the camera's own */
-    float fov_y;                  /* degrees, replaces the camera's; NAN: the camera's own */
+    const float *camera_position; /* three floats in scene units; NULL: that of the camera */
+    const float *camera_target;   /* three floats in scene units; NULL: that of the camera */
+    float fov_y;                  /* degrees, replaces the camera's; NAN: that of the camera */
     lsf_background background;
     float background_radiance[3];
-    double time;   /* seconds, where node animations are sampled */
+    double time;   /* seconds, at which animations are sampled */
     uint32_t aovs; /* lsf_aov bits */
-    bool raw;      /* the mean of iterations alone: not filtered, and neighbouring
-                    * pixels take the same samples unless options say otherwise */
-    bool temporal; /* light of the frames before is kept: each frame depends on them, and
-                    * one in which nothing has changed goes on with the mean of the one
-                    * before. Not with `raw` */
+    bool raw;      /* the plain mean of iterations: not filtered, and neighbouring pixels use the
+                    * same samples unless options say otherwise */
+    bool temporal; /* reuse light of earlier frames: each frame then depends on them, and one in
+                    * which nothing has changed continues the mean of the one before. Not with
+                    * `raw` */
     bool rgb8;     /* lsf_renderer_read_rgb8 will be called */
     bool present;  /* lsf_renderer_present will be called */
     const char *const *options; /* "pass.key=value", see lsf_option_list */
@@ -108,8 +108,8 @@ typedef struct lsf_render_params {
     .raw = false, .temporal = false, .rgb8 = false, .present = false, .options = NULL,             \
     .option_count = 0, .progress = NULL, .progress_user = NULL
 
-/* The view of the camera that these parameters choose, at their time: where a program may go on
- * from. LSF_ERROR_USAGE where there is no such camera. */
+/* The view of the camera that these parameters select, at their time; a starting point for a
+ * program's own camera. LSF_ERROR_USAGE where there is no such camera. */
 bool lsf_render_params_view(const lsf_scene *scene, const lsf_render_params *params, lsf_view *view,
                             lsf_error *error);
 
@@ -129,13 +129,13 @@ typedef struct lsf_option {
 
 /* All options of all passes; false past the end. */
 bool lsf_option_list(uint32_t index, lsf_option *option);
-/* What does the work of an option of former versions; NULL: there never was one of that key. */
+/* The replacement of an option of earlier versions; NULL: there was none with that key. */
 const char *lsf_option_replaced(const char *key);
-/* Whether an option of that key may change what the technique does. */
+/* Whether an option with that key can affect the technique. */
 bool lsf_technique_takes(const char *technique, const char *key);
 
-/* The frame plan: which passes run in which order, each resource with its bytes, each shader's
- * switches, and why each is there or was left out. Needs no GL. */
+/* The frame plan: the passes in order, each resource with its bytes, each shader's switches, and
+ * why each is there or was left out. Needs no GL. */
 typedef struct lsf_plan lsf_plan;
 
 lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params,
@@ -156,19 +156,20 @@ typedef struct lsf_price_list {
     uint64_t capacity;
 } lsf_price_list;
 
-/* What one plan has and another has not, such as that of lsf_scene_without. */
+/* The difference of two plans, such as the plan of the scene and that of lsf_scene_without. */
 typedef struct lsf_price {
-    int64_t bytes;                              /* more, of OpenGL memory */
-    lsf_price_list passes, switches, resources; /* a switch is its pass, a blank and its name */
+    int64_t bytes;                              /* additional bytes of OpenGL memory */
+    lsf_price_list passes, switches, resources; /* a switch is written as its pass, a blank and
+                                                 * its name */
 } lsf_price;
 
-/* `price` needs no initialisation, and lsf_price_finish after success. */
+/* `price` needs no initialisation; call lsf_price_finish after success. */
 bool lsf_plan_price(const lsf_plan *with, const lsf_plan *without, lsf_price *price,
                     lsf_error *error);
 void lsf_price_finish(lsf_price *price);
 
-/* A renderer owns every GL object that the plan lists and nothing else. The scene and the
- * context are borrowed and must outlive it. */
+/* A renderer owns all GL objects in the plan and no others. The scene and the context are
+ * borrowed and must outlive it. */
 typedef struct lsf_renderer lsf_renderer;
 
 lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
@@ -176,49 +177,50 @@ lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
 void lsf_renderer_destroy(lsf_renderer *renderer); /* NULL allowed */
 const lsf_plan *lsf_renderer_plan(const lsf_renderer *renderer);
 
-/* What another frame than the first one has otherwise. Whatever was edited of the scene (edit.h)
- * since the frame before is seen as well. */
+/* Parameters that may differ from frame to frame. Edits of the scene (edit.h) since the previous
+ * frame take effect as well. */
 typedef struct lsf_frame {
     double time;           /* seconds, where animations are sampled */
     const lsf_view *view;  /* NULL: the camera of lsf_render_params */
-    uint32_t first_sample; /* its iterations take the random numbers of this one and those that
-                            * follow. A frame depends on nothing else of the frames before it: it
-                            * has the bits of a new renderer's. With lsf_render_params.temporal it
-                            * counts for the first frame and for a cut alone: the others go on with
-                            * the numbers that follow */
-    bool cut; /* motion is measured as in a new renderer, not from the frame before, and
-               * no light is kept */
+    uint32_t first_sample; /* its iterations use the random numbers of this sample and the
+                            * following ones. A frame depends on no other property of earlier
+                            * frames: it has the same bits as in a new renderer. With
+                            * lsf_render_params.temporal this is used for the first frame and
+                            * after a cut alone: the others continue with the numbers that follow */
+    bool cut; /* motion is measured as in a new renderer, not from the previous frame, and no
+               * light is reused */
 } lsf_frame;
 
 #define LSF_FRAME_DEFAULTS .time = 0.0, .view = NULL, .first_sample = 0, .cut = false
 
-/* Goes over to a frame: the mean begins anew, and lsf_renderer_iterate or lsf_renderer_run follow.
- * Where the scene requires what it did before, nothing of GL is allocated, compiled or waited for;
- * otherwise there is a new plan (lsf_renderer_plan), and what fits it stays. After LSF_ERROR_USAGE
- * (a view or a time that cannot be) the frame before is still the one in progress; after
- * LSF_ERROR_RENDER there is none. A new renderer is in the frame of its lsf_render_params, at
- * first_sample 0. */
+/* Begins a frame: the mean starts anew, and lsf_renderer_iterate or lsf_renderer_run follow.
+ * Where the scene's requirements are unchanged, nothing of GL is allocated, compiled or waited
+ * for; otherwise there is a new plan (lsf_renderer_plan), and resources that fit it are kept.
+ * After LSF_ERROR_USAGE (an invalid view or time) the previous frame is still the one in
+ * progress; after LSF_ERROR_RENDER there is none. A new renderer is in the frame of its
+ * lsf_render_params, at first_sample 0. */
 bool lsf_renderer_begin_frame(lsf_renderer *renderer, const lsf_frame *frame, lsf_error *error);
-/* Makes pictures of another size, from a frame on that begins anew. */
+/* Changes the size of pictures, from a new frame on. */
 bool lsf_renderer_resize(lsf_renderer *renderer, uint32_t width, uint32_t height,
                          const lsf_frame *frame, lsf_error *error);
 
-/* Goes over to other parameters: another technique, options, layers, size or camera, whose pictures
- * have the bits of a new renderer's; it is in their frame, at first_sample 0. Vertices and textures
- * stay on the GPU, unless tessellation.factor is otherwise; where camera, time, limit and progress
- * alone are otherwise, everything does. After LSF_ERROR_USAGE the parameters before are still in
- * use; after LSF_ERROR_RENDER there is no frame. */
+/* Changes the parameters: another technique, options, layers, size or camera, whose pictures
+ * have the same bits as those of a new renderer; it is in their frame, at first_sample 0.
+ * Vertices and textures stay on the GPU, unless tessellation.factor changes; where only camera,
+ * time, limit and progress change, everything does. After LSF_ERROR_USAGE the previous
+ * parameters are still in use; after LSF_ERROR_RENDER there is no frame. */
 bool lsf_renderer_change(lsf_renderer *renderer, const lsf_render_params *params, lsf_error *error);
 
-/* Runs one iteration and adds it to the running mean. Allocates and synchronises nothing. */
+/* Runs one iteration and adds it to the running mean. Allocates nothing and does not
+ * synchronise. */
 bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error);
 /* Runs params->samples iterations, within the time limit, calling params->progress. */
 bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error);
 
 /* Reads the mean so far: R, G, B and the layers of params->aovs. The caller destroys it. */
 lsf_image *lsf_renderer_read(lsf_renderer *renderer, lsf_error *error);
-/* Reads the picture (aov 0) or a layer of params->aovs into the program's memory: as many floats a
- * pixel as lsf_aov names channels, rows from the top, `row_bytes` from one to the next. */
+/* Reads the picture (aov 0) or a layer of params->aovs into the program's memory: as many floats
+ * per pixel as lsf_aov names channels, rows from the top, `row_bytes` apart. */
 bool lsf_renderer_read_into(lsf_renderer *renderer, uint32_t aov, float *pixels, size_t row_bytes,
                             lsf_error *error);
 /* Reads R, G, B tone-mapped on the GPU to 8-bit sRGB: width * height * 3 bytes into `rgb`,
@@ -229,9 +231,9 @@ bool lsf_renderer_read_rgb8(lsf_renderer *renderer, float exposure, lsf_tone_cur
 /* --- pictures that stay on the GPU, for a program that shares the context (lsf_context_wrap) ---
  */
 
-/* The texture of the mean so far, of the picture (aov 0) or of a layer of params->aovs: RGBA32F,
- * row 0 at the bottom, the picture linear. 0 where there is none. It is the renderer's: valid until
- * its next frame, size or end, and changed by its next iteration. */
+/* The texture of the mean so far, for the picture (aov 0) or a layer of params->aovs: RGBA32F,
+ * row 0 at the bottom, the picture linear. 0 where there is none. The renderer owns it: it is
+ * valid until the next frame, change of size or destruction, and changed by the next iteration. */
 uint32_t lsf_renderer_texture(lsf_renderer *renderer, uint32_t aov, lsf_error *error);
 /* Draws the mean so far, tone-mapped to sRGB code values, into a framebuffer (0: the window's),
  * scaled to `viewport`: x, y, width and height in pixels from its lower left corner. `exposure` in
@@ -243,37 +245,37 @@ typedef struct lsf_pass_stats {
     const char *name;
     uint64_t runs;
     double milliseconds;  /* mean per iteration under the plan in use */
-    uint32_t count_count; /* what the pass counted, by name */
+    uint32_t count_count; /* counters of the pass, by name */
     const char *const *count_names;
     const uint64_t *counts;
 } lsf_pass_stats;
 
 typedef struct lsf_renderer_stats {
-    uint32_t samples; /* iterations done, of the frame in progress, and with
-                       * lsf_render_params.temporal of those before it whose mean it goes on with */
+    uint32_t samples; /* iterations done in this frame, and with lsf_render_params.temporal in
+                       * earlier frames whose mean it continues */
     double compile_seconds, upload_seconds, render_seconds;
-    double lost_share;    /* of the picture's luminance: what an option such as
-                           * bidirectional.bound took away, 0..1 */
-    uint64_t lost_pixels; /* that are not finite */
+    double lost_share;    /* share of the picture's luminance that an option such as
+                           * bidirectional.bound removed, 0..1 */
+    uint64_t lost_pixels; /* pixels that are not finite */
     uint32_t pass_count;
     const lsf_pass_stats *passes; /* owned by the renderer, valid until the next call */
 } lsf_renderer_stats;
 
-/* Of all that was rendered so far under the plan in use. Waits for the GPU, and reads the picture.
- */
+/* Statistics over everything rendered under the current plan. Waits for the GPU, and reads the
+ * picture. */
 lsf_renderer_stats lsf_renderer_get_stats(lsf_renderer *renderer);
 
-/* What of a pass has finished since it was last asked for. */
+/* Runs of a pass that have finished since the last call. */
 typedef struct lsf_pass_time {
     const char *name;
     uint64_t runs;
-    double milliseconds; /* of these runs together */
+    double milliseconds; /* total of these runs */
 } lsf_pass_time;
 
-/* Points `times` at what has finished since the last call, which may be none, and returns how many
- * passes there are: for a program that asks in each frame. It neither waits nor reads pixels. GPUs
- * lag some frames behind; software OpenGL, whose timers wait by themselves, does not. Valid until
- * the next call; 0 where no frame is in progress. */
+/* Points `times` to the passes' runs that have finished since the last call, possibly none, and
+ * returns the number of passes: for a program that calls it in each frame. It neither waits nor
+ * reads pixels. GPUs lag some frames behind; software OpenGL, whose timers block, does not.
+ * Valid until the next call; 0 where no frame is in progress. */
 uint32_t lsf_renderer_poll_times(lsf_renderer *renderer, const lsf_pass_time **times);
 
 #if defined(__GNUC__)

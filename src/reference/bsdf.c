@@ -4,7 +4,7 @@
 #include "shared/brdf.h"
 #include "shared/sheen.h"
 
-/* What is reflected of light that meets a microfacet under the cosine vh. */
+/* Fresnel reflectance of a microfacet under the cosine vh. */
 static lsf_float3 fresnel(const lsf_reference_surface *s, float vh)
 {
     lsf_float3 f0 = lsf_f3_scale(s->f0_dielectric, 1.0f - s->metallic);
@@ -15,21 +15,21 @@ static lsf_float3 fresnel(const lsf_reference_surface *s, float vh)
                   lsf_fresnel_interface_to(f0.z, f90, vh, s->eta));
 }
 
-/* ... and what the dielectric lets on to what is below, alike of all colours. */
+/* Share that the dielectric passes on to the layers below, the same for all colours. */
 static float below_dielectric(const lsf_reference_surface *s, float vh)
 {
     float f0 = lsf_f3_max(s->f0_dielectric);
     return 1.0f - lsf_fresnel_interface_to(f0, s->f90_dielectric, vh, s->eta);
 }
 
-/* ... and what is transmitted. */
+/* Share that is transmitted. */
 static lsf_float3 transmittance(const lsf_reference_surface *s, float vh)
 {
     float passes = below_dielectric(s, vh);
     return lsf_f3_scale(s->base_color, passes * s->transmission * (1.0f - s->metallic));
 }
 
-/* The share of its light that a microfacet is drawn to reflect, not to transmit. */
+/* Probability that a microfacet that is drawn reflects instead of transmitting. */
 static float reflected_share(const lsf_reference_surface *s, float vh)
 {
     float transmitted = lsf_f3_luminance(transmittance(s, vh));
@@ -39,7 +39,8 @@ static float reflected_share(const lsf_reference_surface *s, float vh)
     return reflected / (reflected + transmitted);
 }
 
-/* By the share of the light that each lobe would send on if the surface were smooth. */
+/* Probabilities follow the share of light that each lobe would pass on if the surface were
+ * smooth. */
 static float choose_specular_probability(const lsf_reference_surface *s, float nv)
 {
     float diffuse =
@@ -49,15 +50,15 @@ static float choose_specular_probability(const lsf_reference_surface *s, float n
     float sheen = lsf_f3_luminance(s->sheen_color);
     if (!(diffuse * (1.0f - lsf_f3_max(s->f0_dielectric)) + sheen > 0.0f))
         return 1.0f;
-    /* The sheen is broad: the diffuse lobe's directions serve it. */
+    /* The sheen is broad and is sampled by the diffuse lobe. */
     diffuse = diffuse * below_dielectric(s, nv) +
               sheen * fminf(lsf_sheen_albedo(nv, s->sheen_roughness), 1.0f);
     float specular = lsf_f3_luminance(lsf_f3_add(fresnel(s, nv), transmittance(s, nv)));
-    /* Both lobes stay likely enough for either to carry what the other cannot. */
+    /* Both lobes keep a least probability, because neither can stand in for the other. */
     return fminf(fmaxf(specular / (specular + diffuse), 0.1f), 0.9f);
 }
 
-/* By the share of the light that it would reflect if it were smooth. */
+/* Probability by the share of light that it would reflect if it were smooth. */
 static void init_coat(lsf_reference_bsdf *bsdf)
 {
     const lsf_reference_surface *s = bsdf->surface;
@@ -75,9 +76,9 @@ static void init_coat(lsf_reference_bsdf *bsdf)
     bsdf->coat_probability = fminf(fmaxf(reflects / (reflects + below), 0.1f), 0.9f);
 }
 
-/* An interpolated or mapped normal may look away from a viewer who sees the surface. The view is
+/* An interpolated or mapped normal may face away from a viewer who sees the surface. The view is
  * then lifted to the horizon for all purposes: with the true one, the half vector could meet the
- * normal in directions that reflect nothing, and the value would have no bound. */
+ * normal in directions that reflect nothing, and the value would be unbounded. */
 void lsf_reference_bsdf_init(lsf_reference_bsdf *bsdf, const lsf_reference_surface *surface)
 {
     lsf_float3 view = lsf_basis_to_local(&surface->frame, surface->view);
@@ -89,7 +90,7 @@ void lsf_reference_bsdf_init(lsf_reference_bsdf *bsdf, const lsf_reference_surfa
     init_coat(bsdf);
 }
 
-/* What a clear coat leaves of what is below it. */
+/* Factor by which a clear coat attenuates the layers below it. */
 static float passes_coat(const lsf_reference_bsdf *bsdf, lsf_float3 light)
 {
     const lsf_reference_surface *s = bsdf->surface;
@@ -97,7 +98,7 @@ static float passes_coat(const lsf_reference_bsdf *bsdf, lsf_float3 light)
     return lsf_coat_passes(s->coat, bsdf->coat_view.z) * lsf_coat_passes(s->coat, nl);
 }
 
-/* Puts the sheen over what the surface below it does with light from the local direction l. */
+/* Adds the sheen to the value of the layers below it for light from the local direction l. */
 static lsf_reference_reflection add_sheen(const lsf_reference_bsdf *bsdf, lsf_float3 l,
                                           lsf_reference_reflection below)
 {
@@ -119,8 +120,8 @@ static lsf_reference_reflection add_sheen(const lsf_reference_bsdf *bsdf, lsf_fl
     return below;
 }
 
-/* Puts the coat over what the surface below it does with light from the direction `light`;
- * `reflects`: which is on the viewer's side. */
+/* Adds the coat to the value of the layers below it for light from the direction `light`;
+ * `reflects`: that is on the viewer's side. */
 static lsf_reference_reflection add_coat(const lsf_reference_bsdf *bsdf, lsf_float3 light,
                                          bool reflects, lsf_reference_reflection below)
 {
@@ -163,18 +164,17 @@ typedef struct mirror {
     lsf_float3 half;
     float vh, nl;
     float lobe; /* D V nl */
-    float pdf;  /* of drawing the microfacet, per steradian of the direction */
+    float pdf;  /* density of drawing the microfacet, per steradian of the direction */
 } mirror;
 
 static mirror mirror_between(const lsf_reference_bsdf *bsdf, lsf_float3 l)
 {
     const lsf_reference_surface *s = bsdf->surface;
     lsf_float3 sum = lsf_f3_add(bsdf->view, l);
-    mirror m = {
-        .half = lsf_f3_normalize_or(sum, lsf_f3(0.0f, 0.0f, 1.0f)),
-        /* v.h = |v + l| / 2, which keeps its sign at grazing angles as the product would not. */
-        .vh = fminf(0.5f * lsf_f3_length(sum), 1.0f),
-        .nl = fminf(l.z, 1.0f)};
+    mirror m = {.half = lsf_f3_normalize_or(sum, lsf_f3(0.0f, 0.0f, 1.0f)),
+                /* v.h = |v + l| / 2, which keeps its sign at grazing angles, unlike the product. */
+                .vh = fminf(0.5f * lsf_f3_length(sum), 1.0f),
+                .nl = fminf(l.z, 1.0f)};
     if (s->specular && bsdf->specular_probability > 0.0f) {
         m.lobe = ggx(s, bsdf->view, fminf(bsdf->view.z, 1.0f), l, m.nl, m.half) * m.nl;
         m.pdf = bsdf->specular_probability *
@@ -198,7 +198,8 @@ static lsf_reference_reflection reflect(const lsf_reference_bsdf *bsdf, lsf_floa
     return result;
 }
 
-/* A thin wall: the reflection, mirrored to the other side (KHR_materials_transmission). */
+/* Transmission of a thin wall: the reflection, mirrored to the other side
+ * (KHR_materials_transmission). */
 static lsf_reference_reflection pass_wall(const lsf_reference_bsdf *bsdf, lsf_float3 l)
 {
     const lsf_reference_surface *s = bsdf->surface;
@@ -254,8 +255,9 @@ lsf_reference_reflection lsf_reference_bsdf_evaluate(const lsf_reference_bsdf *b
     return (lsf_reference_reflection){.pdf = 0.0f};
 }
 
-/* From a microfacet; `u` decides between the two ways. A rough surface's microfacet may send light
- * to the wrong side of the surface, where other microfacets meet it: such light is lost. */
+/* Draws a direction from a microfacet; `u` chooses between reflection and transmission. A rough
+ * surface's microfacet may send light to the wrong side of the surface, where it would hit other
+ * microfacets: such light is lost. */
 static lsf_float3 leave_microfacet(const lsf_reference_bsdf *bsdf, lsf_float3 half, float u)
 {
     const lsf_reference_surface *s = bsdf->surface;

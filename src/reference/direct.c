@@ -22,7 +22,7 @@ static void add_emitter(lsf_walk *w, const lsf_light_choice *choice)
     lsf_walk_add_reflected(w, &reflection, lsf_f3_scale(lsf_f3_mul(light.radiance, left), weight));
 }
 
-/* Outside of the scene is air: what comes from there to a medium comes through its surface. */
+/* The scene is surrounded by air: light from there enters a medium through its surface. */
 static void add_sky(lsf_walk *w, float asked)
 {
     const lsf_sky *sky = &w->world->lights.sky;

@@ -1,4 +1,4 @@
-/* Light that reaches a vertex straight from what shines: of lights that are drawn. */
+/* Next-event estimation: direct light at a vertex from lights that are drawn. */
 #ifndef LSF_REFERENCE_DIRECT_H
 #define LSF_REFERENCE_DIRECT_H
 

@@ -8,7 +8,7 @@
 #include "math/sampling.h"
 #include "reference/surface.h"
 
-/* A textured emitter is looked at in 4 to 64 points, about one for each texel it covers. */
+/* A textured emitter is sampled at 4 to 64 points, about one for each texel that it covers. */
 #define MIN_SAMPLES 4u
 #define MAX_SAMPLES 64u
 
@@ -26,7 +26,7 @@ static bool emission_varies(const lsf_scene *scene, const lsf_material *material
     return material->emissive_texture.texture != LSF_NONE;
 }
 
-/* Texels that a triangle covers, in the texture that its emission comes from. */
+/* Number of texels that a triangle covers in its emission's texture. */
 static float covered_texels(const lsf_reference_geometry *geometry, const lsf_material *material,
                             uint32_t instance, uint32_t triangle)
 {
@@ -66,8 +66,8 @@ static float mean_emission(const lsf_reference_geometry *geometry, const lsf_mat
     return sum / (float)samples;
 }
 
-/* The emission's bound, by its factor: what the few samples may have missed is drawn now and then
- * too, so that no emission is out of reach. */
+/* Least mean luminance of a textured emitter, a share of its emission factor: emission that the few
+ * samples have missed is then still drawn occasionally. */
 static float emission_floor(const lsf_reference_geometry *geometry, const lsf_material *material)
 {
     if (!emission_varies(geometry->scene, material))

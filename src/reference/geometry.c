@@ -9,18 +9,19 @@
 #include "math/sampling.h"
 #include "reference/surface.h"
 
-/* Embree needs about this much for its tree at good quality, in bytes for each triangle, with
- * what it uses while building. */
+/* Bytes that Embree needs for each triangle, for its tree at good quality and while it builds
+ * it. */
 #define TREE_BYTES_PER_TRIANGLE 220u
 
-/* Handed through Embree to the filters. */
+/* User data that Embree passes to the filters. */
 typedef struct ray_context {
     struct RTCIntersectContext embree;
     const lsf_reference_geometry *geometry;
     lsf_reference_chance chance;
 } ray_context;
 
-/* Below 1, so that what has alpha 1 is always there; the same however often Embree asks. */
+/* A number below 1, so that surfaces of alpha 1 are always present; the same however often
+ * Embree asks. */
 static float number_of(const struct RTCIntersectContext *context, const lsf_reference_hit *hit)
 {
     lsf_reference_chance chance = ((const ray_context *)context)->chance;
@@ -28,7 +29,7 @@ static float number_of(const struct RTCIntersectContext *context, const lsf_refe
     return lsf_sobol_1d(chance.sample, seed);
 }
 
-/* Masks need no number, and rays that ask for speed alone bring none. */
+/* Masks need no random number, and rays of lsf_reference_rays bring none. */
 static bool is_there(const lsf_reference_mesh *mesh, const lsf_reference_hit *hit,
                      const struct RTCIntersectContext *context)
 {
@@ -36,8 +37,8 @@ static bool is_there(const lsf_reference_mesh *mesh, const lsf_reference_hit *hi
     return coverage > 0.0f && (coverage >= 1.0f || number_of(context, hit) < coverage);
 }
 
-/* struct RTCHitN is arrays of N values: the normal's x, y and z, u, v, the triangle's number, ...;
- * Embree offers its names for them to C++ only. */
+/* struct RTCHitN is arrays of N values: the normal's x, y and z, u, v, the triangle's number,
+ * ...; Embree's accessors for them exist in C++ only. */
 static void reject_cut_out(const struct RTCFilterFunctionNArguments *arguments)
 {
     const lsf_reference_mesh *mesh = arguments->geometryUserPtr;
@@ -52,8 +53,8 @@ static void reject_cut_out(const struct RTCFilterFunctionNArguments *arguments)
     }
 }
 
-/* As reject_cut_out; of the arrays of rays, the direction comes after origin and near, and of hits
- * the geometry after the triangle. */
+/* As reject_cut_out, for packets. In the arrays of rays, the direction comes after origin and
+ * near; in those of hits, the geometry comes after the triangle. */
 static void reject_hidden_backs(const struct RTCFilterFunctionNArguments *arguments)
 {
     const lsf_reference_geometry *geometry = ((const ray_context *)arguments->context)->geometry;
@@ -84,7 +85,7 @@ static bool transform_positions(lsf_reference_mesh *mesh, const lsf_scene *scene
                                 const lsf_state *state, const lsf_instance_state *instance)
 {
     const lsf_primitive *primitive = &scene->primitives[instance->primitive];
-    /* Embree reads the last vertex with a 16-byte load. */
+    /* Embree loads the last vertex with a 16-byte read. */
     mesh->positions = lsf_alloc((uint64_t)primitive->vertex_count * 3 + 4, sizeof(float));
     if (mesh->positions == NULL)
         return false;
@@ -171,15 +172,15 @@ bool lsf_reference_geometry_init(lsf_reference_geometry *geometry, const lsf_sce
     geometry->state = state;
     if (!fits_in_memory(scene, state, error))
         return false;
-    /* One building thread: trees built by several may differ in the order of coplanar triangles,
-     * and with it the bits of the picture. */
+    /* One thread builds the tree: trees built by several may differ in the order of coplanar
+     * triangles, and with it the bits of the picture. */
     geometry->device = rtcNewDevice("threads=1");
     geometry->tree = geometry->device ? rtcNewScene(geometry->device) : NULL;
     geometry->meshes = lsf_alloc(state->instance_count, sizeof *geometry->meshes);
     geometry->indices = lsf_alloc(scene->primitive_count, sizeof *geometry->indices);
     bool ok = geometry->tree != NULL && geometry->meshes != NULL && geometry->indices != NULL;
     if (ok) {
-        /* Robust: no ray slips between two triangles that share an edge. */
+        /* Robust mode: no ray slips between two triangles that share an edge. */
         bool fast = use == LSF_REFERENCE_USE_SPEED;
         rtcSetSceneFlags(geometry->tree,
                          fast ? RTC_SCENE_FLAG_NONE
@@ -231,14 +232,14 @@ static struct RTCRay make_ray(lsf_float3 origin, lsf_float3 direction, float nea
     };
 }
 
-/* Embree's manual bounds what a ray is made of by 1.844e18; all of a scene lies about 0, so that
- * from farther off nothing is met. */
+/* Embree's manual bounds the coordinates of rays by 1.844e18. The scene lies about the origin,
+ * so that a ray from farther away hits nothing. */
 static bool within_range(lsf_float3 v)
 {
     return lsf_f3_max_abs(v) < 1e18f;
 }
 
-/* Of rays between surfaces and lights. */
+/* For rays between surfaces and lights. */
 static void bound_direction(lsf_float3 *direction, float *far)
 {
     if (within_range(*direction))

@@ -29,8 +29,7 @@ typedef struct lsf_reference_geometry {
 
 typedef enum lsf_reference_use {
     LSF_REFERENCE_USE_PICTURE, /* watertight */
-    LSF_REFERENCE_USE_SPEED,   /* the tree that rays go through fastest; blended surfaces are opaque
-                                */
+    LSF_REFERENCE_USE_SPEED,   /* the tree that is traced fastest; blended surfaces are opaque */
 } lsf_reference_use;
 
 /* Borrows scene and state. False leaves nothing to finish. */
@@ -44,14 +43,15 @@ typedef struct lsf_reference_hit {
     float distance; /* in units of the direction's length */
 } lsf_reference_hit;
 
-/* What decides whether a ray meets blended surfaces: each triangle that it comes by by a number of
- * its own, which is uniform over the samples, and spread evenly over the samples of a seed. */
+/* Random choice whether a ray hits blended surfaces: each triangle on its way has a number of
+ * its own, which is uniform over the samples and spread evenly over the samples of a seed. */
 typedef struct lsf_reference_chance {
     uint32_t seed, sample;
 } lsf_reference_chance;
 
-/* Nearest hit with near < t < far. Triangles that an alpha mask cuts out are not hit, blended ones
- * as often as their alpha says. A ray from the camera does not see hidden backs. */
+/* Nearest hit with near < t < far. Triangles that an alpha mask cuts out are not hit, blended
+ * ones with the probability of their alpha. A ray from the camera does not see hidden back
+ * faces. */
 bool lsf_reference_see(const lsf_reference_geometry *geometry, lsf_float3 origin,
                        lsf_float3 direction, float near, lsf_reference_chance chance,
                        lsf_reference_hit *hit);
@@ -62,17 +62,17 @@ bool lsf_reference_trace(const lsf_reference_geometry *geometry, lsf_float3 orig
 bool lsf_reference_occluded(const lsf_reference_geometry *geometry, lsf_float3 origin,
                             lsf_float3 direction, float far, lsf_reference_chance chance);
 
-/* Corners in normalised space. */
+/* Corners of a triangle in normalised space. */
 void lsf_reference_corners(const lsf_reference_geometry *geometry, uint32_t instance,
                            uint32_t triangle, lsf_float3 corners[3]);
 
-/* Corners' numbers in the scene's vertex streams. */
+/* Numbers of the corners in the scene's vertex streams. */
 void lsf_reference_vertices(const lsf_reference_geometry *geometry, uint32_t instance,
                             uint32_t triangle, uint64_t vertices[3]);
 
-/* How far from a triangle a ray must start not to find the triangle itself: a bound of the
- * rounding errors of the interpolated position and of the intersection test, which are both
- * relative to the largest coordinate. */
+/* Distance from a triangle at which a ray must start so that it does not hit the triangle
+ * itself: a bound of the rounding errors of the interpolated position and of the intersection
+ * test, which are both relative to the largest coordinate. */
 float lsf_reference_ray_offset(const lsf_float3 corners[3]);
 
 #endif

@@ -7,7 +7,7 @@ static float clamp_cosine(float x)
     return fminf(fmaxf(x, -1.0f), 1.0f);
 }
 
-/* The narrowest cone about two others. */
+/* The narrowest cone that contains two others. */
 static void unite_cones(const lsf_light_bounds *a, const lsf_light_bounds *b, lsf_light_bounds *out)
 {
     if (b->cos_spread < a->cos_spread) {
@@ -16,7 +16,7 @@ static void unite_cones(const lsf_light_bounds *a, const lsf_light_bounds *b, ls
         a = wider;
     }
     lsf_float3 axis = lsf_f3_load(a->axis), other = lsf_f3_load(b->axis);
-    /* Axes of what shines to both sides have no sign. */
+    /* The axis of a two-sided emitter has no sign. */
     if (a->two_sided && b->two_sided && lsf_f3_dot(axis, other) < 0.0f)
         other = lsf_f3_scale(other, -1.0f);
     float spread = acosf(clamp_cosine(a->cos_spread));
@@ -51,9 +51,9 @@ lsf_light_bounds lsf_light_bounds_union(const lsf_light_bounds *a, const lsf_lig
     return out;
 }
 
-/* Conty Estevez and Kulla's equation 1: the solid angle of directions in the cone and, by their
- * cosine, beyond it. Their surface area is the squared diagonal here: lights may be points in a
- * line. */
+/* Equation 1 of Conty Estevez and Kulla: the solid angle of directions in the cone and, weighted
+ * by their cosine, beyond it. In place of their surface area stands the squared diagonal,
+ * because lights may be points on a line. */
 float lsf_light_bounds_cost(const lsf_light_bounds *b)
 {
     float cosine = clamp_cosine(b->cos_spread), spread = acosf(cosine), sine = sinf(spread);

@@ -1,4 +1,4 @@
-/* What a group of lights can do at a point. */
+/* Bounds of the light that a group of lights can send to a point. */
 #ifndef LSF_REFERENCE_LIGHT_BOUNDS_H
 #define LSF_REFERENCE_LIGHT_BOUNDS_H
 
@@ -6,8 +6,8 @@
 
 lsf_light_bounds lsf_light_bounds_union(const lsf_light_bounds *a, const lsf_light_bounds *b);
 
-/* How likely such a group is to be drawn where most of it does nothing: intensity times the extent
- * of places times that of directions. */
+/* Cost of a group in the heuristic that builds the tree: intensity times the extent of positions
+ * times that of directions. */
 float lsf_light_bounds_cost(const lsf_light_bounds *bounds);
 
 #endif

@@ -10,10 +10,10 @@
 
 #define BINS 12
 
-/* Bounds as drawing wants them, twice at each step of its way. A node's first child follows it. */
+/* Bounds in the form that drawing needs at each step. A node's first child follows it. */
 struct lsf_light_node {
     lsf_float3 middle, half; /* of the box */
-    float radius2;           /* of the sphere about it */
+    float radius2;           /* of the bounding sphere */
     lsf_float3 axis;
     float cos_spread, sin_spread, cos_emission;
     float intensity, range;
@@ -23,8 +23,7 @@ struct lsf_light_node {
     uint32_t lights; /* below; 1: a leaf */
 };
 
-/* Deeper than this many halvings a way down the tree cannot be: 2^32 lights, three times as deep as
- * halving makes it. */
+/* Largest depth of the tree: enough for 2^32 lights, three times as deep as with halving. */
 #define DEEPEST 128
 
 /* --- building */
@@ -35,7 +34,7 @@ typedef struct builder {
     uint32_t *order;          /* of lights, by node */
     lsf_light_bounds *bounds; /* of each node */
     uint32_t node_count;
-    int deepest; /* beyond, lights are halved by number */
+    int deepest; /* depth beyond which lights are halved by number */
 } builder;
 
 static float center(const lsf_light_bounds *b, int axis)
@@ -45,7 +44,7 @@ static float center(const lsf_light_bounds *b, int axis)
 
 typedef struct split {
     int axis;         /* negative: there is none */
-    float low, scale; /* which bin: scale * (center - low) */
+    float low, scale; /* maps to bins: scale * (center - low) */
     int bin;          /* the last one of the first child */
 } split;
 
@@ -55,7 +54,7 @@ static int bin_of(const split *s, const lsf_light_bounds *light)
     return bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin;
 }
 
-/* Weighs both sides of each border between bins along the axis. */
+/* Computes the costs of both sides of each border between bins along the axis. */
 static void try_axis(const builder *b, uint32_t first, uint32_t count, split s, float narrow,
                      float *least, split *best)
 {
@@ -93,7 +92,7 @@ static void try_axis(const builder *b, uint32_t first, uint32_t count, split s, 
     }
 }
 
-/* Where the lights' places are all the same there is no split. */
+/* Lights that are all at the same position have no split. */
 static split find_split(const builder *b, uint32_t first, uint32_t count)
 {
     float low[3], high[3], widest = 0.0f, least = INFINITY;
@@ -170,7 +169,7 @@ static uint32_t build(builder *b, uint32_t parent, uint32_t first, uint32_t coun
     return index;
 }
 
-/* Relative to all of them, so that no scene is too bright or too dark. */
+/* Intensities are relative to all lights, so that neither bright nor dark scenes overflow. */
 static double total_intensity(const lsf_light_bounds *lights, uint32_t count)
 {
     double sum = 0.0;
@@ -242,7 +241,7 @@ static bool out_of_range(const lsf_light_node *n, lsf_float3 way)
     return x * x + y * y + z * z > n->range * n->range;
 }
 
-/* The cosine that is left of the angle between the axis and `way`, less the spread of both. */
+/* Cosine of the angle between the axis and `way`, less the spread of both. */
 static float emitted_cosine(const lsf_light_node *n, lsf_float3 way, float cos_size, float sin_size)
 {
     if (n->cos_spread == -1.0f)
@@ -257,7 +256,7 @@ static float emitted_cosine(const lsf_light_node *n, lsf_float3 way, float cos_s
     return rest >= cos_size ? 1.0f : rest * cos_size + rest_sine * sin_size;
 }
 
-/* The largest cosine between the receiver's normal and a direction to the group. */
+/* Largest cosine between the receiver's normal and a direction to the group. */
 static float received_cosine(const lsf_light_receiver *receiver, lsf_float3 way, float cos_size,
                              float sin_size)
 {
@@ -270,9 +269,9 @@ static float received_cosine(const lsf_light_receiver *receiver, lsf_float3 way,
     return cosine >= cos_size ? 1.0f : cosine * cos_size + sine_of(cosine) * sin_size;
 }
 
-/* Irradiance that the group can send, about: its intensity times the largest cosines that are
- * possible at either end, over the squared distance to its middle, or to its border from within. 0
- * only where it can send none. */
+/* Approximate irradiance from the group: its intensity times the largest possible cosines at
+ * either end, over the squared distance to its centre, or to its border from within. 0 only
+ * where it can send no light. */
 static float importance(const lsf_light_node *n, const lsf_light_receiver *receiver)
 {
     lsf_float3 way = lsf_f3_sub(receiver->position, n->middle);
@@ -294,8 +293,8 @@ static float importance(const lsf_light_node *n, const lsf_light_receiver *recei
            above(distance2, LSF_LIGHT_DISTANCE2_MIN);
 }
 
-/* How a node's share is passed on: to each child so many lights, and where that is a single one for
- * both, by chance. */
+/* Number of draws that a node passes to each child; where that is a single one for both, a
+ * random choice. */
 typedef struct shares {
     uint32_t most[2];
     float probability[2];
@@ -317,7 +316,7 @@ static bool share_out(const lsf_light_tree *tree, const lsf_light_receiver *rece
 {
     const lsf_light_node *one = &tree->nodes[child(tree, node, 0)];
     const lsf_light_node *two = &tree->nodes[child(tree, node, 1)];
-    /* The halves of a single quadrilateral look alike from everywhere. */
+    /* The two triangles of a single quadrilateral have the same weight from everywhere. */
     bool pair = tree->nodes[0].lights == 2;
     float first = pair ? one->intensity : importance(one, receiver);
     float second = pair ? two->intensity : importance(two, receiver);
@@ -327,7 +326,7 @@ static bool share_out(const lsf_light_tree *tree, const lsf_light_receiver *rece
     *out = (shares){{most, most}, {first * scale, second * scale}};
     if (most == 1 || first == 0.0f || second == 0.0f)
         return true;
-    /* Both children get some, and neither more than it has lights. */
+    /* Each child gets at least one draw, and none more than it has lights. */
     uint32_t wanted = (uint32_t)(out->probability[0] * (float)most + 0.5f);
     wanted = smaller(wanted < 1 ? 1 : wanted, most - 1);
     wanted = smaller(wanted, one->lights);
@@ -337,7 +336,7 @@ static bool share_out(const lsf_light_tree *tree, const lsf_light_receiver *rece
     return true;
 }
 
-/* From a node of whose lights a single one is drawn. False: none. */
+/* Descends from a node from which a single light is drawn. False: none can send light. */
 static bool descend(const lsf_light_tree *tree, const lsf_light_receiver *receiver, uint32_t node,
                     lsf_light_choice *choice)
 {
@@ -357,8 +356,7 @@ static bool descend(const lsf_light_tree *tree, const lsf_light_receiver *receiv
     return choice->probability > 0.0f;
 }
 
-/* A group is known by its node: whether others have drawn anything must not decide on its numbers.
- */
+/* Random numbers belong to the node, so that they do not depend on what other groups have drawn. */
 static void begin_choice(lsf_light_choice *choice, lsf_light_numbers numbers, uint32_t node)
 {
     uint32_t bits[2];
@@ -367,7 +365,7 @@ static void begin_choice(lsf_light_choice *choice, lsf_light_numbers numbers, ui
     choice->u[1] = lsf_unit_double(bits[1]);
 }
 
-/* Adds to `choices`, of which there are `count`. */
+/* Appends to `choices`, of which there are `count`. */
 static uint32_t draw(const lsf_light_tree *tree, const lsf_light_receiver *receiver, uint32_t node,
                      uint32_t most, lsf_light_numbers numbers, lsf_light_choice *choices,
                      uint32_t count)
@@ -387,7 +385,8 @@ static uint32_t draw(const lsf_light_tree *tree, const lsf_light_receiver *recei
     return count;
 }
 
-/* Each of a few lights needs no way down; a single one has numbers for its place all the same. */
+/* With few lights each is drawn by itself, without a descent; each still has random numbers for
+ * its position. */
 static bool asks_all(const lsf_light_tree *tree, uint32_t most)
 {
     return most > 1 && tree->nodes[0].lights <= most;

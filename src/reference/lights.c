@@ -9,10 +9,10 @@
 #include "scene/environment.h"
 #include "shared/brdf.h"
 
-/* Rays that find out how far off the surfaces are that a lamp lights. */
+/* Rays that find the distances of the surfaces around a lamp. */
 #define PROBES 16u
 
-/* Rows of an environment that are enough for its irradiance. */
+/* Rows of an environment map that are read to estimate its irradiance. */
 #define SKY_ROWS 64u
 
 static lsf_light_bounds point_bounds(const lsf_light_state *light)
@@ -28,7 +28,7 @@ static lsf_light_bounds point_bounds(const lsf_light_state *light)
     return bounds;
 }
 
-/* A spot's cone, and what is between it and the border as light that falls off from it. */
+/* A spot's cone; its penumbra counts as light that falls off from it. */
 static lsf_light_bounds punctual_bounds(const lsf_light_state *light)
 {
     if (light->type == LSF_LIGHT_DIRECTIONAL)
@@ -48,7 +48,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* As an emitter: the surfaces about it, half of which are no farther off than the box reaches. */
+/* The surfaces around a lamp as an emitter, half of which are within the box. */
 static lsf_light_bounds lit_bounds(const lsf_reference_geometry *geometry,
                                    const lsf_light_state *light, uint32_t number)
 {
@@ -74,7 +74,7 @@ static lsf_light_bounds lit_bounds(const lsf_reference_geometry *geometry,
     return bounds;
 }
 
-/* By the surfaces about them, or of a few lights by power alone. */
+/* Lamps are drawn by the surfaces around them, or a few lamps by power alone. */
 static bool init_lit(lsf_reference_lights *lights, lsf_light_bounds *bounds)
 {
     const lsf_state *state = lights->geometry->state;
@@ -123,7 +123,7 @@ static bool init_far(lsf_reference_lights *lights)
     return lights->far != NULL;
 }
 
-/* Midpoints, of every so many texels. */
+/* Reads the midpoints of every n-th texel. */
 static void measure_irradiance(lsf_reference_lights *lights)
 {
     const lsf_environment *map = lights->sky.environment;
@@ -141,7 +141,7 @@ static void measure_irradiance(lsf_reference_lights *lights)
         }
 }
 
-/* Else rays drawn by the BRDF find what there is: nothing, or the same everywhere. */
+/* Otherwise rays drawn by the BRDF find the background, which is black or uniform. */
 static bool is_drawn(const lsf_sky *sky)
 {
     return sky->weights && sky->mean > 0.0f;
@@ -189,8 +189,8 @@ bool lsf_reference_lights_are_met(const lsf_reference_lights *lights)
     return lights->emitters.count != 0 || lights->geometry->scene->environment.present;
 }
 
-/* Irradiance from the sky, of the six known ones: weighed by the squares of the normal's
- * components, which sum up to 1 (G. McTaggart, "Half-Life 2 / Valve Source Shading", GDC 2004). */
+/* Irradiance from the sky, interpolated from the six known ones by the squares of the normal's
+ * components, which sum to 1 (G. McTaggart, "Half-Life 2 / Valve Source Shading", GDC 2004). */
 static float sky_importance(const lsf_reference_lights *lights, const lsf_light_receiver *receiver)
 {
     const float n[3] = {receiver->normal.x, receiver->normal.y, receiver->normal.z};

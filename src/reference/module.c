@@ -15,17 +15,18 @@
 #define TILE 16u
 #define MAX_THREADS 256u
 
-/* Paths in a pass, at least: threads meet after each, which small pictures should not notice. */
+/* Least number of paths in a pass, because threads synchronise after each, which would slow down
+ * small pictures. */
 #define PATHS_PER_PASS 16384u
 
-/* Seconds between two questions whether a long pass shall go on. */
+/* Seconds between two calls that ask whether a long pass should continue. */
 #define QUESTION_EVERY 0.1
 
-/* Sums of a pixel, in double precision: the mean stays put beyond 2^24 samples. */
+/* Sums of a pixel, in double precision, because float sums stall beyond 2^24 samples. */
 typedef struct pixel_sum {
     double emission[3], direct[3], indirect_diffuse[3], indirect_specular[3];
-    uint32_t taken;   /* samples; of a pass that is broken off, one pixel has more than another */
-    uint32_t covered; /* those that met a surface */
+    uint32_t taken;   /* samples; in a pass that is broken off, pixels differ */
+    uint32_t covered; /* samples that hit a surface */
 } pixel_sum;
 
 typedef struct guide_sum {
@@ -93,7 +94,7 @@ static uint64_t render_pixel(render *r, uint32_t x, uint32_t y)
     return rays;
 }
 
-/* The limit leaves the first pass whole: a late picture is better than none. */
+/* The time limit does not end the first pass: a late picture is better than none. */
 static void ask(render *r)
 {
     const lsf_render_params *params = r->job->params;
@@ -107,7 +108,7 @@ static void ask(render *r)
         atomic_store(&r->stopped, true);
 }
 
-/* Of all threads, the caller's own `asks` its questions. */
+/* Only the caller's own thread calls back. */
 static void render_tiles(render *r, bool asks)
 {
     const lsf_render_params *params = r->job->params;
@@ -128,8 +129,8 @@ static void render_tiles(render *r, bool asks)
     atomic_fetch_add(&r->rays, rays);
 }
 
-/* The barrier opens every pass and closes it; between, tiles are handed out in any order, which
- * no pixel depends on. */
+/* The barrier begins and ends every pass. In between, tiles are handed out in any order, on
+ * which no pixel depends. */
 static void *worker(void *argument)
 {
     render *r = argument;
@@ -152,7 +153,7 @@ static void run_pass(render *r)
     pthread_barrier_wait(&r->barrier);
 }
 
-/* Runs passes until the samples are taken, the time is up or the caller has enough. */
+/* Runs passes until all samples are taken, the time is up or the caller stops it. */
 static void run_passes(render *r, lsf_reference_result *result)
 {
     const lsf_render_params *params = r->job->params;
@@ -183,7 +184,7 @@ static void run_passes(render *r, lsf_reference_result *result)
     result->rays = atomic_load(&r->rays);
 }
 
-/* Starts what threads it can: the picture does not depend on how many there are. */
+/* Starts as many threads as it can: the picture does not depend on their number. */
 static void run_threads(render *r, lsf_reference_result *result)
 {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -192,7 +193,7 @@ static void run_threads(render *r, lsf_reference_result *result)
         wanted = MAX_THREADS;
     pthread_t threads[MAX_THREADS];
     uint32_t started = 0;
-    /* The gate holds the threads back until it is known how many the barrier must count. */
+    /* The gate holds the threads until it is known how many the barrier must count. */
     pthread_mutex_init(&r->gate, NULL);
     pthread_mutex_lock(&r->gate);
     while (started + 1 < wanted && pthread_create(&threads[started], NULL, worker, r) == 0)
@@ -214,8 +215,8 @@ static void store_mean(float *out, const double sum[3], double scale)
         out[c] = (float)(sum[c] * scale);
 }
 
-/* The layers are rounded to floats first and the picture is their sum, so that whoever adds the
- * layers up gets the picture's own bits. */
+/* The layers are rounded to floats first and the picture is their sum, so that a sum of the
+ * layers has the bits of the picture. */
 static void write_light(const lsf_reference_job *job, const pixel_sum *sum, double scale,
                         float *pixel)
 {

@@ -1,4 +1,4 @@
-/* What passes between the library and the module that holds the path tracer. */
+/* The interface between the library and the module that holds the path tracer. */
 #ifndef LSF_REFERENCE_MODULE_H
 #define LSF_REFERENCE_MODULE_H
 
@@ -56,9 +56,8 @@ typedef struct lsf_reference_ray_functions {
                                     lsf_error *error);
     void (*destroy)(lsf_reference_tracer *tracer); /* NULL allowed */
     /* The nearest hit beyond `near` of each ray, infinity where there is none, on all cores; and
-     * how long that took [s]. Rays that follow each other should be alike. A call with more rays
-     * than those before tries every way in which Embree takes rays; the fastest serves from then
-     * on. */
+     * the seconds that took. Consecutive rays should be coherent. A call with more rays than any
+     * before tries all of Embree's traversal functions; the fastest is used from then on. */
     bool (*trace)(lsf_reference_tracer *tracer, const lsf_reference_ray *rays, uint64_t count,
                   float near, float *distances, double *seconds, lsf_error *error);
     const char *(*kernel)(const lsf_reference_tracer *tracer); /* "rtcIntersect16" */
@@ -67,7 +66,7 @@ typedef struct lsf_reference_ray_functions {
 extern const lsf_reference_ray_functions lsf_reference_module_rays
     __attribute__((visibility("default")));
 
-/* Of the module, loaded on first use; NULL when it is not there. */
+/* The function of the module, which is loaded on first use; NULL when it is not installed. */
 const lsf_reference_ray_functions *lsf_reference_load_rays(lsf_error *error);
 
 #endif

@@ -39,7 +39,8 @@ void lsf_reference_world_finish(lsf_reference_world *world)
     lsf_reference_geometry_finish(&world->geometry);
 }
 
-/* Russian roulette by the throughput, which does not depend on the scene's brightness. */
+/* Russian roulette by the throughput alone, so that it does not depend on the scene's
+ * brightness. */
 static bool survives(lsf_walk *w)
 {
     if (w->vertex + 1 < LSF_REFERENCE_ROULETTE_VERTEX)
@@ -53,8 +54,8 @@ static bool survives(lsf_walk *w)
     return true;
 }
 
-/* The last ray goes on through clear walls to what shines behind them. Walls hide that from points
- * that are drawn: all of it is found so. */
+/* The last ray continues through clear walls to light sources behind them. Such walls occlude
+ * light samples, so that this ray finds all of that light. */
 static void add_behind(lsf_walk *w, const lsf_reference_reflection *reflection,
                        lsf_reference_surface wall, lsf_float3 direction)
 {
@@ -82,7 +83,7 @@ static void add_behind(lsf_walk *w, const lsf_reference_reflection *reflection,
     }
 }
 
-/* The density, per steradian, with which the vertex draws a point that a ray has found. */
+/* Density per steradian with which the vertex draws a point that a ray has found. */
 static float drawn_pdf(const lsf_walk *w, const lsf_reference_hit *hit, lsf_float3 at,
                        lsf_float3 direction)
 {
@@ -96,8 +97,8 @@ static float drawn_pdf(const lsf_walk *w, const lsf_reference_hit *hit, lsf_floa
                                      direction);
 }
 
-/* Follows a direction drawn from the BRDF to the next vertex: adds what shines there, then moves
- * the walk on. False when the path ends. */
+/* Follows a direction drawn from the BRDF to the next vertex: adds the light emitted there, then
+ * moves the walk on. False when the path ends. */
 static bool step(lsf_walk *w)
 {
     const lsf_reference_world *world = w->world;
@@ -165,9 +166,9 @@ void lsf_reference_trace_path(const lsf_reference_world *world, const float ndc[
     lsf_walk w = {.world = world, .sampler = sampler, .path = path};
     const lsf_camera_state *camera = &world->geometry.state->camera;
     lsf_float3 origin = camera_vector(camera->start, camera->start_dx, camera->start_dy, ndc);
-    /* Its length makes the distance along the ray the depth along the view axis. */
+    /* The ray's direction has a length for which its distance is the depth along the view axis. */
     lsf_float3 along = camera_vector(camera->forward, camera->forward_dx, camera->forward_dy, ndc);
-    /* A start that is not the camera's position lies behind the scene. */
+    /* A start that is not the camera's position lies beyond the scene. */
     float before = fminf(camera->near_plane, 0.0f);
     origin = lsf_f3_mad(origin, along, before);
     lsf_float3 direction = lsf_f3_normalize(along);

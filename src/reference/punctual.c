@@ -4,8 +4,8 @@
 #include "shared/brdf.h"
 #include "shared/light.h"
 
-/* Of the numbers of paths that lights begin, of which each vertex has a pair; no dimension's
- * number. */
+/* Purpose of the random numbers of paths that begin at lights, a pair at each vertex; it is no
+ * dimension's number. */
 #define JOINED (UINT64_MAX - 1)
 
 static uint32_t joined_seed(const lsf_walk *w)
@@ -18,7 +18,7 @@ static float spot_offset(const lsf_light_state *light, float scale)
     return -light->cos_outer * scale;
 }
 
-/* Intensity away from the light, of its intensity along its axis. */
+/* Intensity in a direction, relative to that along the light's axis. */
 static float spot_factor(const lsf_light_state *light, lsf_float3 away)
 {
     if (light->type != LSF_LIGHT_SPOT)
@@ -39,16 +39,16 @@ float lsf_punctual_power(const lsf_light_state *light)
     return lsf_spot_integral(scale, spot_offset(light, scale)) * intensity;
 }
 
-/* A light as the vertex sees it. */
+/* A light, seen from a vertex. */
 typedef struct sight {
     lsf_float3 direction; /* unit, towards the light */
     float distance;       /* 0: it is far away */
-    lsf_float3 radiance;  /* irradiance of a surface that faces it, without what is between */
+    lsf_float3 radiance;  /* irradiance on a surface that faces it, without occlusion */
     lsf_reference_reflection reflection;
 } sight;
 
-/* Rough walls transmit light to the side that they are seen from; media do not, for no ray that is
- * drawn there finds a point. False: the light does nothing here. */
+/* A light on the other side is seen through a rough thin wall, but not through a medium, because no
+ * ray drawn there hits a point. False: the light contributes nothing. */
 static bool look_at(const lsf_walk *w, const lsf_light_state *light, sight *s)
 {
     *s = (sight){.radiance = lsf_f3_load(light->intensity)};
@@ -74,13 +74,14 @@ static bool look_at(const lsf_walk *w, const lsf_light_state *light, sight *s)
     return s->reflection.pdf > 0.0f;
 }
 
-/* A light may lie in a surface, which must not hide it: rays end, and begin, so far off it. */
+/* A light may lie in a surface, which must not occlude it: rays begin and end at this distance
+ * from it. */
 static float short_of(lsf_float3 position)
 {
     return 0x1p-20f * lsf_f3_max_abs(position);
 }
 
-/* The density, per steradian at `x`, with which lsf_add_joined comes upon y by way of the light. */
+/* Density, per steradian at `x`, with which lsf_add_joined finds y through the light. */
 static float joined_pdf(const lsf_reference_world *world, uint32_t index, const sight *s,
                         const lsf_reference_surface *y, lsf_float3 x, lsf_float3 from_x)
 {
@@ -100,8 +101,8 @@ static float joined_pdf(const lsf_reference_world *world, uint32_t index, const 
     return chosen * emitted * turned * lsf_f3_dot(way, way) / (s->distance * s->distance);
 }
 
-/* Of a direction that the walk has drawn, and that led to where a light shines straight on: the
- * share that is not found by a path from the light. */
+/* Weight of a direction that the walk has drawn and that has hit a surface lit directly: the
+ * share that paths from lights do not find. */
 static float drawn_share(const lsf_walk *w, uint32_t index, float asked, const sight *s)
 {
     const lsf_walk_arrival *arrival = &w->arrival;
@@ -127,12 +128,12 @@ void lsf_add_punctual(lsf_walk *w, uint32_t index, float asked)
             lsf_f3_mul(radiance, lsf_walk_passes(w, s.direction, far ? NULL : &target, &walls));
     else if (!(far ? lsf_walk_reaches_sky(w, s.direction) : lsf_walk_reaches(w, target)))
         return;
-    /* No path from a light goes through a wall. */
+    /* Paths from a light do not pass walls. */
     float share = walls == 0 ? drawn_share(w, index, asked, &s) : 1.0f;
     lsf_walk_add_reflected(w, &s.reflection, lsf_f3_scale(radiance, share));
 }
 
-/* A direction drawn by the light's intensity. */
+/* A direction drawn in proportion to the light's intensity. */
 static lsf_float3 draw_emitted(const lsf_light_state *light, const float u[2])
 {
     if (light->type != LSF_LIGHT_SPOT)
@@ -158,7 +159,8 @@ bool lsf_may_join(const lsf_walk *w)
            !lsf_reference_is_clear(&w->surface);
 }
 
-/* The way from x to y is as if x had drawn it, with the density of the path from the light. */
+/* The segment from x to y is treated as if x had drawn it, with the density of the path from the
+ * light. */
 void lsf_add_joined(lsf_walk *w)
 {
     const lsf_reference_world *world = w->world;

@@ -1,5 +1,5 @@
-/* Closest hits of many rays on all cores, in whichever way Embree is fastest here: it takes rays
- * one by one, in packets of 4, 8 and 16, and as a stream. */
+/* Closest hits of many rays on all cores, by the fastest of Embree's traversal functions: single
+ * rays, packets of 4, 8 and 16, and streams. */
 #include <embree3/rtcore.h>
 
 #include <math.h>
@@ -17,10 +17,11 @@
 
 #define MAX_THREADS 256u
 
-/* Rays that a thread takes at a time: enough to hide the taking, few enough to end together. */
+/* Rays that a thread fetches at a time: enough to hide the cost of fetching, few enough for all
+ * threads to end together. */
 #define CHUNK 1024u
 
-/* Times each kernel is tried. */
+/* Number of times each function is tried. */
 #define TRIALS 3
 
 typedef struct trace_job {
@@ -85,7 +86,7 @@ static void trace_stream(const trace_job *job, uint64_t first, uint64_t end)
         job->distances[i] = distance_of(queries[i - first].hit.geomID, queries[i - first].ray.tfar);
 }
 
-/* A packet's lanes past the end repeat the last ray and are switched off. */
+/* Lanes of a packet past the end repeat the last ray and are inactive. */
 #define DEFINE_PACKET(N)                                                                           \
     static void trace_packet_##N(const trace_job *job, uint64_t first, uint64_t end)               \
     {                                                                                              \
@@ -131,7 +132,7 @@ static const struct {
 struct lsf_reference_tracer {
     lsf_reference_geometry geometry;
     size_t kernel;
-    uint64_t chosen_by; /* rays; 0: not chosen yet */
+    uint64_t chosen_by; /* number of rays by which it was chosen; 0: not yet */
 };
 
 /* --- threads */
@@ -155,7 +156,7 @@ static void trace_chunks(work *w)
     }
 }
 
-/* Denormal numbers are slow and no hit needs them: Embree's manual asks for them to be flushed. */
+/* Denormal numbers are slow and do not affect hits; Embree's manual recommends to flush them. */
 static unsigned flush_denormals(void)
 {
 #if defined(__SSE__)
@@ -188,7 +189,7 @@ static void *worker(void *argument)
     return NULL;
 }
 
-/* Seconds from the moment when all threads run to the one when the last ray is traced. */
+/* Seconds from the moment when all threads run to the end of the last ray. */
 static double run(const trace_job *job, trace_function trace)
 {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -196,7 +197,7 @@ static double run(const trace_job *job, trace_function trace)
     pthread_t threads[MAX_THREADS];
     uint32_t started = 0;
     work w = {.job = *job, .trace = trace};
-    /* The gate holds the threads back until it is known how many the barrier must count. */
+    /* The gate holds the threads until it is known how many the barrier must count. */
     pthread_mutex_init(&w.gate, NULL);
     pthread_mutex_lock(&w.gate);
     while (started + 1 < wanted && pthread_create(&threads[started], NULL, worker, &w) == 0)
@@ -217,7 +218,7 @@ static double run(const trace_job *job, trace_function trace)
     return seconds;
 }
 
-/* --- what the module offers */
+/* --- functions of the module */
 
 static lsf_reference_tracer *create(const lsf_scene *scene, const lsf_state *state,
                                     lsf_error *error)

@@ -1,4 +1,4 @@
-/* The library's side of the reference: evaluates the scene, loads the module, hands over. */
+/* The library's side of the reference: evaluates the scene, loads the module and calls it. */
 #include <lightsheaf/reference.h>
 
 #include <dlfcn.h>
@@ -43,7 +43,7 @@ static bool check_params(const lsf_render_params *params, uint32_t half, lsf_err
     return true;
 }
 
-/* Makes the picture with the channels that are asked for and notes where each layer begins. */
+/* Creates the picture with the requested channels, and the first channel of each layer. */
 static lsf_image *create_image(const lsf_render_params *params, lsf_reference_job *job,
                                lsf_error *error)
 {
@@ -62,7 +62,7 @@ static lsf_image *create_image(const lsf_render_params *params, lsf_reference_jo
     return lsf_image_create(params->width, params->height, count, list, error);
 }
 
-/* LSF_AOV_ALL asks for motion too, which a single instant does not have. */
+/* LSF_AOV_ALL includes motion, which a single instant does not have. */
 static void warn_of_missing(const lsf_render_params *params)
 {
     if (params->aovs & LSF_AOV_MOTION)

@@ -3,7 +3,7 @@
 #include "scene/texture_sample.h"
 #include "shared/brdf.h"
 
-/* A hit's place in the vertex streams. */
+/* A hit's position in the vertex streams. */
 typedef struct corner_weights {
     uint64_t vertices[3];
     float weights[3];
@@ -103,7 +103,7 @@ lsf_float3 lsf_reference_emission(const lsf_reference_geometry *geometry,
     return emission;
 }
 
-/* In double precision, in which the product of even the smallest edges has a direction. */
+/* Double precision keeps a direction even for the product of the smallest edges. */
 lsf_float3 lsf_reference_triangle_normal(const lsf_reference_geometry *geometry, uint32_t instance,
                                          const lsf_float3 corners[3], float *area)
 {
@@ -128,7 +128,7 @@ static lsf_float3 transform_vector(const float *rows, int stride, lsf_float3 v)
                   rows[2 * stride] * v.x + rows[2 * stride + 1] * v.y + rows[2 * stride + 2] * v.z);
 }
 
-/* `t` made perpendicular to the unit vector `n`. */
+/* `t` projected perpendicular to the unit vector `n`, of unit length. */
 static lsf_float3 perpendicular_part(lsf_float3 t, lsf_float3 n)
 {
     t = lsf_f3_mad(t, n, -lsf_f3_dot(t, n));
@@ -172,7 +172,7 @@ static lsf_basis map_normal(const lsf_scene *scene, const lsf_texture_slot *slot
     return frame;
 }
 
-/* KHR_materials_anisotropy: turns frame.t to the direction of anisotropy and returns the
+/* KHR_materials_anisotropy: rotates frame.t to the direction of anisotropy and returns the
  * strength. */
 static float orient_anisotropy(const lsf_scene *scene, const lsf_material *material,
                                const corner_weights *at, lsf_basis *frame)
@@ -206,7 +206,7 @@ static void read_transmission(lsf_reference_surface *surface, const lsf_scene *s
     lsf_scene_absorption(scene, material, absorption);
     surface->absorption = lsf_f3_load(absorption);
     surface->eta = lsf_relative_ior(material->ior, surface->front);
-    /* Without a change of index nothing is scattered, however rough. */
+    /* Without a change of index nothing is refracted, however rough the surface. */
     if (surface->eta == 1.0f)
         surface->alpha_t = surface->alpha_b = LSF_ALPHA_MIN;
 }
@@ -227,7 +227,7 @@ static void read_sheen(lsf_reference_surface *surface, const lsf_scene *scene,
     surface->sheen_roughness = saturate(roughness);
 }
 
-/* KHR_materials_clearcoat; over the frame of the vertices, which no map has bent yet. */
+/* KHR_materials_clearcoat, in the frame of the vertices, before any normal map. */
 static void read_coat(lsf_reference_surface *surface, const lsf_scene *scene,
                       const lsf_material *material, const corner_weights *at)
 {

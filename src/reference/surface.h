@@ -1,4 +1,4 @@
-/* What a hit point is made of. */
+/* The surface at a hit point. */
 #ifndef LSF_REFERENCE_SURFACE_H
 #define LSF_REFERENCE_SURFACE_H
 
@@ -9,7 +9,7 @@
 typedef struct lsf_reference_surface {
     lsf_float3 position;
     lsf_float3 geometric_normal; /* towards the viewer */
-    lsf_basis frame;             /* shading normal in n, turned to the same side; t along the
+    lsf_basis frame;             /* shading normal in n, on the viewer's side; t along the
                                   * anisotropy's direction */
     float ray_offset;            /* along geometric_normal, for rays that leave the surface */
     lsf_float3 view;             /* towards the viewer */
@@ -19,15 +19,16 @@ typedef struct lsf_reference_surface {
     lsf_float3 base_color;
     float metallic;
     float alpha_t, alpha_b;   /* GGX, along and across frame.t */
-    lsf_float3 f0_dielectric; /* what the dielectric reflects of light from the front ... */
-    float f90_dielectric;     /* ... and from the side */
+    lsf_float3 f0_dielectric; /* reflectance of the dielectric at normal incidence */
+    float f90_dielectric;     /* its reflectance at grazing angles */
     lsf_float3 sheen_color;
     float sheen_roughness;
     float coat, coat_alpha; /* weight and GGX of the clear coat */
-    lsf_float3 coat_normal; /* unit, turned to the same side */
-    float transmission;     /* of what the dielectric does not reflect */
-    float eta;          /* index of refraction beyond the surface to the viewer's; 1: straight on */
-    bool volume, front; /* bounds a medium; seen from the front, which is outside of it */
+    lsf_float3 coat_normal; /* unit, on the viewer's side */
+    float transmission;     /* share of the light that enters the dielectric */
+    float eta;             /* refractive index behind the surface over that on the viewer's side; 1:
+                            * not refracted */
+    bool volume, front;    /* bounds a medium; seen from the front, which is outside of it */
     lsf_float3 absorption; /* of that medium */
 } lsf_reference_surface;
 
@@ -39,12 +40,12 @@ void lsf_reference_surface_init(lsf_reference_surface *surface,
 lsf_float3 lsf_reference_hit_position(const lsf_reference_geometry *geometry,
                                       const lsf_reference_hit *hit);
 
-/* With which probability a ray is to meet the hit point: its alpha where it is blended; 0 where a
- * mask cuts it out, else 1. */
+/* Probability that a ray hits the point: its alpha where it is blended; 0 where a mask cuts it
+ * out, else 1. */
 float lsf_reference_coverage(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit);
 
-/* Radiance that leaves the hit point on the front side, or on the back, if it is there.
- * An unlit material emits its base colour on both. */
+/* Radiance that the hit point emits on the front, or on the back. An unlit material emits its
+ * base colour on both sides. */
 lsf_float3 lsf_reference_emission(const lsf_reference_geometry *geometry,
                                   const lsf_reference_hit *hit, bool front);
 

@@ -2,11 +2,12 @@
 
 #include "math/sampling.h"
 
-/* Of what decides whether rays meet blended surfaces; no dimension's number. */
+/* Purpose of the random numbers that decide whether rays hit blended surfaces; it is no
+ * dimension's number. */
 #define CHANCE UINT64_MAX
 
-/* A ray that asks for visibility ends so far before its target, of its length: the target is known
- * to no more bits than that. */
+/* Fraction of its length by which a visibility ray ends before its target, because the target's
+ * position is rounded. */
 #define REACH (1.0f - 0x1p-22f)
 
 uint32_t lsf_walk_seed(const lsf_walk *w, lsf_walk_dimension dimension)
@@ -38,8 +39,8 @@ bool lsf_walk_is_last(const lsf_walk *w)
     return w->vertex - w->walls >= w->world->bounces;
 }
 
-/* What clear walls leave on the way from the camera to the first vertex behind them, or to the last
- * of them. */
+/* Transmittance of clear walls between the camera and the first vertex behind them, or up to the
+ * last of them. */
 static lsf_float3 seen_through(const lsf_walk *w)
 {
     return w->vertex == 0 ? lsf_f3(1.0f, 1.0f, 1.0f) : w->specular;
@@ -96,7 +97,7 @@ lsf_float3 lsf_ray_origin(const lsf_reference_surface *s, lsf_float3 direction)
     return lsf_f3_mad(s->position, s->geometric_normal, copysignf(s->ray_offset, side));
 }
 
-/* A medium ends where its surface is crossed, to air: media do not nest. */
+/* Media do not nest: crossing the surface of one leads to air. */
 lsf_float3 lsf_walk_absorption(const lsf_walk *w, lsf_float3 direction)
 {
     const lsf_reference_surface *s = &w->surface;

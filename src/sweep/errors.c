@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* Halves differ by twice the variance of one, on average; their mean has half of it. */
+/* The halves' squared difference is twice the variance of one; their mean has half of that
+ * variance. */
 void lsf_reference_halves_derive(lsf_reference_halves *reference)
 {
     const float *a = reference->halves[0], *b = reference->halves[1];
@@ -31,17 +32,17 @@ void lsf_reference_halves_derive(lsf_reference_halves *reference)
     reference->rmse = finite ? sqrt(squares / (3.0 * (double)finite)) : NAN;
 }
 
-/* Of one channel of one pixel: its errors against both halves, all seeds. */
+/* One channel of one pixel: its errors against both halves, for all seeds. */
 typedef struct value_errors {
     double against_a[LSF_SWEEP_MAX_SEEDS], against_b[LSF_SWEEP_MAX_SEEDS];
     double mean;       /* error of the seeds' mean against the halves' mean */
     double difference; /* between the halves */
 } value_errors;
 
-/* Variance of the weighted mean error that the reference's noise makes, this value's share of it:
- * against halves r + e and r + f the squared error of r + d has d^2 - d (e + f) + e f. The halves'
- * difference e - f has twice the variance v of one, of which the fourth power is 12 v^2 if it is
- * normal, and e f has the variance v^2. */
+/* This value's share of the variance of the weighted mean error that is due to the reference's
+ * noise: against halves r + e and r + f the squared error of r + d is d^2 - d (e + f) + e f. The
+ * halves' difference e - f has twice the variance v of one, its fourth power has the mean 12 v^2
+ * if it is normal, and e f has the variance v^2. */
 static double reference_variance(const value_errors *v, double weight)
 {
     double square = v->difference * v->difference;
@@ -99,7 +100,7 @@ void lsf_errors_measure(const lsf_reference_halves *reference, const lsf_image *
             double r = 0.5 * ((double)reference->halves[0][3 * i + c] +
                               (double)reference->halves[1][3 * i + c]);
             double weight = 1.0 / (r * r + reference->epsilon);
-            if (!isfinite(weight)) /* a black picture: relMSE is not known */
+            if (!isfinite(weight)) /* a black picture has no relMSE */
                 weight = NAN;
             add_products(&v[c], count, 1.0, mse->products);
             add_products(&v[c], count, weight, relmse->products);

@@ -1,4 +1,4 @@
-/* Squared errors of several pictures of a point against two halves of a reference. */
+/* Squared errors of several pictures of a point, against two halves of a reference. */
 #ifndef LSF_SWEEP_ERRORS_H
 #define LSF_SWEEP_ERRORS_H
 
@@ -6,7 +6,7 @@
 
 #include "sweep/measurement.h"
 
-/* What pictures are measured against. Three floats a pixel. */
+/* The reference of the errors. Three floats a pixel. */
 typedef struct lsf_reference_halves {
     uint32_t width, height;
     const float *halves[2];
@@ -15,12 +15,12 @@ typedef struct lsf_reference_halves {
     double rmse; /* standard deviation of the halves' mean */
 } lsf_reference_halves;
 
-/* Works out epsilon, mean and rmse. */
+/* Computes epsilon, mean and rmse. */
 void lsf_reference_halves_derive(lsf_reference_halves *reference);
 
-/* Fills in the products of both errors, and the deviation that the reference gives them. `pictures`
- * have R, G, B as their first channels. Pixels where one of them, or a half, is not finite count in
- * none. */
+/* Fills in the products of both errors, and their deviation due to the reference. `pictures`
+ * have R, G, B as their first channels. Pixels that are not finite in a picture or a half are
+ * left out everywhere. */
 void lsf_errors_measure(const lsf_reference_halves *reference, const lsf_image *const *pictures,
                         uint32_t count, lsf_squared_error *mse, lsf_squared_error *relmse);
 

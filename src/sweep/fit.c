@@ -6,7 +6,7 @@
 
 enum { NO_SEED = -1 };
 
-/* The means of the products on the diagonal and off it, of all seeds but one. */
+/* Means of the products on the diagonal and off it, over all seeds but one. */
 static void mean_products(const lsf_squared_error *error, uint32_t seeds, int left_out, double *on,
                           double *off)
 {
@@ -46,9 +46,8 @@ typedef struct power_law {
     double floor, noise, exponent;
 } power_law;
 
-/* A straight line through the variance's logarithm over that of samples. Where nothing is left of
- * the noise, as of equal pictures, or where it does not fall, there is no telling it from a floor.
- */
+/* A straight line through the logarithm of the variance over that of the samples. Without noise,
+ * as in equal pictures, or where it does not fall, noise and floor cannot be separated. */
 static void fit_variance(const fit_data *data, int left_out, double *noise, double *exponent)
 {
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
@@ -69,8 +68,8 @@ static void fit_variance(const fit_data *data, int left_out, double *noise, doub
     *noise = exp((y + *exponent * x) / n);
 }
 
-/* The squared bias is floor + b N^-p, b what of it falls with the noise, by least squares of its
- * differences in parts of the error at N, to which its deviation is proportional. */
+/* The squared bias is floor + b N^-p, with b fitted by least squares of the differences relative
+ * to the error at N, to which the deviation is proportional. */
 static power_law fit(const fit_data *data, int left_out)
 {
     double variance, p;
@@ -101,7 +100,7 @@ lsf_error_fit lsf_error_fit_make(const lsf_squared_error *const *errors, const u
         return (lsf_error_fit){points, unknown, unknown, unknown};
     power_law all = fit(&data, NO_SEED);
     double floors[LSF_SWEEP_MAX_SEEDS], noises[LSF_SWEEP_MAX_SEEDS], powers[LSF_SWEEP_MAX_SEEDS];
-    uint32_t jackknives = seeds > 2 ? seeds : 0; /* of one seed there is no variance */
+    uint32_t jackknives = seeds > 2 ? seeds : 0; /* one seed gives no variance */
     for (uint32_t s = 0; s < jackknives; s++) {
         power_law law = fit(&data, (int)s);
         floors[s] = law.floor;

@@ -6,7 +6,7 @@
 #include "base/base.h"
 #include "sweep/fit.h"
 
-/* Of points as fast and as good as each other none beats another. */
+/* Points with equal time and error do not dominate each other. */
 static bool beats(const lsf_measured_point *a, const lsf_measured_point *b)
 {
     double ta = a->milliseconds.median, tb = b->milliseconds.median;
@@ -47,9 +47,9 @@ static int by_samples(const void *a, const void *b)
 }
 
 enum { MOST_TARGETS = 24 };
-enum { MOST_POINTS = 32 }; /* of a configuration: sample counts are powers of two, or nearly */
+enum { MOST_POINTS = 32 }; /* of a configuration: sample counts are powers of two, or nearly so */
 
-/* Its points by rising samples. */
+/* The configuration's points by rising samples. */
 static uint32_t curve_of(const lsf_measurement *m, uint32_t configuration,
                          const lsf_measured_point *curve[MOST_POINTS])
 {
@@ -61,7 +61,7 @@ static uint32_t curve_of(const lsf_measurement *m, uint32_t configuration,
     return count;
 }
 
-/* Of what a sample takes beyond the last point, in parts of what one took on average. */
+/* Least time of a sample beyond the last point, relative to the mean time of one. */
 #define LEAST_SLOPE 0.25
 
 double lsf_front_milliseconds(const lsf_measurement *m, uint32_t configuration, double samples)
@@ -77,12 +77,12 @@ double lsf_front_milliseconds(const lsf_measurement *m, uint32_t configuration, 
     double n0 = curve[i - 1]->samples, n1 = curve[i]->samples;
     double t0 = curve[i - 1]->milliseconds.median, t1 = curve[i]->milliseconds.median;
     double slope = (t1 - t0) / (n1 - n0);
-    if (samples > n1) /* noise in the times must not promise samples for nothing */
+    if (samples > n1) /* noise in the times must not make samples free */
         return t1 + (samples - n1) * fmax(slope, LEAST_SLOPE * t1 / n1);
     return t0 + (samples - n0) * slope;
 }
 
-/* Samples between two points at which the line in logarithms meets the error. */
+/* Number of samples between two points at which the line in logarithms reaches the error. */
 static double samples_between(const lsf_measured_point *a, const lsf_measured_point *b,
                               double relmse)
 {
@@ -91,7 +91,7 @@ static double samples_between(const lsf_measured_point *a, const lsf_measured_po
     return exp(log(a->samples) + part * (log(b->samples) - log(a->samples)));
 }
 
-/* Beyond what was measured; NAN: never. */
+/* Number of samples beyond the measured ones; NAN: never reached. */
 static double samples_by_fit(const lsf_error_fit *fit, double relmse)
 {
     double left = relmse - fit->floor.value;
@@ -105,7 +105,7 @@ lsf_time_to_error lsf_front_time_to(const lsf_measurement *m, uint32_t configura
     const lsf_measured_point *curve[MOST_POINTS];
     uint32_t count = curve_of(m, configuration, curve);
     lsf_time_to_error time = {configuration, relmse, NAN, NAN, false};
-    uint32_t first = 0; /* that is good enough */
+    uint32_t first = 0; /* the first good enough point */
     while (first < count && !(curve[first]->relmse.error.value <= relmse))
         first++;
     if (count == 0)
@@ -113,7 +113,7 @@ lsf_time_to_error lsf_front_time_to(const lsf_measurement *m, uint32_t configura
     if (first == count) {
         double samples = samples_by_fit(&m->configurations[configuration].relmse, relmse);
         time.extrapolated = true;
-        if (samples > curve[count - 1]->samples) /* else the fit contradicts what was measured */
+        if (samples > curve[count - 1]->samples) /* otherwise the fit contradicts the measurement */
             time.samples = samples;
     } else if (first == 0 || !(curve[first]->relmse.error.value > 0.0)) {
         time.samples = curve[first]->samples;

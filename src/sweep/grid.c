@@ -9,11 +9,11 @@
 
 enum { LONGEST = 128 }; /* "pass.key=value" */
 
-/* A technique's sweeps, as an odometer: one value of each. */
+/* A technique's sweeps, counted like an odometer: one value of each. */
 typedef struct grid {
     const char *sweeps[LSF_SWEEP_MAX_OPTIONS];
     uint32_t count;
-    const char *values[LSF_SWEEP_MAX_OPTIONS]; /* where the current ones begin */
+    const char *values[LSF_SWEEP_MAX_OPTIONS]; /* start of the current one */
 } grid;
 
 static bool takes(const char *technique, const char *sweep, lsf_error *error, bool *good)

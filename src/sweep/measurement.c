@@ -135,7 +135,7 @@ int64_t lsf_measurement_add_configuration(lsf_measurement *m, const char *techni
     return m->configuration_count++;
 }
 
-/* --- what follows --- */
+/* --- derived values --- */
 
 static lsf_estimate root_of(lsf_estimate squared)
 {
@@ -169,7 +169,7 @@ void lsf_measured_point_derive(lsf_measured_point *point)
     point->flip_hdr = mean_over_seeds(point, offsetof(lsf_measured_seed, flip_hdr));
 }
 
-/* Points of one configuration that have as many seeds as the first of them. */
+/* Number of points of one configuration that have as many seeds as the first of them. */
 static bool fit_configuration(lsf_measurement *m, uint32_t configuration)
 {
     const lsf_squared_error **errors = lsf_alloc(2 * (uint64_t)m->point_count, sizeof *errors);

@@ -1,5 +1,5 @@
-/* What `lightsheaf measure` finds out: pictures of several configurations, sample counts and seeds,
- * each with its time, memory and error, and what follows from them. */
+/* The results of `lightsheaf measure`: pictures of several configurations, sample counts and
+ * seeds, each with its time, memory and error, and the values derived from them. */
 #ifndef LSF_SWEEP_MEASUREMENT_H
 #define LSF_SWEEP_MEASUREMENT_H
 
@@ -9,13 +9,13 @@
 
 enum { LSF_SWEEP_MAX_SEEDS = 32, LSF_SWEEP_MAX_OPTIONS = 16, LSF_SWEEP_MAX_PASSES = 64 };
 
-/* What milliseconds are: those of the clock on the wall, of the GPU's timestamps, or what all cores
- * work for this process, which other programs disturb less. */
+/* Clock of milliseconds: wall clock, GPU timestamps, or CPU time of this process on all cores,
+ * which other programs disturb less. */
 typedef enum lsf_clock { LSF_CLOCK_WALL, LSF_CLOCK_GPU, LSF_CLOCK_PROCESSOR } lsf_clock;
 
 const char *lsf_clock_name(lsf_clock clock); /* "wall" */
 
-/* With its 95 % confidence interval. NAN: not known. */
+/* With its 95 % confidence interval. NAN: unknown. */
 typedef struct lsf_estimate {
     double value, low, high;
 } lsf_estimate;
@@ -25,40 +25,41 @@ typedef struct lsf_quartiles {
 } lsf_quartiles;
 
 /* Squared errors of a picture x against two independent halves a and b of a reference, as means
- * over pixels and channels with a weight each: 1 for MSE, 1 / (r^2 + epsilon) for relMSE. Seeds s
- * and t of a point give products[s][t] = mean(w (x_s - a)(x_t - b)), made symmetric: the squared
- * error of a seed on the diagonal, the squared bias off it, for there both noises cancel. */
+ * over pixels and channels with a weight each: 1 for MSE, 1 / (r^2 + epsilon) for relMSE. Seeds
+ * s and t of a point give products[s][t] = mean(w (x_s - a)(x_t - b)), made symmetric: the
+ * squared error of a seed on the diagonal, and off it the squared bias, because both noises
+ * cancel there. */
 typedef struct lsf_squared_error {
     double products[LSF_SWEEP_MAX_SEEDS][LSF_SWEEP_MAX_SEEDS];
-    double reference_deviation; /* standard deviation that the reference's noise gives them all */
+    double reference_deviation; /* standard deviation of all of them due to the reference's noise */
     /* What follows. */
     lsf_estimate error; /* over seeds */
     lsf_estimate squared_bias;
-    double variance; /* of the pixels, over seeds: error less squared bias */
+    double variance; /* mean over pixels of the variance over seeds: error less squared bias */
 } lsf_squared_error;
 
 /* One picture of a point. */
 typedef struct lsf_measured_seed {
     uint64_t seed;
-    double milliseconds; /* a frame's, from its beginning to its finished picture */
+    double milliseconds; /* of a frame, from its beginning to its finished picture */
     double bias[3];      /* mean(x - r) / mean(r), R, G, B */
     double ssim, psnr, flip, flip_hdr;
     uint64_t non_finite; /* pixels, left out of all figures */
 } lsf_measured_seed;
 
-/* Frames that follow each other, from a camera that moves and from one that stands still. All
- * errors are weighed as in relMSE. */
+/* Consecutive frames, of a moving camera and of one that stands still. All errors are weighted
+ * as in relMSE. */
 typedef struct lsf_measured_path {
     uint32_t frames; /* 0: none were measured */
     bool temporal;   /* light was kept from frame to frame */
     lsf_quartiles milliseconds;
     lsf_estimate relmse;     /* mean over frames */
-    lsf_estimate difference; /* of the change from frame to frame: squared error */
-    lsf_estimate flicker;    /* squared change from frame to frame where nothing moves */
+    lsf_estimate difference; /* squared error of the change from frame to frame */
+    lsf_estimate flicker;    /* squared change from frame to frame of a still picture */
     double motion;           /* squared change of the reference from frame to frame */
 } lsf_measured_path;
 
-/* What a pass took of the frame of the first seed. */
+/* Time of a pass in the frame of the first seed. */
 typedef struct lsf_measured_pass {
     char name[48];
     uint64_t runs;
@@ -81,13 +82,13 @@ typedef struct lsf_measured_point {
     lsf_quartiles milliseconds;
     lsf_estimate rmse, bias[3], ssim, psnr, flip, flip_hdr;
     bool front;       /* no other point has less relMSE in as little time */
-    double ssim_gain; /* in per cent a millisecond more than the point of the lowest SSIM;
+    double ssim_gain; /* in per cent for each millisecond more than the point of the lowest SSIM;
                        * NAN where it takes no more */
 } lsf_measured_point;
 
 /* error(N) = floor + noise N^-exponent, N samples. */
 typedef struct lsf_error_fit {
-    uint32_t points; /* that it rests on; below 3 there is no fit, and all is NAN */
+    uint32_t points; /* number of points it is fitted to; below 3 there is no fit, and all is NAN */
     lsf_estimate floor, noise, exponent;
 } lsf_error_fit;
 
@@ -97,39 +98,40 @@ typedef struct lsf_configuration {
     uint32_t option_count;
     char *options[LSF_SWEEP_MAX_OPTIONS]; /* "vpl.count=4" */
     lsf_error_fit mse, relmse;
-    char *command; /* that renders it, but for the samples; NULL: not known */
-    char *failure; /* why there is no point of it; NULL: there is */
+    char *command; /* that renders it, without the samples; NULL: unknown */
+    char *failure; /* why it has no point; NULL: it has */
 } lsf_configuration;
 
-/* When a configuration gets to a relMSE. */
+/* Time at which a configuration reaches a relMSE. */
 typedef struct lsf_time_to_error {
     uint32_t configuration;
     double relmse;
-    double samples, milliseconds; /* NAN: never, for its floor lies above */
-    bool extrapolated;            /* beyond what was measured, by the fit */
+    double samples, milliseconds; /* NAN: never, because its floor is higher */
+    bool extrapolated;            /* beyond the measured points, by the fit */
 } lsf_time_to_error;
 
 typedef struct lsf_measured_reference {
     uint64_t samples[2];                 /* a pixel, of each half */
-    double seconds;                      /* that tracing them took, at any time */
-    bool cached;                         /* nothing of it was traced now */
+    double seconds;                      /* spent on tracing them, now or earlier */
+    bool cached;                         /* no part of it was traced now */
     char key[33];                        /* of scene and options, in hexadecimal */
     double mean[3];                      /* R, G, B */
     double rmse;                         /* standard deviation of the halves' mean */
     char *picture, *preview, *halves[2]; /* files, or NULL */
 } lsf_measured_reference;
 
-/* What was asked for, and the settings that meet it best. */
+/* The request, and the settings that meet it best. */
 typedef struct lsf_answer {
     bool given;
     double budget_ms; /* NAN: not asked for */
     double relmse;    /* the same */
-    bool met;         /* something that was measured does */
+    bool met;         /* a measured point meets it */
     uint32_t configuration, samples;
     lsf_estimate error; /* relMSE */
     double milliseconds;
-    double confidence; /* within a time: that no other candidate is better by 10 %; to an error:
-                        * that its own is no larger. NAN: nobody knows, as of half a search */
+    double confidence; /* within a time: probability that no other candidate is better by 10 %;
+                        * to an error: that its own error is no larger. NAN: unknown, as in half
+                        * a search */
     uint32_t candidates, finalists;
     char *command; /* that renders it */
 } lsf_answer;
@@ -137,13 +139,13 @@ typedef struct lsf_answer {
 typedef struct lsf_measurement {
     char *scene, *command;
     char scene_hash[33]; /* of the files' content */
-    char key[33];        /* of all that its points depend on */
+    char key[33];        /* of everything that its points depend on */
     uint32_t width, height, bounces;
     bool raw, interrupted;
     lsf_clock clock;
     double relmse_epsilon;
     float exposure; /* EV, of SSIM and previews */
-    double seconds; /* that all of it took */
+    double seconds; /* of the whole measurement */
     lsf_measured_reference reference;
     uint32_t configuration_count, point_count;
     uint64_t configuration_capacity, point_capacity;
@@ -159,21 +161,21 @@ void lsf_measurement_finish(lsf_measurement *measurement);
 /* The point of a configuration at a number of samples; NULL: none. */
 lsf_measured_point *lsf_measurement_find(const lsf_measurement *measurement, uint32_t configuration,
                                          uint32_t samples);
-/* That of the most samples, and that of the most below another's; NULL: none. */
+/* The point with the most samples, and that with the most below another's; NULL: none. */
 const lsf_measured_point *lsf_measurement_last(const lsf_measurement *measurement,
                                                uint32_t configuration);
 const lsf_measured_point *lsf_measurement_before(const lsf_measurement *measurement,
                                                  const lsf_measured_point *point);
 void lsf_measurement_drop_point(lsf_measurement *measurement, lsf_measured_point *point);
-/* A zeroed one at the end; NULL without memory. */
+/* Appends a zeroed element; NULL when memory is exhausted. */
 lsf_measured_point *lsf_measurement_add_point(lsf_measurement *measurement);
-/* A copy of technique and options, or the one that is there already; -1 without memory. */
+/* Adds a copy of technique and options, or finds the existing one; -1 when memory is exhausted. */
 int64_t lsf_measurement_add_configuration(lsf_measurement *measurement, const char *technique,
                                           const char *const *options, uint32_t option_count);
 
-/* Works out what follows from the pictures of a point alone. */
+/* Computes the values that derive from the pictures of a point alone. */
 void lsf_measured_point_derive(lsf_measured_point *point);
-/* Works out all that follows from what was measured. False without memory. */
+/* Computes all derived values. False when memory is exhausted. */
 bool lsf_measurement_derive(lsf_measurement *measurement);
 
 #endif

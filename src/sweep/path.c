@@ -114,7 +114,7 @@ static bool start(path_run *run, const lsf_configuration *configuration, uint32_
            lsf_renderer_texture(run->renderer, 0, error) != 0;
 }
 
-/* The picture of a frame; `number` says which random numbers it takes. NULL when stopped, too. */
+/* The picture of a frame; `number` selects its random numbers. NULL when stopped, too. */
 static lsf_image *render(path_run *run, const lsf_path_frame *at, uint32_t number, bool cut,
                          double *milliseconds, lsf_error *error)
 {
@@ -130,7 +130,7 @@ static lsf_image *render(path_run *run, const lsf_path_frame *at, uint32_t numbe
     return good && !run->stopped ? lsf_renderer_read(run->renderer, error) : NULL;
 }
 
-/* Along the path: mean error, and mean error of what changes. */
+/* Along the path: mean error, and mean error of the changes. */
 static bool follow(path_run *run, uint32_t seed, double *relmse, lsf_path_change *change,
                    lsf_error *error)
 {
@@ -165,7 +165,7 @@ static bool follow(path_run *run, uint32_t seed, double *relmse, lsf_path_change
     return good;
 }
 
-/* With a still camera, where nothing moves: mean change. */
+/* With a still camera: mean change. */
 static bool stay(path_run *run, double *flicker, lsf_error *error)
 {
     lsf_image *before = NULL, *now = NULL;

@@ -11,7 +11,7 @@
 
 #include "base/base.h"
 
-/* Seeds of rounds count from here: far from those that anyone types. */
+/* Seeds of rounds start here, far from those that users type. */
 #define FIRST_SEED UINT64_C(0x7265666572656e63)
 
 void lsf_kept_reference_finish(lsf_kept_reference *kept)
@@ -153,9 +153,9 @@ bool lsf_kept_reference_save(const lsf_kept_reference *kept, const char *path, l
     return good;
 }
 
-/* --- what it depends on --- */
+/* --- its dependencies --- */
 
-/* Exact, whatever the digits: as hexadecimal fractions. NULL: not given. */
+/* Hexadecimal fractions, which are exact. NULL: not given. */
 static void add_floats(lsf_string *text, const char *name, const float *values, uint32_t count)
 {
     lsf_string_add(text, "%s", name);

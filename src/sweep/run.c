@@ -9,7 +9,7 @@
 #include "sweep/errors.h"
 #include "sweep/stopwatch.h"
 
-/* One point in the making. */
+/* One point in progress. */
 typedef struct point_run {
     const lsf_sweep_stage *stage;
     const lsf_configuration *configuration;
@@ -46,7 +46,7 @@ static bool list_options(point_run *run, lsf_error *error)
     return true;
 }
 
-/* A frame whose time does not count, then the one that does: lsf_renderer_run waits until it is
+/* Renders a frame that is not timed, then the timed one: lsf_renderer_run waits until it is
  * done. */
 static bool time_frame(point_run *run, lsf_renderer *renderer, double *milliseconds,
                        lsf_error *error)
@@ -109,8 +109,8 @@ static bool compare(point_run *run, uint32_t seed, lsf_error *error)
     return true;
 }
 
-/* Folder, technique, options and samples make a name; what a shell or a URL would read otherwise
- * becomes a dash. */
+/* The name is made of folder, technique, options and samples; characters that a shell or a URL
+ * would interpret become dashes. */
 static char *picture_path(const point_run *run, const char *ending)
 {
     lsf_string text = {0};

@@ -9,15 +9,15 @@
 #include "sweep/statistics.h"
 
 enum { ROUGH_SEEDS = 2, FEWEST = 3, FEW_SAMPLES = 4, MOST_CONTENDERS = 6, DECISIONS = 2 };
-#define FIRST_PART (1.0 / 64.0) /* of the time, and what each rung multiplies it by */
+#define FIRST_PART (1.0 / 64.0) /* of the time; GROWTH is the factor of each rung */
 #define GROWTH 4.0
-#define CHANCE 1.5   /* standard deviations by which errors that seeds tell may be off */
-#define SURE 0.9     /* probability that nothing is better by 10 % */
-#define HOPELESS 2.0 /* times the error that is asked for: a floor */
+#define CHANCE 1.5   /* standard deviations that an error estimated from seeds may be off */
+#define SURE 0.9     /* probability that no other is better by 10 % */
+#define HOPELESS 2.0 /* times the requested error: a floor that ends the search */
 
 typedef struct candidate {
     uint32_t configuration;
-    double least, most; /* relMSE that is foretold of all of the time */
+    double least, most; /* bounds of the relMSE predicted for the whole time */
 } candidate;
 
 typedef struct search_run {
@@ -25,7 +25,7 @@ typedef struct search_run {
     lsf_measurement *m;
     candidate *candidates;
     uint32_t count;
-    double seed_variance; /* of the logarithm of an error, from one seed to another */
+    double seed_variance; /* of the logarithm of an error, between seeds */
     bool stopped;
 } search_run;
 
@@ -47,7 +47,7 @@ static bool list_candidates(search_run *run, lsf_error *error)
     return true;
 }
 
-/* Those without a point have failed. */
+/* Configurations without a point have failed. */
 static void drop_failures(search_run *run)
 {
     uint32_t kept = 0;
@@ -57,7 +57,7 @@ static void drop_failures(search_run *run)
     run->count = kept;
 }
 
-/* The most samples whose frame takes no longer, by what was measured; 0: none does. */
+/* The most samples whose frame fits into the time, from the measured times; 0: not even one. */
 static uint32_t samples_within(const search_run *run, uint32_t configuration, double milliseconds)
 {
     uint32_t low = 0, high = run->search->most_samples;
@@ -81,9 +81,9 @@ static uint32_t power_of_two_within(uint32_t samples)
 
 /* --- within a time --- */
 
-/* The errors that so many samples may have, from those of the most that were measured: variance
- * falls as their power 0.7 at least; what looks like bias stays, or is a filter's and falls with
- * the variance, as 1 / N then. */
+/* Bounds of the error at so many samples, from that of the most samples measured: the variance
+ * falls at least as their power 0.7; the apparent bias stays, or belongs to a filter and falls
+ * with the variance, as 1 / N then. */
 static void foretell(const search_run *run, uint32_t configuration, uint32_t samples, double *least,
                      double *most)
 {
@@ -102,8 +102,8 @@ static int by_foretold(const void *a, const void *b)
     return (left > right) - (left < right);
 }
 
-/* Variance of the logarithm of one seed's error, from the scatter of all candidates: that of
- * one alone is not known from few seeds. */
+/* Variance of the logarithm of one seed's error, pooled over all candidates, because few seeds
+ * do not give that of one alone. */
 static double pooled_variance(const search_run *run)
 {
     double sum = 0.0;
@@ -118,14 +118,14 @@ static double pooled_variance(const search_run *run)
     return degrees > 0 && isfinite(sum) ? sum / degrees : 0.0;
 }
 
-/* How far apart two errors of so many seeds may be by chance, as a factor. */
+/* Factor by which two errors with so many seeds may differ by chance. */
 static double chance_factor(double variance_of_seed, uint32_t seeds)
 {
     return exp(CHANCE * sqrt(2.0 * variance_of_seed / seeds));
 }
 
-/* Leaves out what takes too long with one sample, what is foretold to be worse than another one in
- * any case, and the worst of too many. */
+/* Drops candidates whose first sample takes too long, those that are predicted to be worse than
+ * another one in any case, and the worst of too many. */
 static void thin_out(search_run *run)
 {
     uint32_t kept = 0, allowed = FEWEST + 2 * run->count / 3;
@@ -147,7 +147,7 @@ static void thin_out(search_run *run)
             run->candidates[run->count++] = run->candidates[i];
 }
 
-/* Says how much the frames of a rung will be. */
+/* Announces the number of frames of a rung. */
 static void expect_rung(const search_run *run, double milliseconds, uint32_t seeds)
 {
     uint32_t iterations = 0;
@@ -170,7 +170,7 @@ static bool measure_rung(search_run *run, double milliseconds, lsf_error *error)
     return good;
 }
 
-/* With as many samples as fit. Each attempt knows better how long a sample takes. */
+/* Measures with as many samples as fit. Each attempt knows better how long a sample takes. */
 static bool measure_finalist(search_run *run, uint32_t configuration, lsf_error *error)
 {
     const lsf_search *search = run->search;
@@ -189,7 +189,7 @@ static bool measure_finalist(search_run *run, uint32_t configuration, lsf_error 
     return good;
 }
 
-/* Of all points that fit and have enough seeds the one of the least error. */
+/* The point of the least error among all that fit and have enough seeds. */
 static const lsf_measured_point *best_within(const search_run *run)
 {
     const lsf_measured_point *best = NULL;
@@ -205,8 +205,8 @@ static const lsf_measured_point *best_within(const search_run *run)
     return best;
 }
 
-/* Measures those among which the seeds have not decided from twice as many; false when there is
- * nothing to decide, or on failure. */
+/* Measures the candidates among which the seeds have not decided with twice as many; false when
+ * there is nothing to decide, or on failure. */
 static bool measure_contenders(search_run *run, lsf_error *error, bool *good)
 {
     const lsf_measured_point *best = best_within(run);
@@ -228,8 +228,8 @@ static bool measure_contenders(search_run *run, lsf_error *error, bool *good)
     return *good && count > 1 && !run->stopped;
 }
 
-/* Standard deviation of the mean error, by seeds alone: what the reference does wrong it does to
- * all. */
+/* Standard deviation of the mean error due to the seeds alone: errors of the reference are
+ * common to all. */
 static double deviation_of(const lsf_measured_point *point)
 {
     double squares = 0.0, mean = point->relmse.error.value;
@@ -239,9 +239,9 @@ static double deviation_of(const lsf_measured_point *point)
     return n > 1 ? sqrt(squares / (n - 1) / n) : INFINITY;
 }
 
-/* Probability that of each configuration no other point that fits is better by 10 %, by Student's
- * distribution of the difference; the chances of being wrong add up. Points of few seeds are those
- * of candidates that were left behind, and do not count. */
+/* Probability that no configuration has another point that fits and is better by 10 %, by
+ * Student's distribution of the difference; the probabilities of error add up. Points of few
+ * seeds belong to candidates that were dropped, and do not count. */
 static double confidence_in(const search_run *run, const lsf_measured_point *best)
 {
     double wrong = 0.0;
@@ -299,8 +299,8 @@ static void answer_with(search_run *run, const lsf_measured_point *point, bool m
     answer->confidence = confidence;
 }
 
-/* One sample of each, and a few where they fit: what a frame takes however few it has, and how
- * error falls. */
+/* One sample of each, and a few more where they fit: they give a frame's fixed cost, and the
+ * rate at which the error falls. */
 static bool look(search_run *run, lsf_error *error)
 {
     bool good = true;
@@ -345,7 +345,7 @@ static bool search_within(search_run *run, lsf_error *error)
 
 /* --- to an error --- */
 
-/* Samples of its next frame, or 0: it has got there, or there is no use in it. */
+/* Samples of its next frame, or 0: it has reached the error, or cannot reach it. */
 static uint32_t next_samples(const search_run *run, uint32_t configuration, double best_ms)
 {
     const lsf_measured_point *last = lsf_measurement_last(run->m, configuration);
@@ -379,7 +379,7 @@ static uint32_t pick_next(const search_run *run, double best_ms, uint32_t *sampl
     return picked;
 }
 
-/* The soonest point that gets there and has enough seeds. */
+/* The fastest point that reaches the error and has enough seeds. */
 static const lsf_measured_point *soonest(const search_run *run)
 {
     const lsf_measured_point *best = NULL;
@@ -399,7 +399,8 @@ static double best_time(const search_run *run)
     return best ? best->milliseconds.median : INFINITY;
 }
 
-/* Of a configuration that got there: by how few samples, with all the seeds. */
+/* For a configuration that has reached the error: the fewest samples that do, with all the
+ * seeds. */
 static bool settle(search_run *run, uint32_t configuration, lsf_error *error)
 {
     bool good = true;

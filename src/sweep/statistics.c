@@ -27,8 +27,8 @@ lsf_quartiles lsf_quartiles_of(double *values, size_t count)
                            quantile(values, count, 0.75)};
 }
 
-/* As many of `count` values are left out at either end as keep the probability below 1/40 that all
- * that are left lie on the same side of the median: the chance of so few heads among that many
+/* Number of values to leave out at either end, for which the probability that all remaining
+ * values are on the same side of the median is below 1/40: that of so few heads among that many
  * tosses of a coin. `count` where even one is too many. */
 static size_t left_out_of_median(size_t count)
 {
@@ -53,8 +53,8 @@ lsf_estimate lsf_median_of(double *values, size_t count)
     return (lsf_estimate){median, values[ends], values[count - 1 - ends]};
 }
 
-/* P(-t < T < t), for whole degrees of freedom the finite sums of Abramowitz and Stegun 1964,
- * 26.7.3 and 26.7.4. */
+/* P(-t < T < t), for integer degrees of freedom by the finite sums of Abramowitz and Stegun
+ * 1964, 26.7.3 and 26.7.4. */
 static double central_probability(double t, uint32_t degrees)
 {
     double angle = atan(t / sqrt(degrees)), cosine = cos(angle), squared = cosine * cosine;
@@ -75,7 +75,7 @@ double lsf_student_probability(double t, uint32_t degrees)
 
 double lsf_student_quantile(uint32_t degrees)
 {
-    double low = 1.0, high = 16.0; /* 12.71 of one degree, 1.96 of many */
+    double low = 1.0, high = 16.0; /* 12.71 for one degree, 1.96 for many */
     if (degrees == 0)
         return NAN;
     for (int i = 0; i < 60; i++) {
@@ -88,7 +88,7 @@ double lsf_student_quantile(uint32_t degrees)
     return 0.5 * (low + high);
 }
 
-/* The two deviations are independent of each other; the shared one is taken as normal. */
+/* The two deviations are independent; the shared one is taken as normal. */
 static lsf_estimate with_interval(double value, double deviation, uint32_t degrees, double shared)
 {
     if (degrees == 0)

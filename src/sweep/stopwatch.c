@@ -14,7 +14,7 @@ static double now(lsf_clock clock)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* The milliseconds of all passes that have finished since this was last asked. */
+/* The milliseconds of all passes that have finished since the last call. */
 static double poll(lsf_renderer *renderer, lsf_measured_point *point)
 {
     const lsf_pass_time *times;

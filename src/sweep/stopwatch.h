@@ -1,4 +1,4 @@
-/* What a frame takes. */
+/* The time of a frame. */
 #ifndef LSF_SWEEP_STOPWATCH_H
 #define LSF_SWEEP_STOPWATCH_H
 
@@ -11,11 +11,11 @@ typedef struct lsf_stopwatch {
     double start; /* [s] */
 } lsf_stopwatch;
 
-/* Forgets what passes took so far. */
+/* Discards the pass times so far. */
 lsf_stopwatch lsf_stopwatch_start(lsf_clock clock, lsf_renderer *renderer);
 
-/* Milliseconds of the frame, after lsf_renderer_run, which waits until it is done. What each pass
- * took is kept with the point, where one is given. */
+/* Milliseconds of the frame, after lsf_renderer_run, which waits until it is done. Pass times
+ * are stored in the point, where one is given. */
 double lsf_stopwatch_stop(const lsf_stopwatch *watch, lsf_renderer *renderer,
                           lsf_measured_point *point);
 
