@@ -11,7 +11,7 @@
 /* Converts a density over positions on a face, in units of -1..1, to one over directions (or areas) at this point:
  * a face's position (x, y) = q.xy / (q.z extent) spans extent.x extent.y / (1 + (q.x^2 + q.y^2) / q.z^2)^(3/2)
  * steradians. */
-float emission_place_density(int face, vec3 position)
+float emission_face_density(int face, vec3 position)
 {
     vec2 extent = light.map_window[face].zw;
     if (!light_projection_perspective())
@@ -27,8 +27,8 @@ float emission_pdf_uniform(vec3 position)
     float type = light.attenuation.w;
 #if LSF_DIRECTIONAL_LIGHT
     if (type == LSF_LIGHT_TYPE_DIRECTIONAL) {
-        vec2 place = abs(light_projection_place(0, light_projection_coordinates(0, position)));
-        return max(place.x, place.y) <= 1.0 ? 0.25 * emission_place_density(0, position) : 0.0;
+        vec2 face_position = abs(light_projection_face_position(0, light_projection_coordinates(0, position)));
+        return max(face_position.x, face_position.y) <= 1.0 ? 0.25 * emission_face_density(0, position) : 0.0;
     }
 #endif
 #if LSF_SPOT_LIGHT
@@ -59,13 +59,13 @@ float emission_pdf(vec3 position)
         return uniform_pdf; /* the light reaches no surface */
     int face = light_projection_face(position);
     vec3 q = light_projection_coordinates(face, position);
-    vec2 place = light_projection_place(face, q);
-    if ((light_projection_perspective() && q.z <= 0.0) || max(abs(place.x), abs(place.y)) > 1.0)
+    vec2 face_position = light_projection_face_position(face, q);
+    if ((light_projection_perspective() && q.z <= 0.0) || max(abs(face_position.x), abs(face_position.y)) > 1.0)
         return EMISSION_DEFENSIVE * uniform_pdf; /* beside the map */
     ivec2 last = ivec2(int(light.map_shape.z) - 1);
-    ivec2 at = clamp(ivec2((place * 0.5 + 0.5) * light.map_shape.z), ivec2(0), last);
+    ivec2 at = clamp(ivec2((face_position * 0.5 + 0.5) * light.map_shape.z), ivec2(0), last);
     float adaptive_pdf = texelFetch(emission_importance, ivec3(at, face), 0).r * light.position.w *
-                         emission_place_density(face, position);
+                         emission_face_density(face, position);
     return mix(adaptive_pdf, uniform_pdf, EMISSION_DEFENSIVE);
 }
 

@@ -13,7 +13,7 @@ layout(binding = LSF_UNIT_ENVIRONMENT) uniform sampler2D environment_texture;
 
 #if LSF_ENVIRONMENT_MAP
 /* Texture coordinates of a unit direction on the map. */
-vec2 environment_place(vec3 direction)
+vec2 environment_uv(vec3 direction)
 {
     return lat_long(direction) + vec2(environment_uniform.w, 0.0);
 }
@@ -23,7 +23,7 @@ vec2 environment_place(vec3 direction)
 vec3 environment_radiance(vec3 direction)
 {
 #if LSF_ENVIRONMENT_MAP
-    return textureLod(environment_texture, environment_place(direction), 0.0).rgb;
+    return textureLod(environment_texture, environment_uv(direction), 0.0).rgb;
 #else
     return environment_uniform.rgb;
 #endif

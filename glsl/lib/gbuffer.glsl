@@ -5,7 +5,7 @@
  *   y  shading normal, the same
  *   z  base colour R, G as 2 x unorm16
  *   w  base colour B unorm16 | metallic unorm15 << 16 | unlit << 31
- * gbuffer.gloss R32UI (RG32UI with anisotropy, RGBA32UI with transmission or tints), only where the scene requires it
+ * gbuffer.specular_params R32UI (RG32UI with anisotropy, RGBA32UI with transmission or tints), only where the scene requires it
  *   x  roughness unorm16 | f0 of the dielectric unorm16 << 16
  *   y  anisotropy strength unorm16 | angle of its tangent in the shading normal's
  *      orthonormal_basis, unorm16 of a full turn << 16
@@ -94,8 +94,8 @@ void lobes_none(inout surface s)
 #if LSF_COAT
 uint coat_pack(surface s)
 {
-    vec2 place = octahedral_place(s.coat_normal) * 0.5 + 0.5;
-    uvec2 normal = uvec2(clamp(place, 0.0, 1.0) * 511.0 + 0.5);
+    vec2 position = octahedral_position(s.coat_normal) * 0.5 + 0.5;
+    uvec2 normal = uvec2(clamp(position, 0.0, 1.0) * 511.0 + 0.5);
     return uint(clamp(s.coat, 0.0, 1.0) * 31.0 + 0.5) |
            uint(clamp(s.coat_roughness, 0.0, 1.0) * 511.0 + 0.5) << 5 | normal.x << 14 | normal.y << 23;
 }
@@ -147,7 +147,7 @@ uint transmission_pack(surface s)
 
 /* Sets `eta` and the flags for a surface seen from the front or from the back. Needs s.f0, which encodes the
  * refractive index n: f0 = ((n - 1) / (n + 1))^2. */
-void transmission_turn(inout surface s, bool front)
+void transmission_set_side(inout surface s, bool front)
 {
     s.front = front;
     s.eta = 1.0;
@@ -181,7 +181,7 @@ void transmission_unpack(uint bits, inout surface s)
 #if LSF_SCATTER
     s.through = (bits & (1u << 10)) != 0u;
 #endif
-    transmission_turn(s, (bits & (1u << 8)) != 0u);
+    transmission_set_side(s, (bits & (1u << 8)) != 0u);
 }
 #endif
 
@@ -194,7 +194,7 @@ uvec4 surface_pack(surface s)
                  blue | (metallic << 16) | (s.unlit ? 0x80000000u : 0u));
 }
 
-uvec4 gloss_pack(surface s)
+uvec4 specular_params_pack(surface s)
 {
     uvec4 texel = uvec4(packUnorm2x16(vec2(s.roughness, s.f0)),
                         packUnorm2x16(vec2(s.anisotropy, s.anisotropy_angle)), 0u, 0u);
@@ -237,11 +237,11 @@ surface surface_unpack(uvec4 texel)
     return s;
 }
 
-void gloss_unpack(uvec4 texel, inout surface s)
+void specular_params_unpack(uvec4 texel, inout surface s)
 {
-    vec2 gloss = unpackUnorm2x16(texel.x);
-    s.roughness = gloss.x;
-    s.f0 = gloss.y;
+    vec2 specular_params = unpackUnorm2x16(texel.x);
+    s.roughness = specular_params.x;
+    s.f0 = specular_params.y;
     vec2 anisotropy = unpackUnorm2x16(texel.y);
     s.anisotropy = anisotropy.x;
     s.anisotropy_angle = anisotropy.y;

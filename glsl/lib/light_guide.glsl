@@ -10,13 +10,13 @@
 layout(binding = 0) uniform sampler2D guide_texture; /* octahedral normal, mean reverse-Z depth, alpha of the lobe */
 layout(binding = 1) uniform sampler2D slope_texture; /* slope of that depth per pixel along x and y; `spread`;
                                                       * `alike` */
-layout(binding = 15) uniform sampler2D turn_texture; /* rotation of the normal per pixel along x and y [radians] */
+layout(binding = 15) uniform sampler2D curvature_texture; /* rotation of the normal per pixel along x and y [radians] */
 layout(location = 0) uniform vec2 guide_weights;     /* light_filter.depth_weight, .normal_weight */
 
 struct light_guide {
     vec3 normal; /* unit */
     float depth; /* 0: nothing is seen */
-    vec2 slope, turn;
+    vec2 slope, curvature;
     float spread; /* deviation of depth within the pixel, beyond that of its plane */
     float alike;  /* 1 where all normals within the pixel are equal, less the more they differ */
     float scale;  /* factor from differences of depth to distances from the surface's plane [pixels] */
@@ -61,7 +61,7 @@ light_guide light_guide_at(ivec2 pixel)
     g.normal = octahedral_normal(texel.xy);
     g.depth = texel.z;
     g.slope = slope.xy;
-    g.turn = texelFetch(turn_texture, pixel, 0).xy;
+    g.curvature = texelFetch(curvature_texture, pixel, 0).xy;
     g.spread = slope.z;
     g.alike = slope.w;
     /* Widths of a pixel by which a surface recedes from the viewer for each unit of depth. */
@@ -91,11 +91,11 @@ float plane_weight(light_guide g, ivec2 pixel, ivec2 neighbour, vec4 texel, vec3
     float cosine = dot(g.normal, normal);
     vec2 apart = vec2(neighbour - pixel);
     float distance = length(apart);
-    float turn = dot(abs(apart), g.turn) * min(LSF_CURVED_REACH / distance, 1.0);
+    float curvature = dot(abs(apart), g.curvature) * min(LSF_CURVED_REACH / distance, 1.0);
     float off = max(abs(texel.z - g.depth - dot(g.slope, apart)) - 2.0 * g.spread, 0.0) * g.scale / distance;
     /* A chord deviates from the tangent plane by half the angle between the normals at its ends. */
-    off = max(off - 0.5 * turn, 0.0) / guide_weights.x;
-    float angle = max(sqrt(max(2.0 - 2.0 * cosine, 0.0)) - turn, 0.0);
+    off = max(off - 0.5 * curvature, 0.0) / guide_weights.x;
+    float angle = max(sqrt(max(2.0 - 2.0 * cosine, 0.0)) - curvature, 0.0);
     /* Powers of cosines of small angles: cos^p = e^(-p angle^2 / 2). */
     float weight = exp2(-off * off - guide_weights.y * g.alike * 0.7213475 * angle * angle);
     return texel.z == 0.0 || cosine <= 0.0 ? 0.0 : weight;

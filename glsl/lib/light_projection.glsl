@@ -31,24 +31,24 @@ vec3 light_projection_coordinates(int face, vec3 position)
 }
 
 /* Position on the face, -1..1, of a point with these coordinates. */
-vec2 light_projection_place(int face, vec3 q)
+vec2 light_projection_face_position(int face, vec3 q)
 {
     vec4 window = light.map_window[face];
-    vec2 place = light_projection_perspective() ? q.xy / (q.z * window.zw) : (q.xy - window.xy) / window.zw;
-    return place + light.map_offset.xy;
+    vec2 face_position = light_projection_perspective() ? q.xy / (q.z * window.zw) : (q.xy - window.xy) / window.zw;
+    return face_position + light.map_offset.xy;
 }
 
 /* The point at a position on a face with this depth. */
-vec3 light_projection_position(int face, vec2 place, float depth)
+vec3 light_projection_position(int face, vec2 face_position, float depth)
 {
     vec4 window = light.map_window[face];
     vec3 q;
     if (light_projection_perspective()) {
         q.z = light.map_shape.x / depth;
-        q.xy = (place - light.map_offset.xy) * window.zw * q.z;
+        q.xy = (face_position - light.map_offset.xy) * window.zw * q.z;
     } else {
         q.z = light.map_shape.y - depth * (light.map_shape.y - light.map_shape.x);
-        q.xy = (place - light.map_offset.xy) * window.zw + window.xy;
+        q.xy = (face_position - light.map_offset.xy) * window.zw + window.xy;
     }
     return light.map_origin.xyz + q.x * light.map_right[face].xyz + q.y * light.map_up[face].xyz +
            q.z * light.map_forward[face].xyz;
@@ -60,7 +60,7 @@ vec4 light_projection_clip(int face, vec3 position)
     vec4 window = light.map_window[face];
     if (light_projection_perspective())
         return vec4(q.xy / window.zw + light.map_offset.xy * q.z, light.map_shape.x, q.z);
-    return vec4(light_projection_place(face, q),
+    return vec4(light_projection_face_position(face, q),
                 (light.map_shape.y - q.z) / (light.map_shape.y - light.map_shape.x), 1.0);
 }
 
@@ -72,8 +72,8 @@ int light_projection_face(vec3 position)
     if (!light_projection_perspective()) {
         vec3 q = light_projection_coordinates(0, position);
         for (int face = 0; face < faces - 1; face++) {
-            vec2 place = abs(light_projection_place(face, q));
-            if (max(place.x, place.y) < 1.0)
+            vec2 face_position = abs(light_projection_face_position(face, q));
+            if (max(face_position.x, face_position.y) < 1.0)
                 return face;
         }
         return faces - 1;

@@ -1,5 +1,5 @@
 /* First vertices of light paths that leave the current light: the direction is drawn exactly, and the texel of the
- * light's reflective shadow map in that direction gives the plane that the ray hits. Switches LSF_GLOSS,
+ * light's reflective shadow map in that direction gives the plane that the ray hits. Switches LSF_SPECULAR_PARAMS,
  * LSF_SPECULAR, LSF_SHADOW_TINT and those of the libraries. */
 #ifndef LSF_LIB_LIGHT_RAY
 #define LSF_LIB_LIGHT_RAY
@@ -9,8 +9,8 @@
 
 layout(binding = 0) uniform sampler2DArray depth_texture;
 layout(binding = 1) uniform usampler2DArray surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2DArray gloss_texture;
+#if LSF_SPECULAR_PARAMS
+layout(binding = 2) uniform usampler2DArray specular_params_texture;
 #endif
 
 #if LSF_SHADOW_TINT
@@ -42,7 +42,7 @@ ray ray_through(vec3 origin, vec3 direction)
     r.direction = direction;
     r.face = light_projection_perspective() ? light_projection_face(origin + direction) : 0;
     vec3 q = light_projection_coordinates(r.face, origin + direction);
-    r.texel = (light_projection_place(r.face, q) * 0.5 + 0.5) * light.map_shape.z;
+    r.texel = (light_projection_face_position(r.face, q) * 0.5 + 0.5) * light.map_shape.z;
     return r;
 }
 
@@ -69,9 +69,9 @@ ray emit_ray_uniform(vec2 u)
     return ray_through(light.position.xyz, normalize(direction));
 }
 
-ray ray_of_place(int face, vec2 place)
+ray ray_of_face_position(int face, vec2 face_position)
 {
-    vec3 point = light_projection_position(face, place, 1.0);
+    vec3 point = light_projection_position(face, face_position, 1.0);
     return light_projection_perspective()
                ? ray_through(light.map_origin.xyz, normalize(point - light.map_origin.xyz))
                : ray_through(point, light.direction.xyz);
@@ -79,8 +79,8 @@ ray ray_of_place(int face, vec2 place)
 
 ray ray_of_center(int face, ivec2 at)
 {
-    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
-    return ray_of_place(face, place);
+    vec2 face_position = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
+    return ray_of_face_position(face, face_position);
 }
 
 #if LSF_EMISSION_ADAPTIVE
@@ -119,7 +119,7 @@ ray emit_ray(vec2 u)
     int column = find_entry(row * texels, texels, u.y);
     int face = row / texels;
     vec2 texel = vec2(column, row - face * texels) + u.yx;
-    return ray_of_place(face, texel * (2.0 * light.map_shape.w) - 1.0);
+    return ray_of_face_position(face, texel * (2.0 * light.map_shape.w) - 1.0);
 }
 
 #else
@@ -142,9 +142,9 @@ met_plane plane_at(int face, ivec2 at)
     float depth = texelFetch(depth_texture, ivec3(at, face), 0).r;
     if (depth == 0.0)
         return p;
-    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
+    vec2 face_position = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
     p.exists = true;
-    p.point = light_projection_position(face, place, depth);
+    p.point = light_projection_position(face, face_position, depth);
     p.normal = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0)).geometric_normal;
     return p;
 }
@@ -194,8 +194,8 @@ ivec2 find_texel(ray r, out met_plane met)
 surface surface_at(int face, ivec2 at)
 {
     surface s = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0));
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, ivec3(at, face), 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, ivec3(at, face), 0), s);
 #endif
     return s;
 }

@@ -22,6 +22,6 @@ void main()
     if (!present || gl_FragCoord.z <= shown)
         discard;
     /* Media transmit light of the sky alone, whose maps are orthographic. */
-    float way = (gl_FragCoord.z - shown) * (light.map_shape.y - light.map_shape.x);
-    tint_out = vec4(straight_tint(s, to_light) * map_absorption(s, enters, way), 1.0);
+    float path_length = (gl_FragCoord.z - shown) * (light.map_shape.y - light.map_shape.x);
+    tint_out = vec4(straight_tint(s, to_light) * map_absorption(s, enters, path_length), 1.0);
 }

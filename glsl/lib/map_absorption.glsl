@@ -14,14 +14,14 @@ bool map_light_enters(bool front, vec3 to_light)
     return front == (dot(cross(dFdx(vertex_position), dFdy(vertex_position)), to_light) > 0.0);
 }
 
-/* The share of one surface: the transmittance over `way`, the vector from the surface to the point that the map
+/* The share of one surface: the transmittance over `path_length`, the vector from the surface to the point that the map
  * shows, if light enters through it, and the inverse if light leaves through it. The product over a closed body is
  * that body's transmittance. It is bounded, because the product of several shares has to stay finite. */
-vec3 map_absorption(surface s, bool enters, float way)
+vec3 map_absorption(surface s, bool enters, float path_length)
 {
 #if LSF_ABSORPTION
     vec3 absorption = s.volume ? materials[s.material].absorption.rgb : vec3(0.0);
-    return exp(clamp(absorption * (enters ? -way : way), -40.0, 40.0));
+    return exp(clamp(absorption * (enters ? -path_length : path_length), -40.0, 40.0));
 #else
     return vec3(1.0);
 #endif

@@ -32,12 +32,12 @@ bool masked_out()
 #if LSF_TEXTURED
     if (slot_used(material.base_color_slot)) {
         /* Without a footprint: the finest level is read. */
-        texture_place place = texture_place(vertex_uv0, vec2(0.0), vec2(0.0), vertex_uv0,
+        texture_coordinates coordinates = texture_coordinates(vertex_uv0, vec2(0.0), vec2(0.0), vertex_uv0,
                                             vec2(0.0), vec2(0.0));
 #if LSF_SECOND_UV
-        place.uv1 = vertex_uv1;
+        coordinates.uv1 = vertex_uv1;
 #endif
-        alpha *= slot_sample(base_color_texture, material.base_color_slot, place).a;
+        alpha *= slot_sample(base_color_texture, material.base_color_slot, coordinates).a;
     }
 #endif
 #if LSF_VERTEX_COLOR

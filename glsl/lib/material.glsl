@@ -36,24 +36,24 @@ flat in vec4 vertex_anisotropy;
 flat in uvec2 vertex_layer; /* instance, vertex */
 #endif
 
-texture_place place_on_textures()
+texture_coordinates vertex_texture_coordinates()
 {
-    texture_place place;
+    texture_coordinates coordinates;
 #if LSF_TEXTURED
-    place.uv0 = vertex_uv0;
-    place.uv0_dx = dFdx(vertex_uv0);
-    place.uv0_dy = dFdy(vertex_uv0);
+    coordinates.uv0 = vertex_uv0;
+    coordinates.uv0_dx = dFdx(vertex_uv0);
+    coordinates.uv0_dy = dFdy(vertex_uv0);
 #endif
 #if LSF_SECOND_UV
-    place.uv1 = vertex_uv1;
-    place.uv1_dx = dFdx(vertex_uv1);
-    place.uv1_dy = dFdy(vertex_uv1);
+    coordinates.uv1 = vertex_uv1;
+    coordinates.uv1_dx = dFdx(vertex_uv1);
+    coordinates.uv1_dy = dFdy(vertex_uv1);
 #elif LSF_TEXTURED
-    place.uv1 = place.uv0;
-    place.uv1_dx = place.uv0_dx;
-    place.uv1_dy = place.uv0_dy;
+    coordinates.uv1 = coordinates.uv0;
+    coordinates.uv1_dx = coordinates.uv0_dx;
+    coordinates.uv1_dy = coordinates.uv0_dy;
 #endif
-    return place;
+    return coordinates;
 }
 
 vec3 unit_or_zero(vec3 v)
@@ -116,7 +116,7 @@ bool material_evaluate(vec3 to_viewer, out surface s, out vec3 emission, out boo
     material_point point;
     point.normal = vertex_normal;
     point.front = front;
-    point.place = place_on_textures();
+    point.uv = vertex_texture_coordinates();
 #if LSF_TANGENT
     point.tangent = vertex_tangent;
 #endif

@@ -1,6 +1,6 @@
 /* The surface of a material at a point, for fragments (lib/material.glsl) and for compute shaders that
  * rasterise by themselves. Switches LSF_TEXTURED, LSF_SECOND_UV, LSF_VERTEX_COLOR, LSF_TANGENT,
- * LSF_MASK, LSF_BLEND, LSF_GLOSS, LSF_ANISOTROPY, LSF_TRANSMISSION, LSF_EMISSION and one for each kind of texture;
+ * LSF_MASK, LSF_BLEND, LSF_SPECULAR_PARAMS, LSF_ANISOTROPY, LSF_TRANSMISSION, LSF_EMISSION and one for each kind of texture;
  * lsf_scene_gpu_material_switches adds them. */
 #ifndef LSF_LIB_MATERIAL_SURFACE
 #define LSF_LIB_MATERIAL_SURFACE
@@ -43,7 +43,7 @@ struct material_point {
     vec3 normal;  /* any length */
     vec4 tangent; /* w: the bitangent's sign */
     vec4 color;
-    texture_place place;
+    texture_coordinates uv;
     bool front;
     uvec3 key; /* for alpha_cuts_out; only with LSF_BLEND */
 };
@@ -53,7 +53,7 @@ vec4 base_color(lsf_material_data material, material_point point)
     vec4 color = material.base_color;
 #if LSF_BASE_COLOR_TEXTURE
     if (slot_used(material.base_color_slot))
-        color *= slot_sample(base_color_texture, material.base_color_slot, point.place);
+        color *= slot_sample(base_color_texture, material.base_color_slot, point.uv);
 #endif
 #if LSF_VERTEX_COLOR
     color *= point.color;
@@ -99,12 +99,12 @@ void sheen_surface(lsf_material_data material, material_point point, inout surfa
 #if LSF_SHEEN_COLOR_TEXTURE
     lsf_texture_slot_data color_slot = lobe_slot(material, 13);
     if (slot_used(color_slot))
-        sheen.rgb *= slot_sample(sheen_color_texture, color_slot, point.place).rgb;
+        sheen.rgb *= slot_sample(sheen_color_texture, color_slot, point.uv).rgb;
 #endif
 #if LSF_SHEEN_ROUGHNESS_TEXTURE
     lsf_texture_slot_data roughness_slot = lobe_slot(material, 15);
     if (slot_used(roughness_slot))
-        sheen.a *= slot_sample(sheen_roughness_texture, roughness_slot, point.place).a;
+        sheen.a *= slot_sample(sheen_roughness_texture, roughness_slot, point.uv).a;
 #endif
 #if LSF_LOBES_FOLDED || !LSF_SHEEN
     /* The sheen is folded into the diffuse lobe. Its mean albedo over the hemisphere grows from 0.015 to 0.3 with
@@ -125,7 +125,7 @@ void coat_surface(lsf_material_data material, material_point point, mat3 vertex_
 #if LSF_COAT_TEXTURE
     lsf_texture_slot_data factor_slot = lobe_slot(material, 7);
     if (slot_used(factor_slot))
-        coat.x *= slot_sample(coat_texture, factor_slot, point.place).r;
+        coat.x *= slot_sample(coat_texture, factor_slot, point.uv).r;
 #endif
 #if LSF_LOBES_FOLDED || !LSF_COAT
     /* The coat's reflection is folded into the diffuse lobe; the rest of the light passes the coat twice. */
@@ -135,13 +135,13 @@ void coat_surface(lsf_material_data material, material_point point, mat3 vertex_
 #if LSF_COAT_ROUGHNESS_TEXTURE
     lsf_texture_slot_data roughness_slot = lobe_slot(material, 9);
     if (slot_used(roughness_slot))
-        coat.y *= slot_sample(coat_roughness_texture, roughness_slot, point.place).g;
+        coat.y *= slot_sample(coat_roughness_texture, roughness_slot, point.uv).g;
 #endif
     vec3 n = vertex_frame[2];
 #if LSF_COAT_NORMAL_TEXTURE
     lsf_texture_slot_data normal_slot = lobe_slot(material, 11);
     if (slot_used(normal_slot)) {
-        vec3 mapped = slot_sample(coat_normal_texture, normal_slot, point.place).xyz * 2.0 - 1.0;
+        vec3 mapped = slot_sample(coat_normal_texture, normal_slot, point.uv).xyz * 2.0 - 1.0;
         mapped.xy *= coat.z;
         n = normalize(vertex_frame * mapped);
     }
@@ -162,12 +162,12 @@ void tint_specular(lsf_material_data material, material_point point, inout surfa
 #if LSF_SPECULAR_TEXTURE
     lsf_texture_slot_data weight_slot = lobe_slot(material, 3);
     if (slot_used(weight_slot))
-        factors.a *= slot_sample(specular_texture, weight_slot, point.place).a;
+        factors.a *= slot_sample(specular_texture, weight_slot, point.uv).a;
 #endif
 #if LSF_SPECULAR_COLOR_TEXTURE
     lsf_texture_slot_data tint_slot = lobe_slot(material, 5);
     if (slot_used(tint_slot))
-        factors.rgb *= slot_sample(specular_color_texture, tint_slot, point.place).rgb;
+        factors.rgb *= slot_sample(specular_color_texture, tint_slot, point.uv).rgb;
 #endif
     bool medium = material.flags.z != 0.0;
     vec3 f0 = min(s.f0 * factors.rgb, 1.0);
@@ -204,7 +204,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
 #endif
 #if LSF_NORMAL_TEXTURE
     if (slot_used(material.normal_slot)) {
-        vec3 mapped = slot_sample(normal_texture, material.normal_slot, point.place).xyz * 2.0 - 1.0;
+        vec3 mapped = slot_sample(normal_texture, material.normal_slot, point.uv).xyz * 2.0 - 1.0;
         mapped.xy *= material.surface.z;
         n = normalize(mapped.x * t + mapped.y * b + mapped.z * n);
     }
@@ -218,13 +218,13 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     s.anisotropy = 0.0;
     s.anisotropy_angle = 0.0;
     s.unlit = material.flags.y != 0.0;
-#if LSF_GLOSS
+#if LSF_SPECULAR_PARAMS
     s.metallic = material.surface.x;
     s.roughness = material.surface.y;
 #if LSF_METALLIC_ROUGHNESS_TEXTURE
     if (slot_used(material.metallic_roughness_slot)) {
         vec4 texel =
-            slot_sample(metallic_roughness_texture, material.metallic_roughness_slot, point.place);
+            slot_sample(metallic_roughness_texture, material.metallic_roughness_slot, point.uv);
         s.metallic *= texel.b;
         s.roughness *= texel.g;
     }
@@ -241,18 +241,18 @@ bool material_surface(lsf_material_data material, material_point point, out surf
 #endif
 #endif
 #if LSF_ANISOTROPY
-    vec2 turn = material.anisotropy.yz;
+    vec2 rotation = material.anisotropy.yz;
     s.anisotropy = material.anisotropy.x;
 #if LSF_ANISOTROPY_TEXTURE
     if (slot_used(material.anisotropy_slot)) {
-        vec3 texel = slot_sample(anisotropy_texture, material.anisotropy_slot, point.place).xyz;
+        vec3 texel = slot_sample(anisotropy_texture, material.anisotropy_slot, point.uv).xyz;
         vec2 d = texel.xy * 2.0 - 1.0;
-        turn = vec2(d.x * turn.x - d.y * turn.y, d.x * turn.y + d.y * turn.x);
+        rotation = vec2(d.x * rotation.x - d.y * rotation.y, d.x * rotation.y + d.y * rotation.x);
         s.anisotropy *= texel.z;
     }
 #endif
     /* The tangent is stored as an angle in the basis that readers rebuild from the shading normal. */
-    vec3 along = turn.x * t + turn.y * b;
+    vec3 along = rotation.x * t + rotation.y * b;
     vec3 basis_t, basis_b;
     orthonormal_basis(s.normal, basis_t, basis_b);
     float angle = atan(dot(along, basis_b), dot(along, basis_t));
@@ -263,7 +263,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     s.transmission = material.anisotropy.w;
 #if LSF_TRANSMISSION_TEXTURE
     if (slot_used(material.transmission_slot))
-        s.transmission *= slot_sample(transmission_texture, material.transmission_slot, point.place).r;
+        s.transmission *= slot_sample(transmission_texture, material.transmission_slot, point.uv).r;
 #endif
     s.front = point.front;
     s.volume = material.flags.z != 0.0;
@@ -277,7 +277,7 @@ bool material_surface(lsf_material_data material, material_point point, out surf
     emission = material.emission.rgb;
 #if LSF_EMISSIVE_TEXTURE
     if (slot_used(material.emissive_slot))
-        emission *= slot_sample(emissive_texture, material.emissive_slot, point.place).rgb;
+        emission *= slot_sample(emissive_texture, material.emissive_slot, point.uv).rgb;
 #endif
     if (s.unlit)
         emission = color.rgb;

@@ -8,7 +8,7 @@ vec2 octahedral_sign(vec2 v)
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
-vec2 octahedral_place(vec3 n)
+vec2 octahedral_position(vec3 n)
 {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     if (n.z < 0.0)
@@ -18,7 +18,7 @@ vec2 octahedral_place(vec3 n)
 
 uint octahedral_encode(vec3 n)
 {
-    return packSnorm2x16(octahedral_place(n));
+    return packSnorm2x16(octahedral_position(n));
 }
 
 vec3 octahedral_normal(vec2 p)

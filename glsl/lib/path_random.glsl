@@ -13,7 +13,7 @@
 
 struct path_random_key {
     uint pixel, seed;
-    ivec2 place; /* texel of the texture that belongs to the pixel */
+    ivec2 texel; /* texel of the texture that belongs to the pixel */
 };
 
 #if LSF_RANDOM_TEXTURE
@@ -24,7 +24,7 @@ vec3 path_random(path_random_key key, uint index, uint vertex)
 {
     uvec3 shift = hash(uvec3(index, vertex, key.seed));
     ivec2 size = textureSize(random_texture, 0); /* powers of two */
-    return texelFetch(random_texture, (key.place + ivec2(shift.xy & 0xffffu)) & (size - 1), 0).rgb;
+    return texelFetch(random_texture, (key.texel + ivec2(shift.xy & 0xffffu)) & (size - 1), 0).rgb;
 }
 #else
 /* Sobol's second dimension, bit-reversed: its direction numbers are Pascal's triangle modulo 2, whose

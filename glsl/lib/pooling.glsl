@@ -9,11 +9,11 @@
  *
  *   turn^2 t <= max(own alpha^2, alpha^2 / t)      t = max(own alpha^2 / turn^2, alpha / turn), at most 1.
  *
- * Returns 1 / t, the factor on the kernel. `turn`: change of the normal over the pattern [radians]. */
-float pooling_spread(float kernel, float reflects, float own_alpha2, float turn, float side)
+ * Returns 1 / t, the factor on the kernel. `normal_change`: change of the normal over the pattern [radians]. */
+float pooling_spread(float kernel, float reflects, float own_alpha2, float normal_change, float side)
 {
     float alpha = sqrt(kernel * reflects * (1.0 / 12.566371));
-    return clamp(min(turn / max(alpha, 1e-10), turn * turn / max(own_alpha2, 1e-20)), 1.0, side * side);
+    return clamp(min(normal_change / max(alpha, 1e-10), normal_change * normal_change / max(own_alpha2, 1e-20)), 1.0, side * side);
 }
 
 #endif

@@ -1,5 +1,5 @@
 /* A ray-bundle: its projection and its nodes, one for each fragment of the scene along its direction. Switches
- * LSF_BUNDLE_SIDE (texels along a side), LSF_BUNDLE_SLICES, LSF_BUNDLE_GLOSS, LSF_BUNDLE_ANISOTROPY,
+ * LSF_BUNDLE_SIDE (texels along a side), LSF_BUNDLE_SLICES, LSF_BUNDLE_SPECULAR_PARAMS, LSF_BUNDLE_ANISOTROPY,
  * LSF_BUNDLE_EMISSION, LSF_BUNDLE_GAPS; lsf_ray_bundle_reader_switches adds them. Writers define LSF_BUNDLE_ACCESS
  * as coherent.
  *
@@ -48,14 +48,14 @@ layout(std430,
 #if LSF_BUNDLE_ANISOTROPY
 /* x: roughness, metallic, f0; y: anisotropy strength unorm16 | angle as in lib/gbuffer.glsl << 16; with
  * LSF_STRAIGHT 12 bits of each | transmission unorm8 << 24 */
-layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 3) LSF_BUNDLE_ACCESS buffer lsf_bundle_gloss_block
+layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 3) LSF_BUNDLE_ACCESS buffer lsf_bundle_specular_params_block
 {
-    uvec2 bundle_gloss[];
+    uvec2 bundle_specular_params[];
 };
-#elif LSF_BUNDLE_GLOSS
-layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 3) LSF_BUNDLE_ACCESS buffer lsf_bundle_gloss_block
+#elif LSF_BUNDLE_SPECULAR_PARAMS
+layout(std430, binding = LSF_BINDING_BUNDLE_NODES + 3) LSF_BUNDLE_ACCESS buffer lsf_bundle_specular_params_block
 {
-    uint bundle_gloss[];
+    uint bundle_specular_params[];
 };
 #endif
 #if LSF_BUNDLE_EMISSION
@@ -80,8 +80,8 @@ int bundle_texel(ivec2 at)
 /* The node of a fragment whose number is below LSF_BUNDLE_SLICES. */
 uint bundle_slice_node(uint texel, uint fragment)
 {
-    uint place = fragment + 1u;
-    return ((place >> 2) * LSF_BUNDLE_TEXELS + texel) << 2 | (place & 3u);
+    uint slot = fragment + 1u;
+    return ((slot >> 2) * LSF_BUNDLE_TEXELS + texel) << 2 | (slot & 3u);
 }
 
 uint bundle_fragments(uint texel)
@@ -114,7 +114,7 @@ float bundle_gaps_between(float from, float to)
 }
 
 /* Continuous texel coordinates on the map of a point with these coordinates. */
-vec2 bundle_place(vec3 q)
+vec2 bundle_map_position(vec3 q)
 {
     return ((q.xy - bundle.window.xy) / bundle.window.zw * 0.5 + 0.5) * float(LSF_BUNDLE_SIDE);
 }
@@ -182,7 +182,7 @@ vec3 bundle_color_unpack(uint bits)
 }
 
 /* Roughness 11 bits, metallic 8, square root of f0 13. */
-uint bundle_gloss_pack(float roughness, float metallic, float f0)
+uint bundle_specular_params_pack(float roughness, float metallic, float f0)
 {
     uvec3 steps = uvec3(clamp(vec3(roughness, metallic, sqrt(f0)), 0.0, 1.0) *
                             vec3(2047.0, 255.0, 8191.0) +
@@ -190,7 +190,7 @@ uint bundle_gloss_pack(float roughness, float metallic, float f0)
     return steps.x | steps.y << 11 | steps.z << 19;
 }
 
-void bundle_gloss_unpack(uint bits, inout surface s)
+void bundle_specular_params_unpack(uint bits, inout surface s)
 {
     s.roughness = float(bits & 0x7ffu) / 2047.0;
     s.metallic = float(bits >> 11 & 0xffu) / 255.0;
@@ -286,10 +286,10 @@ vec3 bundle_absorption_unpack(uint bits, out bool enters)
     return ldexp(m, ivec3(int(bits >> 24 & 127u) - 64));
 }
 
-/* Absorption over the length `way`, in whole steps like those of tints. */
-ivec3 bundle_absorption_steps(vec3 absorption, float way)
+/* Absorption over the length `path_length`, in whole steps like those of tints. */
+ivec3 bundle_absorption_steps(vec3 absorption, float path_length)
 {
-    return ivec3(min(absorption * (way / log(2.0)) * BUNDLE_TINT_STEPS, vec3(1e6)) + 0.5);
+    return ivec3(min(absorption * (path_length / log(2.0)) * BUNDLE_TINT_STEPS, vec3(1e6)) + 0.5);
 }
 #endif
 
@@ -297,12 +297,12 @@ ivec3 bundle_absorption_steps(vec3 absorption, float way)
 vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
 {
     vec3 q = bundle_coordinates(origin);
-    vec2 place = bundle_place(q), size = bundle_texel_size();
-    ivec2 at = ivec2(floor(place));
+    vec2 position = bundle_map_position(q), size = bundle_texel_size();
+    ivec2 at = ivec2(floor(position));
     if (min(at.x, at.y) < 0 || max(at.x, at.y) >= LSF_BUNDLE_SIDE)
         return vec3(1.0);
     uint texel = uint(bundle_texel(at)), count = bundle_fragments(texel), link = 0u;
-    vec2 from_center = (place - vec2(at) - 0.5) * size;
+    vec2 from_center = (position - vec2(at) - 0.5) * size;
     float side = dot(ray_direction, bundle.forward.xyz) < 0.0 ? -1.0 : 1.0;
     /* As in a search, a veil within this distance is the surface that the ray leaves. */
     float self = LSF_BUNDLE_SELF_TEXELS * max(size.x, size.y) +
@@ -350,8 +350,8 @@ vec3 bundle_position(uint node, vec3 origin)
 {
     vec3 plane = bundle_plane(node);
     vec3 q = bundle_coordinates(origin);
-    vec2 place = bundle_place(q), size = bundle_texel_size();
-    vec2 from_center = (place - floor(place) - 0.5) * size;
+    vec2 position = bundle_map_position(q), size = bundle_texel_size();
+    vec2 from_center = (position - floor(position) - 0.5) * size;
     vec3 along = vec3(from_center, dot(plane.yz, from_center));
     along *= min(1.0, 0.5 * length(size) / max(length(along), 1e-30));
     float z = bundle.range.x + bundle.range.y * plane.x;
@@ -384,12 +384,12 @@ surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
     transmission_none(s);
 #endif
 #if LSF_BUNDLE_ANISOTROPY
-    uvec2 gloss = bundle_gloss[node];
-    bundle_gloss_unpack(gloss.x, s);
-    vec2 anisotropy = unpackUnorm2x16(gloss.y);
+    uvec2 specular_params = bundle_specular_params[node];
+    bundle_specular_params_unpack(specular_params.x, s);
+    vec2 anisotropy = unpackUnorm2x16(specular_params.y);
 #if LSF_STRAIGHT
-    anisotropy = vec2(gloss.y & 0xfffu, gloss.y >> 12 & 0xfffu) / 4095.0;
-    s.transmission = float(gloss.y >> 24) / 255.0;
+    anisotropy = vec2(specular_params.y & 0xfffu, specular_params.y >> 12 & 0xfffu) / 4095.0;
+    s.transmission = float(specular_params.y >> 24) / 255.0;
 #endif
     s.anisotropy = anisotropy.x;
     s.anisotropy_angle = anisotropy.y;
@@ -402,8 +402,8 @@ surface bundle_surface(uint node, vec3 ray_direction, out vec3 emission)
         s.anisotropy_angle =
             fract(atan(dot(along, turned_b), dot(along, turned_t)) / (2.0 * LSF_PI));
     }
-#elif LSF_BUNDLE_GLOSS
-    bundle_gloss_unpack(bundle_gloss[node], s);
+#elif LSF_BUNDLE_SPECULAR_PARAMS
+    bundle_specular_params_unpack(bundle_specular_params[node], s);
 #endif
 #if LSF_BUNDLE_EMISSION
     uint sides;

@@ -8,7 +8,7 @@
 layout(location = LSF_LOCATION_REGION) uniform ivec4 region; /* corner of the region; its tile */
 
 /* The picture's fragment coordinates for a fragment of the region; affine. */
-vec2 region_place(vec2 fragment)
+vec2 region_position(vec2 fragment)
 {
 #if LSF_INTERLEAVE > 1
     return (fragment - 0.5 - vec2(region.xy)) * float(LSF_INTERLEAVE) + vec2(region.zw) + 0.5;
@@ -18,6 +18,6 @@ vec2 region_place(vec2 fragment)
 }
 
 /* The picture's fragment coordinates of the current fragment. */
-#define region_fragment() region_place(gl_FragCoord.xy)
+#define region_fragment() region_position(gl_FragCoord.xy)
 
 #endif

@@ -16,18 +16,18 @@ bool slot_used(lsf_texture_slot_data slot)
 
 /* Texture coordinates of both UV sets with their derivatives. Derivatives are taken once, before any branch or
  * discard, because afterwards the other pixels of a quad may hold no values. */
-struct texture_place {
+struct texture_coordinates {
     vec2 uv0, uv0_dx, uv0_dy;
     vec2 uv1, uv1_dx, uv1_dy;
 };
 
-vec4 slot_sample(sampler2D image, lsf_texture_slot_data slot, texture_place place)
+vec4 slot_sample(sampler2D image, lsf_texture_slot_data slot, texture_coordinates coordinates)
 {
     bool first = slot.row_1.w == 0.0;
     mat2x3 rows = mat2x3(slot.row_0.xyz, slot.row_1.xyz);
-    vec2 uv = vec3(first ? place.uv0 : place.uv1, 1.0) * rows;
-    vec2 dx = vec3(first ? place.uv0_dx : place.uv1_dx, 0.0) * rows;
-    vec2 dy = vec3(first ? place.uv0_dy : place.uv1_dy, 0.0) * rows;
+    vec2 uv = vec3(first ? coordinates.uv0 : coordinates.uv1, 1.0) * rows;
+    vec2 dx = vec3(first ? coordinates.uv0_dx : coordinates.uv1_dx, 0.0) * rows;
+    vec2 dy = vec3(first ? coordinates.uv0_dy : coordinates.uv1_dy, 0.0) * rows;
     return textureGrad(image, uv, dx, dy);
 }
 

@@ -1,5 +1,5 @@
 /* The path vertex that a fragment shades, and its reflectance towards the eye. The vertex is the visible point (x3
- * in the paper), or with LSF_DEEP a point that a ray-bundle found from there. Switches LSF_GLOSS, LSF_SPECULAR,
+ * in the paper), or with LSF_DEEP a point that a ray-bundle found from there. Switches LSF_SPECULAR_PARAMS, LSF_SPECULAR,
  * LSF_SPARSE, LSF_INTERLEAVE, LSF_POOLED (a filter pools the pixels of the pattern) and those of lib/brdf.glsl and
  * lib/view.glsl.
  *
@@ -23,8 +23,8 @@ layout(location = LSF_LOCATION_ARRIVAL) uniform vec3 arrival; /* direction of th
 layout(binding = 0) uniform sampler2D depth_texture;
 #endif
 layout(binding = 1) uniform usampler2D surface_texture;
-#if LSF_GLOSS
-layout(binding = 2) uniform usampler2D gloss_texture;
+#if LSF_SPECULAR_PARAMS
+layout(binding = 2) uniform usampler2D specular_params_texture;
 #endif
 
 struct shading_vertex {
@@ -32,7 +32,7 @@ struct shading_vertex {
     surface s;
     vec3 diffuse, specular; /* contribution to both parts of unit radiance towards that vertex */
 #if LSF_POOLED
-    float turn; /* change of the normal over the pattern of pixels [radians] */
+    float normal_change; /* change of the normal over the pattern of pixels [radians] */
 #endif
 };
 
@@ -83,7 +83,7 @@ bool vertex_load(out shading_vertex v)
     if (depth == 0.0)
         return false;
 #if LSF_SPARSE
-    vec2 ndc = place_ndc(texel);
+    vec2 ndc = position_ndc(texel);
 #else
     vec2 ndc = sample_ndc(region_fragment());
 #endif
@@ -93,8 +93,8 @@ bool vertex_load(out shading_vertex v)
     v.specular = vec3(1.0);
 #endif
     v.s = surface_unpack(texelFetch(surface_texture, texel, 0));
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
 #endif
 #if LSF_DEEP
     /* The normal faces the ray that found the vertex. */
@@ -104,7 +104,7 @@ bool vertex_load(out shading_vertex v)
 #endif
 #if LSF_POOLED
     /* Neighbours in split order are one pattern apart. */
-    v.turn = 0.5 * (normal_step(v.s.normal, texel, ivec2(1, 0)) + normal_step(v.s.normal, texel, ivec2(0, 1)));
+    v.normal_change = 0.5 * (normal_step(v.s.normal, texel, ivec2(1, 0)) + normal_step(v.s.normal, texel, ivec2(0, 1)));
 #endif
     return !v.s.unlit;
 }
@@ -121,7 +121,7 @@ light_parts vertex_reflect(shading_vertex v, vec3 direction, float kernel)
     }
 #if LSF_POOLED
     vec3 f0 = surface_specular_f0(v.s);
-    kernel *= pooling_spread(kernel, largest(f0), pow(v.s.roughness, 4.0), v.turn, float(LSF_INTERLEAVE));
+    kernel *= pooling_spread(kernel, largest(f0), pow(v.s.roughness, 4.0), v.normal_change, float(LSF_INTERLEAVE));
 #endif
     brdf_value f = brdf_evaluate(v.s, v.view, direction, kernel);
 #if LSF_DEEP

@@ -139,7 +139,7 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
                    light.map_offset.z / abs(n.z)) / range;
     }
     float texels = light.map_shape.z;
-    r.texel = (light_projection_place(r.face, q) * 0.5 + 0.5) * texels;
+    r.texel = (light_projection_face_position(r.face, q) * 0.5 + 0.5) * texels;
     r.gradient *= 2.0 / texels;
     r.at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(int(texels) - 1));
     return r;

@@ -7,21 +7,21 @@
 #include "lib/view.glsl"
 
 #if LSF_SPARSE
-layout(binding = LSF_UNIT_PLACES) uniform usampler2D place_pixels;
+layout(binding = LSF_UNIT_POSITION_PIXELS) uniform usampler2D position_pixels;
 
-ivec2 place_pixel(ivec2 place)
+ivec2 position_pixel(ivec2 position)
 {
-    uint pixel = texelFetch(place_pixels, place, 0).r;
+    uint pixel = texelFetch(position_pixels, position, 0).r;
     return ivec2(pixel & 0xffffu, pixel >> 16);
 }
 #else
-#define place_pixel(place) (place)
+#define position_pixel(position) (position)
 #endif
 
 /* ndc of the visible point. */
-vec2 place_ndc(ivec2 place)
+vec2 position_ndc(ivec2 position)
 {
-    return sample_ndc(vec2(place_pixel(place)) + 0.5);
+    return sample_ndc(vec2(position_pixel(position)) + 0.5);
 }
 
 #endif

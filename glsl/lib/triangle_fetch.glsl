@@ -71,19 +71,19 @@ material_point triangle_point(uvec3 corners, vec3 weights, float footprint)
     vec2 to_1 = texelFetch(uv0_fetch, int(corners.y)).xy - uv;
     vec2 to_2 = texelFetch(uv0_fetch, int(corners.z)).xy - uv;
     float side = sqrt(0.5 * abs(to_1.x * to_2.y - to_1.y * to_2.x) * footprint);
-    point.place.uv0 = uv + weights.y * to_1 + weights.z * to_2;
-    point.place.uv1 = point.place.uv0;
-    point.place.uv0_dx = point.place.uv1_dx = vec2(side, 0.0);
-    point.place.uv0_dy = point.place.uv1_dy = vec2(0.0, side);
+    point.uv.uv0 = uv + weights.y * to_1 + weights.z * to_2;
+    point.uv.uv1 = point.uv.uv0;
+    point.uv.uv0_dx = point.uv.uv1_dx = vec2(side, 0.0);
+    point.uv.uv0_dy = point.uv.uv1_dy = vec2(0.0, side);
 #endif
 #if LSF_SECOND_UV
     vec2 second = texelFetch(uv1_fetch, int(corners.x)).xy;
     to_1 = texelFetch(uv1_fetch, int(corners.y)).xy - second;
     to_2 = texelFetch(uv1_fetch, int(corners.z)).xy - second;
     side = sqrt(0.5 * abs(to_1.x * to_2.y - to_1.y * to_2.x) * footprint);
-    point.place.uv1 = second + weights.y * to_1 + weights.z * to_2;
-    point.place.uv1_dx = vec2(side, 0.0);
-    point.place.uv1_dy = vec2(0.0, side);
+    point.uv.uv1 = second + weights.y * to_1 + weights.z * to_2;
+    point.uv.uv1_dx = vec2(side, 0.0);
+    point.uv.uv1_dy = vec2(0.0, side);
 #endif
 #if LSF_TANGENT
     vec4 t = texelFetch(tangent_fetch, int(corners.x));

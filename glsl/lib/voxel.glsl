@@ -7,9 +7,9 @@
  * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30 |
  *                          unlit << 31
  * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
- * voxelize.gloss R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
+ * voxelize.specular_params R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
  *                          index n, metallic; 8 bits each
- * voxelize.transmission R32UI  as gloss.z of lib/gbuffer.glsl, seen from the front
+ * voxelize.transmission R32UI  as specular_params.z of lib/gbuffer.glsl, seen from the front
  * voxelize.shining R32UI   a bit for each brick that holds emitting voxels, laid out as occupancy */
 #ifndef LSF_LIB_VOXEL
 #define LSF_LIB_VOXEL
@@ -114,12 +114,12 @@ vec3 voxel_normal_unpack(uint bits)
 }
 
 /* Rotation of the tangent in the orthonormal_basis of the plane's normal, 0..1 of a full turn. */
-uint voxel_turn_pack(float turn)
+uint voxel_rotation_pack(float rotation)
 {
-    return uint(fract(turn) * 256.0) << 24;
+    return uint(fract(rotation) * 256.0) << 24;
 }
 
-float voxel_turn_unpack(uint bits)
+float voxel_rotation_unpack(uint bits)
 {
     return (float(bits >> 24) + 0.5) / 256.0;
 }

@@ -35,14 +35,14 @@ bool voxel_brick_listed(out uint at)
 /* Position of the set bit that follows n others, by bisection. */
 int nth_bit(uint word, int n)
 {
-    int place = 0;
+    int position = 0;
     for (int width = 16; width > 0; width >>= 1) {
-        int below = bitCount(bitfieldExtract(word, place, width));
+        int below = bitCount(bitfieldExtract(word, position, width));
         bool above = n >= below;
         n -= above ? below : 0;
-        place += above ? width : 0;
+        position += above ? width : 0;
     }
-    return place;
+    return position;
 }
 
 int voxel_brick_voxels(lsf_voxel_brick_data brick)
@@ -56,7 +56,7 @@ ivec3 voxel_brick_cell(lsf_voxel_brick_data brick, int n)
     int in_low = bitCount(brick.low);
     bool above = n >= in_low;
     int bit = nth_bit(above ? brick.high : brick.low, above ? n - in_low : n);
-    return voxel_brick_unpack(brick.place) * LSF_VOXEL_BRICK +
+    return voxel_brick_unpack(brick.cell) * LSF_VOXEL_BRICK +
            ivec3(bit & 3, (bit >> 2) & 3, 2 * int(above) + (bit >> 4));
 }
 

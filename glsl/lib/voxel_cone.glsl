@@ -22,7 +22,7 @@ layout(location = LSF_LOCATION_CONE_STEPS) uniform int cone_steps; /* at most */
 layout(location = LSF_LOCATION_CONE_SET) uniform vec4 cone_set[LSF_CONE_MAX];
 /* Rotation of the whole set; whether points differ (0 or 1); number of cones; their position in their rings, from
  * 0 to 1. */
-layout(location = LSF_LOCATION_CONE_TURN) uniform vec4 cone_gather;
+layout(location = LSF_LOCATION_CONE_ROTATION) uniform vec4 cone_gather;
 
 /* Transmittance below which a cone ends: half a step of an 8-bit picture. */
 #define CONE_OPAQUE 0.002
@@ -90,9 +90,9 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 }
 #else
 #if LSF_VOXEL_SIDES > 1
-vec4 cone_slice(vec2 place, float z, float slice, float level)
+vec4 cone_slice(vec2 coordinates, float z, float slice, float level)
 {
-    return textureLod(radiance_texture, vec3(place, (z + slice) * (1.0 / float(LSF_VOXEL_SIDES))), level);
+    return textureLod(radiance_texture, vec3(coordinates, (z + slice) * (1.0 / float(LSF_VOXEL_SIDES))), level);
 }
 #endif
 
@@ -132,10 +132,10 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
         vec3 color = seen.rgb / max(seen.a, 1e-6);
 #else
         float z = clamp(p.z, 0.5 * texel, size.z - 0.5 * texel) / size.z;
-        vec2 place = p.xy / size.xy;
-        vec4 x = cone_slice(place, z, slice.x, level);
-        vec4 y = cone_slice(place, z, slice.y, level);
-        vec4 w = cone_slice(place, z, slice.z, level);
+        vec2 coordinates = p.xy / size.xy;
+        vec4 x = cone_slice(coordinates, z, slice.x, level);
+        vec4 y = cone_slice(coordinates, z, slice.y, level);
+        vec4 w = cone_slice(coordinates, z, slice.z, level);
         vec3 opacity = vec3(x.a, y.a, w.a);
         vec3 clearness = max(1.0 - cone_march.w * opacity, vec3(CONE_CLEAR_MIN));
         float clear = exp2(cone_march.x * dot(rate, log2(clearness)));

@@ -40,21 +40,21 @@ float emitter_density(float by_area, float distance2, float cosine)
 
 /* Luminance that the voxel around the point stores; that of the point itself if another surface owns the voxel or
  * a mask leaves it empty. */
-float emitter_point_luminance(vec3 place, vec3 radiance)
+float emitter_point_luminance(vec3 position, vec3 radiance)
 {
-    ivec3 cell = ivec3(floor(place));
+    ivec3 cell = ivec3(floor(position));
     vec3 held = voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r);
     float luminance = voxel_occupied(cell) ? emitter_luminance(held) * grid.unit.x : 0.0;
     return luminance > 0.0 ? luminance : emitter_luminance(radiance);
 }
 
-/* Draws a point for a vertex at `place` [voxels] with this normal. False: it emits no light towards the vertex. */
-bool emitter_view_from(vec3 place, vec3 normal, vec2 u, out emitter_view e)
+/* Draws a point for a vertex at `position` [voxels] with this normal. False: it emits no light towards the vertex. */
+bool emitter_view_from(vec3 position, vec3 normal, vec2 u, out emitter_view e)
 {
     lsf_emitter_point_data point = emitter_draw(u);
     e.position = voxel_from_position(point.position.xyz);
     e.normal = point.normal.xyz;
-    vec3 to = e.position - place;
+    vec3 to = e.position - position;
     float distance2 = dot(to, to);
     e.direction = to * inversesqrt(max(distance2, 1.0 / VOXEL_FAR));
     float cosine = -dot(e.normal, e.direction);
@@ -70,15 +70,15 @@ bool emitter_view_from(vec3 place, vec3 normal, vec2 u, out emitter_view e)
     return e.density > 0.0;
 }
 
-/* For a ray from `place` that hits a voxel with the point q and the unit normal n: density with which the
+/* For a ray from `position` that hits a voxel with the point q and the unit normal n: density with which the
  * direction would have been drawn by emitter_view_from. `bits`: the voxel's in voxelize.point. */
-float emitter_density_met(vec3 place, vec3 direction, vec3 q, vec3 n, uint bits, vec3 emission)
+float emitter_density_met(vec3 position, vec3 direction, vec3 q, vec3 n, uint bits, vec3 emission)
 {
     if (voxel_unlit(bits))
         return 0.0; /* such surfaces are not drawn */
 
     float cosine = -dot(n, direction);
-    float along = -dot(n, q - place) / cosine; /* to the voxel's plane */
+    float along = -dot(n, q - position) / cosine; /* to the voxel's plane */
     if (!(cosine > 0.0 && along > 0.0))
         return 0.0;
     float by_area = emitter_luminance(emission) * emitters.x;

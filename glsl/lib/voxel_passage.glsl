@@ -1,6 +1,6 @@
 /* Rays that continue straight through voxels of transmitting materials, and their transmittance. A voxel transmits
  * T of lib/straight.glsl, and a medium exp(-a d) over the distance d from its front to its back. Switches
- * LSF_VOXEL_PASSAGE (without it this file is empty), LSF_TRANSMISSION, LSF_STRAIGHT, LSF_VOXEL_GLOSS,
+ * LSF_VOXEL_PASSAGE (without it this file is empty), LSF_TRANSMISSION, LSF_STRAIGHT, LSF_VOXEL_SPECULAR_PARAMS,
  * LSF_ABSORPTION (there are media). */
 #ifndef LSF_LIB_VOXEL_PASSAGE
 #define LSF_LIB_VOXEL_PASSAGE
@@ -19,8 +19,8 @@
 #endif
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D passage_albedo;
-#if LSF_VOXEL_GLOSS
-layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D passage_gloss;
+#if LSF_VOXEL_SPECULAR_PARAMS
+layout(binding = LSF_UNIT_VOXEL_SPECULAR_PARAMS) uniform usampler3D passage_specular_params;
 #endif
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D passage_transmission;
 
@@ -53,11 +53,11 @@ surface passage_surface(ivec3 cell, uint normal_bits, vec3 n)
     s.geometric_normal = n;
     s.normal = voxel_normal_unpack(voxel_shading_bits(cell, normal_bits));
     s.base_color = voxel_albedo_unpack(texelFetch(passage_albedo, cell, 0).r);
-#if LSF_VOXEL_GLOSS
-    vec4 gloss = unpackUnorm4x8(texelFetch(passage_gloss, cell, 0).r);
-    s.roughness = sqrt(gloss.x * gloss.y); /* keeps the product of both alphas */
-    s.f0 = gloss.z * gloss.z;
-    s.metallic = gloss.w;
+#if LSF_VOXEL_SPECULAR_PARAMS
+    vec4 specular_params = unpackUnorm4x8(texelFetch(passage_specular_params, cell, 0).r);
+    s.roughness = sqrt(specular_params.x * specular_params.y); /* keeps the product of both alphas */
+    s.f0 = specular_params.z * specular_params.z;
+    s.metallic = specular_params.w;
 #endif
     transmission_unpack(texelFetch(passage_transmission, cell, 0).r, s);
     return s;

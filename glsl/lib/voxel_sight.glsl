@@ -71,11 +71,11 @@ bool voxel_crossed(vec2 height, float first, float last)
  * less for each other. */
 bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
 {
-    int turns = 7 * voxel_ray_steps();
+    int iterations = 7 * voxel_ray_steps();
     uint beside = 0u;                            /* neighbours of `met` still to be tested */
     float entry = 0.0, leave = 0.0, ahead = 0.0; /* of `met`; height above its plane at the entry */
     vec3 n = vec3(0.0), q = vec3(0.0);
-    for (int i = 0; i < turns; i++) {
+    for (int i = 0; i < iterations; i++) {
         bool own = beside == 0u;
         if (own) {
             if (!voxel_inside(ray.cell) || !voxel_ray_trace(ray, end))

@@ -21,7 +21,7 @@ layout(std430, binding = 2) buffer lsf_vpl_cloud_block
 
 layout(location = 0) uniform uvec4 cloud_shape; /* points on emitters, paths; first path and number of paths of
                                                  * this dispatch */
-layout(location = 1) uniform uvec3 cloud_turn;  /* iteration, seed; number of the current light */
+layout(location = 1) uniform uvec3 cloud_iteration;  /* iteration, seed; number of the current light */
 #if LSF_SPECULAR
 layout(location = 4) uniform float lobe_share; /* least specular share of reflected light that keeps its lobe */
 #endif
@@ -36,10 +36,10 @@ uint cloud_slot(uint path, uint vertex)
 vec3 cloud_random(uint path, uint vertex)
 {
     path_random_key key;
-    key.pixel = cloud_turn.z;
-    key.seed = cloud_turn.y;
-    key.place = ivec2(0);
-    return path_random(key, cloud_turn.x * cloud_shape.y + path, vertex);
+    key.pixel = cloud_iteration.z;
+    key.seed = cloud_iteration.y;
+    key.texel = ivec2(0);
+    return path_random(key, cloud_iteration.x * cloud_shape.y + path, vertex);
 }
 
 /* What a surface with the normal n and the shading normal s sends out of light from a direction whose intensity would be

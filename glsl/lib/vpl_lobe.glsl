@@ -28,7 +28,7 @@ vec3 vpl_lobe_lift(vec3 direction, vec3 n)
 
 uint vpl_lobe_pack(vpl_lobe lobe)
 {
-    uvec2 place = uvec2(clamp(octahedral_place(lobe.from) * 0.5 + 0.5, 0.0, 1.0) * 1023.0 + 0.5);
+    uvec2 place = uvec2(clamp(octahedral_position(lobe.from) * 0.5 + 0.5, 0.0, 1.0) * 1023.0 + 0.5);
     uint roughness = 1u + uint(clamp(lobe.roughness, 0.0, 1.0) * 62.0 + 0.5);
     return (roughness << 6) | (place.x << 12) | (place.y << 22);
 }

@@ -26,13 +26,13 @@ layout(std430, binding = 2) writeonly buffer lsf_vpl_map_block
 
 /* The map over a VPL. `shape`: texels along a side; rounding error of positions. The map's origin is that far
  * above the VPL's surface, plus `error`, the further error of the VPL's position, because the surface would shadow
- * its own light otherwise. `turn`: rotation about the normal, 0..1. */
-void vpl_map_write(uint index, vec3 position, vec3 normal, float error, float turn, vec2 shape)
+ * its own light otherwise. `rotation`: rotation about the normal, 0..1. */
+void vpl_map_write(uint index, vec3 position, vec3 normal, float error, float rotation, vec2 shape)
 {
     lsf_light_data map;
     vec3 t, b;
     orthonormal_basis(normal, t, b);
-    float angle = 2.0 * LSF_PI * turn;
+    float angle = 2.0 * LSF_PI * rotation;
     vec3 origin = position + (shape.y + error) * normal;
     map.position = vec4(origin, 0.0);
     map.direction = vec4(normal, 0.0);

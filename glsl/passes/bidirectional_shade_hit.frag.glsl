@@ -39,8 +39,8 @@ layout(location = DIRECT_TARGET + 1) out vec4 direct_specular_out;
 layout(location = VERTEX_TARGET) out vec4 position_out;
 layout(location = VERTEX_TARGET + 1) out uvec4 surface_out;
 layout(location = VERTEX_TARGET + 2) out uvec4 throughput_out;
-#if LSF_GLOSS
-layout(location = VERTEX_TARGET + 3) out uvec4 gloss_out;
+#if LSF_SPECULAR_PARAMS
+layout(location = VERTEX_TARGET + 3) out uvec4 specular_params_out;
 #endif
 #endif
 
@@ -115,8 +115,8 @@ void main()
     position_out = vec4(0.0);
     surface_out = uvec4(0u);
     throughput_out = uvec4(0u);
-#if LSF_GLOSS
-    gloss_out = uvec4(0u);
+#if LSF_SPECULAR_PARAMS
+    specular_params_out = uvec4(0u);
 #endif
 #endif
     irradiance_out = vec4(0.0);
@@ -182,8 +182,8 @@ void main()
             position_out = vec4(position, 1.0);
             surface_out = surface_pack(x2);
             throughput_out = uvec4(throughput_pack(t), 0u);
-#if LSF_GLOSS
-            gloss_out = gloss_pack(x2);
+#if LSF_SPECULAR_PARAMS
+            specular_params_out = specular_params_pack(x2);
 #endif
         }
 #endif

@@ -37,10 +37,10 @@ surface vpl_surface(lsf_vpl_data vpl)
     s.normal = vpl.normal.xyz;
     s.base_color = vpl.base_color.rgb;
     s.metallic = vpl.normal.w;
-    s.roughness = vpl.gloss.x;
-    s.f0 = vpl.gloss.y;
-    s.anisotropy = vpl.gloss.z;
-    s.anisotropy_angle = vpl.gloss.w;
+    s.roughness = vpl.specular_params.x;
+    s.f0 = vpl.specular_params.y;
+    s.anisotropy = vpl.specular_params.z;
+    s.anisotropy_angle = vpl.specular_params.w;
     s.unlit = false;
     lobes_none(s);
 #if LSF_TRANSMISSION

@@ -38,14 +38,14 @@ struct exchange {
 #endif
 };
 
-void take(inout exchange e, ivec2 place, ivec2 last)
+void take(inout exchange e, ivec2 texel, ivec2 last)
 {
-    ivec2 at = clamp(place, ivec2(0), last);
+    ivec2 at = clamp(texel, ivec2(0), last);
     uvec4 other = texelFetch(guide_texture, at, 0);
     vec3 apart = guide_position(other) - e.position;
     float cosine = dot(e.normal, guide_shading_normal(other)), rise = dot(e.plane, apart);
     float distance = dot(apart, apart);
-    bool good = at == place && guide_lit(other) && cosine > 0.0 && distance <= e.farthest &&
+    bool good = at == texel && guide_lit(other) && cosine > 0.0 && distance <= e.farthest &&
                 rise * rise <= limits.y * distance;
     float w = 0.25 * pow(cosine, law.w);
     vec4 irradiance = w * (texelFetch(irradiance_texture, at, 0) - e.own_irradiance);

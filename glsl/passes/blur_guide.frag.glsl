@@ -14,19 +14,19 @@ layout(location = 0) uniform vec2 brackets; /* min_roughness, phases */
 uint phases_of(ivec2 pixel)
 {
     float roughness = 1.0;
-#if LSF_GLOSS
-    uvec2 gloss = texelFetch(gloss_texture, pixel, 0).xy;
-    roughness = unpackUnorm2x16(gloss.x).x;
+#if LSF_SPECULAR_PARAMS
+    uvec2 specular_params = texelFetch(specular_params_texture, pixel, 0).xy;
+    roughness = unpackUnorm2x16(specular_params.x).x;
 #if LSF_ANISOTROPY
     /* The surface is rougher along the tangent. */
-    float strength = unpackUnorm2x16(gloss.y).x;
+    float strength = unpackUnorm2x16(specular_params.y).x;
     roughness = sqrt(lsf_alpha_along_tangent(roughness * roughness, strength));
 #endif
 #endif
     if (roughness < brackets.x)
         return 0u;
-    float place = (roughness - brackets.x) / max(1.0 - brackets.x, 1e-30); /* 0 to 1 */
-    return uint(min(floor(place * brackets.y) + 1.0, brackets.y));
+    float fraction = (roughness - brackets.x) / max(1.0 - brackets.x, 1e-30); /* 0 to 1 */
+    return uint(min(floor(fraction * brackets.y) + 1.0, brackets.y));
 }
 
 void main()

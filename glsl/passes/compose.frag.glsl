@@ -2,7 +2,7 @@
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/view.glsl"
-#include "lib/way_to_eye.glsl"
+#include "lib/transmittance_to_eye.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
 #if LSF_EMISSION
@@ -14,7 +14,7 @@ layout(binding = 2) uniform sampler2D direct_texture;
 #if LSF_INDIRECT || LSF_SKY_LIGHT
 layout(binding = 3) uniform usampler2D surface_texture;
 #if LSF_TRANSMISSION
-layout(binding = 9) uniform usampler2D gloss_texture;
+layout(binding = 9) uniform usampler2D specular_params_texture;
 #endif
 #endif
 #if LSF_INDIRECT
@@ -71,7 +71,7 @@ void main()
     float depth = texelFetch(depth_texture, pixel, 0).r;
     vec3 seen = vec3(0.0), direct = vec3(0.0), indirect = vec3(0.0);
     float lost = 0.0; /* luminance that a bound removed */
-    vec3 left = left_on_the_way(pixel);
+    vec3 left = transmittance_to_eye(pixel);
 #if LSF_EMISSION
     seen += texelFetch(emission_texture, pixel, 0).rgb;
 #endif
@@ -94,7 +94,7 @@ void main()
     if (depth != 0.0) {
         surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
 #if LSF_TRANSMISSION
-        gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+        specular_params_unpack(texelFetch(specular_params_texture, pixel, 0), s);
 #endif
         reflected = surface_diffuse(s) / LSF_PI;
     }

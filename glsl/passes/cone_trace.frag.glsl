@@ -66,8 +66,8 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
         return vec3(0.0);
     float spread = min(lobe_spread * lsf_alpha_from_roughness(s.roughness), CONE_WIDEST);
     cone_light light = cone_trace(point, s.geometric_normal, mirrored, spread);
-    vec2 place = vec2(dot(s.normal, view_direction), s.roughness);
-    vec2 albedo = textureLod(albedo_texture, place, 0.0).rg;
+    vec2 coordinates = vec2(dot(s.normal, view_direction), s.roughness);
+    vec2 albedo = textureLod(albedo_texture, coordinates, 0.0).rg;
     vec3 reflected = surface_specular_f0(s) * albedo.x + surface_specular_f90(s) * albedo.y;
     vec3 radiance = light.radiance * grid.unit.x;
 #if LSF_ENVIRONMENT
@@ -101,10 +101,10 @@ void main()
     surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
     if (s.unlit)
         return;
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, pixel, 0), s);
 #endif
-    vec2 ndc = place_ndc(pixel);
+    vec2 ndc = position_ndc(pixel);
     vec3 point = voxel_from_position(position_from_depth(ndc, depth));
     vec3 to_viewer = surface_view(s, -normalize(view_ray_direction(ndc)));
     vec3 tangent, bitangent;

@@ -18,9 +18,9 @@ shared vec4 low[LSF_READ * LSF_READ], high[LSF_READ * LSF_READ];
 /* The maximum of four pixels of the source. */
 void pool(uint group, uvec2 at, out vec4 most_low, out vec4 most_high)
 {
-    uint width = 2u * size.x, place = (group * 2u * size.y + 2u * at.y) * width + 2u * at.x;
-    uvec4 a = source_maps[place], b = source_maps[place + 1u];
-    uvec4 c = source_maps[place + width], d = source_maps[place + width + 1u];
+    uint width = 2u * size.x, index = (group * 2u * size.y + 2u * at.y) * width + 2u * at.x;
+    uvec4 a = source_maps[index], b = source_maps[index + 1u];
+    uvec4 c = source_maps[index + width], d = source_maps[index + width + 1u];
     most_low = max(max(low_of(a), low_of(b)), max(low_of(c), low_of(d)));
     most_high = max(max(high_of(a), high_of(b)), max(high_of(c), high_of(d)));
 }
@@ -33,12 +33,12 @@ void read_tile(uint group)
         vec4 one = vec4(0.0), other = vec4(0.0);
         if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(size)))) {
             uvec2 from = uvec2(at);
-            uint place = from.y * size.x + from.x, plane = size.x * size.y;
+            uint index = from.y * size.x + from.x, plane = size.x * size.y;
             if (pooled) {
                 pool(group, from, one, other);
             } else {
                 uvec4 texel =
-                    group < groups.x ? source_maps[group * plane + place] : beside_maps[(group - groups.x) * plane + place];
+                    group < groups.x ? source_maps[group * plane + index] : beside_maps[(group - groups.x) * plane + index];
                 one = low_of(texel);
                 other = high_of(texel);
             }
@@ -61,9 +61,9 @@ void main()
         barrier();
         uint at = first_weight + (target * groups.z + group) * 9u * LSF_DENOISE_GROUP * LSF_ROW;
         for (uint tap = 0u; tap < 9u; tap++, at += LSF_DENOISE_GROUP * LSF_ROW) {
-            uint place = (gl_LocalInvocationID.y + tap / 3u) * LSF_READ + gl_LocalInvocationID.x + tap % 3u;
+            uint index = (gl_LocalInvocationID.y + tap / 3u) * LSF_READ + gl_LocalInvocationID.x + tap % 3u;
             for (uint p = 0u; p < 4u; p++) {
-                uint from = place + (p / 2u * LSF_READ + p % 2u) * LSF_SIDE;
+                uint from = index + (p / 2u * LSF_READ + p % 2u) * LSF_SIDE;
                 sums[p][0] += four_features(at, low[from], high[from]);
                 sums[p][1] += four_features(at + 4u * LSF_ROW, low[from], high[from]);
             }

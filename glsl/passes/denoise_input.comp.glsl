@@ -75,10 +75,10 @@ void main()
             set_light(pixel, part, scale);
         set_surface(pixel, mean);
     }
-    uint place = at.y * padded_size.x + at.x;
+    uint index = at.y * padded_size.x + at.x;
     for (int i = 0; i < LSF_DENOISE_INPUT_GROUPS; i++) {
         int first = i * LSF_DENOISE_GROUP;
-        maps[uint(i) * padded_size.x * padded_size.y + place] =
+        maps[uint(i) * padded_size.x * padded_size.y + index] =
             uvec4(packHalf2x16(vec2(features[first], features[first + 1])),
                   packHalf2x16(vec2(features[first + 2], features[first + 3])),
                   packHalf2x16(vec2(features[first + 4], features[first + 5])),

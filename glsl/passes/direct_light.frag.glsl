@@ -181,8 +181,8 @@ void main()
     surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
     if (s.unlit)
         return;
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, pixel, 0), s);
 #endif
     vec2 ndc = sample_ndc(gl_FragCoord.xy);
     vec3 position = position_from_depth(ndc, depth);

@@ -4,8 +4,8 @@
 #include "lib/view.glsl"
 
 layout(location = 0) out uvec4 surface_out;
-#if LSF_GLOSS
-layout(location = LSF_GLOSS_TARGET) out uvec4 gloss_out;
+#if LSF_SPECULAR_PARAMS
+layout(location = LSF_SPECULAR_PARAMS_TARGET) out uvec4 specular_params_out;
 #endif
 #if LSF_EMISSION
 layout(location = LSF_EMISSION_TARGET) out vec4 emission_out;
@@ -57,8 +57,8 @@ void main()
         discard;
 #endif
 #endif
-#if LSF_GLOSS
-    gloss_out = gloss_pack(s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_out = specular_params_pack(s);
 #endif
 #if LSF_EMISSION
     emission_out = vec4(material_emits(front) ? emission : vec3(0.0), 1.0);

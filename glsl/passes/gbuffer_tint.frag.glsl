@@ -37,9 +37,9 @@ void main()
     /* The path enters the medium at its front and leaves it at its back. Behind all surfaces the position does not
      * matter, because media are closed. */
     vec3 ray = view_ray_direction(sample_ndc(gl_FragCoord.xy));
-    float way = ((seen > 0.0 ? view_depth(seen) : 0.0) - view_depth(gl_FragCoord.z)) * length(ray);
+    float path_length = ((seen > 0.0 ? view_depth(seen) : 0.0) - view_depth(gl_FragCoord.z)) * length(ray);
     absorption_out = vec4(0.0);
     if (s.volume)
-        absorption_out.rgb = materials[s.material].absorption.rgb * (front ? way : -way);
+        absorption_out.rgb = materials[s.material].absorption.rgb * (front ? path_length : -path_length);
 #endif
 }

@@ -13,7 +13,7 @@ layout(location = 1) uniform float lobe_kernel;                /* [sr] */
 layout(location = 0) uniform float iterations;
 layout(location = 0) out vec4 guide_out;
 layout(location = 1) out vec4 slope_out;
-layout(location = 2) out vec2 turn_out;
+layout(location = 2) out vec2 curvature_out;
 
 /* Slope of depth: the smaller of the two one-sided differences, which is the surface's own slope next to an edge. */
 float slope_along(ivec2 pixel, ivec2 along, float depth)
@@ -36,7 +36,7 @@ vec3 unit_or_zero(vec3 v)
 }
 
 /* Angle between the normals of neighbouring pixels, the smaller of both sides [radians]. */
-float turn_along(ivec2 pixel, ivec2 along, vec3 normal)
+float curvature_along(ivec2 pixel, ivec2 along, vec3 normal)
 {
     ivec2 last = textureSize(mean_texture, 0) - 1;
     vec3 after = unit_or_zero(texelFetch(mean_texture, min(pixel + along, last), 0).xyz);
@@ -46,13 +46,13 @@ float turn_along(ivec2 pixel, ivec2 along, vec3 normal)
 
 #if LSF_LOBE
 /* Alpha of the lobe as it was sampled: glossy lobes are spread over `lobe_kernel` (lib/brdf.glsl, kernel_alpha). */
-float alpha_at(ivec2 pixel, float turn)
+float alpha_at(ivec2 pixel, float curvature)
 {
     vec4 factor = texelFetch(specular_factor_texture, pixel, 0);
     float reflects = max(factor.r, max(factor.g, factor.b)), kernel = lobe_kernel;
 #if LSF_PATTERN > 1
     float side = float(LSF_PATTERN);
-    kernel *= pooling_spread(kernel, reflects, pow(factor.a, 4.0), side * turn, side);
+    kernel *= pooling_spread(kernel, reflects, pow(factor.a, 4.0), side * curvature, side);
 #endif
     return max(factor.a * factor.a, min(sqrt(kernel * reflects / (4.0 * LSF_PI)), 1.0));
 }
@@ -63,16 +63,16 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 mean = texelFetch(mean_texture, pixel, 0);
     guide_out = slope_out = vec4(0.0);
-    turn_out = vec2(0.0);
+    curvature_out = vec2(0.0);
     if (mean.w == 0.0)
         return;
     vec3 normal = unit_or_zero(mean.xyz);
     /* Where the iterations' normals cancel in the mean, there is no direction. */
-    guide_out.xy = dot(normal, normal) > 0.5 ? octahedral_place(normal) : vec2(0.0);
+    guide_out.xy = dot(normal, normal) > 0.5 ? octahedral_position(normal) : vec2(0.0);
     guide_out.z = mean.w;
-    turn_out = vec2(turn_along(pixel, ivec2(1, 0), normal), turn_along(pixel, ivec2(0, 1), normal));
+    curvature_out = vec2(curvature_along(pixel, ivec2(1, 0), normal), curvature_along(pixel, ivec2(0, 1), normal));
 #if LSF_LOBE
-    guide_out.w = alpha_at(pixel, 0.5 * (turn_out.x + turn_out.y));
+    guide_out.w = alpha_at(pixel, 0.5 * (curvature_out.x + curvature_out.y));
 #endif
     vec2 slope = vec2(slope_along(pixel, ivec2(1, 0), mean.w), slope_along(pixel, ivec2(0, 1), mean.w));
     float variance = max(texelFetch(factor_texture, pixel, 0).a, 0.0) / iterations;

@@ -9,7 +9,7 @@
 #include "lib/specular_albedo.glsl"
 #endif
 #include "lib/view.glsl"
-#include "lib/way_to_eye.glsl"
+#include "lib/transmittance_to_eye.glsl"
 
 #if LSF_INDIRECT
 layout(binding = 3) uniform sampler2D irradiance_texture;
@@ -60,10 +60,10 @@ seen_light seen_at(ivec2 point)
     float depth = texelFetch(depth_texture, point, 0).r;
     if (depth == 0.0)
         return l;
-    vec3 left = left_on_the_way(point);
+    vec3 left = transmittance_to_eye(point);
     surface s = surface_unpack(texelFetch(surface_texture, point, 0));
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, point, 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, point, 0), s);
 #endif
     l.guide = vec4(s.normal, depth);
 #if LSF_SCATTER

@@ -11,15 +11,15 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) writeonly buffer lsf_ligh
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
-    if (place >= tree.live)
+    uint leaf = gl_GlobalInvocationID.x;
+    if (leaf >= tree.live)
         return;
     float disc2 = 0.0; /* a single VPL has no neighbours */
     if (tree.live > 1u) {
-        uint node = parent_of_leaf(place);
-        for (int i = 0; i < LSF_LIGHT_TREE_TURNS && node != 0u && nodes[node].count < ENOUGH; i++)
+        uint node = parent_of_leaf(leaf);
+        for (int i = 0; i < LSF_LIGHT_TREE_DISPATCHES && node != 0u && nodes[node].count < ENOUGH; i++)
             node = parents[node];
         disc2 = light_disc2(nodes[node], light_tree_frame(octahedral_decode(nodes[node].normal)));
     }
-    discs2[codes[place].y & CODE_ID_MASK] = disc2;
+    discs2[codes[leaf].y & CODE_ID_MASK] = disc2;
 }

@@ -30,9 +30,9 @@ void main()
         uint i = gl_WorkGroupID.x * LSF_LIGHT_TREE_TILE + row * LSF_LIGHT_TREE_GROUP + lane;
         if (i >= record_count || light_is_dead(cloud[i]))
             continue;
-        uvec3 place = ordered(cloud[i].position);
-        low = min(low, place);
-        high = max(high, place);
+        uvec3 position = ordered(cloud[i].position);
+        low = min(low, position);
+        high = max(high, position);
         live++;
     }
     if (live > 0u) {

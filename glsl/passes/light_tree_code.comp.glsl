@@ -23,8 +23,8 @@ uint position_code(vec3 position)
     vec3 low = from_ordered(uvec3(tree.low_x, tree.low_y, tree.low_z));
     vec3 extent = from_ordered(uvec3(tree.high_x, tree.high_y, tree.high_z)) - low;
     float side = max(extent.x, max(extent.y, extent.z));
-    vec3 place = side > 0.0 ? (position - low) / side : vec3(0.0);
-    uvec3 bits = spread_bits(uvec3(clamp(place * 1024.0, 0.0, 1023.0)));
+    vec3 relative = side > 0.0 ? (position - low) / side : vec3(0.0);
+    uvec3 bits = spread_bits(uvec3(clamp(relative * 1024.0, 0.0, 1023.0)));
     return (bits.x << 2) | (bits.y << 1) | bits.z;
 }
 

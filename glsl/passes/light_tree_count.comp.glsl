@@ -9,7 +9,7 @@ void main()
     tile_counts[lane] = 0u;
     barrier();
     for (uint row = 0u; row < LSF_LIGHT_TREE_ROWS; row++) {
-        uint i = code_place(row);
+        uint i = code_index(row);
         if (i < record_count)
             atomicAdd(tile_counts[code_digit(codes[i])], 1u);
     }

@@ -63,5 +63,5 @@ void main()
     nodes[node].left = link_to(middle, middle == first, node);
     nodes[node].right = link_to(middle + 1, middle + 1 == last, node);
     nodes[node].count = uint(last - first + 1);
-    parents[place_of_visits(node)] = 0u;
+    parents[visits_index(node)] = 0u;
 }

@@ -12,12 +12,12 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_PARENTS) buffer lsf_light_tree_p
                      * of each inner node */
 };
 
-uint parent_of_leaf(uint place)
+uint parent_of_leaf(uint leaf)
 {
-    return parents[record_count + place];
+    return parents[record_count + leaf];
 }
 
-uint place_of_visits(uint node)
+uint visits_index(uint node)
 {
     return 2u * record_count + node;
 }

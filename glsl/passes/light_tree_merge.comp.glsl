@@ -3,18 +3,18 @@
  * only lists. Switch LSF_SPECULAR. */
 #include "passes/light_tree_links.glsl"
 
-layout(std430, binding = LSF_BINDING_LIGHT_TREE_TURNS) buffer lsf_light_tree_turn_block
+layout(std430, binding = LSF_BINDING_LIGHT_TREE_DISPATCHES) buffer lsf_light_tree_dispatch_block
 {
-    uvec4 turns[LSF_LIGHT_TREE_TURNS]; /* work groups in x, y and z, and nodes, of each dispatch */
+    uvec4 dispatches[LSF_LIGHT_TREE_DISPATCHES]; /* work groups in x, y and z, and nodes, of each dispatch */
     uint ready[];                      /* nodes of this dispatch and of the next, in alternating halves */
 };
 
 layout(location = 0) uniform vec3 limits; /* least similarity, largest deviation along the normal, largest diagonal */
-layout(location = 2) uniform uint turn;
+layout(location = 2) uniform uint dispatch;
 
-uint place_of_ready(uint of_turn, uint i)
+uint ready_index(uint of_dispatch, uint i)
 {
-    return (of_turn & 1u) * ((record_count + 1u) / 2u) + i;
+    return (of_dispatch & 1u) * ((record_count + 1u) / 2u) + i;
 }
 
 /* Exactly 1 for any number of equal normals. */
@@ -24,10 +24,10 @@ float normal_similarity(uint a, uint b)
 }
 
 /* Variances along other axes than the given ones; the correlation between axes is lost. */
-vec3 turn_variance(vec3 variance, uint from, mat3 to)
+vec3 rotate_variance(vec3 variance, uint from, mat3 to)
 {
-    mat3 turned = transpose(to) * light_tree_frame(octahedral_decode(from));
-    return matrixCompMult(turned, turned) * variance;
+    mat3 rotated = transpose(to) * light_tree_frame(octahedral_decode(from));
+    return matrixCompMult(rotated, rotated) * variance;
 }
 
 /* With q the second child's share of the luminance and d the vector between the children, the distance of their
@@ -40,7 +40,7 @@ void merge_spread(inout lsf_light_tree_node node, lsf_light_tree_node a, lsf_lig
     node.covariance = mix(a.covariance, b.covariance, q) + q * (1.0 - q) * d.xxy * d.yzz;
 #else
     vec3 along = d * frame;
-    node.variance = mix(turn_variance(a.variance, a.normal, frame), turn_variance(b.variance, b.normal, frame), q) +
+    node.variance = mix(rotate_variance(a.variance, a.normal, frame), rotate_variance(b.variance, b.normal, frame), q) +
                     q * (1.0 - q) * along * along;
     node.covariance = vec3(0.0);
 #endif
@@ -92,22 +92,22 @@ void merge(uint index)
 void main()
 {
     uint i = gl_GlobalInvocationID.x, node;
-    if (turn == 0u) {
+    if (dispatch == 0u) {
         if (tree.live < 2u || i >= tree.live)
             return;
         node = parent_of_leaf(i);
     } else {
-        if (i >= turns[turn].w)
+        if (i >= dispatches[dispatch].w)
             return;
-        uint done = ready[place_of_ready(turn, i)];
+        uint done = ready[ready_index(dispatch, i)];
         merge(done);
-        if (done == 0u || turn + 1u == LSF_LIGHT_TREE_TURNS)
+        if (done == 0u || dispatch + 1u == LSF_LIGHT_TREE_DISPATCHES)
             return;
         node = parents[done];
     }
-    if (atomicAdd(parents[place_of_visits(node)], 1u) == 0u)
+    if (atomicAdd(parents[visits_index(node)], 1u) == 0u)
         return;
-    uint place = atomicAdd(turns[turn + 1u].w, 1u);
-    atomicMax(turns[turn + 1u].x, place / LSF_LIGHT_TREE_GROUP + 1u);
-    ready[place_of_ready(turn + 1u, place)] = node;
+    uint index = atomicAdd(dispatches[dispatch + 1u].w, 1u);
+    atomicMax(dispatches[dispatch + 1u].x, index / LSF_LIGHT_TREE_GROUP + 1u);
+    ready[ready_index(dispatch + 1u, index)] = node;
 }

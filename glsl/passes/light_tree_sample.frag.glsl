@@ -1,6 +1,6 @@
 /* Light of a cloud of VPLs at visible points, sampled through the tree over it; see
  * src/passes/light_tree_sample.md. Switches LSF_LIGHT_TREE_SIGHT (visibility is tested: 1 in voxels, 2 against
- * triangles), LSF_VOXEL_PASSAGE (light continues through transmitting surfaces), LSF_GLOSS and those of the
+ * triangles), LSF_VOXEL_PASSAGE (light continues through transmitting surfaces), LSF_SPECULAR_PARAMS and those of the
  * libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/gbuffer_textures.glsl"
@@ -28,7 +28,7 @@ layout(std430, binding = LSF_BINDING_LIGHT_TREE_COUNTS) buffer lsf_light_tree_co
     uint counts[]; /* low and high words of the counts LSF_LIGHT_TREE_SAMPLE_ */
 };
 
-layout(location = 1) uniform uvec2 turn; /* iteration, seed */
+layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: luminance that a bound removed */
 #if LSF_SPECULAR
@@ -80,9 +80,9 @@ float specular_chance(light_receiver r)
  * bound removes. */
 void add_light(light_receiver r, light_point p, bool specular, float probability)
 {
-    vec3 way = p.position - r.position;
-    float distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
-    vec3 direction = way * inversesqrt(distance2);
+    vec3 to_point = p.position - r.position;
+    float distance2 = max(dot(to_point, to_point), LSF_LIGHT_DISTANCE2_MIN);
+    vec3 direction = to_point * inversesqrt(distance2);
     float leaves = -dot(p.normal, direction), arrives = dot(r.s.normal, direction);
     if (leaves <= 0.0 || arrives <= 0.0 || dot(r.s.geometric_normal, direction) <= 0.0)
         return;
@@ -119,23 +119,23 @@ void main()
     if (depth == 0.0 || surface_texel_unlit(surface_texel))
         return;
     surface s = surface_unpack(surface_texel);
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, texel, 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, texel, 0), s);
 #endif
-    vec2 ndc = place_ndc(texel);
+    vec2 ndc = position_ndc(texel);
     vec3 view = surface_view(s, -normalize(view_ray_direction(ndc)));
     light_receiver r = light_receiver_of(position_from_depth(ndc, depth), view, s);
     float chance = specular_chance(r);
-    path_random_key key = path_random_key(uint(texel.x) | (uint(texel.y) << 16), turn.y, texel);
+    path_random_key key = path_random_key(uint(texel.x) | (uint(texel.y) << 16), iteration.y, texel);
     bvec2 lobes = bvec2(false);
     for (uint i = 0u; i < LSF_LIGHT_TREE_SAMPLES; i++) {
-        vec3 u = path_random(key, turn.x * LSF_LIGHT_TREE_SAMPLES + i, 0u);
+        vec3 u = path_random(key, iteration.x * LSF_LIGHT_TREE_SAMPLES + i, 0u);
         picks[i] = light_pick(int(u.z < chance), LSF_LIGHT_TREE_NONE, u.x, 0.0);
         lobes = bvec2(lobes.x || picks[i].lobe == 0, lobes.y || picks[i].lobe == 1);
     }
     uint dead = 0u, steps = light_cut(r, lobes);
     for (uint i = 0u; i < LSF_LIGHT_TREE_SAMPLES; i++) {
-        uint index = turn.x * LSF_LIGHT_TREE_SAMPLES + i;
+        uint index = iteration.x * LSF_LIGHT_TREE_SAMPLES + i;
         bool specular = picks[i].lobe == 1;
         float share = picks[i].weight / weight_sums[picks[i].lobe];
         light_walk_end end = light_walk(r, specular, picks[i].link, share, picks[i].u, key, index);

@@ -63,8 +63,8 @@ uint light_cut(light_receiver r, bvec2 lobes)
     while (top >= 0) {
         uint link = stack[top--];
         if (!light_is_leaf(link) && opened < CUT_MOST) {
-            vec3 way = nodes[link].position - r.position;
-            if (light_variance(nodes[link]) > cut_bound * dot(way, way)) {
+            vec3 to_node = nodes[link].position - r.position;
+            if (light_variance(nodes[link]) > cut_bound * dot(to_node, to_node)) {
                 stack[++top] = nodes[link].right;
                 stack[++top] = nodes[link].left;
                 opened++;

@@ -28,8 +28,8 @@ light_walk_end light_walk(light_receiver r, bool specular, uint link, float prob
     for (; end.steps < WALK_DEPTH && end.link != LSF_LIGHT_TREE_NONE && !light_is_leaf(end.link); end.steps++) {
         lsf_light_tree_node node = nodes[end.link];
 #if LSF_LIGHT_TREE_SUBSTITUTE
-        vec3 way = node.position - r.position;
-        if (!specular && node.usable == LSF_LIGHT_TREE_USABLE && light_variance(node) <= spread_bound * dot(way, way))
+        vec3 to_node = node.position - r.position;
+        if (!specular && node.usable == LSF_LIGHT_TREE_USABLE && light_variance(node) <= spread_bound * dot(to_node, to_node))
             break;
 #endif
         float most = luminance(node.intensity);

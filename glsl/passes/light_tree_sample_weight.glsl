@@ -132,21 +132,21 @@ float lobes_share(lsf_light_tree_node node, vec3 towards, float distance2, float
 #endif
 
 /* What light comes to from a link to a receiver. */
-struct light_way {
+struct light_geometry {
     float arrives, leaves, distance2; /* the cosines at both ends, that of the VPL times its lobe; the squared distance */
     float kernel;                     /* as light_kernel has it, of each of its VPLs */
 };
 
 /* Exact for a VPL, estimated for a node; `arrives` is 0 where nothing in the box is above the surface. */
-light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, vec3 center, vec3 extent)
+light_geometry light_geometry_to(light_receiver r, uint link, lsf_light_tree_node node, vec3 center, vec3 extent)
 {
-    light_way w;
+    light_geometry w;
     w.arrives = cosine_bound(r.frame, center, extent);
-    vec3 way = node.position - r.position;
-    w.distance2 = max(dot(way, way), LSF_LIGHT_DISTANCE2_MIN);
+    vec3 to_node = node.position - r.position;
+    w.distance2 = max(dot(to_node, to_node), LSF_LIGHT_DISTANCE2_MIN);
     if (light_is_leaf(link)) {
         uint record = light_record(link);
-        vec3 back = -way * inversesqrt(w.distance2), normal = octahedral_decode(cloud[record].normal);
+        vec3 back = -to_node * inversesqrt(w.distance2), normal = octahedral_decode(cloud[record].normal);
         w.leaves = max(dot(normal, back), 0.0);
         w.distance2 = max(w.distance2, light_bound2(discs2[record]));
         w.kernel = light_kernel(discs2[record], w.leaves / w.distance2);
@@ -159,13 +159,13 @@ light_way light_way_to(light_receiver r, uint link, lsf_light_tree_node node, ve
     w.distance2 += light_variance(node);
     /* Most of a box that is partly above the surface may be below it. Heights count as normally distributed, yet
      * at least as a hundredth of the box's bound, so that no part above is missed. */
-    float height = height_above(dot(r.s.normal, way), light_variance_along(node, r.s.normal, frame));
+    float height = height_above(dot(r.s.normal, to_node), light_variance_along(node, r.s.normal, frame));
     w.arrives = clamp(height * inversesqrt(w.distance2), 0.01 * w.arrives, w.arrives);
     float disc2 = light_disc2(node, frame);
 #if LSF_SPECULAR
     if (node.usable == LSF_LIGHT_TREE_LOBES) {
         w.kernel = light_kernel(disc2, 1.0 / w.distance2);
-        w.leaves = lobes_share(node, -way, w.distance2, w.kernel);
+        w.leaves = lobes_share(node, -to_node, w.distance2, w.kernel);
         return w;
     }
 #endif
@@ -183,7 +183,7 @@ float light_weight(light_receiver r, uint link, float most, bool specular)
     float weight = luminance(node.intensity) / most;
 #if LSF_LIGHT_TREE_SITES
     vec3 center = 0.5 * (node.low + node.high) - r.position, extent = 0.5 * (node.high - node.low);
-    light_way w = light_way_to(r, link, node, center, extent);
+    light_geometry w = light_geometry_to(r, link, node, center, extent);
     float geometry = w.leaves / w.distance2;
     weight *= w.arrives * geometry;
 #if LSF_SPECULAR

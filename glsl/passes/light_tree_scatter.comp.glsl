@@ -20,7 +20,7 @@ void main()
         lanes[word * LSF_LIGHT_TREE_DIGITS + lane] = 0u;
     uint own_word = lane / 32u, own_bit = 1u << (lane % 32u);
     for (uint row = 0u; row < LSF_LIGHT_TREE_ROWS; row++) {
-        uint i = code_place(row);
+        uint i = code_index(row);
         bool there = i < record_count;
         uvec2 code = there ? codes[i] : uvec2(0u);
         uint digit = code_digit(code);
@@ -35,13 +35,13 @@ void main()
             uint earlier = word < own_word ? bits : word == own_word ? bits & (own_bit - 1u) : 0u;
             before += uint(bitCount(earlier));
         }
-        uint place = first[digit] + before;
+        uint target = first[digit] + before;
         if (there)
-            sorted_codes[place] = code;
+            sorted_codes[target] = code;
         barrier();
         /* The last lane with this digit updates the position. */
         if (there && before + 1u == all) {
-            first[digit] = place + 1u;
+            first[digit] = target + 1u;
             for (uint word = 0u; word < MASK_WORDS; word++)
                 lanes[word * LSF_LIGHT_TREE_DIGITS + digit] = 0u;
         }

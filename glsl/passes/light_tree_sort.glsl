@@ -27,7 +27,7 @@ uint code_digit(uvec2 code)
 }
 
 /* The code of this invocation in a row of the group's tile. */
-uint code_place(uint row)
+uint code_index(uint row)
 {
     return gl_WorkGroupID.x * LSF_LIGHT_TREE_TILE + row * LSF_LIGHT_TREE_GROUP + gl_LocalInvocationID.x;
 }

@@ -1,5 +1,5 @@
 /* Light of the environment that visible points would reflect to the eye without occlusion; see
- * src/passes/open_sky.md. Switches LSF_ENVIRONMENT_MAP, LSF_SKY_CHANCE, LSF_GLOSS, LSF_SPECULAR, LSF_TRANSMISSION
+ * src/passes/open_sky.md. Switches LSF_ENVIRONMENT_MAP, LSF_SKY_CHANCE, LSF_SPECULAR_PARAMS, LSF_SPECULAR, LSF_TRANSMISSION
  * and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
@@ -121,15 +121,15 @@ void main()
     s = surface_unpack(texelFetch(surface_texture, pixel, 0));
     if (s.unlit)
         return;
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, pixel, 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, pixel, 0), s);
 #endif
     view_direction = surface_view(s, -normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy))));
     p = brdf_sampler_of(s, view_direction, true);
     path_random_key key;
     key.pixel = uint(pixel.x) | uint(pixel.y) << 16;
     key.seed = seed;
-    key.place = pixel;
+    key.texel = pixel;
     /* A part of a low-discrepancy sequence that begins at a multiple of its length. */
     count = samples_of(pixel);
     int parts = LSF_OPEN_SKY_DRAWN / count;

@@ -10,7 +10,7 @@
 #include "lib/straight.glsl"
 #endif
 
-layout(location = 0) uniform uint chain_room; /* nodes for chaining */
+layout(location = 0) uniform uint chain_capacity; /* nodes for chaining */
 
 /* Allocates a node for the fragment and stores its key. LSF_NO_NODE where the buffer is full; the counter then
  * still tells the capacity that is needed. */
@@ -25,7 +25,7 @@ uint append_node(uint texel, uint key)
     }
 #endif
     uint link = atomicAdd(bundle_heads[LSF_BUNDLE_CHAINED], 1u);
-    if (link >= chain_room)
+    if (link >= chain_capacity)
         return LSF_NO_NODE;
     uint before = atomicExchange(bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel], link);
     bundle_chain[link] = uvec2(key, before);
@@ -61,9 +61,9 @@ void append_surface(uint texel, bundle_plane_bits plane, surface s, vec3 emissio
 #else
     uint rest = packUnorm2x16(vec2(s.anisotropy, s.anisotropy_angle));
 #endif
-    bundle_gloss[node] = uvec2(bundle_gloss_pack(s.roughness, s.metallic, s.f0), rest);
-#elif LSF_BUNDLE_GLOSS
-    bundle_gloss[node] = bundle_gloss_pack(s.roughness, s.metallic, s.f0);
+    bundle_specular_params[node] = uvec2(bundle_specular_params_pack(s.roughness, s.metallic, s.f0), rest);
+#elif LSF_BUNDLE_SPECULAR_PARAMS
+    bundle_specular_params[node] = bundle_specular_params_pack(s.roughness, s.metallic, s.f0);
 #endif
 #if LSF_BUNDLE_EMISSION
     bundle_emission[node] = bundle_emission_pack(emission, s.unlit ? 0u : sides);

@@ -21,10 +21,10 @@ vec3 along_axes(vec3 v)
 }
 
 /* Texel coordinates and depth step of coordinates along the axes. */
-vec3 map_place(vec3 q, float steps)
+vec3 map_position(vec3 q, float steps)
 {
     q = bundle_close(bundle, q);
-    return vec3(bundle_place(q), (q.z - bundle.range.x) * steps);
+    return vec3(bundle_map_position(q), (q.z - bundle.range.x) * steps);
 }
 #else
 /* A vector in normalised space in texels and depth steps. */
@@ -38,7 +38,7 @@ vec3 to_map(vec3 v)
 /* The frame at a position in the region [fragment coordinates]. */
 bundle_frame frame_at(vec2 fragment)
 {
-    vec2 ndc = sample_ndc(region_place(fragment));
+    vec2 ndc = sample_ndc(region_position(fragment));
     vec2 texel = bundle_texel_size();
     float steps = LSF_BUNDLE_DEPTH_STEPS / bundle.range.y;
     float self = LSF_BUNDLE_SELF_TEXELS * max(texel.x, texel.y) * steps + 0.5;

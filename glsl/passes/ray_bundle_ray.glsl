@@ -34,25 +34,25 @@ struct bundle_ray {
 };
 
 /* The ray's origin in texels and depth steps. */
-bool origin(ivec2 pixel, bundle_frame frame, out vec3 place)
+bool origin(ivec2 pixel, bundle_frame frame, out vec3 position)
 {
 #if LSF_DEEP
     if (from_position) {
         vec4 texel = texelFetch(origin_position, pixel, 0);
         vec3 q = bundle_coordinates(texel.xyz);
-        place = vec3(bundle_place(q), (q.z - bundle.range.x) * frame.scale.z);
+        position = vec3(bundle_map_position(q), (q.z - bundle.range.x) * frame.scale.z);
         return texel.w != 0.0;
     }
 #endif
     float depth = texelFetch(origin_depth, pixel, 0).r;
 #if LSF_SPARSE
-    vec3 q = bundle_coordinates(position_from_depth(place_ndc(pixel), depth));
-    place = vec3(bundle_place(q), (q.z - bundle.range.x) * frame.scale.z);
+    vec3 q = bundle_coordinates(position_from_depth(position_ndc(pixel), depth));
+    position = vec3(bundle_map_position(q), (q.z - bundle.range.x) * frame.scale.z);
     return depth != 0.0;
 #endif
-    place = frame.start + view_depth_from_start(depth) * frame.along;
+    position = frame.start + view_depth_from_start(depth) * frame.along;
 #if LSF_BUNDLE_GAPS
-    place = map_place(place, frame.scale.z);
+    position = map_position(position, frame.scale.z);
 #endif
     return depth != 0.0;
 }
@@ -71,14 +71,14 @@ float facing(uint normal, vec3 forward)
 
 bundle_ray ray_of(ivec2 pixel, bundle_frame frame)
 {
-    vec3 place;
-    bool present = origin(pixel, frame, place);
-    ivec2 at = ivec2(floor(place.xy));
+    vec3 position;
+    bool present = origin(pixel, frame, position);
+    ivec2 at = ivec2(floor(position.xy));
     present = present && min(at.x, at.y) >= 0 && max(at.x, at.y) < LSF_BUNDLE_SIDE;
     bundle_ray ray;
     ray.texel = present ? bundle_texel(at) : 0;
-    ray.depth = place.z;
-    ray.to_depth = (place.xy - vec2(at) - 0.5) * frame.scale.xy;
+    ray.depth = position.z;
+    ray.to_depth = (position.xy - vec2(at) - 0.5) * frame.scale.xy;
     ray.sign = facing(texelFetch(origin_surface, pixel, 0).x, frame.forward);
     ray.self = frame.scale.w;
     ray.first = texelFetch(key_fetch, ray.texel);

@@ -12,13 +12,13 @@ layout(binding = 0, rg32ui) writeonly uniform uimage2D hits;
 /* In software GL idle lanes run loops up to their bound, so that bounds are low and long lists take several
  * rounds. */
 #define LSF_STEPS 64u
-#define LSF_TURNS 65535u
+#define LSF_ROUNDS 65535u
 
 void search_chain(bundle_ray ray, inout bundle_hit hit)
 {
     int left = ray.count - LSF_BUNDLE_SLICES;
     int link = left > 0 ? int(texelFetch(head_fetch, LSF_BUNDLE_COUNTERS + ray.texel).x) : 0;
-    for (uint turn = 0u; turn < LSF_TURNS && left > 0; turn++)
+    for (uint round_index = 0u; round_index < LSF_ROUNDS && left > 0; round_index++)
         for (uint i = 0u; i < LSF_STEPS && left > 0; i++) {
             uvec2 node = texelFetch(chain_fetch, link).xy;
             visit(ray, true, node.x, int(LSF_BUNDLE_FIRST_LINK) + link, hit);
@@ -42,10 +42,10 @@ bool comes_before(uint a, uint b)
         order = compare(bundle_surfaces[3u * a + i], bundle_surfaces[3u * b + i]);
 #if LSF_BUNDLE_ANISOTROPY
     for (int i = 0; i < 2 && order == 0; i++)
-        order = compare(bundle_gloss[a][i], bundle_gloss[b][i]);
-#elif LSF_BUNDLE_GLOSS
+        order = compare(bundle_specular_params[a][i], bundle_specular_params[b][i]);
+#elif LSF_BUNDLE_SPECULAR_PARAMS
     if (order == 0)
-        order = compare(bundle_gloss[a], bundle_gloss[b]);
+        order = compare(bundle_specular_params[a], bundle_specular_params[b]);
 #endif
 #if LSF_BUNDLE_EMISSION
     for (int i = 0; i < 2 && order == 0; i++)
@@ -58,8 +58,8 @@ uint choose(uint texel, uint chosen)
 {
     uint key = bundle_key(chosen);
     uint count = bundle_fragments(texel), link = 0u;
-    for (uint turn = 0u; turn < LSF_TURNS && turn * LSF_STEPS < count; turn++)
-        for (uint i = turn * LSF_STEPS; i < (turn + 1u) * LSF_STEPS && i < count; i++) {
+    for (uint round_index = 0u; round_index < LSF_ROUNDS && round_index * LSF_STEPS < count; round_index++)
+        for (uint i = round_index * LSF_STEPS; i < (round_index + 1u) * LSF_STEPS && i < count; i++) {
             uint node = bundle_slice_node(texel, i);
             if (i >= uint(LSF_BUNDLE_SLICES)) {
                 link = i == uint(LSF_BUNDLE_SLICES) ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]

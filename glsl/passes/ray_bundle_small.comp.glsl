@@ -109,15 +109,15 @@ void main()
     vec2 uv = texelFetch(uv0_fetch, int(corners.x)).xy;
     vec2 uv_1 = texelFetch(uv0_fetch, int(corners.y)).xy - uv;
     vec2 uv_2 = texelFetch(uv0_fetch, int(corners.z)).xy - uv;
-    point.place.uv0_dx = uv_1 * b1_change.x + uv_2 * b2_change.x;
-    point.place.uv0_dy = uv_1 * b1_change.y + uv_2 * b2_change.y;
+    point.uv.uv0_dx = uv_1 * b1_change.x + uv_2 * b2_change.x;
+    point.uv.uv0_dy = uv_1 * b1_change.y + uv_2 * b2_change.y;
 #endif
 #if LSF_SECOND_UV
     vec2 second = texelFetch(uv1_fetch, int(corners.x)).xy;
     vec2 second_1 = texelFetch(uv1_fetch, int(corners.y)).xy - second;
     vec2 second_2 = texelFetch(uv1_fetch, int(corners.z)).xy - second;
-    point.place.uv1_dx = second_1 * b1_change.x + second_2 * b2_change.x;
-    point.place.uv1_dy = second_1 * b1_change.y + second_2 * b2_change.y;
+    point.uv.uv1_dx = second_1 * b1_change.x + second_2 * b2_change.x;
+    point.uv.uv1_dy = second_1 * b1_change.y + second_2 * b2_change.y;
 #endif
 #if LSF_BLEND
     uint layer = layer_key(range.z, corners.z, point.front);
@@ -128,7 +128,7 @@ void main()
     int done = 0;
     uint appended = 0u;
     ivec2 cell = ivec2(0);
-    for (int turn = 0; turn < LSF_BUNDLE_SMALL_TEXELS && done < samples; turn++) {
+    for (int visited = 0; visited < LSF_BUNDLE_SMALL_TEXELS && done < samples; visited++) {
         /* Advances to the next sample inside, because the expensive part below should run in all lanes that have
          * one at once. */
         bool inside = false;
@@ -153,14 +153,14 @@ void main()
         float b2 = clamp(dot(b2_change, offset), 0.0, 1.0 - b1);
         point.normal = n0 + b1 * n1 + b2 * n2;
 #if LSF_TEXTURED
-        point.place.uv0 = uv + b1 * uv_1 + b2 * uv_2;
+        point.uv.uv0 = uv + b1 * uv_1 + b2 * uv_2;
 #endif
 #if LSF_SECOND_UV
-        point.place.uv1 = second + b1 * second_1 + b2 * second_2;
+        point.uv.uv1 = second + b1 * second_1 + b2 * second_2;
 #elif LSF_TEXTURED
-        point.place.uv1 = point.place.uv0;
-        point.place.uv1_dx = point.place.uv0_dx;
-        point.place.uv1_dy = point.place.uv0_dy;
+        point.uv.uv1 = point.uv.uv0;
+        point.uv.uv1_dx = point.uv.uv0_dx;
+        point.uv.uv1_dy = point.uv.uv0_dy;
 #endif
 #if LSF_TANGENT
         vec4 t = texelFetch(tangent_fetch, int(corners.x));

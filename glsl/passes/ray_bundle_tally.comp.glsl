@@ -14,7 +14,7 @@ layout(std430, binding = LSF_BINDING_BUNDLE_NODES) readonly buffer lsf_head_bloc
     uint heads[];
 };
 
-layout(location = 0) uniform uint chain_room;
+layout(location = 0) uniform uint chain_capacity;
 layout(location = 1) uniform bool iteration_ends;
 layout(location = 2) uniform uint iterations_done; /* including this one if it succeeds */
 
@@ -36,7 +36,7 @@ void main()
         status.needed = max(status.needed, heads[LSF_BUNDLE_CHAINED]);
         return;
     }
-    bool good = status.needed <= chain_room;
+    bool good = status.needed <= chain_capacity;
     status.draw_vertices = good ? 3u : 0u;
     status.draw_instances = 1u;
     status.draw_first = 0u;

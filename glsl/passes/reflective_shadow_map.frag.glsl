@@ -6,8 +6,8 @@
 
 layout(location = 0) out vec2 gradient_out;
 layout(location = 1) out uvec4 surface_out;
-#if LSF_GLOSS
-layout(location = 2) out uvec4 gloss_out;
+#if LSF_SPECULAR_PARAMS
+layout(location = 2) out uvec4 specular_params_out;
 #endif
 
 void main()
@@ -28,7 +28,7 @@ void main()
         discard;
 #endif
     surface_out = surface_pack(s);
-#if LSF_GLOSS
-    gloss_out = gloss_pack(s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_out = specular_params_pack(s);
 #endif
 }

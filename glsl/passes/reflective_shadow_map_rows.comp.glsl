@@ -34,8 +34,8 @@ shared uint point_count;
 void find_point(uint cell)
 {
     vec3 random = hash_unit(hash(uvec3(cell, viewed.y, 0u)));
-    vec2 place = (vec2(cell % POINTS_SIDE, cell / POINTS_SIDE) + random.xy) / float(POINTS_SIDE);
-    ivec2 pixel = min(ivec2(place * view.size.xy), ivec2(view.size.xy) - 1);
+    vec2 face_position = (vec2(cell % POINTS_SIDE, cell / POINTS_SIDE) + random.xy) / float(POINTS_SIDE);
+    ivec2 pixel = min(ivec2(face_position * view.size.xy), ivec2(view.size.xy) - 1);
     float depth = texelFetch(seen_depth, pixel, 0).r;
     normals[cell] = vec3(0.0);
     if (depth == 0.0)
@@ -71,11 +71,11 @@ float share_of_view(vec3 position, vec3 normal)
 float importance(int face, ivec2 at)
 {
     float depth = texelFetch(depth_texture, ivec3(at, face), 0).r;
-    vec2 place = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
+    vec2 face_position = (vec2(at) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
     surface s = surface_unpack(texelFetch(surface_texture, ivec3(at, face), 0));
     if (depth == 0.0 || s.unlit)
         return 0.0;
-    vec3 position = light_projection_position(face, place, depth);
+    vec3 position = light_projection_position(face, face_position, depth);
     vec3 reflectance = s.base_color;
 #if LSF_SPECULAR
     reflectance = max(reflectance, vec3(s.f0));
@@ -86,7 +86,7 @@ float importance(int face, ivec2 at)
         vec3 to_point = position - light.position.xyz;
         float distance2 = max(dot(to_point, to_point), LSF_LIGHT_DISTANCE2_MIN);
         flux *= lsf_distance_attenuation(distance2, light.attenuation.x) * distance2 /
-                emission_place_density(face, position);
+                emission_face_density(face, position);
 #if LSF_SPOT_LIGHT
         if (light.attenuation.w == LSF_LIGHT_TYPE_SPOT)
             flux *= lsf_spot_attenuation(dot(to_point, light.direction.xyz) *

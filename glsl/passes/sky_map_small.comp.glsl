@@ -12,7 +12,7 @@ layout(location = 0) uniform int map;
 
 /* Rounding error of a position, in normalised space. A texel's centre this close outside an edge is covered, so
  * that no light leaks between two triangles. */
-#define PLACE_ERROR 2.4e-7
+#define POSITION_ERROR 2.4e-7
 
 /* Functions that are affine over the map: value at the centre of texel `first`, and change from texel to texel. */
 struct map_triangle {
@@ -36,7 +36,7 @@ bool triangle_on_map(uint triangle, out map_triangle t)
     vec3 q1 = sky_map_project(map, scene_triangle_corner(triangle, 1u));
     vec3 q2 = sky_map_project(map, scene_triangle_corner(triangle, 2u));
     vec4 texel = sky_maps[map].texel;
-    float error = PLACE_ERROR / min(texel.x, texel.y);
+    float error = POSITION_ERROR / min(texel.x, texel.y);
     /* The values are clamped before they become integers, because corners may be far outside. */
     t.first = ivec2(clamp(ceil(min(q0.xy, min(q1.xy, q2.xy)) - error - 0.5), 0.0, texel.w));
     t.end = ivec2(clamp(floor(max(q0.xy, max(q1.xy, q2.xy)) + error + 0.5), 0.0, texel.w));

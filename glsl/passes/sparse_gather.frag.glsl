@@ -26,12 +26,12 @@ layout(location = 1) out vec4 specular_out;
 #include "passes/sparse_tint.glsl"
 #endif
 
-ivec2 place_of(ivec2 point, int layer)
+ivec2 gathered_position(ivec2 point, int layer)
 {
 #if LSF_SPARSE
-    return sparse_place(point, layer);
+    return sparse_position(point, layer);
 #else
-    return interleave_place(point, textureSize(irradiance_texture, 0));
+    return interleave_position(point, textureSize(irradiance_texture, 0));
 #endif
 }
 
@@ -77,10 +77,10 @@ void hold_outliers(ivec2 point, ivec2 points, inout vec3 irradiance, inout vec3 
                      all(lessThan(sparse_pixel(at), picture));
         if (!there || guide_weight(own, shown_at(sparse_pixel(at))) == 0.0)
             continue;
-        ivec2 place = place_of(at, 0);
-        add(diffuse, texelFetch(irradiance_texture, place, 0).rgb, luminance(irradiance));
+        ivec2 position = gathered_position(at, 0);
+        add(diffuse, texelFetch(irradiance_texture, position, 0).rgb, luminance(irradiance));
 #if LSF_SPECULAR
-        add(glossy, texelFetch(specular_texture, place, 0).rgb / specular_tint(sparse_pixel(at)),
+        add(glossy, texelFetch(specular_texture, position, 0).rgb / specular_tint(sparse_pixel(at)),
             luminance(specular));
 #endif
     }
@@ -97,14 +97,14 @@ void main()
     layer = point.y / sparse_grid.y;
     point.y -= layer * sparse_grid.y;
 #endif
-    ivec2 place = place_of(point, layer);
-    irradiance_out = texelFetch(irradiance_texture, place, 0);
+    ivec2 position = gathered_position(point, layer);
+    irradiance_out = texelFetch(irradiance_texture, position, 0);
 #if LSF_SPECULAR
-    specular_out = texelFetch(specular_texture, place, 0);
+    specular_out = texelFetch(specular_texture, position, 0);
 #endif
 #if LSF_SHARED
 #if LSF_SPARSE
-    ivec2 pixel = place_pixel(place), points = sparse_grid.xy;
+    ivec2 pixel = position_pixel(position), points = sparse_grid.xy;
 #else
     ivec2 pixel = point, points = textureSize(depth_texture, 0);
 #endif

@@ -18,26 +18,26 @@ int tile_corner(int tile)
     return interleave_corner(ivec2(0, tile), sparse_grid.xy).y;
 }
 
-ivec2 sparse_place(ivec2 point, int layer)
+ivec2 sparse_position(ivec2 point, int layer)
 {
-    ivec2 place = interleave_place(point, sparse_grid.xy);
+    ivec2 position = interleave_position(point, sparse_grid.xy);
     int tile = point.y % LSF_INTERLEAVE;
-    place.y += (sparse_shape.y - 1) * tile_corner(tile) + layer * tile_rows(tile);
-    return place;
+    position.y += (sparse_shape.y - 1) * tile_corner(tile) + layer * tile_rows(tile);
+    return position;
 }
 
 /* The inverse. */
-ivec2 sparse_point(ivec2 place, out int layer)
+ivec2 sparse_point(ivec2 position, out int layer)
 {
     int rows = sparse_grid.y / LSF_INTERLEAVE, higher = sparse_grid.y % LSF_INTERLEAVE;
     int high = sparse_shape.y * (rows + 1), low = max(sparse_shape.y * rows, 1);
-    int tile = place.y / high;
+    int tile = position.y / high;
     if (tile >= higher)
-        tile = higher + (place.y - higher * high) / low;
-    int row = place.y - sparse_shape.y * tile_corner(tile);
+        tile = higher + (position.y - higher * high) / low;
+    int row = position.y - sparse_shape.y * tile_corner(tile);
     layer = row / max(tile_rows(tile), 1);
     row += tile_corner(tile) - layer * tile_rows(tile);
-    return interleave_pixel(ivec2(place.x, row), sparse_grid.xy);
+    return interleave_pixel(ivec2(position.x, row), sparse_grid.xy);
 }
 #endif
 

@@ -81,7 +81,7 @@ void take_nearest(ivec2 pixel, ivec2 picture, shown own)
         ivec2 point = block + ivec2(i % 3, i / 3 % 3) - 1;
         if (point.x < 0 || point.y < 0 || any(greaterThanEqual(point, sparse_grid.xy)))
             continue;
-        ivec2 at = place_pixel(sparse_place(point, layer));
+        ivec2 at = position_pixel(sparse_position(point, layer));
         if (any(greaterThanEqual(at, picture)))
             continue;
         shown other = shown_at(at);

@@ -10,8 +10,8 @@ layout(binding = 1) uniform sampler3D base_texture;
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D point_texture;
-#if LSF_VOXEL_GLOSS
-layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D gloss_texture;
+#if LSF_VOXEL_SPECULAR_PARAMS
+layout(binding = LSF_UNIT_VOXEL_SPECULAR_PARAMS) uniform usampler3D specular_params_texture;
 #endif
 #if LSF_TRANSMISSION
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_texture;
@@ -20,25 +20,25 @@ layout(location = 0) uniform bvec3 sum_of; /* terms of the output: its previous 
                                             * light */
 
 /* Rotation of the cone set, from a pattern of 4 x 4 x 4 voxels. */
-float cell_turn(ivec3 cell)
+float cell_rotation(ivec3 cell)
 {
     uvec3 c = uvec3(cell) & 3u;
     return float((c.x * 5u + c.y * 9u + c.z * 3u) & 15u) / 16.0;
 }
 
 /* Mean radiance at a side, weighted by the cosine to its shading normal and by its reflectance. */
-vec3 gather(reflector material, vec3 place, vec3 n, vec3 shading, float turn)
+vec3 gather(reflector material, vec3 position, vec3 n, vec3 shading, float rotation)
 {
     vec3 tangent, bitangent;
     orthonormal_basis(shading, tangent, bitangent);
     vec3 sum = vec3(0.0);
     int count = int(cone_gather.z);
     for (int i = 0; i < count; i++) {
-        vec3 local = cone_direction(i, vec2(turn, 0.0));
+        vec3 local = cone_direction(i, vec2(rotation, 0.0));
         vec3 direction = local.x * tangent + local.y * bitangent + local.z * shading;
         if (dot(direction, n) <= 0.0)
             continue;
-        cone_light light = cone_trace(place, n, direction, cone_set[i].w);
+        cone_light light = cone_trace(position, n, direction, cone_set[i].w);
         vec3 seen = light.radiance;
 #if LSF_ENVIRONMENT
         seen += light.transmittance * grid.unit.y *
@@ -69,19 +69,19 @@ void light_side(ivec3 cell, bool back)
     vec3 reflected = vec3(0.0);
     if (sum_of.z) {
         uint point = texelFetch(point_texture, cell, 0).r;
-        uint gloss = 0u;
+        uint specular_params = 0u;
         float transmission = 0.0;
-#if LSF_VOXEL_GLOSS
-        gloss = texelFetch(gloss_texture, cell, 0).r;
+#if LSF_VOXEL_SPECULAR_PARAMS
+        specular_params = texelFetch(specular_params_texture, cell, 0).r;
 #endif
 #if LSF_TRANSMISSION
         transmission = voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
 #endif
         reflector material =
-            voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, gloss, transmission);
+            voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, specular_params, transmission);
         if (!voxel_unlit(point))
             reflected = gather(material, vec3(cell) + voxel_point_unpack(point), n, shading,
-                               cell_turn(cell));
+                               cell_rotation(cell));
     }
 #if LSF_VOXEL_SIDES != LSF_VOXEL_SIDES_AXES
     write(cell, back ? 1 : 0, 1.0, reflected);

@@ -12,11 +12,11 @@
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
 layout(binding = LSF_UNIT_VOXEL_NORMAL) uniform usampler3D normal_texture;
-/* The shadow map uses the unit of points here. Points use that of gloss, and gloss that of radiance, which is an
+/* The shadow map uses the unit of points here. Points use that of specular_params, and these that of radiance, which is an
  * image in this pass. */
-layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D point_texture;
-#if LSF_REFLECT && LSF_VOXEL_GLOSS
-layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform usampler3D gloss_texture;
+layout(binding = LSF_UNIT_VOXEL_SPECULAR_PARAMS) uniform usampler3D point_texture;
+#if LSF_REFLECT && LSF_VOXEL_SPECULAR_PARAMS
+layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform usampler3D specular_params_texture;
 #endif
 #if LSF_REFLECT && LSF_TRANSMISSION
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_texture;
@@ -36,15 +36,15 @@ layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 #if LSF_REFLECT
 reflector material_at(ivec3 cell)
 {
-    uint gloss = 0u;
+    uint specular_params = 0u;
     float transmission = 0.0;
-#if LSF_VOXEL_GLOSS
-    gloss = texelFetch(gloss_texture, cell, 0).r;
+#if LSF_VOXEL_SPECULAR_PARAMS
+    specular_params = texelFetch(specular_params_texture, cell, 0).r;
 #endif
 #if LSF_TRANSMISSION
     transmission = voxel_transmission(texelFetch(transmission_texture, cell, 0).r);
 #endif
-    return voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, gloss, transmission);
+    return voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, specular_params, transmission);
 }
 
 /* Radiance of the side that faces the light. */

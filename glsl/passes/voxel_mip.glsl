@@ -41,7 +41,7 @@ vec4 mip_texel(ivec3 cell, int side, int level)
 #endif
 }
 
-ivec3 mip_place(ivec3 cell, int side, int level)
+ivec3 mip_position(ivec3 cell, int side, int level)
 {
     return cell + ivec3(0, 0, side * (int(grid.size.z) >> level));
 }

@@ -11,9 +11,9 @@ void main()
     if (!voxel_brick_listed(at))
         return;
     lsf_voxel_brick_data brick = bricks[at];
-    ivec3 cell = voxel_brick_unpack(brick.place);
+    ivec3 cell = voxel_brick_unpack(brick.cell);
     for (uint sides = brick.sides; sides != 0u; sides &= sides - 1u) {
         int side = findLSB(sides);
-        imageStore(level_image, mip_place(cell, side, 2), mip_texel(cell, side, 2));
+        imageStore(level_image, mip_position(cell, side, 2), mip_texel(cell, side, 2));
     }
 }

@@ -21,7 +21,7 @@ uint brick_children(lsf_voxel_brick_data brick)
 
 ivec3 child_cell(lsf_voxel_brick_data brick, int child)
 {
-    return 2 * voxel_brick_unpack(brick.place) + ivec3(child & 1, (child >> 1) & 1, child >> 2);
+    return 2 * voxel_brick_unpack(brick.cell) + ivec3(child & 1, (child >> 1) & 1, child >> 2);
 }
 
 /* The including shader defines the operation on a texel of level 1. */

@@ -7,8 +7,8 @@ layout(binding = 1, rgba16f) writeonly uniform image3D brick_image;
 
 void visit_child(ivec3 cell, int side)
 {
-    imageStore(fine_image, mip_place(cell, side, 1), vec4(0.0));
-    imageStore(brick_image, mip_place(cell >> 1, side, 2), vec4(0.0));
+    imageStore(fine_image, mip_position(cell, side, 1), vec4(0.0));
+    imageStore(brick_image, mip_position(cell >> 1, side, 2), vec4(0.0));
 }
 
 void main()

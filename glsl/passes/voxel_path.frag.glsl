@@ -1,6 +1,6 @@
 /* Unidirectional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches LSF_EMISSION
  * (surfaces emit), LSF_EMITTERS (points on them are sampled), LSF_ENVIRONMENT, LSF_SPLIT_DIRECT,
- * LSF_RANDOM_TEXTURE, LSF_GLOSS, LSF_VOXEL_GLOSS, LSF_VOXEL_BENT, LSF_TRANSMISSION, LSF_ABSORPTION (there are
+ * LSF_RANDOM_TEXTURE, LSF_SPECULAR_PARAMS, LSF_VOXEL_SPECULAR_PARAMS, LSF_VOXEL_BENT, LSF_TRANSMISSION, LSF_ABSORPTION (there are
  * media) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
@@ -25,15 +25,15 @@ layout(binding = LSF_UNIT_VOXEL_SHINING) uniform usampler3D shining_bricks;
 #endif
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance;
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
-#if LSF_VOXEL_GLOSS
-layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D voxel_gloss;
+#if LSF_VOXEL_SPECULAR_PARAMS
+layout(binding = LSF_UNIT_VOXEL_SPECULAR_PARAMS) uniform usampler3D voxel_specular_params;
 #endif
 #if LSF_TRANSMISSION
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D voxel_transmission_bits;
 #endif
 
 layout(location = 0) uniform ivec4 lengths; /* bounces, segments, least and most samples */
-layout(location = 1) uniform uvec2 turn;    /* iteration, seed */
+layout(location = 1) uniform uvec2 iteration;    /* iteration, seed */
 
 layout(location = 0) out vec4 irradiance_out;
 #if LSF_SPLIT_DIRECT
@@ -84,8 +84,8 @@ bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
     if (inside) {
         start = v.position;
     } else if (sinks > 0.0) {
-        float way = length(lift) * min(1.0 / sinks, 2.0);
-        start = v.position + way * direction - lift + way * sinks * v.s.geometric_normal;
+        float travel = length(lift) * min(1.0 / sinks, 2.0);
+        start = v.position + travel * direction - lift + travel * sinks * v.s.geometric_normal;
     }
 #endif
     voxel_ray ray;
@@ -122,26 +122,26 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     lobes_none(v.s);
     v.s.anisotropy = 0.0;
     v.s.anisotropy_angle = 0.0;
-#if LSF_VOXEL_GLOSS
-    vec4 gloss = unpackUnorm4x8(texelFetch(voxel_gloss, cell, 0).r);
-    v.s.roughness = gloss.y;
-    v.s.f0 = gloss.z * gloss.z;
-    v.s.metallic = gloss.w;
+#if LSF_VOXEL_SPECULAR_PARAMS
+    vec4 specular_params = unpackUnorm4x8(texelFetch(voxel_specular_params, cell, 0).r);
+    v.s.roughness = specular_params.y;
+    v.s.f0 = specular_params.z * specular_params.z;
+    v.s.metallic = specular_params.w;
 #if LSF_ANISOTROPY
     /* The inverse of lsf_alpha_along_tangent, and the rotation from the frame of n to that of -n. */
-    float alpha = lsf_alpha_from_roughness(gloss.y);
-    v.s.anisotropy = sqrt(clamp((gloss.x * gloss.x - alpha) / max(1.0 - alpha, 1e-4), 0.0, 1.0));
+    float alpha = lsf_alpha_from_roughness(specular_params.y);
+    v.s.anisotropy = sqrt(clamp((specular_params.x * specular_params.x - alpha) / max(1.0 - alpha, 1e-4), 0.0, 1.0));
     vec3 t, b, own_t, own_b;
     orthonormal_basis(n, t, b);
     orthonormal_basis(v.s.normal, own_t, own_b);
-    float angle = 2.0 * LSF_PI * voxel_turn_unpack(shading_bits);
+    float angle = 2.0 * LSF_PI * voxel_rotation_unpack(shading_bits);
     vec3 along = cos(angle) * t + sin(angle) * b;
     v.s.anisotropy_angle = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
 #endif
 #endif
 #if LSF_TRANSMISSION
     transmission_unpack(texelFetch(voxel_transmission_bits, cell, 0).r, v.s);
-    transmission_turn(v.s, side == 0);
+    transmission_set_side(v.s, side == 0);
     /* The path continues from its hit with the plane, not from the voxel's stored point. */
     float meets = dot(n, direction);
     if (v.s.transmission > 0.0 && meets != 0.0) {
@@ -166,9 +166,9 @@ vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)
 }
 
 /* Beer-Lambert law: transmittance over a vector in the grid. */
-vec3 left_after(vec3 absorption, vec3 way)
+vec3 left_after(vec3 absorption, vec3 span)
 {
-    return exp(-absorption * (length(way) * grid.origin.w));
+    return exp(-absorption * (length(span) * grid.origin.w));
 }
 
 /* Emission of one side of the voxel, in the grid's unit. */
@@ -322,24 +322,24 @@ void main()
     indirect = direct = light_parts(vec3(0.0), vec3(0.0));
     float share = 0.0;
     if (depth != 0.0 && !surface_texel_unlit(surface_texel)) {
-        vec2 ndc = place_ndc(texel);
+        vec2 ndc = position_ndc(texel);
         vec3 position = position_from_depth(ndc, depth);
         path_vertex v;
         v.position = voxel_from_position(position);
         v.view = -normalize(view_ray_direction(ndc));
         v.s = surface_unpack(surface_texel);
-#if LSF_GLOSS
-        gloss_unpack(texelFetch(gloss_texture, texel, 0), v.s);
+#if LSF_SPECULAR_PARAMS
+        specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
 #endif
         /* The number of samples grows with the larger of the surface's roughnesses. */
         float roughness = surface_widest_roughness(v.s);
         int count = int(mix(float(lengths.z), float(lengths.w), roughness) + 0.5);
         path_random_key key;
         key.pixel = uint(texel.x) | (uint(texel.y) << 16);
-        key.seed = turn.y;
-        key.place = texel + int(view_depth(depth) * grid.size.w);
+        key.seed = iteration.y;
+        key.texel = texel + int(view_depth(depth) * grid.size.w);
         for (int i = 0; i < count; i++)
-            add_path(v, key, turn.x * uint(count) + uint(i), count);
+            add_path(v, key, iteration.x * uint(count) + uint(i), count);
         share = 1.0 / float(count);
     }
     irradiance_out = vec4(share * indirect.irradiance, 0.0);

@@ -88,10 +88,10 @@ bool triangle_load(uint triangle, int axis, out voxel_triangle t)
  * squared distance. */
 vec2 closest_on_edge(vec3 p, vec3 corner, vec3 e)
 {
-    vec3 way = p - corner;
-    float at = clamp(dot(way, e) / max(dot(e, e), 1e-30), 0.0, 1.0);
-    way -= at * e;
-    return vec2(at, dot(way, way));
+    vec3 offset = p - corner;
+    float at = clamp(dot(offset, e) / max(dot(e, e), 1e-30), 0.0, 1.0);
+    offset -= at * e;
+    return vec2(at, dot(offset, offset));
 }
 
 /* Barycentric coordinates of the point of the triangle that is closest to p: p's projection where that lies

@@ -59,8 +59,8 @@ void main()
 #endif
     }
 #if LSF_EMISSION
-    ivec3 place = voxel_brick_unpack(brick.place);
+    ivec3 position = voxel_brick_unpack(brick.cell);
     if (shines)
-        imageAtomicOr(shining_image, occupancy_texel(place), occupancy_bit(place));
+        imageAtomicOr(shining_image, occupancy_texel(position), occupancy_bit(position));
 #endif
 }

@@ -13,7 +13,7 @@ void main()
     if (!voxel_brick_listed(at))
         return;
     lsf_voxel_brick_data brick = bricks[at];
-    ivec3 corner = voxel_brick_unpack(brick.place);
+    ivec3 corner = voxel_brick_unpack(brick.cell);
     int voxels = voxel_brick_voxels(brick), lane = voxel_brick_lane();
     for (int n = lane; n < voxels; n += VOXEL_BRICK_LANES)
         imageStore(key_image, voxel_brick_cell(brick, n), uvec4(0u));

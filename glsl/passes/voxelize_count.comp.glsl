@@ -10,7 +10,7 @@ void main()
     if (!voxel_brick_listed(at))
         return;
     lsf_voxel_brick_data brick = bricks[at];
-    ivec3 texel = occupancy_texel(voxel_brick_unpack(brick.place) * LSF_VOXEL_BRICK);
+    ivec3 texel = occupancy_texel(voxel_brick_unpack(brick.cell) * LSF_VOXEL_BRICK);
     brick.low = texelFetch(occupancy_texture, texel, 0).r;
     brick.high = texelFetch(occupancy_texture, texel + ivec3(1, 0, 0), 0).r;
     int voxels = voxel_brick_voxels(brick), lane = voxel_brick_lane();

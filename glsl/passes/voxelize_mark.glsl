@@ -68,7 +68,7 @@ void bid(voxel_triangle t, ivec3 cell, vec3 low)
     if ((imageAtomicOr(occupancy_image[1], occupancy_texel(brick), bit) & bit) != 0u)
         return;
     uint at = atomicAdd(brick_count, 1u);
-    bricks[at].place = voxel_brick_pack(brick);
+    bricks[at].cell = voxel_brick_pack(brick);
     bricks[at].sides = 0u;
     atomicMax(brick_groups_y, at / LSF_VOXEL_LIST_ROW + 1u);
 }
@@ -128,7 +128,7 @@ void visit_all(voxel_triangle t)
     int columns = t.columns.x * t.columns.y;
     int steps = columns * (t.depth.y - t.depth.x + 2);
     voxel_walk w = walk_begin();
-    for (int turn = 0; turn < steps; turn++) {
+    for (int visited = 0; visited < steps; visited++) {
         bool found = false;
         vec3 low = vec3(0.0);
         for (int i = 0; i < steps && !found; i++) {

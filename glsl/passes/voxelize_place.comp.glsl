@@ -12,8 +12,8 @@ void main()
     for (int n = voxel_brick_lane(); n < voxels; n += VOXEL_BRICK_LANES) {
         ivec3 cell = voxel_brick_cell(brick, n);
         uint draw = draw_of(winner(cell));
-        uint place = draws[draw].first + atomicAdd(draws[draw].listed, 1u);
-        if (place < uint(won.length()))
-            won[place] = voxel_brick_pack(cell);
+        uint index = draws[draw].first + atomicAdd(draws[draw].listed, 1u);
+        if (index < uint(won.length()))
+            won[index] = voxel_brick_pack(cell);
     }
 }

@@ -5,9 +5,9 @@ layout(local_size_x = 1) in;
 
 void main()
 {
-    uint first = 0u, room = uint(won.length());
+    uint first = 0u, capacity = uint(won.length());
     for (uint i = 0u; i < uint(draws.length()); i++) {
-        uint count = min(draws[i].count, room - first);
+        uint count = min(draws[i].count, capacity - first);
         uint groups = (count + LSF_VOXELIZE_GROUP - 1u) / LSF_VOXELIZE_GROUP;
         draws[i].groups_x = LSF_VOXEL_LIST_ROW;
         draws[i].groups_y = (groups + LSF_VOXEL_LIST_ROW - 1u) / LSF_VOXEL_LIST_ROW;

@@ -18,8 +18,8 @@ layout(binding = 3, r32ui) writeonly uniform uimage3D point_image;
 #if LSF_EMISSION
 layout(binding = 4, r32ui) writeonly uniform uimage3D emission_image;
 #endif
-#if LSF_GLOSS
-layout(binding = 5, r32ui) writeonly uniform uimage3D gloss_image;
+#if LSF_SPECULAR_PARAMS
+layout(binding = 5, r32ui) writeonly uniform uimage3D specular_params_image;
 #endif
 #if LSF_TRANSMISSION
 layout(binding = 6, r32ui) writeonly uniform uimage3D transmission_image;
@@ -58,7 +58,7 @@ void write_surface(voxel_triangle t, ivec3 cell)
     float angle = 2.0 * LSF_PI * s.anisotropy_angle;
     vec3 along = cos(angle) * basis_t + sin(angle) * basis_b;
     orthonormal_basis(n, along_t, along_b);
-    shading |= voxel_turn_pack(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));
+    shading |= voxel_rotation_pack(atan(dot(along, along_b), dot(along, along_t)) / (2.0 * LSF_PI));
 #endif
     imageStore(shading_image, cell, uvec4(shading));
 #endif
@@ -67,10 +67,10 @@ void write_surface(voxel_triangle t, ivec3 cell)
 #if LSF_EMISSION
     imageStore(emission_image, cell, uvec4(voxel_emission_pack(emission * grid.unit.y)));
 #endif
-#if LSF_GLOSS
+#if LSF_SPECULAR_PARAMS
     float alpha = lsf_alpha_from_roughness(s.roughness);
     float root = sqrt(s.f0); /* f0 = ((n - 1) / (n + 1))^2 */
-    imageStore(gloss_image, cell,
+    imageStore(specular_params_image, cell,
                uvec4(packUnorm4x8(vec4(sqrt(lsf_alpha_along_tangent(alpha, s.anisotropy)),
                                        s.roughness, root, s.metallic))));
 #endif

@@ -14,8 +14,8 @@
 #include "lib/voxel_passage.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
-#if LSF_VOXEL_GLOSS
-layout(binding = LSF_UNIT_VOXEL_GLOSS) uniform usampler3D voxel_gloss;
+#if LSF_VOXEL_SPECULAR_PARAMS
+layout(binding = LSF_UNIT_VOXEL_SPECULAR_PARAMS) uniform usampler3D voxel_specular_params;
 #endif
 #if LSF_TRANSMISSION
 layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D voxel_transmission_bits;
@@ -38,23 +38,23 @@ lsf_vpl_record path_start(uint path, out uint vertex)
     if (of_light)
         return cloud[cloud_slot(path, 0u)];
     float points = float(cloud_shape.x), paths = float(cloud_shape.w);
-    float place = (float(path - cloud_shape.z) + offset) / paths;
-    lsf_vpl_record start = cloud[min(uint(place * points), cloud_shape.x - 1u)];
+    float position = (float(path - cloud_shape.z) + offset) / paths;
+    lsf_vpl_record start = cloud[min(uint(position * points), cloud_shape.x - 1u)];
     start.intensity *= points / paths;
     return start;
 }
 
 reflector material_of(ivec3 cell)
 {
-    uint gloss = 0u;
+    uint specular_params = 0u;
     float transmission = 0.0;
-#if LSF_VOXEL_GLOSS
-    gloss = texelFetch(voxel_gloss, cell, 0).r;
+#if LSF_VOXEL_SPECULAR_PARAMS
+    specular_params = texelFetch(voxel_specular_params, cell, 0).r;
 #endif
 #if LSF_TRANSMISSION
     transmission = voxel_transmission(texelFetch(voxel_transmission_bits, cell, 0).r);
 #endif
-    return voxel_material_unpack(texelFetch(voxel_albedo, cell, 0).r, gloss, transmission);
+    return voxel_material_unpack(texelFetch(voxel_albedo, cell, 0).r, specular_params, transmission);
 }
 
 /* The VPL of the voxel that the ray has hit, for light of this intensity. */
@@ -64,16 +64,16 @@ lsf_vpl_record reflect_from(ivec3 cell, voxel_ray ray, vec3 intensity, uint dept
     vec3 n = voxel_normal_unpack(normal), shading = voxel_normal_unpack(voxel_shading_bits(cell, normal));
     float meets = dot(n, ray.direction);
     float side = meets <= 0.0 ? 1.0 : -1.0;
-    vec3 place = vec3(cell) + voxel_point_unpack(point);
+    vec3 position = vec3(cell) + voxel_point_unpack(point);
     if (meets != 0.0) {
-        vec3 there = ray.origin + ray.direction * (dot(n, place - ray.origin) / meets);
-        place = clamp(there, vec3(cell), vec3(cell + 1));
+        vec3 there = ray.origin + ray.direction * (dot(n, position - ray.origin) / meets);
+        position = clamp(there, vec3(cell), vec3(cell + 1));
     }
 #if LSF_EMISSION
     if (voxel_unlit(point))
         intensity = vec3(0.0);
 #endif
-    return cloud_reflect(voxel_to_position(place), side * n, side * shading, ray.direction, material_of(cell), intensity,
+    return cloud_reflect(voxel_to_position(position), side * n, side * shading, ray.direction, material_of(cell), intensity,
                          depth, u);
 }
 
@@ -95,7 +95,7 @@ bool meet(inout voxel_ray ray, uint path, uint vertex, out ivec3 cell, out vec3 
         if (sheet)
             continue;
         float passes = straight_chance(passage.left / max(before, vec3(1e-6)));
-        uvec3 key = uvec3(cloud_turn.x * cloud_shape.y + path, vertex, i) ^ hash(cloud_turn.yzz);
+        uvec3 key = uvec3(cloud_iteration.x * cloud_shape.y + path, vertex, i) ^ hash(cloud_iteration.yzz);
         if (hash_unit(hash(key)).x >= passes) {
             left /= 1.0 - passes;
             return true;

@@ -14,7 +14,7 @@ void main()
     lsf_vpl_data vpl;
     vpl.position = vec4(position.xyz, LSF_VPL_EMITS);
     vpl.geometric_normal = normal;
-    vpl.normal = vpl.base_color = vpl.gloss = vpl.to_light = vec4(0.0);
+    vpl.normal = vpl.base_color = vpl.specular_params = vpl.to_light = vec4(0.0);
     vpl.intensity = radiance;
     vpls[index] = vpl;
     vpl_map_write(index, position.xyz, normal.xyz, 0.0, position.w, map_shape);

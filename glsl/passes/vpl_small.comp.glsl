@@ -21,7 +21,7 @@ layout(location = 0) uniform uint triangle_count;
 
 /* Rounding error of a position on the map, relative to its side. A texel's centre this close outside an edge is
  * covered, so that no ray gets through between two triangles. */
-#define PLACE_ERROR 2.4e-7
+#define POSITION_ERROR 2.4e-7
 
 void list_large(uint triangle, uint octant)
 {
@@ -47,7 +47,7 @@ bool draw_small(vec2 octant, vec3 local[3])
         corner[i] = (q.xy / q.z * 0.5 + 0.5) * texels;
         depth[i] = light.map_shape.x / q.z;
     }
-    float error = PLACE_ERROR * texels;
+    float error = POSITION_ERROR * texels;
     vec2 low = min(corner[0], min(corner[1], corner[2])) - error;
     vec2 high = max(corner[0], max(corner[1], corner[2])) + error;
     ivec2 first = max(ivec2(ceil(low - 0.5)), ivec2(0));

@@ -21,6 +21,6 @@ void main()
     if (!present || gl_FragCoord.z <= shown * (1.0 + 2.0 * HEMISPHERE_DEPTH_ERROR))
         discard;
     /* Depth is the inverse of distance. */
-    float way = length(vertex_position) * (gl_FragCoord.z / max(shown, 1e-9) - 1.0);
-    tint_out = vec4(straight_tint(s, -vertex_position) * map_absorption(s, enters, way), 1.0);
+    float path_length = length(vertex_position) * (gl_FragCoord.z / max(shown, 1e-9) - 1.0);
+    tint_out = vec4(straight_tint(s, -vertex_position) * map_absorption(s, enters, path_length), 1.0);
 }

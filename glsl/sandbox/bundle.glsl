@@ -11,7 +11,7 @@ int lsf_bundle_size()
 
 vec2 lsf_bundle_place(vec3 position)
 {
-    return bundle_place(bundle_coordinates(position));
+    return bundle_map_position(bundle_coordinates(position));
 }
 
 bool bundle_has(ivec2 texel)

@@ -43,8 +43,8 @@ surface lsf_surface(vec2 pixel)
 {
     ivec2 texel = seen_texel(pixel);
     surface s = surface_unpack(texelFetch(surface_texture, texel, 0));
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(gloss_texture, texel, 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(specular_params_texture, texel, 0), s);
 #endif
     return s;
 }

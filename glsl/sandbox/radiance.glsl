@@ -13,8 +13,8 @@ vec4 sandbox_lobe(vec3 voxel, int slice, float level)
     vec3 size = grid.size.xyz;
     float texel = exp2(ceil(level));
     float z = clamp(voxel.z, 0.5 * texel, size.z - 0.5 * texel) / size.z;
-    vec3 place = vec3(voxel.xy / size.xy, (z + float(slice)) / float(LSF_VOXEL_SIDES_AXES));
-    return textureLod(sandbox_voxel_radiance, place, level);
+    vec3 coordinates = vec3(voxel.xy / size.xy, (z + float(slice)) / float(LSF_VOXEL_SIDES_AXES));
+    return textureLod(sandbox_voxel_radiance, coordinates, level);
 }
 
 vec4 lsf_voxel_radiance(vec3 voxel, vec3 direction, float level)

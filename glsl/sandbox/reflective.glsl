@@ -7,8 +7,8 @@
 #include "shared/sandbox_data.h"
 
 layout(binding = LSF_UNIT_REFLECTIVE_SURFACE) uniform usampler2DArray reflective_surface;
-#if LSF_GLOSS
-layout(binding = LSF_UNIT_REFLECTIVE_GLOSS) uniform usampler2DArray reflective_gloss;
+#if LSF_SPECULAR_PARAMS
+layout(binding = LSF_UNIT_REFLECTIVE_SPECULAR_PARAMS) uniform usampler2DArray reflective_specular_params;
 #endif
 
 ivec3 lsf_reflective_size()
@@ -19,12 +19,12 @@ ivec3 lsf_reflective_size()
 bool lsf_reflective(ivec3 texel, out vec3 position, out surface s)
 {
     float depth = texelFetch(shadow_depth, texel, 0).r;
-    vec2 place = (vec2(texel.xy) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
+    vec2 face_position = (vec2(texel.xy) + 0.5) * (2.0 * light.map_shape.w) - 1.0;
     s = surface_unpack(texelFetch(reflective_surface, texel, 0));
-#if LSF_GLOSS
-    gloss_unpack(texelFetch(reflective_gloss, texel, 0), s);
+#if LSF_SPECULAR_PARAMS
+    specular_params_unpack(texelFetch(reflective_specular_params, texel, 0), s);
 #endif
-    position = light_projection_position(texel.z, place, depth);
+    position = light_projection_position(texel.z, face_position, depth);
     return depth > 0.0;
 }
 

@@ -6,10 +6,10 @@
 
 /* The disc to which the hemisphere projects is cut into `count` rings of equal area, one for
  * each cone. Returns the squared distance from the disc's centre of the cone of a ring (from 0)
- * at the position `place` (0 to 1) in it: sin^2 of its angle to the normal. */
-LSF_SHARED_FUNCTION float lsf_cone_radius2(float ring, float place, float count)
+ * at the position `position` (0 to 1) in it: sin^2 of its angle to the normal. */
+LSF_SHARED_FUNCTION float lsf_cone_radius2(float ring, float position, float count)
 {
-    return (ring + place) / count;
+    return (ring + position) / count;
 }
 
 #include "shared/shared_end.h"

@@ -63,7 +63,7 @@ struct lsf_light_tree_node {
 
 /* Number of dispatches that merge nodes, from the leaves up: at least the depth of the tree,
  * which is at most the bits of a code. */
-#define LSF_LIGHT_TREE_TURNS 64
+#define LSF_LIGHT_TREE_DISPATCHES 64
 
 /* Storage buffers. */
 #define LSF_BINDING_CLOUD 1
@@ -73,7 +73,7 @@ struct lsf_light_tree_node {
 #define LSF_BINDING_LIGHT_TREE_CODES 5 /* and, in the sort, the next binding: their target */
 #define LSF_BINDING_LIGHT_TREE_COUNTS 7
 #define LSF_BINDING_LIGHT_TREE_PARENTS 6
-#define LSF_BINDING_LIGHT_TREE_TURNS 7
+#define LSF_BINDING_LIGHT_TREE_DISPATCHES 7
 #define LSF_BINDING_LIGHT_TREE_TRIANGLES 5 /* of the scene, in what samples the tree */
 
 #include "shared/shared_end.h"

@@ -14,7 +14,7 @@
 #define LSF_UNIT_SEEN_EMISSION 40
 #define LSF_UNIT_SEEN_MOTION 41
 #define LSF_UNIT_REFLECTIVE_SURFACE 42
-#define LSF_UNIT_REFLECTIVE_GLOSS 43
+#define LSF_UNIT_REFLECTIVE_SPECULAR_PARAMS 43
 #define LSF_UNIT_BUNDLE_HITS 44
 
 /* Storage buffer of the scene's lights; in other passes that of the VPLs. */

@@ -99,11 +99,11 @@ struct lsf_lobe_data {
 #define LSF_LOCATION_VPL 15
 #define LSF_LOCATION_ADDED 16
 /* Texture unit of the pixels at which light is gathered; see lib/sparse.glsl. */
-#define LSF_UNIT_PLACES 17
+#define LSF_UNIT_POSITION_PIXELS 17
 /* Locations of lib/voxel_cone.glsl. */
 #define LSF_LOCATION_CONE 18
 #define LSF_LOCATION_CONE_STEPS 19
-#define LSF_LOCATION_CONE_TURN 20
+#define LSF_LOCATION_CONE_ROTATION 20
 #define LSF_LOCATION_CONE_SET 21 /* LSF_CONE_MAX locations */
 #define LSF_CONE_MAX 32
 /* Location of the seed of stochastic transparency; see lib/chance.glsl. */

@@ -36,7 +36,7 @@ struct lsf_voxel_grid_data {
 #define LSF_UNIT_VOXEL_OCCUPANCY 10 /* and the next */
 #define LSF_UNIT_VOXEL_ALBEDO 13
 #define LSF_UNIT_VOXEL_NORMAL 14
-#define LSF_UNIT_VOXEL_GLOSS 15
+#define LSF_UNIT_VOXEL_SPECULAR_PARAMS 15
 #define LSF_UNIT_VOXEL_SHINING 12
 #define LSF_UNIT_VOXEL_SHADING 16
 #define LSF_UNIT_PATH_RANDOM 7
@@ -51,7 +51,7 @@ struct lsf_voxel_grid_data {
 #define LSF_VOXEL_GROUP_BRICKS 8
 #define LSF_VOXEL_BRICK_LANES 8
 struct lsf_voxel_brick_data {
-    uint place;     /* packed as by voxel_brick_pack */
+    uint cell;      /* packed as by voxel_brick_pack */
     uint low, high; /* the voxels' bits, half a brick each, laid out as in occupancy */
     uint sides;     /* of the sides that radiance is kept for, those that some voxel has */
 };

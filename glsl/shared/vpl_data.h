@@ -19,7 +19,7 @@ struct lsf_vpl_data {
                             * emitting side; density by area times that probability */
     vec4 normal;           /* xyz: unit shading normal, the same side; w: metallic */
     vec4 base_color;       /* rgb; w: 1 when the light is directional: its rays are parallel */
-    vec4 gloss;            /* roughness, f0, anisotropy, its rotation (see lib/gbuffer.glsl) */
+    vec4 specular_params;  /* roughness, f0, anisotropy, its rotation (see lib/gbuffer.glsl) */
     vec4 to_light;         /* xyz: unit, towards x0; w: squared distance */
     vec4 intensity;        /* rgb: of the light, towards x1 [W/sr]; w: transmission. Emissive:
                             * radiance; density for weights, see scene/emitters.h */

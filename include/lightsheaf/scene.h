@@ -133,9 +133,9 @@ typedef enum lsf_feature {
     LSF_FEATURE_UNLIT,
     LSF_FEATURE_MASKS, /* alphaMode MASK */
     LSF_FEATURE_BLENDING,
-    LSF_FEATURE_GLOSS,       /* roughness and metallic, and lobes that depend on them: coats,
-                              * sheens */
-    LSF_FEATURE_NORMAL_MAPS, /* of coats, too */
+    LSF_FEATURE_ROUGHNESS_METALLIC, /* roughness and metallic, and lobes that depend on them: coats,
+                                     * sheens */
+    LSF_FEATURE_NORMAL_MAPS,        /* of coats, too */
     LSF_FEATURE_ANISOTROPY,
     LSF_FEATURE_TINTED_REFLECTION, /* KHR_materials_specular and _ior */
     LSF_FEATURE_COATS,

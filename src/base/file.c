@@ -78,8 +78,8 @@ static char *read_most(int file, uint64_t size, uint64_t most, const char *path,
                                  path, (unsigned long long)wanted);
             break;
         }
-        uint64_t room = (capacity - 1 < most ? capacity - 1 : most) - count;
-        ssize_t got = read(file, (char *)bytes + count, room);
+        uint64_t space = (capacity - 1 < most ? capacity - 1 : most) - count;
+        ssize_t got = read(file, (char *)bytes + count, space);
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)

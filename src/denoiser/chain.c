@@ -60,14 +60,14 @@ static bool needed_together(const lsf_net_chain *chain, uint32_t map, uint32_t o
 
 /* The lowest that is free for as long as the map is needed, where those before it in `order` are.
  */
-static uint64_t free_offset(const lsf_net_chain *chain, const uint32_t *order, uint32_t place)
+static uint64_t free_offset(const lsf_net_chain *chain, const uint32_t *order, uint32_t index)
 {
-    uint64_t at = 0, bytes = chain->maps[order[place]].bytes;
+    uint64_t at = 0, bytes = chain->maps[order[index]].bytes;
     for (bool moved = true; moved;) {
         moved = false;
-        for (uint32_t i = 0; i < place; i++) {
+        for (uint32_t i = 0; i < index; i++) {
             const lsf_net_map *o = &chain->maps[order[i]];
-            if (needed_together(chain, order[place], order[i]) && at < o->offset + o->bytes &&
+            if (needed_together(chain, order[index], order[i]) && at < o->offset + o->bytes &&
                 o->offset < at + bytes) {
                 at = o->offset + o->bytes;
                 moved = true;
@@ -92,7 +92,7 @@ static uint32_t sort_shared(const lsf_net_chain *chain, uint32_t order[LSF_NET_M
     return count;
 }
 
-void lsf_net_chain_place(lsf_net_chain *chain, uint64_t alignment)
+void lsf_net_chain_assign_offsets(lsf_net_chain *chain, uint64_t alignment)
 {
     uint32_t order[LSF_NET_MAPS_MAX];
     chain->shared_bytes = chain->state_bytes = 0;

@@ -19,7 +19,7 @@ typedef struct lsf_net_map {
     lsf_net_home home;
     uint32_t features, width, height;
     uint64_t bytes;  /* for the caller to set */
-    uint64_t offset; /* among those of its home, by lsf_net_chain_place */
+    uint64_t offset; /* among those of its home, by lsf_net_chain_assign_offsets */
 } lsf_net_map;
 
 typedef struct lsf_net_step {
@@ -44,6 +44,6 @@ typedef struct lsf_net_chain {
 void lsf_net_chain_make(lsf_net_chain *chain, const lsf_net *net, uint32_t width, uint32_t height,
                         bool recurrent);
 /* Sets offsets, each a multiple of `alignment`, and how many bytes there are. */
-void lsf_net_chain_place(lsf_net_chain *chain, uint64_t alignment);
+void lsf_net_chain_assign_offsets(lsf_net_chain *chain, uint64_t alignment);
 
 #endif

@@ -101,7 +101,7 @@ static bool make_maps(runner *r)
             return false;
         chain->maps[i].bytes = dnnl_memory_desc_get_size(&desc);
     }
-    lsf_net_chain_place(chain, ALIGNMENT);
+    lsf_net_chain_assign_offsets(chain, ALIGNMENT);
     for (uint32_t i = 0; i < chain->step_count; i++) {
         const lsf_net_map *source = &chain->maps[chain->steps[i].source];
         if (chain->steps[i].pooled && source->bytes / 2 > pooled)
@@ -117,9 +117,9 @@ static bool make_maps(runner *r)
         const lsf_net_map *map = &chain->maps[i];
         bool state = map->home == LSF_NET_STATE;
         char *base = i == 0 ? NULL : state ? r->states[1] : r->shared;
-        void *place = base ? base + map->offset : DNNL_MEMORY_ALLOCATE;
+        void *memory = base ? base + map->offset : DNNL_MEMORY_ALLOCATE;
         if (!describe_map(r, i, &desc) ||
-            !done(dnnl_memory_create(&r->maps[i], &desc, r->engine, place)) ||
+            !done(dnnl_memory_create(&r->maps[i], &desc, r->engine, memory)) ||
             (state && !done(dnnl_memory_create(&r->kept[i], &desc, r->engine,
                                                (char *)r->states[0] + map->offset))))
             return false;
@@ -154,19 +154,19 @@ static bool make_weights(const runner *r, const lsf_net_layer *layer, uint32_t f
                          uint32_t count, const dnnl_memory_desc_t *wanted, dnnl_memory_t *made)
 {
     const dnnl_dims_t size = {layer->out, count, layer->side, layer->side};
-    size_t places = (size_t)layer->side * layer->side;
+    size_t taps = (size_t)layer->side * layer->side;
     bool doubles = layer->side == 2;
     dnnl_memory_desc_t desc;
     dnnl_memory_t plain = NULL;
     dnnl_primitive_t primitive = NULL;
-    float *weights = lsf_alloc((uint64_t)layer->out * count * places, sizeof *weights);
+    float *weights = lsf_alloc((uint64_t)layer->out * count * taps, sizeof *weights);
     if (!weights)
         return false;
     for (uint32_t o = 0; o < layer->out && !doubles; o++)
-        memcpy(weights + o * count * places, layer->weights + (o * layer->in + first) * places,
-               count * places * sizeof *weights);
+        memcpy(weights + o * count * taps, layer->weights + (o * layer->in + first) * taps,
+               count * taps * sizeof *weights);
     if (doubles)
-        memcpy(weights, layer->weights, layer->out * count * places * sizeof *weights);
+        memcpy(weights, layer->weights, layer->out * count * taps * sizeof *weights);
     bool good = done(dnnl_memory_desc_init_by_tag(&desc, 4, size, dnnl_f32,
                                                   doubles ? dnnl_iohw : dnnl_oihw)) &&
                 done(dnnl_memory_create(&plain, &desc, r->engine, weights)) &&

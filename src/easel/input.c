@@ -67,13 +67,13 @@ static void follow_mouse(lsf_easel *easel)
     const lsf_input *input = easel->input;
     float scale = 1.0f / (float)easel->reduction, *m = easel->mouse;
     bool down = input->down[LSF_BUTTON_LEFT];
-    const float place[2] = {(float)input->x * scale,
-                            ((float)input->height - (float)input->y) * scale};
+    const float position[2] = {(float)input->x * scale,
+                               ((float)input->height - (float)input->y) * scale};
     if (down) {
-        easel->dirty |= m[0] != place[0] || m[1] != place[1] || !easel->was_down;
-        memcpy(m, place, sizeof place);
+        easel->dirty |= m[0] != position[0] || m[1] != position[1] || !easel->was_down;
+        memcpy(m, position, sizeof position);
         if (!easel->was_down)
-            memcpy(m + 2, place, sizeof place);
+            memcpy(m + 2, position, sizeof position);
     } else if (easel->was_down) {
         m[2] = -m[2];
         easel->dirty = true;

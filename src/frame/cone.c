@@ -26,7 +26,7 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
     {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
      "cones are rays that end at the surface they meet: no light comes through walls; off: smooth, "
      "and leaking"},
-    {"cone.turn", LSF_OPTION_BOOL, offsetof(lsf_cone_params, turn), 0, 0, NULL, "",
+    {"cone.rotate", LSF_OPTION_BOOL, offsetof(lsf_cone_params, rotate), 0, 0, NULL, "",
      "other directions for each pixel"},
 };
 
@@ -82,9 +82,9 @@ void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
         elevation = lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_ELEVATION));
     lsf_cone_set((uint32_t)params->count, 0.5f, cones);
     glUniform4fv(LSF_LOCATION_CONE_SET, params->count, &cones[0].x);
-    glUniform4f(LSF_LOCATION_CONE_TURN,
-                lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_TURN)),
-                params->turn, (float)params->count, elevation);
+    glUniform4f(LSF_LOCATION_CONE_ROTATION,
+                lsf_sobol_1d(index, lsf_iteration_seed(iteration, LSF_PURPOSE_CONE_ROTATION)),
+                params->rotate, (float)params->count, elevation);
     glUniform4f(LSF_LOCATION_CONE, params->step, params->offset, params->distance / grid->side,
                 params->opacity);
     glUniform1i(LSF_LOCATION_CONE_STEPS, most_steps(params, grid));

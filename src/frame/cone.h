@@ -21,12 +21,12 @@ typedef struct lsf_cone_params {
     float distance; /* reach of cones [half extents of the scene] */
     bool jitter;    /* elevations vary from iteration to iteration, each within its share */
     bool sealed;    /* cones are rays along their axis, which end where it meets a voxel */
-    bool turn;      /* the set is rotated from pixel to pixel */
+    bool rotate;    /* the set is rotated from pixel to pixel */
 } lsf_cone_params;
 
 #define LSF_CONE_PARAMS_DEFAULTS                                                                   \
     .count = 6, .sides = LSF_CONE_ANISOTROPIC, .offset = 1.5f, .step = 1.0f, .opacity = 1.0f,      \
-    .distance = 4.0f, .jitter = true, .sealed = true, .turn = true
+    .distance = 4.0f, .jitter = true, .sealed = true, .rotate = true
 
 #define LSF_CONE_OPTION_COUNT 9
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];

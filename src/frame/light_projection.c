@@ -177,10 +177,10 @@ static void set_window(struct lsf_light_data *data, uint32_t face, const lsf_flo
                        const float center[2], const float extent[2])
 {
     /* One more texel on each side leaves space for the offset. */
-    float room = 1.0f + 2.0f * data->map_shape.w;
+    float margin = 1.0f + 2.0f * data->map_shape.w;
     set_face(data, face, axes[0], axes[1], axes[2]);
-    data->map_window[face] = (lsf_vec4){center[0], center[1], fmaxf(extent[0], 1e-4f) * room,
-                                        fmaxf(extent[1], 1e-4f) * room};
+    data->map_window[face] = (lsf_vec4){center[0], center[1], fmaxf(extent[0], 1e-4f) * margin,
+                                        fmaxf(extent[1], 1e-4f) * margin};
 }
 
 /* Depths from the farthest to the nearest visible point along the light, with a sixteenth to
@@ -191,11 +191,11 @@ static void fit_depths(struct lsf_light_data *data, lsf_float3 along, const box 
     float low = fmaxf(view->low[2], scene->low[2]), high = fminf(view->high[2], scene->high[2]);
     float start =
         lsf_f3_dot(lsf_f3(data->map_origin.x, data->map_origin.y, data->map_origin.z), along);
-    float room = fmaxf(0.0625f * (high - low), 1e-4f);
+    float margin = fmaxf(0.0625f * (high - low), 1e-4f);
     if (!(low <= high)) /* nothing of the scene is in view */
         return;
-    data->map_shape.x = low - room - start;
-    data->map_shape.y = high + room - start;
+    data->map_shape.x = low - margin - start;
+    data->map_shape.y = high + margin - start;
 }
 
 /* Nested windows: each reaches a third as deep into the visible scene as the next one, so that a
@@ -272,19 +272,19 @@ void lsf_light_projection_project(struct lsf_light_data *data, const lsf_iterati
     uint32_t purpose = layout->purpose + 2 * light_index;
     float texels = (float)layout->resolution;
     set_light(data, light, &iteration->shares[light_index], layout->use);
-    float turn[2], shift[2], rotation[9];
-    lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, purpose), turn);
+    float numbers[2], shift[2], rotation[9];
+    lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, purpose), numbers);
     lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, purpose + 1), shift);
     data->map_shape = (lsf_vec4){NEAR_PLANE, 0.0f, texels, 1.0f / texels};
     data->map_origin = vec4_from(lsf_f3_load(light->position), (float)layout->faces);
     data->map_offset.z = iteration->view.start.w;
     if (lsf_light_projection_kind_of(light) == LSF_LIGHT_PROJECTION_CUBE) {
-        lsf_sample_rotation(turn[0], turn[1], shift[0], rotation);
+        lsf_sample_rotation(numbers[0], numbers[1], shift[0], rotation);
         project_cube(data, rotation);
         return;
     }
     lsf_float3 axes[3] = {[2] = lsf_f3_load(light->direction)};
-    rotated_axes(light, turn[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);
+    rotated_axes(light, numbers[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);
     data->map_offset.x = (2.0f * shift[0] - 1.0f) / texels;
     data->map_offset.y = (2.0f * shift[1] - 1.0f) / texels;
     if (light->type == LSF_LIGHT_DIRECTIONAL) {

@@ -27,12 +27,14 @@ int lsf_scene_gpu_sheen_word(const lsf_plan *plan)
                                               : 0;
 }
 
-void lsf_scene_gpu_word_switches(lsf_plan *plan, bool gloss)
+void lsf_scene_gpu_word_switches(lsf_plan *plan, bool specular_params)
 {
-    lsf_plan_switch_add(plan, "LSF_COAT", gloss ? lsf_scene_gpu_coat_word(plan) : 0,
-                        "some material is coated: the word of the gloss that tells, 0: none");
-    lsf_plan_switch_add(plan, "LSF_SHEEN", gloss ? lsf_scene_gpu_sheen_word(plan) : 0,
-                        "some material has a sheen: the word of the gloss that tells, 0: none");
+    lsf_plan_switch_add(
+        plan, "LSF_COAT", specular_params ? lsf_scene_gpu_coat_word(plan) : 0,
+        "some material is coated: the word of specular_params that holds it, 0: none");
+    lsf_plan_switch_add(
+        plan, "LSF_SHEEN", specular_params ? lsf_scene_gpu_sheen_word(plan) : 0,
+        "some material has a sheen: the word of specular_params that holds it, 0: none");
 }
 
 void lsf_scene_gpu_fold_lobes(lsf_plan *plan)
@@ -41,11 +43,12 @@ void lsf_scene_gpu_fold_lobes(lsf_plan *plan)
                         "only the G-buffer keeps lobes apart");
 }
 
-void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss)
+void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool specular_params)
 {
-    lsf_plan_switch_add(plan, "LSF_SPECULAR_TINT", gloss && plan->requirements.specular_varied,
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_TINT",
+                        specular_params && plan->requirements.specular_varied,
                         "some reflection is tinted or weighed");
-    lsf_scene_gpu_word_switches(plan, gloss);
+    lsf_scene_gpu_word_switches(plan, specular_params);
 }
 
 void lsf_scene_gpu_media_switch(lsf_plan *plan)

@@ -7,7 +7,7 @@
 /* Whether some material needs a struct lsf_lobe_data. */
 bool lsf_scene_gpu_has_lobes(const lsf_requirements *r);
 /* Adds LSF_COAT and LSF_SHEEN. */
-void lsf_scene_gpu_word_switches(lsf_plan *plan, bool gloss);
+void lsf_scene_gpu_word_switches(lsf_plan *plan, bool specular_params);
 /* Creates the table, where the plan lists it, and fills it. */
 bool lsf_scene_gpu_create_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error);
 void lsf_scene_gpu_update_lobes(lsf_scene_gpu *gpu);

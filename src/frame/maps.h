@@ -10,9 +10,9 @@
 typedef struct lsf_surface_maps {
     GLuint depth;   /* reverse-Z, 0 where no surface is: DEPTH_COMPONENT32F, or a copy in R32F */
     GLuint surface; /* RGBA32UI */
-    GLuint gloss;   /* R32UI or RG32UI; 0: roughness and metallic are the same everywhere */
-    GLuint pixels;  /* R32UI, x | y << 16: the pixel that shows each point; 0: it follows from
-                     * the position in the texture */
+    GLuint specular_params; /* R32UI or RG32UI; 0: roughness and metallic are the same everywhere */
+    GLuint pixels; /* R32UI, x | y << 16: the pixel that shows each point; 0: it follows from
+                    * the position in the texture */
 } lsf_surface_maps;
 
 /* Light at such points, RGBA32F; both 0: there is none. */
@@ -41,14 +41,14 @@ typedef struct lsf_light_parts {
     lsf_split_light indirect;
 } lsf_light_parts;
 
-/* The format of the G-buffer's gloss, once that is planned; GL_NONE: it has none. */
-GLenum lsf_gbuffer_gloss(const lsf_plan *plan);
+/* The format of the G-buffer's specular parameters, once that is planned; GL_NONE: it has none. */
+GLenum lsf_gbuffer_specular_params(const lsf_plan *plan);
 
 /* Guides of filters of light, which keep them on one surface; lib/light_guide.glsl says what
  * they hold. */
 typedef struct lsf_guide_maps {
     GLuint guide, slope; /* RGBA32F */
-    GLuint turn;         /* RG16F */
+    GLuint curvature;    /* RG16F */
 } lsf_guide_maps;
 
 /* For lib/light_guide.glsl, to units 0, 1 and 15. */

@@ -192,7 +192,7 @@ static void update_triangles(lsf_scene_gpu *gpu, const lsf_state *state)
 
 /* --- instances --- */
 
-static instance_data place(const lsf_instance_state *instance, uint32_t index)
+static instance_data instance_data_of(const lsf_instance_state *instance, uint32_t index)
 {
     const float *t = instance->transform, *n = instance->normal_transform;
     return (instance_data){{t[0], t[1], t[2], t[3]},
@@ -208,7 +208,7 @@ static bool update_instances(lsf_scene_gpu *gpu, const lsf_state *state)
 {
     bool any = false;
     for (uint32_t i = 0; i < state->instance_count; i++) {
-        const instance_data data = place(&state->instances[i], i);
+        const instance_data data = instance_data_of(&state->instances[i], i);
         bool drawn = !state->instances[i].skipped;
         any = any || gpu->drawn[i] != drawn;
         gpu->drawn[i] = drawn;

@@ -81,7 +81,7 @@ void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene)
     lsf_texture_upload_plan(plan, scene);
 }
 
-void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
+void lsf_scene_gpu_material_switches(lsf_plan *plan, bool specular_params, bool emission)
 {
     const lsf_requirements *r = &plan->requirements;
     const struct {
@@ -98,24 +98,29 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
         {"LSF_NORMAL_TEXTURE", r->normal_mapped, "some material has a normal map"},
         {"LSF_MASK", cuts_out(r), "some material is alpha-masked or blended"},
         {"LSF_BLEND", r->blended, "some material is blended"},
-        {"LSF_GLOSS", gloss, "roughness or metallic vary"},
-        {"LSF_METALLIC_ROUGHNESS_TEXTURE", gloss && r->metallic_roughness_textured,
+        {"LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary"},
+        {"LSF_METALLIC_ROUGHNESS_TEXTURE", specular_params && r->metallic_roughness_textured,
          "some roughness or metallic is a texture"},
-        {"LSF_ANISOTROPY", gloss && r->anisotropic, "some material is anisotropic"},
-        {"LSF_ANISOTROPY_TEXTURE", gloss && r->anisotropy_textured, "some anisotropy is a texture"},
-        {"LSF_SPECULAR_TINT", gloss && r->specular_varied, "some reflection is tinted or weighed"},
-        {"LSF_SPECULAR_TEXTURE", gloss && r->specular_textured, "some weight is a texture"},
-        {"LSF_SPECULAR_COLOR_TEXTURE", gloss && r->specular_color_textured,
+        {"LSF_ANISOTROPY", specular_params && r->anisotropic, "some material is anisotropic"},
+        {"LSF_ANISOTROPY_TEXTURE", specular_params && r->anisotropy_textured,
+         "some anisotropy is a texture"},
+        {"LSF_SPECULAR_TINT", specular_params && r->specular_varied,
+         "some reflection is tinted or weighed"},
+        {"LSF_SPECULAR_TEXTURE", specular_params && r->specular_textured,
+         "some weight is a texture"},
+        {"LSF_SPECULAR_COLOR_TEXTURE", specular_params && r->specular_color_textured,
          "some tint is a texture"},
-        {"LSF_LOBES", gloss && lsf_scene_gpu_has_lobes(r),
+        {"LSF_LOBES", specular_params && lsf_scene_gpu_has_lobes(r),
          "some material has a lobe that few have"},
-        {"LSF_SHEEN_COLOR_TEXTURE", gloss && r->sheen_color_textured, "some sheen is a texture"},
-        {"LSF_SHEEN_ROUGHNESS_TEXTURE", gloss && r->sheen_roughness_textured,
+        {"LSF_SHEEN_COLOR_TEXTURE", specular_params && r->sheen_color_textured,
+         "some sheen is a texture"},
+        {"LSF_SHEEN_ROUGHNESS_TEXTURE", specular_params && r->sheen_roughness_textured,
          "some sheen's roughness is a texture"},
-        {"LSF_COAT_TEXTURE", gloss && r->coat_textured, "some coat is a texture"},
-        {"LSF_COAT_ROUGHNESS_TEXTURE", gloss && r->coat_roughness_textured,
+        {"LSF_COAT_TEXTURE", specular_params && r->coat_textured, "some coat is a texture"},
+        {"LSF_COAT_ROUGHNESS_TEXTURE", specular_params && r->coat_roughness_textured,
          "some coat's roughness is a texture"},
-        {"LSF_COAT_NORMAL_TEXTURE", gloss && r->coat_normal_mapped, "some coat has a normal map"},
+        {"LSF_COAT_NORMAL_TEXTURE", specular_params && r->coat_normal_mapped,
+         "some coat has a normal map"},
         {"LSF_TRANSMISSION", plan->transmission, "light passes materials that transmit"},
         {"LSF_STRAIGHT", plan->straight, "it goes straight on"},
         {"LSF_TRANSMISSION_TEXTURE", plan->transmission && r->transmission_textured,
@@ -126,7 +131,7 @@ void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission)
     for (size_t i = 0; i < LSF_COUNT(switches); i++)
         lsf_plan_switch_add(plan, switches[i].name, switches[i].on, "%s", switches[i].why);
     lsf_scene_gpu_scatter_switch(plan);
-    lsf_scene_gpu_word_switches(plan, gloss);
+    lsf_scene_gpu_word_switches(plan, specular_params);
 }
 
 void lsf_scene_gpu_mask_switches(lsf_plan *plan)

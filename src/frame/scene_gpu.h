@@ -49,16 +49,17 @@ typedef struct lsf_scene_gpu {
 /* Lists what lsf_scene_gpu_create will create. */
 void lsf_scene_gpu_plan(lsf_plan *plan, const lsf_scene *scene);
 
-/* Adds the switches of lib/material.glsl to the current pass; gloss and emission are evaluated
- * only where asked for. */
-void lsf_scene_gpu_material_switches(lsf_plan *plan, bool gloss, bool emission);
+/* Adds the switches of lib/material.glsl to the current pass; specular parameters and emission are
+ * evaluated only where asked for. */
+void lsf_scene_gpu_material_switches(lsf_plan *plan, bool specular_params, bool emission);
 
 /* Adds switches to a pass that evaluates materials without the lobes that only the G-buffer
  * keeps apart: they are folded into those that every surface has, with about the same albedo. */
 void lsf_scene_gpu_fold_lobes(lsf_plan *plan);
 
-/* Adds switches to a pass that reads the G-buffer's gloss, which say what lobes it holds. */
-void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool gloss);
+/* Adds switches to a pass that reads the G-buffer's specular parameters, which tell the lobes that
+ * they hold. */
+void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool specular_params);
 /* Adds the switch of media that light goes straight through, where there are such. */
 void lsf_scene_gpu_media_switch(lsf_plan *plan);
 /* Adds the switch of rough thin walls, where the camera sees some that scatter light. */
@@ -66,8 +67,9 @@ void lsf_scene_gpu_scatter_switch(lsf_plan *plan);
 /* The same with the switches that it needs, for a pass that handles no other transmission. */
 void lsf_scene_gpu_scatter_switches(lsf_plan *plan);
 
-/* The word of a texel of the G-buffer's gloss that holds the clear coat, 1 to 3; 0 where nothing
- * is coated, or where anisotropy, transmission and tints leave no word: coats are folded then. */
+/* The word of a texel of the G-buffer's specular parameters that holds the clear coat, 1 to 3; 0
+ * where nothing is coated, or where anisotropy, transmission and tints leave no word: coats are
+ * folded then. */
 int lsf_scene_gpu_coat_word(const lsf_plan *plan);
 /* The same for the sheen, in the words that the coat leaves. */
 int lsf_scene_gpu_sheen_word(const lsf_plan *plan);

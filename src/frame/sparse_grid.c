@@ -38,7 +38,7 @@ bool lsf_sparse_grid_is_of_pixels(const lsf_plan *plan)
     return plan->pixel_side > 1;
 }
 
-void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2])
+void lsf_sparse_grid_texture_size(const lsf_plan *plan, uint32_t size[2])
 {
     lsf_sparse_grid_points(plan, size);
     if (plan->stride <= 1 || lsf_sparse_grid_is_of_pixels(plan))
@@ -64,12 +64,12 @@ void lsf_sparse_grid_pixel_switch(lsf_plan *plan)
 
 /* The i-th position in a square whose width is a power of two: after each 4^k of them the
  * positions form a regular grid. */
-static void place_in_square(uint32_t i, uint32_t side, uint32_t place[2])
+static void position_in_square(uint32_t i, uint32_t side, uint32_t position[2])
 {
-    place[0] = place[1] = 0;
+    position[0] = position[1] = 0;
     for (uint32_t half = side / 2; half > 0; half /= 2, i /= 4) {
-        place[0] += (i & 1 ? half : 0);
-        place[1] += ((i ^ i >> 1) & 1 ? half : 0); /* the diagonal neighbour comes second */
+        position[0] += (i & 1 ? half : 0);
+        position[1] += ((i ^ i >> 1) & 1 ? half : 0); /* the diagonal neighbour comes second */
     }
 }
 
@@ -95,7 +95,7 @@ lsf_sparse_grid lsf_sparse_grid_at(const lsf_plan *plan, uint32_t done, uint32_t
         grid.phase[1] = number / stride % stride;
         return grid;
     }
-    place_in_square(index % (stride * stride), stride, grid.phase);
+    position_in_square(index % (stride * stride), stride, grid.phase);
     grid.phase[0] = (grid.phase[0] ^ (seed & (stride - 1))) % least(stride, plan->seen_width);
     grid.phase[1] =
         (grid.phase[1] ^ (seed >> 16 & (stride - 1))) % least(stride, plan->seen_height);

@@ -28,7 +28,7 @@ bool lsf_sparse_grid_is_sparse(const lsf_plan *plan);
 bool lsf_sparse_grid_is_of_pixels(const lsf_plan *plan);
 /* Width and height of textures that hold both layers in every iteration; those of the picture
  * where the plan is not sparse. */
-void lsf_sparse_grid_places(const lsf_plan *plan, uint32_t size[2]);
+void lsf_sparse_grid_texture_size(const lsf_plan *plan, uint32_t size[2]);
 /* The same for one layer. */
 void lsf_sparse_grid_points(const lsf_plan *plan, uint32_t size[2]);
 /* Adds the switch LSF_SPARSE to the pass added last. */

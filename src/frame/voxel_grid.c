@@ -138,7 +138,7 @@ void lsf_voxels_bind(const lsf_voxels *voxels)
     lsf_bind_texture(LSF_UNIT_VOXEL_SHADING, voxels->shading);
     lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, voxels->emission);
     lsf_bind_texture(LSF_UNIT_VOXEL_SHINING, voxels->shining);
-    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, voxels->gloss);
+    lsf_bind_texture(LSF_UNIT_VOXEL_SPECULAR_PARAMS, voxels->specular_params);
     lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, voxels->transmission);
 }
 
@@ -167,15 +167,15 @@ void lsf_voxel_bend_switch(lsf_plan *plan)
                         "normals are smooth or mapped, or tangents count: voxels keep them, too");
 }
 
-bool lsf_voxel_gloss(const lsf_plan *plan)
+bool lsf_voxel_has_specular_params(const lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
     return r->glossy || (plan->transmission && r->variable_ior);
 }
 
-void lsf_voxel_gloss_switch(lsf_plan *plan)
+void lsf_voxel_specular_params_switch(lsf_plan *plan)
 {
-    lsf_plan_switch_add(plan, "LSF_VOXEL_GLOSS", lsf_voxel_gloss(plan),
+    lsf_plan_switch_add(plan, "LSF_VOXEL_SPECULAR_PARAMS", lsf_voxel_has_specular_params(plan),
                         "roughness or metallic vary between voxels");
 }
 
@@ -207,7 +207,7 @@ void lsf_voxel_passage_all_switches(lsf_plan *plan)
         return;
     }
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "light passes materials that transmit");
-    lsf_voxel_gloss_switch(plan);
+    lsf_voxel_specular_params_switch(plan);
     lsf_voxel_bend_switch(plan);
     lsf_voxel_passage_switches(plan);
 }

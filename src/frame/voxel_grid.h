@@ -59,7 +59,7 @@ typedef struct lsf_voxels {
     GLuint emission;                              /* R32UI; 0 without emitting materials */
     GLuint shining;                               /* R32UI, bricks that emit; 0 without emitting
                                                    * materials */
-    GLuint gloss;                                 /* R32UI; 0 unless some material is glossy */
+    GLuint specular_params;                       /* R32UI; 0 unless some material is glossy */
     GLuint transmission;                          /* R32UI; 0 unless some material transmits
                                                    * light */
     GLuint bricks;                                /* occupied bricks; voxel_data.h has the layout */
@@ -82,14 +82,14 @@ void lsf_voxel_texture_plan(lsf_plan *plan, const lsf_voxel_grid *grid, const ch
 bool lsf_voxel_bends(const lsf_plan *plan);
 void lsf_voxel_bend_switch(lsf_plan *plan);
 /* The same for roughness, metallic and f0. */
-bool lsf_voxel_gloss(const lsf_plan *plan);
-void lsf_voxel_gloss_switch(lsf_plan *plan);
+bool lsf_voxel_has_specular_params(const lsf_plan *plan);
+void lsf_voxel_specular_params_switch(lsf_plan *plan);
 /* Adds the switch of surfaces that transmit and are there by chance, where cones march. */
 void lsf_voxel_chance_switch(lsf_plan *plan);
 /* Whether rays go on through voxels of materials that transmit. */
 bool lsf_voxel_passage(const lsf_plan *plan);
-/* Adds the switches of lib/voxel_passage.glsl where they do, but for those of materials: gloss,
- * shading normals, and that light is transmitted. */
+/* Adds the switches of lib/voxel_passage.glsl where they do, but for those of materials: specular
+ * parameters, shading normals, and that light is transmitted. */
 void lsf_voxel_passage_switches(lsf_plan *plan);
 /* The same with these, for passes that need them for nothing else; where rays end, the switches of
  * rough walls that are seen. */

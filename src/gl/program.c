@@ -73,16 +73,16 @@ static bool report(const build *b, const char *what, const lsf_string *log, lsf_
     size_t length = strlen(text);
     while (length && text[length - 1] == '\n')
         length--;
-    const size_t room = LSF_ERROR_MESSAGE_SIZE - 256;
-    if (length > room) {
+    const size_t limit = LSF_ERROR_MESSAGE_SIZE - 256;
+    if (length > limit) {
         for (const char *line = text; *line;) {
             size_t line_length = strcspn(line, "\n");
             lsf_log(LSF_LOG_ERROR, "%.*s", (int)line_length, line);
             line += line_length + (line[line_length] == '\n');
         }
     }
-    int shown = (int)(length > room ? room : length);
-    const char *rest = length > room ? "\n... (the whole text is in the log)" : "";
+    int shown = (int)(length > limit ? limit : length);
+    const char *rest = length > limit ? "\n... (the whole text is in the log)" : "";
     if (b->foreign && strcmp(what, "compile") == 0)
         return lsf_error_set(error, LSF_ERROR_RENDER, "%.*s%s", shown, text, rest);
     return lsf_error_set(error, LSF_ERROR_RENDER, "%s%.128s did not %s:\n%.*s%s",

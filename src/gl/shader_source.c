@@ -192,15 +192,15 @@ static void add_line(const builder *b, const char *line, size_t length, const op
                      uint64_t file)
 {
     lsf_shader_source *source = b->source;
-    void *places = source->places;
-    if (!lsf_grow(&places, &source->line_capacity, source->line_count + 1,
-                  sizeof(lsf_shader_place))) {
+    void *origins = source->origins;
+    if (!lsf_grow(&origins, &source->line_capacity, source->line_count + 1,
+                  sizeof(lsf_shader_origin))) {
         source->text.failed = true;
         return;
     }
-    source->places = places;
-    source->places[source->line_count++] =
-        (lsf_shader_place){(uint32_t)file, (uint32_t)from->line, from->folder != NULL};
+    source->origins = origins;
+    source->origins[source->line_count++] =
+        (lsf_shader_origin){(uint32_t)file, (uint32_t)from->line, from->folder != NULL};
     lsf_string_add_bytes(&source->text, line, length);
     lsf_string_add_bytes(&source->text, "\n", 1);
 }
@@ -292,10 +292,10 @@ static void hoist(const builder *b, const char *line, size_t length, const open_
     memmove(text + head + moved, text + head, source->text.length - head - moved);
     memcpy(text + head, line, length);
     text[head + length] = '\n';
-    lsf_shader_place place = source->places[source->line_count - 1];
-    memmove(source->places + 2, source->places + 1,
-            (source->line_count - 2) * sizeof *source->places);
-    source->places[1] = place;
+    lsf_shader_origin origin = source->origins[source->line_count - 1];
+    memmove(source->origins + 2, source->origins + 1,
+            (source->line_count - 2) * sizeof *source->origins);
+    source->origins[1] = origin;
 }
 
 /* Handles directives of a user's file that the text has above it already, or has to have there. */
@@ -419,7 +419,7 @@ void lsf_shader_source_free(lsf_shader_source *source)
     for (uint64_t i = 0; i < source->path_count; i++)
         free(source->paths[i]);
     free(source->paths);
-    free(source->places);
+    free(source->origins);
     free(source->text.text);
     *source = (lsf_shader_source){0};
 }
@@ -428,7 +428,7 @@ void lsf_shader_source_free(lsf_shader_source *source)
  *   Mesa    0:12(5): error: ...      NVIDIA  0(12) : error C1008: ...
  *   others  ERROR: 0:12: ...
  * The 0 counts source strings, of which there is one. Returns NULL when the line names no place. */
-static const char *parse_place(const char *line, uint64_t *number)
+static const char *parse_origin(const char *line, uint64_t *number)
 {
     char *end;
     bool parenthesis = line[0] == '0' && line[1] == '(';
@@ -488,9 +488,9 @@ void lsf_shader_source_map_name(const lsf_shader_source *source, const char *mes
         length++;
     for (uint64_t i = 0; length > 0 && i < source->line_count; i++) {
         size_t line_length = strcspn(line, "\n");
-        lsf_shader_place place = source->places[i];
-        if (place.foreign && holds_word(line, line_length, name + 1, length)) {
-            lsf_string_add(mapped, "%s:%u: %s\n", source->paths[place.file], place.line, message);
+        lsf_shader_origin origin = source->origins[i];
+        if (origin.foreign && holds_word(line, line_length, name + 1, length)) {
+            lsf_string_add(mapped, "%s:%u: %s\n", source->paths[origin.file], origin.line, message);
             add_line_of_text(source, i + 1, mapped);
             return;
         }
@@ -515,12 +515,12 @@ void lsf_shader_source_map_log(const lsf_shader_source *source, const char *log,
             }
         }
         uint64_t number;
-        const char *message = parse_place(at, &number);
+        const char *message = parse_origin(at, &number);
         if (message && message <= line + length && number >= 1 && number <= source->line_count) {
-            lsf_shader_place place = source->places[number - 1];
-            lsf_string_add(mapped, "%s:%u: %s%.*s\n", source->paths[place.file], place.line,
+            lsf_shader_origin origin = source->origins[number - 1];
+            lsf_string_add(mapped, "%s:%u: %s%.*s\n", source->paths[origin.file], origin.line,
                            severity, (int)(line + length - message), message);
-            if (place.foreign && number != shown)
+            if (origin.foreign && number != shown)
                 add_line_of_text(source, number, mapped);
             shown = number;
         } else if (length)

@@ -13,17 +13,17 @@ typedef struct lsf_embedded_file {
 } lsf_embedded_file;
 extern const lsf_embedded_file lsf_embedded_files[];
 
-typedef struct lsf_shader_place {
+typedef struct lsf_shader_origin {
     uint32_t file; /* in paths */
     uint32_t line; /* from 1 */
     bool foreign;  /* a user's file, none of the library */
-} lsf_shader_place;
+} lsf_shader_origin;
 
 typedef struct lsf_shader_source {
     lsf_string text;
     char **paths; /* [0] stands for #version and the defines */
     uint64_t path_count, path_capacity;
-    lsf_shader_place *places; /* where each line of the text came from */
+    lsf_shader_origin *origins; /* where each line of the text came from */
     uint64_t line_count, line_capacity;
 } lsf_shader_source;
 

@@ -188,16 +188,16 @@ bool lsf_exr_header_read(lsf_image_header *header, const uint8_t *bytes, size_t 
 static bool next_attribute(const uint8_t *bytes, size_t *at, const char **type,
                            lsf_header_text *attribute)
 {
-    size_t place = *at ? *at : 8;
-    if (bytes[place] == 0)
+    size_t offset = *at ? *at : 8;
+    if (bytes[offset] == 0)
         return false;
-    attribute->key = (const char *)bytes + place;
-    place += strlen(attribute->key) + 1;
-    *type = (const char *)bytes + place;
-    place += strlen(*type) + 1;
-    attribute->length = read_u32(bytes + place);
-    attribute->value = (const char *)bytes + place + 4;
-    *at = place + 4 + attribute->length;
+    attribute->key = (const char *)bytes + offset;
+    offset += strlen(attribute->key) + 1;
+    *type = (const char *)bytes + offset;
+    offset += strlen(*type) + 1;
+    attribute->length = read_u32(bytes + offset);
+    attribute->value = (const char *)bytes + offset + 4;
+    *at = offset + 4 + attribute->length;
     return true;
 }
 
@@ -214,8 +214,8 @@ const char *lsf_exr_next_channel(const uint8_t *bytes, size_t *at)
 {
     const char *type;
     lsf_header_text list;
-    size_t place = *at;
-    while (*at == 0 && next_attribute(bytes, &place, &type, &list))
+    size_t offset = *at;
+    while (*at == 0 && next_attribute(bytes, &offset, &type, &list))
         if (strcmp(list.key, "channels") == 0)
             *at = (size_t)(list.value - (const char *)bytes);
     const char *name = (const char *)bytes + *at;

@@ -212,7 +212,7 @@ static void apply_transform(const tinygltf::ExtensionMap &extensions, lsf_textur
         if (transform.Has("scale"))
             scale[i] = transform.Get("scale").Get(i).GetNumberAsDouble();
     }
-    lsf_texture_slot_place(&slot, offset, number_in(transform, "rotation", 0.0), scale);
+    lsf_texture_slot_set_transform(&slot, offset, number_in(transform, "rotation", 0.0), scale);
     slot.uv_set = (uint32_t)number_in(transform, "texCoord", slot.uv_set);
 }
 

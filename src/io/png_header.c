@@ -96,17 +96,17 @@ size_t lsf_png_without_metadata(uint8_t *bytes, size_t length)
 
 bool lsf_png_next_text(const uint8_t *bytes, size_t length, size_t *at, lsf_header_text *text)
 {
-    for (size_t place = *at ? *at : SIGNATURE_BYTES; place + CHUNK_FRAME_BYTES <= length;) {
-        const uint8_t *chunk = bytes + place;
+    for (size_t offset = *at ? *at : SIGNATURE_BYTES; offset + CHUNK_FRAME_BYTES <= length;) {
+        const uint8_t *chunk = bytes + offset;
         size_t size = read_u32(chunk);
         const uint8_t *key = chunk + 8;
         const uint8_t *end = size > 0 ? memchr(key, 0, size) : NULL;
-        place += size + CHUNK_FRAME_BYTES;
+        offset += size + CHUNK_FRAME_BYTES;
         if (is_type(chunk, "IEND"))
             break;
         if (!is_type(chunk, "tEXt") || !end)
             continue;
-        *at = place;
+        *at = offset;
         *text = (lsf_header_text){(const char *)key, (const char *)end + 1,
                                   size - (size_t)(end - key) - 1};
         return true;

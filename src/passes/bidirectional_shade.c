@@ -52,19 +52,20 @@ static const lsf_texture_row textures[] = {
     {"bidirectional_shade.surface", GL_RGBA32UI, AT(outputs.surface), DEEP, "vertices of paths"},
     {"bidirectional_shade.throughput", GL_RGBA32UI, AT(throughput), DEEP,
      "what vertices hand on, as half floats"},
-    {"bidirectional_shade.gloss", GL_NONE, AT(outputs.gloss), DEEP, "roughness of vertices"},
+    {"bidirectional_shade.specular_params", GL_NONE, AT(outputs.specular_params), DEEP,
+     "roughness of vertices"},
 };
 
 /* Uniforms of lib/ray_bundle.glsl. */
-static const char *const bundle_switches[] = {"LSF_BUNDLE_SIDE",     "LSF_BUNDLE_SLICES",
-                                              "LSF_BUNDLE_GLOSS",    "LSF_BUNDLE_ANISOTROPY",
-                                              "LSF_BUNDLE_EMISSION", "LSF_BUNDLE_GAPS"};
+static const char *const bundle_switches[] = {
+    "LSF_BUNDLE_SIDE",       "LSF_BUNDLE_SLICES",   "LSF_BUNDLE_SPECULAR_PARAMS",
+    "LSF_BUNDLE_ANISOTROPY", "LSF_BUNDLE_EMISSION", "LSF_BUNDLE_GAPS"};
 
 static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
                           const lsf_bidirectional_shade_use *use, bool of_vpl, bool deep)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     lsf_plan_switch_add(plan, "LSF_DEEP", deep, "vertices are hits of bundles");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
@@ -74,14 +75,14 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
                         !deep && plan->filtered && use->interleave > 1 && r->specular,
                         "a filter pools the light of the pattern");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic,
                         "some material is anisotropic");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_scene_gpu_scatter_switch(plan);
-    lsf_scene_gpu_lobe_switches(plan, gloss);
+    lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_CLAMP_RADIANCE",
                         params->suppression == LSF_GLOSSY_SUPPRESSION_CLAMP,
                         "bidirectional.suppression is clamp");
@@ -142,9 +143,9 @@ void lsf_bidirectional_shade_plan(lsf_plan *plan, const lsf_bidirectional_shade_
         plan_hit(plan, params, use, false);
     if (use->segments > 1)
         plan_hit(plan, params, use, true);
-    uint32_t given = (use->split_direct ? DIRECT : 0) | (use->vertices > 0 ? DEEP : 0), places[2];
-    lsf_sparse_grid_places(plan, places);
-    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), given, places[0], places[1]);
+    uint32_t given = (use->split_direct ? DIRECT : 0) | (use->vertices > 0 ? DEEP : 0), size[2];
+    lsf_sparse_grid_texture_size(plan, size);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), given, size[0], size[1]);
 }
 
 static bool create_hit(lsf_bidirectional_shade *pass, const lsf_plan *plan, bool deep,
@@ -157,14 +158,14 @@ static bool create_hit(lsf_bidirectional_shade *pass, const lsf_plan *plan, bool
     const lsf_bidirectional_shade_outputs *out = &pass->outputs;
     bool split = lsf_plan_switch_value(plan, hit_names[deep], "LSF_SPLIT_DIRECT");
     bool onward = lsf_plan_switch_value(plan, hit_names[deep], "LSF_CONTINUE");
-    lsf_framebuffer_desc desc = {.label = hit_names[deep],
-                                 .color_count = 8,
-                                 .colors = {out->light.irradiance, out->light.specular,
-                                            split ? out->direct.irradiance : 0,
-                                            split ? out->direct.specular : 0,
-                                            onward ? out->position : 0, onward ? out->surface : 0,
-                                            onward ? pass->throughput : 0, onward ? out->gloss : 0},
-                                 .layer = -1};
+    lsf_framebuffer_desc desc = {
+        .label = hit_names[deep],
+        .color_count = 8,
+        .colors = {out->light.irradiance, out->light.specular, split ? out->direct.irradiance : 0,
+                   split ? out->direct.specular : 0, onward ? out->position : 0,
+                   onward ? out->surface : 0, onward ? pass->throughput : 0,
+                   onward ? out->specular_params : 0},
+        .layer = -1};
     for (uint32_t i = 0; i < 4; i++)
         pass->hit_floats[deep] += desc.colors[i] != 0;
     pass->hit_framebuffers[deep] = lsf_framebuffer_create(pass->context, &desc, error);
@@ -226,8 +227,8 @@ static void bind_vertices(const lsf_bidirectional_shade *pass,
 {
     lsf_bind_texture(0, deep ? pass->outputs.position : inputs->seen->depth);
     lsf_bind_texture(1, deep ? pass->outputs.surface : inputs->seen->surface);
-    lsf_bind_texture(2, deep ? pass->outputs.gloss : inputs->seen->gloss);
-    lsf_bind_texture(LSF_UNIT_PLACES, inputs->seen->pixels);
+    lsf_bind_texture(2, deep ? pass->outputs.specular_params : inputs->seen->specular_params);
+    lsf_bind_texture(LSF_UNIT_POSITION_PIXELS, inputs->seen->pixels);
     if (deep) {
         lsf_bind_texture(3, pass->throughput);
         glUniform3fv(LSF_LOCATION_ARRIVAL, 1, sample->arrival);

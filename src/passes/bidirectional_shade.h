@@ -89,8 +89,8 @@ typedef struct lsf_bidirectional_shade_inputs {
 /* Alpha of light: luminance that the bound took away. Position: RGBA32F. */
 typedef struct lsf_bidirectional_shade_outputs {
     lsf_split_light light;
-    lsf_split_light direct;          /* 0 unless split_direct */
-    GLuint position, surface, gloss; /* the vertices that the last hits became */
+    lsf_split_light direct;                    /* 0 unless split_direct */
+    GLuint position, surface, specular_params; /* the vertices that the last hits became */
 } lsf_bidirectional_shade_outputs;
 
 typedef struct lsf_bidirectional_shade {

@@ -42,13 +42,13 @@ void lsf_blur_plan(lsf_plan *plan, const lsf_blur_params *params)
         lsf_plan_omit(plan, "blur", "sparse.blur is 0");
         return;
     }
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "blur_guide", "what the blur compares, once for all phases");
     lsf_plan_reads(plan, "view gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic,
                         "some material is anisotropic");
     lsf_plan_pass_add(plan, "blur", "removes the noise of few samples, the rougher the wider");
     lsf_plan_reads(plan, "view sparse|light_tree_sample|cone_trace|voxel_path|bidirectional_shade");

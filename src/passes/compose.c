@@ -110,7 +110,7 @@ void lsf_compose_run(lsf_compose *pass, const lsf_iteration *iteration,
     lsf_bind_texture(6, parts->indirect.specular);
     lsf_bind_texture(7, parts->split_direct.irradiance);
     lsf_bind_texture(8, parts->split_direct.specular);
-    lsf_bind_texture(9, gbuffer->seen.gloss);
+    lsf_bind_texture(9, gbuffer->seen.specular_params);
     lsf_bind_texture(10, gbuffer->tint);
     lsf_bind_texture(11, gbuffer->absorption);
     lsf_bind_texture(12, parts->sky.irradiance);

@@ -33,9 +33,9 @@ static const lsf_texture_row textures[] = {
 
 void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params)
 {
-    uint32_t places[2];
+    uint32_t size[2];
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "cone_trace", "%d diffuse cones of each visible point%s", params->count,
                       r->specular ? ", and a specular one" : "");
     lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_bounce|voxel_light");
@@ -43,15 +43,15 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params)
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)lsf_cone_slices(params), "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic && params->sealed,
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic && params->sealed,
                         "rays of the lobe are drawn; cones are round");
     lsf_voxel_passage_all_switches(plan);
-    lsf_scene_gpu_lobe_switches(plan, gloss);
+    lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
-    lsf_sparse_grid_places(plan, places);
-    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, places[0], places[1]);
+    lsf_sparse_grid_texture_size(plan, size);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, size[0], size[1]);
     if (!r->specular || params->sealed)
         return;
     lsf_plan_texture_add(plan, "cone_trace.lobe_albedo", GL_RG32F, ALBEDO_SIDE, ALBEDO_SIDE,

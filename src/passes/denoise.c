@@ -262,12 +262,12 @@ static void give(const lsf_denoise *pass, const lsf_plan *plan, const lsf_denois
 
 static void bind_map(const lsf_denoise *pass, GLuint binding, uint32_t map, bool before)
 {
-    const lsf_net_map *place = &pass->layout->chain.maps[map];
-    GLuint buffer = place->home == LSF_NET_OUTSIDE ? pass->exchange
-                    : place->home == LSF_NET_STATE ? pass->states[before ? 0 : 1]
+    const lsf_net_map *entry = &pass->layout->chain.maps[map];
+    GLuint buffer = entry->home == LSF_NET_OUTSIDE ? pass->exchange
+                    : entry->home == LSF_NET_STATE ? pass->states[before ? 0 : 1]
                                                    : pass->features;
-    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer, (GLintptr)place->offset,
-                      (GLsizeiptr)lsf_denoise_map_bytes(place));
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer, (GLintptr)entry->offset,
+                      (GLsizeiptr)lsf_denoise_map_bytes(entry));
 }
 
 static void run_step(const lsf_denoise *pass, uint32_t i)

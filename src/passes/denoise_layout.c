@@ -31,7 +31,7 @@ void lsf_denoise_layout_make(lsf_denoise_layout *layout, const lsf_net *net, uin
         if (chain->maps[i].bytes > layout->largest)
             layout->largest = chain->maps[i].bytes;
     }
-    lsf_net_chain_place(chain, ALIGNMENT);
+    lsf_net_chain_assign_offsets(chain, ALIGNMENT);
     uint32_t at = 0; /* vec4s */
     for (uint32_t i = 0; i < chain->step_count; i++) {
         const lsf_net_step *step = &chain->steps[i];
@@ -51,18 +51,18 @@ void lsf_denoise_layout_make(lsf_denoise_layout *layout, const lsf_net *net, uin
 static void pack_layer(float *all, const lsf_net_step *step, const lsf_denoise_weights *weights)
 {
     const lsf_net_layer *layer = step->layer;
-    uint32_t places = layer->side * layer->side, first = layer->in - step->beside_features;
+    uint32_t taps = layer->side * layer->side, first = layer->in - step->beside_features;
     float *packed = all + (size_t)4 * weights->first_weight;
     for (uint32_t o = 0; o < layer->out; o++)
         for (uint32_t i = 0; i < layer->in; i++)
-            for (uint32_t p = 0; p < places; p++) {
+            for (uint32_t p = 0; p < taps; p++) {
                 uint32_t in =
                     i < first ? i : i - first + lsf_denoise_groups(first) * LSF_DENOISE_GROUP;
-                size_t from = layer->side == 2 ? ((size_t)i * layer->out + o) * places + p
-                                               : ((size_t)o * layer->in + i) * places + p;
+                size_t from = layer->side == 2 ? ((size_t)i * layer->out + o) * taps + p
+                                               : ((size_t)o * layer->in + i) * taps + p;
                 size_t group =
                     (size_t)(o / LSF_DENOISE_GROUP) * weights->groups + in / LSF_DENOISE_GROUP;
-                size_t row = (group * places + p) * LSF_DENOISE_GROUP + o % LSF_DENOISE_GROUP;
+                size_t row = (group * taps + p) * LSF_DENOISE_GROUP + o % LSF_DENOISE_GROUP;
                 packed[row * LSF_DENOISE_GROUP + in % LSF_DENOISE_GROUP] = layer->weights[from];
             }
     memcpy(all + (size_t)4 * weights->first_bias, layer->bias, layer->out * sizeof *layer->bias);

@@ -23,11 +23,11 @@ const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
 
 static void plan_switches(lsf_plan *plan)
 {
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     bool emission = lsf_plan_surfaces_shine(plan);
     bool motion = lsf_plan_find(plan, "gbuffer.motion") != NULL;
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_scene_gpu_material_switches(plan, gloss, emission);
+    lsf_scene_gpu_material_switches(plan, specular_params, emission);
     lsf_plan_switch_add(plan, "LSF_MOTION", motion, "motion is asked for");
     if (plan->temporal)
         lsf_plan_switch_add(plan, "LSF_HISTORY", true, "light is kept from frame to frame");
@@ -35,8 +35,8 @@ static void plan_switches(lsf_plan *plan)
         lsf_plan_switch_add(plan, "LSF_DEFORMED_MOTION", true, "vertices are deformed");
     /* Colour attachments are numbered without gaps. */
     int target = 1;
-    if (gloss)
-        lsf_plan_switch_add(plan, "LSF_GLOSS_TARGET", target++,
+    if (specular_params)
+        lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS_TARGET", target++,
                             "its colour attachment is numbered");
     if (emission)
         lsf_plan_switch_add(plan, "LSF_EMISSION_TARGET", target++,
@@ -52,7 +52,7 @@ static void plan_switches(lsf_plan *plan)
 }
 
 /* The light that is absorbed and emitted between the visible surface and the eye. */
-static void plan_way(lsf_plan *plan)
+static void plan_transmittance(lsf_plan *plan)
 {
     uint32_t w = plan->seen_width, h = plan->seen_height;
     if (!plan->straight)
@@ -75,15 +75,15 @@ void lsf_gbuffer_plan(lsf_plan *plan)
     lsf_plan_texture_add(plan, "gbuffer.surface", GL_RGBA32UI, w, h,
                          "normals, base colour, metallic");
     if (plan->transmission || (r->specular && (r->specular_varied || r->coated || r->sheened)))
-        lsf_plan_texture_add(plan, "gbuffer.gloss", GL_RGBA32UI, w, h,
+        lsf_plan_texture_add(plan, "gbuffer.specular_params", GL_RGBA32UI, w, h,
                              "roughness, f0, anisotropy, transmission, tint of f0, coat, sheen");
     else if (r->specular && r->anisotropic)
-        lsf_plan_texture_add(plan, "gbuffer.gloss", GL_RG32UI, w, h,
+        lsf_plan_texture_add(plan, "gbuffer.specular_params", GL_RG32UI, w, h,
                              "roughness, f0 and anisotropy");
     else if (r->specular && (r->glossy || r->variable_ior))
-        lsf_plan_texture_add(plan, "gbuffer.gloss", GL_R32UI, w, h, "roughness and f0");
+        lsf_plan_texture_add(plan, "gbuffer.specular_params", GL_R32UI, w, h, "roughness and f0");
     else
-        lsf_plan_omit(plan, "gbuffer.gloss",
+        lsf_plan_omit(plan, "gbuffer.specular_params",
                       r->specular ? "every material has roughness 1, metallic 0 and ior 1.5"
                                   : "diffuse only");
     if (lsf_plan_surfaces_shine(plan))
@@ -98,11 +98,11 @@ void lsf_gbuffer_plan(lsf_plan *plan)
         lsf_plan_texture_add(plan, "gbuffer.motion", GL_RG32F, w, h, "motion is asked for");
     else
         lsf_plan_omit(plan, "gbuffer.motion", "nothing reads it");
-    plan_way(plan);
+    plan_transmittance(plan);
     plan_switches(plan);
 }
 
-static bool create_way(lsf_gbuffer *pass, const lsf_plan *plan, lsf_error *error)
+static bool create_transmittance(lsf_gbuffer *pass, const lsf_plan *plan, lsf_error *error)
 {
     static const char *const files[5] = {"passes/gbuffer.vert.glsl",
                                          "passes/gbuffer_tint.frag.glsl"};
@@ -132,19 +132,19 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
     *pass = (lsf_gbuffer){.context = context};
     if (!lsf_plan_create_texture(plan, context, "gbuffer.depth", &out->seen.depth, error) ||
         !lsf_plan_create_texture(plan, context, "gbuffer.surface", &out->seen.surface, error) ||
-        !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.gloss", &out->seen.gloss,
-                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.specular_params",
+                                            &out->seen.specular_params, error) ||
         !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.emission", &out->emission,
                                             error) ||
         !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.motion", &out->motion, error) ||
-        !create_way(pass, plan, error))
+        !create_transmittance(pass, plan, error))
         return false;
-    lsf_framebuffer_desc desc = {
-        .label = "gbuffer",
-        .color_count = 5,
-        .colors = {out->seen.surface, out->seen.gloss, out->emission, out->motion, out->tint},
-        .depth = out->seen.depth,
-        .layer = -1};
+    lsf_framebuffer_desc desc = {.label = "gbuffer",
+                                 .color_count = 5,
+                                 .colors = {out->seen.surface, out->seen.specular_params,
+                                            out->emission, out->motion, out->tint},
+                                 .depth = out->seen.depth,
+                                 .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "gbuffer", files, error);
     pass->timer = lsf_timer_create(context, "gbuffer", error);
@@ -199,7 +199,7 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
     GLint at = 0;
     glClearNamedFramebufferfv(pass->framebuffer, GL_DEPTH, 0, zero);
     glClearNamedFramebufferuiv(pass->framebuffer, GL_COLOR, at++, zero_uint);
-    if (pass->outputs.seen.gloss)
+    if (pass->outputs.seen.specular_params)
         glClearNamedFramebufferuiv(pass->framebuffer, GL_COLOR, at++, zero_uint);
     if (pass->outputs.emission)
         glClearNamedFramebufferfv(pass->framebuffer, GL_COLOR, at++, zero);
@@ -223,10 +223,10 @@ void lsf_gbuffer_destroy(lsf_gbuffer *pass)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->tint_framebuffer);
-    GLuint *textures[] = {&pass->outputs.seen.depth, &pass->outputs.seen.surface,
-                          &pass->outputs.seen.gloss, &pass->outputs.emission,
-                          &pass->outputs.motion,     &pass->outputs.tint,
-                          &pass->outputs.absorption};
+    GLuint *textures[] = {
+        &pass->outputs.seen.depth, &pass->outputs.seen.surface, &pass->outputs.seen.specular_params,
+        &pass->outputs.emission,   &pass->outputs.motion,       &pass->outputs.tint,
+        &pass->outputs.absorption};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);
     lsf_timer_destroy(pass->timer);

@@ -28,12 +28,13 @@ const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
 
 static const lsf_texture_row textures[] = {
     {"light_filter.diffuse", GL_RGBA32F, AT(light[0]), 0, "without tint, and its variance"},
-    {"light_filter.diffuse_0", GL_RGBA32F, AT(turns[0][0]), 0, "after a step"},
-    {"light_filter.diffuse_1", GL_RGBA32F, AT(turns[1][0]), 0, "after the next one"},
+    {"light_filter.diffuse_0", GL_RGBA32F, AT(ping_pong[0][0]), 0, "after a step"},
+    {"light_filter.diffuse_1", GL_RGBA32F, AT(ping_pong[1][0]), 0, "after the next one"},
     {"light_filter.specular", GL_RGBA32F, AT(light[1]), LSF_TEXTURE_SPECULAR,
      "without tint, and its variance"},
-    {"light_filter.specular_0", GL_RGBA32F, AT(turns[0][1]), LSF_TEXTURE_SPECULAR, "after a step"},
-    {"light_filter.specular_1", GL_RGBA32F, AT(turns[1][1]), LSF_TEXTURE_SPECULAR,
+    {"light_filter.specular_0", GL_RGBA32F, AT(ping_pong[0][1]), LSF_TEXTURE_SPECULAR,
+     "after a step"},
+    {"light_filter.specular_1", GL_RGBA32F, AT(ping_pong[1][1]), LSF_TEXTURE_SPECULAR,
      "after the next one"},
     {"light_filter.picture", GL_RGBA32F, AT(picture), 0, "the result"},
 };
@@ -52,14 +53,14 @@ void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params
 
 static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
 {
-    const GLuint *light = pass->light, *before = pass->turns[0], *after = pass->turns[1];
+    const GLuint *light = pass->light, *before = pass->ping_pong[0], *after = pass->ping_pong[1];
     const struct {
         const char *label;
         GLuint *framebuffer, colors[4];
     } rows[] = {
         {"light_filter.light", &pass->light_framebuffer, {light[0], light[1]}},
-        {"light_filter.turn_0", &pass->turn_framebuffers[0], {before[0], before[1]}},
-        {"light_filter.turn_1", &pass->turn_framebuffers[1], {after[0], after[1]}},
+        {"light_filter.ping", &pass->ping_pong_framebuffers[0], {before[0], before[1]}},
+        {"light_filter.pong", &pass->ping_pong_framebuffers[1], {after[0], after[1]}},
         {"light_filter.divided",
          &pass->divided_framebuffer,
          {before[0], before[1], light[0], light[1]}},
@@ -155,7 +156,7 @@ static void divide(const lsf_light_filter *pass, const lsf_plan *plan, float ite
     lsf_bind_texture(6, inputs->half);
     lsf_draw_fullscreen(pass->context);
 
-    begin(plan, pass->turn_framebuffers[1], pass->window);
+    begin(plan, pass->ping_pong_framebuffers[1], pass->window);
     set_guide(pass);
     glUniform1i(1, alone);
     bind_parts(2, pass->light);
@@ -166,8 +167,8 @@ static void divide(const lsf_light_filter *pass, const lsf_plan *plan, float ite
     glUniform1i(1, alone);
     glUniform1f(2, uncertainty_of(iterations));
     glUniform1i(3, inputs->half != 0);
-    bind_parts(2, pass->turns[1]);
-    bind_parts(4, pass->turns[0]);
+    bind_parts(2, pass->ping_pong[1]);
+    bind_parts(4, pass->ping_pong[0]);
     lsf_draw_fullscreen(pass->context);
 }
 
@@ -192,14 +193,14 @@ static void run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterat
     const GLuint *light = pass->light;
     float first = 7.0f * (shares_samples(plan) ? 1.0f + sqrtf(uncertainty_of(iterations)) : 1.0f);
     for (int32_t i = 0; i < pass->params.steps; i++) {
-        begin(plan, pass->turn_framebuffers[i % 2], pass->step);
+        begin(plan, pass->ping_pong_framebuffers[i % 2], pass->step);
         set_guide(pass);
         glUniform1i(1, 1 << i);
         glUniform1f(2, i < 2 ? fmaxf(pass->params.tolerance, first) : pass->params.tolerance);
         glUniform1f(4, correlation_before(i));
         bind_parts(2, light);
         lsf_draw_fullscreen(pass->context);
-        light = pass->turns[i % 2];
+        light = pass->ping_pong[i % 2];
     }
     memcpy(pass->filtered, light, sizeof pass->filtered);
 }
@@ -211,7 +212,7 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
     const lsf_light_filter_part *parts = inputs->parts;
     int32_t window = pass->params.steps % 2; /* the turn that holds no filtered light */
     if (pass->params.limit) {
-        begin(plan, pass->turn_framebuffers[window], pass->change);
+        begin(plan, pass->ping_pong_framebuffers[window], pass->change);
         set_guide(pass);
         glUniform1i(1, false);
         bind_parts(2, pass->light);
@@ -223,7 +224,7 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
     set_guide(pass);
     glUniform1i(1, false);
     glUniform1f(2, pass->params.limit ? uncertainty_of(iterations) : -1.0f);
-    bind_parts(2, pass->turns[window]);
+    bind_parts(2, pass->ping_pong[window]);
     bind_parts(4, pass->light);
     bind_parts(6, filtered);
     bind_parts(8, (GLuint[]){parts[0].factor, parts[1].factor});
@@ -262,8 +263,8 @@ void lsf_light_filter_destroy(lsf_light_filter *pass)
     if (!pass->context)
         return;
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
-    GLuint *framebuffers[] = {&pass->light_framebuffer, &pass->turn_framebuffers[0],
-                              &pass->turn_framebuffers[1], &pass->divided_framebuffer,
+    GLuint *framebuffers[] = {&pass->light_framebuffer, &pass->ping_pong_framebuffers[0],
+                              &pass->ping_pong_framebuffers[1], &pass->divided_framebuffer,
                               &pass->picture_framebuffer};
     for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
         lsf_framebuffer_destroy(pass->context, framebuffers[i]);

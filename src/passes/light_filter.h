@@ -50,8 +50,8 @@ typedef struct lsf_light_filter {
     /* Outputs, too: without tint, of the diffuse part and, where materials have lobes, of the
      * specular one; A: variance, below 0: it tells nothing. After the steps: */
     GLuint light[2], filtered[2]; /* `filtered` are two of the turns */
-    GLuint turns[2][2];           /* what the last step but one, and the last, made of both parts */
-    GLuint light_framebuffer, turn_framebuffers[2], divided_framebuffer, picture_framebuffer;
+    GLuint ping_pong[2][2];       /* what the last step but one, and the last, made of both parts */
+    GLuint light_framebuffer, ping_pong_framebuffers[2], divided_framebuffer, picture_framebuffer;
     GLuint divide, window, variance, step, change, blend; /* programs */
     lsf_timer *timer;
 } lsf_light_filter;

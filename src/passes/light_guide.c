@@ -10,7 +10,7 @@ static const lsf_texture_row textures[] = {
     {"light_guide.guide", GL_RGBA32F, AT(maps.guide), 0,
      "normal, depth and lobe, for filters of light"},
     {"light_guide.slope", GL_RGBA32F, AT(maps.slope), 0, "of what is seen"},
-    {"light_guide.turn", GL_RG16F, AT(maps.turn), 0, "of normals from pixel to pixel"},
+    {"light_guide.curvature", GL_RG16F, AT(maps.curvature), 0, "of normals from pixel to pixel"},
 };
 
 void lsf_light_guide_plan(lsf_plan *plan)
@@ -35,7 +35,7 @@ bool lsf_light_guide_create(lsf_light_guide *pass, lsf_context *context, const l
     const lsf_framebuffer_desc desc = {
         .label = "light_guide",
         .color_count = 3,
-        .colors = {pass->maps.guide, pass->maps.slope, pass->maps.turn},
+        .colors = {pass->maps.guide, pass->maps.slope, pass->maps.curvature},
         .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program =

@@ -21,7 +21,7 @@ static const lsf_texture_row textures[] = {
 void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "light_mean", "means of the parts of light, for its filter");
     lsf_plan_reads(plan, "view gbuffer");
     if (use->indirect)
@@ -29,7 +29,7 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
     if (use->sky)
         lsf_plan_reads(plan, "direct_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", 0, "never: lobes were evaluated before");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
@@ -37,7 +37,7 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_scene_gpu_scatter_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
-    lsf_scene_gpu_lobe_switches(plan, gloss);
+    lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light bounces, or comes by chance");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");

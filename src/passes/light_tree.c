@@ -9,12 +9,12 @@
 #define FIRST_BIT LSF_LIGHT_TREE_ID_BITS
 #define LAST_BIT 64
 
-#define LOCATION_SHIFT 0  /* light_tree_sort.glsl */
-#define LOCATION_LIMITS 0 /* light_tree_merge */
-#define LOCATION_TURN 2   /* the same */
+#define LOCATION_SHIFT 0    /* light_tree_sort.glsl */
+#define LOCATION_LIMITS 0   /* light_tree_merge */
+#define LOCATION_DISPATCH 2 /* the same */
 
 /* A dispatch as GL reads it, and a number. */
-#define TURN_BYTES (4 * sizeof(uint32_t))
+#define DISPATCH_BYTES (4 * sizeof(uint32_t))
 
 const lsf_option_row lsf_light_tree_options[LSF_LIGHT_TREE_OPTION_COUNT] = {
     {"light_tree.similarity", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, similarity), 0.0,
@@ -86,8 +86,9 @@ void lsf_light_tree_plan(lsf_plan *plan, const lsf_light_tree_params *params, ui
                         "what area each virtual point light stands for");
     lsf_plan_buffer_add(plan, "light_tree.parents", 3 * n * sizeof(uint32_t),
                         "the way up, and how many children are merged");
-    lsf_plan_buffer_add(plan, "light_tree.turns",
-                        LSF_LIGHT_TREE_TURNS * TURN_BYTES + (n + 1) / 2 * 2 * sizeof(uint32_t),
+    lsf_plan_buffer_add(plan, "light_tree.dispatches",
+                        LSF_LIGHT_TREE_DISPATCHES * DISPATCH_BYTES +
+                            (n + 1) / 2 * 2 * sizeof(uint32_t),
                         "nodes that are merged together");
 }
 
@@ -107,7 +108,8 @@ bool lsf_light_tree_create(lsf_light_tree *pass, lsf_context *context, const lsf
         !lsf_plan_create_buffer(plan, context, "light_tree.areas", NULL, 0, &out->areas, error) ||
         !lsf_plan_create_buffer(plan, context, "light_tree.parents", NULL, 0, &pass->parents,
                                 error) ||
-        !lsf_plan_create_buffer(plan, context, "light_tree.turns", NULL, 0, &pass->turns, error))
+        !lsf_plan_create_buffer(plan, context, "light_tree.dispatches", NULL, 0, &pass->dispatches,
+                                error))
         return false;
     for (size_t i = 0; i < LSF_LIGHT_TREE_PROGRAMS; i++) {
         const char *const files[5] = {programs[i].file};
@@ -189,21 +191,22 @@ static void merge(const lsf_light_tree *pass, float side)
 {
     const lsf_light_tree_params *params = &pass->params;
     const GLuint no_groups[4] = {0, 1, 1, 0};
-    glClearNamedBufferSubData(pass->turns, GL_RGBA32UI, 0, LSF_LIGHT_TREE_TURNS * TURN_BYTES,
-                              GL_RGBA_INTEGER, GL_UNSIGNED_INT, no_groups);
-    bind(LSF_BINDING_LIGHT_TREE_TURNS, pass->turns);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->turns);
+    glClearNamedBufferSubData(pass->dispatches, GL_RGBA32UI, 0,
+                              LSF_LIGHT_TREE_DISPATCHES * DISPATCH_BYTES, GL_RGBA_INTEGER,
+                              GL_UNSIGNED_INT, no_groups);
+    bind(LSF_BINDING_LIGHT_TREE_DISPATCHES, pass->dispatches);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->dispatches);
     glUseProgram(pass->programs[LSF_LIGHT_TREE_MERGE]);
     glUniform1ui(LSF_LOCATION_LIGHT_TREE_RECORDS, pass->capacity);
     glUniform3f(LOCATION_LIMITS, params->similarity, params->spread * side,
                 params->diagonal > 0.0f ? params->diagonal * side : INFINITY);
-    for (GLuint turn = 0; turn < LSF_LIGHT_TREE_TURNS; turn++) {
+    for (GLuint i = 0; i < LSF_LIGHT_TREE_DISPATCHES; i++) {
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-        glUniform1ui(LOCATION_TURN, turn);
-        if (turn == 0)
+        glUniform1ui(LOCATION_DISPATCH, i);
+        if (i == 0)
             glDispatchCompute(groups_of(pass->capacity), 1, 1);
         else
-            glDispatchComputeIndirect((GLintptr)(turn * TURN_BYTES));
+            glDispatchComputeIndirect((GLintptr)(i * DISPATCH_BYTES));
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -242,7 +245,7 @@ void lsf_light_tree_destroy(lsf_light_tree *pass)
     lsf_buffer_destroy(pass->context, &pass->codes[1]);
     lsf_buffer_destroy(pass->context, &pass->counts);
     lsf_buffer_destroy(pass->context, &pass->parents);
-    lsf_buffer_destroy(pass->context, &pass->turns);
+    lsf_buffer_destroy(pass->context, &pass->dispatches);
     lsf_timer_destroy(pass->sort_timer);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

@@ -42,7 +42,7 @@ typedef struct lsf_light_tree {
     uint32_t capacity; /* records of the cloud */
     lsf_light_tree_buffers outputs;
     GLuint codes[2], counts; /* of the sort */
-    GLuint parents, turns;
+    GLuint parents, dispatches;
     GLuint programs[LSF_LIGHT_TREE_PROGRAMS];
     lsf_timer *sort_timer, *timer;
 } lsf_light_tree;

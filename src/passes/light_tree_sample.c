@@ -10,7 +10,7 @@
 
 /* Uniforms of light_tree_sample. */
 #define LOCATION_DISC 0
-#define LOCATION_TURN 1
+#define LOCATION_ITERATION 1
 #define LOCATION_SPREAD 2
 #define LOCATION_CUT 3
 #define LOCATION_TRIANGLES 5
@@ -100,8 +100,8 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
                                 bool covariance)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
-    uint32_t places[2];
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
+    uint32_t size[2];
     lsf_plan_pass_add(plan, "light_tree_sample", "%d sample%s of the cloud for each visible point",
                       params->samples, lsf_plural((uint64_t)params->samples));
     lsf_plan_reads(plan, "view points|gbuffer vpl_cloud light_tree");
@@ -120,16 +120,16 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
                         "light_tree.sight is voxels: 1; exact: 2");
     lsf_plan_switch_add(plan, "LSF_LIGHT_TREE_COVARIANCE", covariance, "light_tree.covariance");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic,
                         "some material is anisotropic");
     if (params->sight == LSF_LIGHT_TREE_VOXELS)
         lsf_voxel_passage_all_switches(plan);
     else
         lsf_scene_gpu_scatter_switches(plan);
-    lsf_scene_gpu_lobe_switches(plan, gloss);
-    lsf_sparse_grid_places(plan, places);
-    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, places[0], places[1]);
+    lsf_scene_gpu_lobe_switches(plan, specular_params);
+    lsf_sparse_grid_texture_size(plan, size);
+    lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, size[0], size[1]);
     lsf_plan_buffer_add(plan, "light_tree_sample.counts",
                         LSF_LIGHT_TREE_SAMPLE_COUNTS * 2 * sizeof(GLuint),
                         "what became of samples");
@@ -209,7 +209,7 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
     glUniform1f(LOCATION_CUT, pass->params.node == LSF_LIGHT_TREE_VPL
                                   ? INFINITY
                                   : square_or_any(pass->params.cut));
-    glUniform2ui(LOCATION_TURN, iteration->index,
+    glUniform2ui(LOCATION_ITERATION, iteration->index,
                  lsf_iteration_seed(iteration, LSF_PURPOSE_LIGHT_TREE));
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);

@@ -22,8 +22,8 @@ const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT] = {
      "what a bundle covers; auto: the scene when paths go on from its hits, else what is seen"},
     {"bundle.slices", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, slices), 0, MAX_SLICES, NULL,
      "", "fragments of a texel with a place of their own, the others are chained; 0: chain all"},
-    {"bundle.room", LSF_OPTION_FLOAT, offsetof(lsf_ray_bundle_params, room), 0.0, 1024.0, NULL, "",
-     "room for chained fragments for each texel; it grows where it does not do"},
+    {"bundle.capacity", LSF_OPTION_FLOAT, offsetof(lsf_ray_bundle_params, capacity), 0.0, 1024.0,
+     NULL, "", "room for chained fragments for each texel; it grows where it does not do"},
     {"bundle.raster", LSF_OPTION_ENUM, offsetof(lsf_ray_bundle_params, raster), 0, 0, "compute|gl",
      "", "compute: small triangles by a compute shader, large ones by GL; gl: all by GL"},
     {"bundle.environment_offset", LSF_OPTION_FLOAT,
@@ -48,12 +48,14 @@ void lsf_ray_bundle_gap_switch(lsf_plan *plan)
 
 void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params)
 {
-    bool gloss = lsf_plan_surfaces_differ(plan);
+    bool specular_params = lsf_plan_surfaces_differ(plan);
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SIDE", params->resolution, "bundle.resolution");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
                         "bundle.slices, as a multiple of 4 less one that storage blocks hold");
-    lsf_plan_switch_add(plan, "LSF_BUNDLE_GLOSS", gloss, "some material is glossy");
-    lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY", lsf_ray_bundle_has_wide_gloss(plan),
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_SPECULAR_PARAMS", specular_params,
+                        "some material is glossy");
+    lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY",
+                        lsf_ray_bundle_has_wide_specular_params(plan),
                         "some material is anisotropic or lets light through");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
@@ -63,7 +65,7 @@ void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params 
 void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                          const lsf_ray_bundle_use *use)
 {
-    uint32_t places[2];
+    uint32_t size[2];
     lsf_plan_buffer_add(plan, "ray_bundle.projections",
                         use->count * sizeof(struct lsf_bundle_slot_data),
                         "projections of %u bundle%s", use->count, lsf_plural(use->count));
@@ -99,10 +101,10 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight,
                         "light goes straight through materials that transmit");
-    lsf_sparse_grid_places(plan, places);
-    lsf_plan_buffer_add(plan, "ray_bundle.rest", 4 + 4 * (uint64_t)places[0] * places[1],
+    lsf_sparse_grid_texture_size(plan, size);
+    lsf_plan_buffer_add(plan, "ray_bundle.rest", 4 + 4 * (uint64_t)size[0] * size[1],
                         "pixels whose search takes more than a look at the slices");
-    lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, places[0], places[1],
+    lsf_plan_texture_add(plan, "ray_bundle.hits", GL_RG32UI, size[0], size[1],
                          "distance and node of each ray's hit");
 }
 
@@ -209,7 +211,7 @@ void lsf_ray_bundle_build(lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     if (pass->small_program) {
         lsf_ray_bundle_raster_run(pass, iteration, bundle);
     } else {
-        glUniform1ui(0, pass->room);
+        glUniform1ui(0, pass->capacity);
         lsf_ray_bundle_set_chance(pass, iteration, bundle);
         lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_POINTWISE, NULL,
                            pass->draw_counts);
@@ -255,7 +257,7 @@ GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteratio
     lsf_bind_texture(0, origins->depth);
     lsf_bind_texture(1, origins->surface);
     lsf_bind_texture(2, origins->position);
-    lsf_bind_texture(LSF_UNIT_PLACES, origins->pixels);
+    lsf_bind_texture(LSF_UNIT_POSITION_PIXELS, origins->pixels);
     glClearNamedBufferSubData(pass->rest, GL_R32UI, 0, 4, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_REST, pass->rest);
     set_ray(pass, pass->search_program, origins, region);

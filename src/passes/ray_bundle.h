@@ -25,7 +25,7 @@ typedef struct lsf_ray_bundle_params {
     int32_t window;           /* lsf_ray_bundle_window */
     int32_t slices;           /* number of a texel's fragments that are stored in order; more are
                                * chained */
-    float room;               /* initial number of chained fragments for each texel; it grows
+    float capacity;           /* initial number of chained fragments for each texel; it grows
                                * when they do not fit */
     int32_t raster;           /* lsf_ray_bundle_raster */
     float environment_offset; /* L_u, relative to the mean luminance of the environment */
@@ -33,7 +33,7 @@ typedef struct lsf_ray_bundle_params {
 
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
     .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 15,             \
-    .room = 1.0f, .raster = LSF_RAY_BUNDLE_RASTER_COMPUTE, .environment_offset = 1.0f
+    .capacity = 1.0f, .raster = LSF_RAY_BUNDLE_RASTER_COMPUTE, .environment_offset = 1.0f
 
 #define LSF_RAY_BUNDLE_OPTION_COUNT 7
 extern const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT];

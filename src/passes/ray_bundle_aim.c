@@ -70,15 +70,16 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
     float whole = (float)pass->params.resolution;
     lsf_iteration_number number = lsf_iteration_deal(iteration, bundle, pass->use.count);
     uint32_t turned[2], shifted[2];
-    lsf_sobol_2d_bits(number.index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_TURN), turned);
+    lsf_sobol_2d_bits(number.index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_ROTATION),
+                      turned);
     lsf_sobol_2d_bits(number.index, lsf_iteration_seed(iteration, LSF_PURPOSE_BUNDLE_SHIFT),
                       shifted);
-    float turn = lsf_unit_float(turned[0] ^ number.shift[0]), shift[2];
+    float rotation = lsf_unit_float(turned[0] ^ number.shift[0]), shift[2];
     for (int axis = 0; axis < 2; axis++)
         shift[axis] = lsf_unit_float(shifted[axis] ^ number.shift[axis]);
     lsf_float3 axes[3];
     axes[2] = lsf_f3_load(direction->direction);
-    rotated_axes(axes[2], turn * 2.0f * LSF_PI, &axes[0], &axes[1]);
+    rotated_axes(axes[2], rotation * 2.0f * LSF_PI, &axes[0], &axes[1]);
     float low[3] = {0}, high[3] = {0};
     lsf_ray_bundle_gaps gaps = {0};
     if (islands->count > 1)

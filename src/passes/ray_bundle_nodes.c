@@ -16,8 +16,8 @@
 /* Texels along a side below which a map tells next to nothing. */
 #define SMALLEST_SIDE 16
 
-static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {"heads", "keys",     "surfaces",
-                                                               "gloss", "emission", "chain"};
+static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {
+    "heads", "keys", "surfaces", "specular_params", "emission", "chain"};
 
 uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params)
 {
@@ -25,39 +25,41 @@ uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params)
     return row * row;
 }
 
-static uint32_t first_room(const lsf_ray_bundle_params *params)
+static uint32_t first_capacity(const lsf_ray_bundle_params *params)
 {
-    double room = ceil((double)params->resolution * params->resolution * (double)params->room);
-    return (uint32_t)fmax(room, 1.0);
+    double capacity =
+        ceil((double)params->resolution * params->resolution * (double)params->capacity);
+    return (uint32_t)fmax(capacity, 1.0);
 }
 
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
 {
-    uint64_t room = first_room(params), nodes = LSF_STORAGE_BLOCK_BYTES / SURFACE_BYTES;
-    uint64_t most = nodes > room ? (nodes - room) / lsf_ray_bundle_texels(params) / 4 * 4 : 0;
+    uint64_t capacity = first_capacity(params), nodes = LSF_STORAGE_BLOCK_BYTES / SURFACE_BYTES;
+    uint64_t most =
+        nodes > capacity ? (nodes - capacity) / lsf_ray_bundle_texels(params) / 4 * 4 : 0;
     uint64_t wanted = ((uint64_t)params->slices + 4) / 4 * 4;
-    uint64_t places = most < wanted ? most : wanted;
-    return params->slices > 0 && places > 0 ? (int32_t)places - 1 : 0;
+    uint64_t own_nodes = most < wanted ? most : wanted;
+    return params->slices > 0 && own_nodes > 0 ? (int32_t)own_nodes - 1 : 0;
 }
 
 /* The entries of a texel in slices, one of which is its counter's. */
-static uint64_t places(const lsf_ray_bundle_params *params)
+static uint64_t own_nodes(const lsf_ray_bundle_params *params)
 {
     return ((uint64_t)lsf_ray_bundle_slices(params) + 4) / 4 * 4;
 }
 
-bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan)
+bool lsf_ray_bundle_has_wide_specular_params(const lsf_plan *plan)
 {
     return lsf_plan_surfaces_differ(plan) && (plan->requirements.anisotropic || plan->straight);
 }
 
-/* Bytes of an array for `room` chained nodes; 0 when the scene does not need it. */
+/* Bytes of an array for `capacity` chained nodes; 0 when the scene does not need it. */
 static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *params,
-                            bool distances_only, int array, uint64_t room)
+                            bool distances_only, int array, uint64_t capacity)
 {
     uint64_t texels = lsf_ray_bundle_texels(params);
-    uint64_t nodes = texels * places(params) + room;
-    bool surface = array == LSF_RAY_BUNDLE_SURFACES || array == LSF_RAY_BUNDLE_GLOSS ||
+    uint64_t nodes = texels * own_nodes(params) + capacity;
+    bool surface = array == LSF_RAY_BUNDLE_SURFACES || array == LSF_RAY_BUNDLE_SPECULAR_PARAMS ||
                    array == LSF_RAY_BUNDLE_EMISSION;
     if (surface && distances_only)
         return 0;
@@ -65,17 +67,17 @@ static uint64_t array_bytes(const lsf_plan *plan, const lsf_ray_bundle_params *p
     case LSF_RAY_BUNDLE_HEADS:
         return 4 * (texels + LSF_BUNDLE_COUNTERS);
     case LSF_RAY_BUNDLE_KEYS:
-        return 4 * (nodes - room);
+        return 4 * (nodes - capacity);
     case LSF_RAY_BUNDLE_SURFACES:
         return SURFACE_BYTES * nodes;
-    case LSF_RAY_BUNDLE_GLOSS:
+    case LSF_RAY_BUNDLE_SPECULAR_PARAMS:
         return lsf_plan_surfaces_differ(plan)
-                   ? (lsf_ray_bundle_has_wide_gloss(plan) ? 8 : 4) * nodes
+                   ? (lsf_ray_bundle_has_wide_specular_params(plan) ? 8 : 4) * nodes
                    : 0;
     case LSF_RAY_BUNDLE_EMISSION:
         return lsf_plan_surfaces_shine(plan) ? 8 * nodes : 0;
     default:
-        return 8 * room;
+        return 8 * capacity;
     }
 }
 
@@ -99,14 +101,14 @@ void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *para
             char name[64];
             array_name(name, array, slot);
             uint64_t bytes =
-                array_bytes(plan, params, use->distances_only, array, first_room(params));
+                array_bytes(plan, params, use->distances_only, array, first_capacity(params));
             if (bytes)
                 lsf_plan_buffer_add(plan, name, bytes, "%s", why[array]);
         }
     if (use->distances_only)
         lsf_plan_omit(plan, "ray_bundle.surfaces", "distances are all that is asked for");
     if (!lsf_plan_surfaces_differ(plan))
-        lsf_plan_omit(plan, "ray_bundle.gloss", "nothing is glossy");
+        lsf_plan_omit(plan, "ray_bundle.specular_params", "nothing is glossy");
     if (!lsf_plan_surfaces_shine(plan))
         lsf_plan_omit(plan, "ray_bundle.emission", "nothing emits");
 }
@@ -119,15 +121,15 @@ static uint64_t block_size(void)
 }
 
 /* The number of chained nodes that storage blocks can hold. */
-static uint32_t most_room(const lsf_ray_bundle *pass, const lsf_plan *plan)
+static uint32_t largest_capacity(const lsf_ray_bundle *pass, const lsf_plan *plan)
 {
     uint64_t most = UINT32_MAX - 1, block = block_size();
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
         uint64_t none = array_bytes(plan, &pass->params, pass->use.distances_only, array, 0);
         uint64_t node = array_bytes(plan, &pass->params, pass->use.distances_only, array, 1) - none;
-        uint64_t room = block > none && node > 0 ? (block - none) / node : 0;
-        if (node > 0 && room < most)
-            most = room;
+        uint64_t capacity = block > none && node > 0 ? (block - none) / node : 0;
+        if (node > 0 && capacity < most)
+            most = capacity;
     }
     return (uint32_t)most;
 }
@@ -168,7 +170,7 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
     if (!pass->slots)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u ray-bundles",
                              pass->use.slots);
-    pass->room = first_room(&pass->params);
+    pass->capacity = first_capacity(&pass->params);
     for (uint32_t i = 0; i < pass->use.slots; i++) {
         lsf_ray_bundle_slot *slot = &pass->slots[i];
         slot->index = i;
@@ -176,7 +178,7 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
             char name[64];
             array_name(name, array, i);
             uint64_t bytes =
-                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->room);
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->capacity);
             if (!check_size(name, bytes, &pass->params, error) ||
                 !lsf_plan_create_buffer_if_planned(plan, pass->context, name, NULL, 0,
                                                    &slot->arrays[array], error))
@@ -203,14 +205,15 @@ static void destroy_slot(lsf_context *context, lsf_ray_bundle_slot *slot)
 }
 
 static bool grow_slot(lsf_ray_bundle *pass, lsf_plan *plan, lsf_ray_bundle_slot *slot,
-                      uint32_t room, lsf_error *error)
+                      uint32_t capacity, lsf_error *error)
 {
     for (int array = 0; array < LSF_RAY_BUNDLE_ARRAYS; array++) {
         char name[64];
         array_name(name, array, slot->index);
-        uint64_t bytes = array_bytes(plan, &pass->params, pass->use.distances_only, array, room);
+        uint64_t bytes =
+            array_bytes(plan, &pass->params, pass->use.distances_only, array, capacity);
         if (bytes !=
-                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->room) &&
+                array_bytes(plan, &pass->params, pass->use.distances_only, array, pass->capacity) &&
             (!check_size(name, bytes, &pass->params, error) ||
              !lsf_plan_resize_buffer(plan, pass->context, name, bytes, 0, &slot->arrays[array],
                                      error)))
@@ -239,18 +242,18 @@ static void use_fewer_texels(lsf_ray_bundle *pass, uint32_t needed, uint32_t mos
 bool lsf_ray_bundle_nodes_grow(lsf_ray_bundle *pass, lsf_plan *plan, uint32_t needed,
                                lsf_error *error)
 {
-    uint32_t most = most_room(pass, plan);
-    uint64_t room = (uint64_t)needed + needed / GROWTH_MARGIN;
+    uint32_t most = largest_capacity(pass, plan);
+    uint64_t capacity = (uint64_t)needed + needed / GROWTH_MARGIN;
     bool fits = needed <= most || pass->side >= SMALLEST_SIDE + 2;
-    if (fits && room > most)
-        room = most;
+    if (fits && capacity > most)
+        capacity = most;
     if (fits && needed > most)
         use_fewer_texels(pass, needed, most);
-    room = room > UINT32_MAX ? UINT32_MAX : room;
+    capacity = capacity > UINT32_MAX ? UINT32_MAX : capacity;
     for (uint32_t i = 0; i < pass->use.slots; i++)
-        if (!grow_slot(pass, plan, &pass->slots[i], (uint32_t)room, error))
+        if (!grow_slot(pass, plan, &pass->slots[i], (uint32_t)capacity, error))
             return false;
-    pass->room = (uint32_t)room;
+    pass->capacity = (uint32_t)capacity;
     return true;
 }
 

@@ -27,7 +27,7 @@ struct lsf_ray_bundle {
     struct lsf_bundle_slot_data *projections; /* of this iteration's bundles */
     GLuint projection_buffer;
     lsf_ray_bundle_slot *slots;
-    uint32_t room;                        /* number of chained nodes that each slot can hold */
+    uint32_t capacity;                    /* number of chained nodes that each slot can hold */
     uint32_t side;                        /* texels of a map that are in use, along a side */
     GLuint status, readback;              /* lsf_bundle_status, and a copy on its way to the host */
     const struct lsf_bundle_status *read; /* mapped */
@@ -59,7 +59,7 @@ uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params);
 /* bundle.slices as a multiple of 4 less one, and no more than a storage block holds; or 0. */
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
 /* Whether nodes hold anisotropy or transmission. */
-bool lsf_ray_bundle_has_wide_gloss(const lsf_plan *plan);
+bool lsf_ray_bundle_has_wide_specular_params(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
                                const lsf_ray_bundle_use *use);
 bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf_error *error);

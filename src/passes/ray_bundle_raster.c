@@ -90,7 +90,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     lsf_triangle_fetch_bind(&pass->fetch, scene);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_LARGE, pass->large);
     glUseProgram(pass->small_program);
-    glUniform1ui(0, pass->room);
+    glUniform1ui(0, pass->capacity);
     glUniform1f(8, ldexpf(1.0f, bits));
     lsf_ray_bundle_set_chance(pass, iteration, bundle);
     uint32_t bound = LSF_NONE;
@@ -114,7 +114,7 @@ void lsf_ray_bundle_raster_run(lsf_ray_bundle *pass, const lsf_iteration *iterat
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(pass->build_program);
-    glUniform1ui(0, pass->room);
+    glUniform1ui(0, pass->capacity);
     lsf_ray_bundle_set_chance(pass, iteration, bundle);
     lsf_scene_gpu_draw_listed(scene, iteration->state, pass->large);
 }

@@ -35,7 +35,7 @@ static void tally(const lsf_ray_bundle *pass, bool iteration_ends, uint32_t iter
 {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_BUNDLE_STATUS, pass->status);
     glUseProgram(pass->tally_program);
-    glUniform1ui(0, pass->room);
+    glUniform1ui(0, pass->capacity);
     glUniform1i(1, iteration_ends);
     glUniform1ui(2, iterations_done);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -103,7 +103,7 @@ bool lsf_ray_bundle_settle(lsf_ray_bundle *pass, const lsf_iteration *iteration,
     pass->counts[LSF_RAY_BUNDLE_NODES] = (uint64_t)status.nodes_high << 32 | status.nodes_low;
     pass->counts[LSF_RAY_BUNDLE_OVERFLOW] =
         (uint64_t)status.chained_high << 32 | status.chained_low;
-    if (status.needed <= pass->room)
+    if (status.needed <= pass->capacity)
         return true;
     pass->counts[LSF_RAY_BUNDLE_REGROWN]++;
     glClearNamedBufferSubData(pass->status, GL_R32UI, offsetof(struct lsf_bundle_status, needed), 4,

@@ -35,7 +35,7 @@ static const struct {
 };
 
 /* The layers of a map. */
-enum { GRADIENT, SURFACE, GLOSS, IMPORTANCE, TINT, DEPTH, LAYERS };
+enum { GRADIENT, SURFACE, SPECULAR_PARAMS, IMPORTANCE, TINT, DEPTH, LAYERS };
 
 static const struct {
     const char *name;
@@ -44,7 +44,7 @@ static const struct {
 } layers[LAYERS] = {
     [GRADIENT] = {"gradient", GL_RG16F, "the plane of each texel's surface"},
     [SURFACE] = {"surface", GL_RGBA32UI, "normals, base colour, metallic"},
-    [GLOSS] = {"gloss", GL_R32UI, "roughness and f0"},
+    [SPECULAR_PARAMS] = {"specular_params", GL_R32UI, "roughness and f0"},
     [IMPORTANCE] = {"importance", GL_R32F, "the flux that each texel reflects to what is seen"},
     [TINT] = {"tint", GL_RGB10_A2, "light passes thin walls"},
     [DEPTH] = {"depth", GL_DEPTH_COMPONENT32F, "rsm.resolution texels a side"},
@@ -67,13 +67,13 @@ static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_pa
 }
 
 static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_params *params,
-                     bool gloss)
+                     bool specular_params)
 {
     uint32_t side = (uint32_t)params->resolution;
     const bool present[LAYERS] = {
         [GRADIENT] = true,
         [SURFACE] = true,
-        [GLOSS] = gloss,
+        [SPECULAR_PARAMS] = specular_params,
         [IMPORTANCE] = is_adaptive(plan, params, kind),
         [TINT] = lsf_light_walls_needed(plan),
         [DEPTH] = true,
@@ -85,9 +85,9 @@ static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_p
         name_layer(name, kind, layer);
         lsf_texture_desc desc = {
             NULL, GL_TEXTURE_2D_ARRAY, layers[layer].format, side, side, kinds[kind].faces, 1};
-        if (layer == GLOSS && plan->requirements.anisotropic)
+        if (layer == SPECULAR_PARAMS && plan->requirements.anisotropic)
             desc.internal_format = GL_RG32UI;
-        if (layer == GLOSS && plan->transmission)
+        if (layer == SPECULAR_PARAMS && plan->transmission)
             desc.internal_format = GL_RGBA32UI;
         if (layer == TINT)
             desc.internal_format = lsf_light_tint_format(plan);
@@ -128,14 +128,14 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     lsf_light_projection_kinds(plan, state, needed);
     if (use->sky)
         needed[LSF_LIGHT_PROJECTION_WINDOWS] = true;
-    bool gloss = lsf_plan_surfaces_differ(plan);
+    bool specular_params = lsf_plan_surfaces_differ(plan);
     uint32_t adaptive_faces = 0;
     lsf_plan_pass_add(plan, "reflective_shadow_map",
                       "the surfaces that %u punctual light%s%s light", state->light_count,
                       lsf_plural(state->light_count),
                       use->sky ? " and directions of the environment" : "");
     lsf_plan_reads(plan, "scene");
-    lsf_scene_gpu_material_switches(plan, gloss, false);
+    lsf_scene_gpu_material_switches(plan, specular_params, false);
     lsf_scene_gpu_fold_lobes(plan);
     lsf_plan_switch_add(plan, "LSF_THIN_WALLS", lsf_light_walls_needed(plan),
                         "light passes thin walls");
@@ -146,7 +146,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
             lsf_plan_omit(plan, name, "%s", kinds[kind].omitted);
             continue;
         }
-        plan_map(plan, kind, params, gloss);
+        plan_map(plan, kind, params, specular_params);
         if (is_adaptive(plan, params, kind) && kinds[kind].faces > adaptive_faces)
             adaptive_faces = kinds[kind].faces;
     }
@@ -162,9 +162,12 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
 static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context *context,
                           const lsf_plan *plan, int kind, lsf_error *error)
 {
-    GLuint *const textures[LAYERS] = {
-        [GRADIENT] = &target->gradient,     [SURFACE] = &target->surface, [GLOSS] = &target->gloss,
-        [IMPORTANCE] = &target->importance, [TINT] = &target->tint,       [DEPTH] = &target->depth};
+    GLuint *const textures[LAYERS] = {[GRADIENT] = &target->gradient,
+                                      [SURFACE] = &target->surface,
+                                      [SPECULAR_PARAMS] = &target->specular_params,
+                                      [IMPORTANCE] = &target->importance,
+                                      [TINT] = &target->tint,
+                                      [DEPTH] = &target->depth};
     char name[64];
     for (int layer = 0; layer < LAYERS; layer++) {
         name_layer(name, kind, layer);
@@ -177,11 +180,12 @@ static bool create_target(lsf_reflective_shadow_map_target *target, lsf_context 
     target->faces = resource->texture.depth;
     target->resolution = resource->texture.width;
     for (uint32_t face = 0; face < target->faces; face++) {
-        lsf_framebuffer_desc desc = {.label = name,
-                                     .color_count = 3,
-                                     .colors = {target->gradient, target->surface, target->gloss},
-                                     .depth = target->depth,
-                                     .layer = (int32_t)face};
+        lsf_framebuffer_desc desc = {
+            .label = name,
+            .color_count = 3,
+            .colors = {target->gradient, target->surface, target->specular_params},
+            .depth = target->depth,
+            .layer = (int32_t)face};
         target->framebuffers[face] = lsf_framebuffer_create(context, &desc, error);
         if (!target->framebuffers[face])
             return false;
@@ -305,8 +309,9 @@ void lsf_reflective_shadow_map_run(lsf_reflective_shadow_map *pass, const lsf_it
     out->shadow.depth = target->depth;
     out->shadow.gradient = target->gradient;
     out->shadow.tint = target->tint;
-    out->seen = (lsf_surface_maps){
-        .depth = target->depth, .surface = target->surface, .gloss = target->gloss};
+    out->seen = (lsf_surface_maps){.depth = target->depth,
+                                   .surface = target->surface,
+                                   .specular_params = target->specular_params};
     out->importance = target->importance;
     lsf_timer_end(pass->timer);
     if (target->importance)
@@ -323,7 +328,7 @@ static void destroy_target(lsf_context *context, lsf_reflective_shadow_map_targe
     lsf_texture_destroy(context, &target->depth);
     lsf_texture_destroy(context, &target->gradient);
     lsf_texture_destroy(context, &target->surface);
-    lsf_texture_destroy(context, &target->gloss);
+    lsf_texture_destroy(context, &target->specular_params);
     lsf_texture_destroy(context, &target->importance);
 }
 

@@ -44,7 +44,7 @@ typedef struct lsf_reflective_shadow_map_outputs {
 
 /* One set of textures for maps of the same shape, which lights use in turn. */
 typedef struct lsf_reflective_shadow_map_target {
-    GLuint depth, gradient, surface, gloss, importance, tint;
+    GLuint depth, gradient, surface, specular_params, importance, tint;
     GLuint framebuffers[6], tint_framebuffers[6];
     uint32_t faces, resolution;
 } lsf_reflective_shadow_map_target;

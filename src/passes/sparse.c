@@ -61,10 +61,10 @@ enum { SPLIT = 2, GATHER = 4, SPARSE = 8, SHARED = 16 };
 #define AT(member) offsetof(lsf_sparse, member)
 
 /* Of the size of all places. */
-static const lsf_texture_row places[] = {
+static const lsf_texture_row point_textures[] = {
     {"points.depth", GL_R32F, AT(split.depth), SPLIT, "what points see"},
     {"points.surface", GL_RGBA32UI, AT(split.surface), SPLIT, "what points see"},
-    {"points.gloss", GL_NONE, AT(split.gloss), SPLIT, "what points see"},
+    {"points.specular_params", GL_NONE, AT(split.specular_params), SPLIT, "what points see"},
     {"points.pixels", GL_R32UI, AT(split.pixels), SPARSE, "which pixel's a point is"},
     {"sparse.gathered_irradiance", GL_RGBA32F, AT(gathered.irradiance), GATHER, "of points"},
     {"sparse.gathered_specular", GL_RGBA32F, AT(gathered.specular), GATHER | LSF_TEXTURE_SPECULAR,
@@ -83,12 +83,12 @@ static const lsf_texture_row pixels[] = {
 static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     lsf_sparse_grid_switch(plan);
     lsf_sparse_grid_pixel_switch(plan);
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)interleave, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     if (!tint)
         return;
@@ -97,7 +97,7 @@ static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_scene_gpu_scatter_switch(plan);
-    lsf_scene_gpu_lobe_switches(plan, gloss);
+    lsf_scene_gpu_lobe_switches(plan, specular_params);
 }
 
 /* The conditions of textures that hold. */
@@ -146,8 +146,8 @@ void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uin
         plan_switches(plan, interleave, tint);
         lsf_plan_switch_add(plan, "LSF_OUTLIERS", params->outliers, "sparse.outliers");
     }
-    lsf_sparse_grid_places(plan, size);
-    lsf_plan_textures_add(plan, places, LSF_COUNT(places), there, size[0], size[1]);
+    lsf_sparse_grid_texture_size(plan, size);
+    lsf_plan_textures_add(plan, point_textures, LSF_COUNT(point_textures), there, size[0], size[1]);
 }
 
 void lsf_sparse_plan_upsample(lsf_plan *plan, const lsf_sparse_params *params, uint32_t interleave)
@@ -198,7 +198,8 @@ bool lsf_sparse_create(lsf_sparse *pass, lsf_context *context, const lsf_plan *p
 {
     static const GLuint zero = 0;
     *pass = (lsf_sparse){.context = context, .params = *params};
-    if (!lsf_plan_create_textures(plan, context, places, LSF_COUNT(places), pass, error) ||
+    if (!lsf_plan_create_textures(plan, context, point_textures, LSF_COUNT(point_textures), pass,
+                                  error) ||
         !lsf_plan_create_textures(plan, context, pixels, LSF_COUNT(pixels), pass, error) ||
         !lsf_plan_create_buffer_if_planned(plan, context, "sparse.counts", NULL,
                                            GL_DYNAMIC_STORAGE_BIT, &pass->count_buffer, error))
@@ -217,7 +218,8 @@ bool lsf_sparse_create(lsf_sparse *pass, lsf_context *context, const lsf_plan *p
          &pass->fit_timer},
         {"sparse_split",
          "passes/sparse_split.frag.glsl",
-         {.color_count = 4, .colors = {split->depth, split->surface, split->gloss, split->pixels}},
+         {.color_count = 4,
+          .colors = {split->depth, split->surface, split->specular_params, split->pixels}},
          &pass->split_framebuffer,
          &pass->split_program,
          &pass->split_timer},
@@ -287,7 +289,7 @@ void lsf_sparse_gather(lsf_sparse *pass, const lsf_iteration *iteration,
     begin(pass, iteration, pass->gathered_framebuffer, pass->gather_program, grid->width,
           grid->layers * grid->height);
     lsf_surface_maps_bind(seen);
-    lsf_bind_texture(LSF_UNIT_PLACES, pass->split.pixels);
+    lsf_bind_texture(LSF_UNIT_POSITION_PIXELS, pass->split.pixels);
     lsf_bind_texture(3, split_light->irradiance);
     lsf_bind_texture(4, split_light->specular);
     lsf_draw_fullscreen(pass->context);
@@ -302,7 +304,7 @@ void lsf_sparse_upsample(lsf_sparse *pass, const lsf_iteration *iteration,
     begin(pass, iteration, pass->light_framebuffer, pass->upsample_program, plan->seen_width,
           plan->seen_height);
     lsf_surface_maps_bind(seen);
-    lsf_bind_texture(LSF_UNIT_PLACES, pass->split.pixels);
+    lsf_bind_texture(LSF_UNIT_POSITION_PIXELS, pass->split.pixels);
     lsf_bind_texture(3, pass->source);
     lsf_bind_texture(4, points->irradiance);
     lsf_bind_texture(5, points->specular);
@@ -326,7 +328,7 @@ void lsf_sparse_destroy(lsf_sparse *pass)
 {
     if (!pass->context)
         return;
-    lsf_textures_destroy(pass->context, places, LSF_COUNT(places), pass);
+    lsf_textures_destroy(pass->context, point_textures, LSF_COUNT(point_textures), pass);
     lsf_textures_destroy(pass->context, pixels, LSF_COUNT(pixels), pass);
     GLuint *framebuffers[] = {&pass->source_framebuffer, &pass->split_framebuffer,
                               &pass->gathered_framebuffer, &pass->light_framebuffer};

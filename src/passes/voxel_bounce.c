@@ -24,7 +24,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_voxel_bend_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
                         "materials have a specular lobe");
-    lsf_voxel_gloss_switch(plan);
+    lsf_voxel_specular_params_switch(plan);
     if (plan->transmission)
         lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "light passes materials that transmit");
     lsf_voxel_passage_switches(plan);

@@ -43,7 +43,7 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
         lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                             "some material emits or is unlit");
         lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-        lsf_voxel_gloss_switch(plan);
+        lsf_voxel_specular_params_switch(plan);
         lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                             "light passes materials that transmit");
         lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
@@ -97,8 +97,8 @@ static void bind_voxels(const lsf_voxels *voxels)
     lsf_bind_texture(LSF_UNIT_VOXEL_ALBEDO, voxels->albedo);
     lsf_bind_texture(LSF_UNIT_VOXEL_NORMAL, voxels->normal);
     lsf_bind_texture(LSF_UNIT_VOXEL_SHADING, voxels->shading);
-    lsf_bind_texture(LSF_UNIT_VOXEL_GLOSS, voxels->point);
-    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, voxels->gloss);
+    lsf_bind_texture(LSF_UNIT_VOXEL_SPECULAR_PARAMS, voxels->point);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, voxels->specular_params);
     lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, voxels->emission);
     lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, voxels->transmission);
 }

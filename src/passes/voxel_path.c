@@ -63,21 +63,21 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
                          const lsf_voxel_path_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_gbuffer_gloss(plan) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     bool texture = params->sequence == LSF_VOXEL_PATH_TEXTURE;
-    uint32_t places[2];
+    uint32_t size[2];
     lsf_plan_pass_add(plan, "voxel_path", "paths of %u segment%s through the voxels", use->segments,
                       lsf_plural(use->segments));
     lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_light");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_voxel_gloss_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
+    lsf_voxel_specular_params_switch(plan);
     lsf_voxel_bend_switch(plan);
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic,
                         "some material is anisotropic");
-    lsf_scene_gpu_lobe_switches(plan, gloss);
+    lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->transmission && r->refractive,
@@ -89,9 +89,9 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
-    lsf_sparse_grid_places(plan, places);
+    lsf_sparse_grid_texture_size(plan, size);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), use->split_direct ? DIRECT : 0,
-                          places[0], places[1]);
+                          size[0], size[1]);
     if (texture)
         lsf_plan_texture_add(plan, "voxel_path.random", GL_RGBA32F, RANDOM_SIZE, RANDOM_SIZE,
                              "random numbers, the same for all iterations");

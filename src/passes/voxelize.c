@@ -56,8 +56,8 @@ const char *const lsf_voxelize_count_names[LSF_VOXELIZE_COUNTS] = {"instances", 
 /* Without lists and the coarser occupancy, which take half a byte together. */
 uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter)
 {
-    uint32_t words =
-        5u + lsf_voxel_bends(plan) + lsf_plan_surfaces_shine(plan) + lsf_voxel_gloss(plan);
+    uint32_t words = 5u + lsf_voxel_bends(plan) + lsf_plan_surfaces_shine(plan) +
+                     lsf_voxel_has_specular_params(plan);
     uint32_t bytes = 4 * (words + plan->transmission) + 1;
     return lsf_voxelize_keeps_still(plan, jitter) ? 2 * bytes : bytes;
 }
@@ -108,7 +108,8 @@ static void plan_programs(lsf_plan *plan)
     lsf_plan_reads(plan, "scene");
     plan_switches(plan);
     lsf_voxel_bend_switch(plan);
-    lsf_scene_gpu_material_switches(plan, lsf_voxel_gloss(plan), lsf_plan_surfaces_shine(plan));
+    lsf_scene_gpu_material_switches(plan, lsf_voxel_has_specular_params(plan),
+                                    lsf_plan_surfaces_shine(plan));
     lsf_scene_gpu_fold_lobes(plan);
     lsf_voxel_chance_switch(plan);
     lsf_plan_pass_add(plan, "voxelize_beside", "what spares rays a look at voxels beside others");
@@ -170,11 +171,11 @@ void lsf_voxelize_plan(lsf_plan *plan, const lsf_voxelize_params *params,
     lsf_voxel_texture_plan(plan, grid, "voxelize.point", GL_R32UI, 1, 1,
                            "where the surface is in the voxel");
     plan_emission(plan, grid);
-    if (lsf_voxel_gloss(plan))
-        lsf_voxel_texture_plan(plan, grid, "voxelize.gloss", GL_R32UI, 1, 1,
+    if (lsf_voxel_has_specular_params(plan))
+        lsf_voxel_texture_plan(plan, grid, "voxelize.specular_params", GL_R32UI, 1, 1,
                                "some material is glossy");
     else
-        lsf_plan_omit(plan, "voxelize.gloss", "no material is glossy");
+        lsf_plan_omit(plan, "voxelize.specular_params", "no material is glossy");
     if (plan->transmission)
         lsf_voxel_texture_plan(plan, grid, "voxelize.transmission", GL_R32UI, 1, 1,
                                "light passes some material");
@@ -206,7 +207,7 @@ void lsf_voxelize_textures(lsf_voxelize *pass, lsf_voxelize_texture textures[LSF
         {"voxelize.point", &o->point},
         {"voxelize.emission", &o->emission},
         {"voxelize.shining", &o->shining},
-        {"voxelize.gloss", &o->gloss},
+        {"voxelize.specular_params", &o->specular_params},
         {"voxelize.transmission", &o->transmission}};
     memcpy(textures, list, sizeof list);
 }
@@ -272,7 +273,7 @@ static bool create_programs(lsf_voxelize *pass, const lsf_plan *plan, bool raste
          raster},
         {"voxelize_list", {"passes/voxelize_count.comp.glsl"}, &pass->count_program, true},
         {"voxelize_list", {"passes/voxelize_sum.comp.glsl"}, &pass->sum_program, true},
-        {"voxelize_list", {"passes/voxelize_place.comp.glsl"}, &pass->place_program, true},
+        {"voxelize_list", {"passes/voxelize_place.comp.glsl"}, &pass->list_program, true},
         {"voxelize_write", {"passes/voxelize_write.comp.glsl"}, &pass->write_program, true},
         {"voxelize_beside", {"passes/voxelize_beside.comp.glsl"}, &pass->beside_program, true},
     };
@@ -331,8 +332,8 @@ static void bind_occupancy(const lsf_voxelize *pass)
 static void bind_attributes(const lsf_voxelize *pass)
 {
     const lsf_voxels *o = &pass->outputs;
-    const GLuint images[] = {pass->key,   o->albedo, o->normal,       o->point,
-                             o->emission, o->gloss,  o->transmission, o->shading};
+    const GLuint images[] = {pass->key,   o->albedo,          o->normal,       o->point,
+                             o->emission, o->specular_params, o->transmission, o->shading};
     for (GLuint unit = 0; unit < LSF_COUNT(images); unit++)
         if (images[unit])
             bind_image(unit, images[unit]);
@@ -350,52 +351,52 @@ static void clear_before(lsf_voxelize *pass)
 }
 
 /* An instance of the draws. */
-typedef struct instance_turn {
+typedef struct instance_work {
     const lsf_iteration *iteration;
     uint32_t draw, instance, triangles, first_triangle;
-} instance_turn;
+} instance_work;
 
-static void use_program(GLuint program, const instance_turn *turn)
+static void use_program(GLuint program, const instance_work *work)
 {
     glUseProgram(program);
-    glUniform1ui(0, turn->first_triangle);
-    lsf_triangle_fetch_instance(turn->iteration, turn->instance, 0, turn->triangles);
+    glUniform1ui(0, work->first_triangle);
+    lsf_triangle_fetch_instance(work->iteration, work->instance, 0, work->triangles);
 }
 
-static void use_mark_program(GLuint program, const instance_turn *turn)
+static void use_mark_program(GLuint program, const instance_work *work)
 {
-    use_program(program, turn);
-    const lsf_plan *plan = turn->iteration->plan;
+    use_program(program, work);
+    const lsf_plan *plan = work->iteration->plan;
     if (plan->requirements.blended || plan->voxel_chance)
-        lsf_iteration_set_chance(turn->iteration, LSF_PURPOSE_BLEND_VOXEL, 0);
+        lsf_iteration_set_chance(work->iteration, LSF_PURPOSE_BLEND_VOXEL, 0);
 }
 
-static void mark_by_compute(lsf_voxelize *pass, const instance_turn *turn)
+static void mark_by_compute(lsf_voxelize *pass, const instance_work *work)
 {
-    uint32_t groups = (turn->triangles + GROUP - 1) / GROUP;
+    uint32_t groups = (work->triangles + GROUP - 1) / GROUP;
     empty_list(pass->tiles, LSF_VOXEL_LIST_ROW / GROUP_TILES);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    use_mark_program(pass->small_program, turn);
+    use_mark_program(pass->small_program, work);
     glDispatchCompute(groups < ROW_GROUPS ? groups : ROW_GROUPS,
                       (groups + ROW_GROUPS - 1) / ROW_GROUPS, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
-    use_mark_program(pass->large_program, turn);
+    use_mark_program(pass->large_program, work);
     glDispatchComputeIndirect(0);
 }
 
-static void mark_by_raster(lsf_voxelize *pass, const instance_turn *turn)
+static void mark_by_raster(lsf_voxelize *pass, const instance_work *work)
 {
-    use_mark_program(pass->raster_program, turn);
+    use_mark_program(pass->raster_program, work);
     glUniform1f(LOCATION_SIDE, (float)pass->side);
-    lsf_draw_vertices(pass->context, 3 * turn->triangles);
+    lsf_draw_vertices(pass->context, 3 * work->triangles);
 }
 
-static void write_surfaces(lsf_voxelize *pass, const instance_turn *turn)
+static void write_surfaces(lsf_voxelize *pass, const instance_work *work)
 {
-    use_program(pass->write_program, turn);
-    glUniform1ui(LOCATION_DRAW, turn->draw);
-    glDispatchComputeIndirect((GLintptr)(turn->draw * sizeof(voxelize_draw)));
+    use_program(pass->write_program, work);
+    glUniform1ui(LOCATION_DRAW, work->draw);
+    glDispatchComputeIndirect((GLintptr)(work->draw * sizeof(voxelize_draw)));
 }
 
 /* Which instances: those that move, the others, or, where nothing is kept apart, all. */
@@ -407,30 +408,30 @@ static bool in_group(const lsf_voxelize *pass, uint32_t instance, instance_group
     return moves == (group == GROUP_MOVING);
 }
 
-/* Calls `turn_of` for the instances of a group, in the order of their materials. */
+/* Calls `run_instance` for the instances of a group, in the order of their materials. */
 static void for_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group,
-                      void (*turn_of)(lsf_voxelize *pass, const instance_turn *turn))
+                      void (*run_instance)(lsf_voxelize *pass, const instance_work *work))
 {
     const lsf_scene_gpu *scene = iteration->scene;
-    instance_turn turn = {.iteration = iteration};
+    instance_work work = {.iteration = iteration};
     uint32_t bound = LSF_NONE;
-    for (uint32_t i = 0; i < scene->draw_count; i++, turn.first_triangle += turn.triangles) {
-        turn.draw = i;
-        turn.instance = scene->draw_order[i];
-        const lsf_instance_state *instance = &iteration->state->instances[turn.instance];
-        turn.triangles = (uint32_t)(scene->scene->primitives[instance->primitive].index_count / 3);
-        if (instance->skipped || !in_group(pass, turn.instance, group))
+    for (uint32_t i = 0; i < scene->draw_count; i++, work.first_triangle += work.triangles) {
+        work.draw = i;
+        work.instance = scene->draw_order[i];
+        const lsf_instance_state *instance = &iteration->state->instances[work.instance];
+        work.triangles = (uint32_t)(scene->scene->primitives[instance->primitive].index_count / 3);
+        if (instance->skipped || !in_group(pass, work.instance, group))
             continue;
         if (instance->material != bound)
             lsf_scene_gpu_bind_material(scene, bound = instance->material, LSF_DRAW_SHADING);
-        turn_of(pass, &turn);
+        run_instance(pass, &work);
     }
 }
 
-static void count_turn(lsf_voxelize *pass, const instance_turn *turn)
+static void count_work(lsf_voxelize *pass, const instance_work *work)
 {
     pass->counts[LSF_VOXELIZE_INSTANCES]++;
-    pass->counts[LSF_VOXELIZE_TRIANGLES] += turn->triangles;
+    pass->counts[LSF_VOXELIZE_TRIANGLES] += work->triangles;
 }
 
 static void mark_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group)
@@ -462,7 +463,7 @@ static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
     glUseProgram(pass->sum_program);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    glUseProgram(pass->place_program);
+    glUseProgram(pass->list_program);
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
@@ -470,7 +471,7 @@ static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
 /* Adds a group to the grid: bids, then surfaces. */
 static void add_group(lsf_voxelize *pass, const lsf_iteration *iteration, instance_group group)
 {
-    for_group(pass, iteration, group, count_turn);
+    for_group(pass, iteration, group, count_work);
     mark_group(pass, iteration, group);
     list_winners(pass, iteration);
     /* The occupancy's unit is one of the vertices'. */

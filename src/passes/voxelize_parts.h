@@ -31,7 +31,7 @@ struct lsf_voxelize {
     GLuint bricks[2];   /* lists of this run and of the run before */
     uint32_t runs;
     bool stale; /* instances that stand still have changed since the run before */
-    GLuint clear_program, count_program, sum_program, place_program, write_program, beside_program;
+    GLuint clear_program, count_program, sum_program, list_program, write_program, beside_program;
     /* Bids: an instance's small triangles, then its large ones; or all on the raster pipeline. */
     GLuint small_program, large_program, raster_program;
     GLuint framebuffer;

@@ -39,14 +39,14 @@ const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT] = {
 static void plan_draw(lsf_plan *plan, uint64_t count)
 {
     const lsf_requirements *r = &plan->requirements;
-    bool gloss = lsf_plan_surfaces_differ(plan);
+    bool specular_params = lsf_plan_surfaces_differ(plan);
     lsf_plan_pass_add(plan, "vpl_draw", "what punctual lights fall on");
     lsf_plan_reads(plan, "reflective_shadow_map");
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE", lsf_light_emission_is_adaptive(plan),
                         "rsm.pdf is adaptive");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
@@ -200,10 +200,10 @@ bool lsf_vpl_create(lsf_vpl *pass, lsf_context *context, const lsf_plan *plan,
 }
 
 /* Of the map of a VPL about its normal, 0..1. */
-static float turn_of(const lsf_vpl *pass, const lsf_iteration *iteration, uint32_t vpl)
+static float rotation_of(const lsf_vpl *pass, const lsf_iteration *iteration, uint32_t vpl)
 {
     lsf_iteration_number number = lsf_iteration_deal(iteration, vpl, pass->count);
-    uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_TURN);
+    uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_ROTATION);
     return lsf_unit_float(lsf_sobol_1d_bits(number.index, seed) ^ number.shift[0]);
 }
 
@@ -214,7 +214,7 @@ static lsf_vec4 random_of(const lsf_vpl *pass, const lsf_iteration *iteration, u
     uint32_t point[2];
     lsf_iteration_sample_dealt(iteration, vpl, pass->count, LSF_PURPOSE_VPL_DIRECTION, point);
     return (lsf_vec4){lsf_unit_float(point[0]), lsf_unit_float(point[1]),
-                      turn_of(pass, iteration, vpl), light_probability};
+                      rotation_of(pass, iteration, vpl), light_probability};
 }
 
 void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first, uint32_t count,
@@ -256,7 +256,7 @@ void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
     glUseProgram(pass->emitter_program);
     glUniform1ui(0, index);
-    glUniform4f(1, p[0], p[1], p[2], turn_of(pass, iteration, index - pass->first_emitter));
+    glUniform4f(1, p[0], p[1], p[2], rotation_of(pass, iteration, index - pass->first_emitter));
     glUniform4f(2, n[0], n[1], n[2], sample->density);
     glUniform4f(3, l[0], l[1], l[2], sample->weight_density);
     glUniform2f(4, (float)pass->shadow_resolution, iteration->view.start.w);

@@ -74,7 +74,7 @@ static void plan_light(lsf_plan *plan)
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION_ADAPTIVE", lsf_light_emission_is_adaptive(plan),
                         "rsm.pdf is adaptive");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", lsf_plan_surfaces_differ(plan),
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", lsf_plan_surfaces_differ(plan),
                         "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_plan_switch_add(plan, "LSF_SHADOW_TINT", lsf_light_walls_needed(plan),
@@ -88,7 +88,7 @@ static void plan_bounce(lsf_plan *plan, const lsf_vpl_cloud_use *use)
     lsf_plan_reads(plan, "voxelize");
     lsf_plan_fills(plan, "vpl_cloud");
     plan_materials(plan);
-    lsf_voxel_gloss_switch(plan);
+    lsf_voxel_specular_params_switch(plan);
     lsf_voxel_bend_switch(plan);
     lsf_voxel_passage_switches(plan);
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),

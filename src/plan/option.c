@@ -92,6 +92,8 @@ static const struct {
     {"interleave.depth_weight", "sparse.blur has no such weight"},
     {"interleave.normal_weight", "sparse.blur has no such weight"},
     {"blur.phases", "sparse.blur"},
+    {"bundle.room", "bundle.capacity"},
+    {"cone.turn", "cone.rotate"},
     {"blur.", "sparse.blur is the one option of the blur"},
 };
 

@@ -229,12 +229,13 @@ int lsf_plan_switch_value(const lsf_plan *plan, const char *pass_name, const cha
 void lsf_plan_textures_add(lsf_plan *plan, const lsf_texture_row *rows, size_t count,
                            uint32_t given, uint32_t width, uint32_t height)
 {
-    const lsf_plan_resource *gloss = lsf_plan_find(plan, "gbuffer.gloss");
-    GLenum gloss_format = gloss ? gloss->texture.internal_format : GL_NONE;
+    const lsf_plan_resource *specular_params = lsf_plan_find(plan, "gbuffer.specular_params");
+    GLenum specular_params_format =
+        specular_params ? specular_params->texture.internal_format : GL_NONE;
     if (plan->requirements.specular)
         given |= LSF_TEXTURE_SPECULAR;
     for (size_t i = 0; i < count; i++) {
-        GLenum format = rows[i].format ? rows[i].format : gloss_format;
+        GLenum format = rows[i].format ? rows[i].format : specular_params_format;
         if (format && !(rows[i].when & ~given))
             lsf_plan_texture_add(plan, rows[i].name, format, width, height, "%s", rows[i].why);
     }

@@ -141,8 +141,8 @@ int lsf_plan_switch_value(const lsf_plan *plan, const char *pass, const char *na
 /* A texture of a pass, for its plan, its creation and its destruction. */
 typedef struct lsf_texture_row {
     const char *name;
-    GLenum format; /* GL_NONE: the format of the G-buffer's gloss, and no texture where there is
-                    * no gloss */
+    GLenum format; /* GL_NONE: the format of gbuffer.specular_params, and no texture where there
+                    * is none */
     size_t offset; /* of the GLuint in the pass */
     uint32_t when; /* bits that must all be given for the texture to exist; 0: it always exists */
     const char *why;

@@ -26,8 +26,8 @@ static void unite_cones(const lsf_light_bounds *a, const lsf_light_bounds *b, ls
         float united = 0.5f * (spread + reach);
         lsf_float3 across = lsf_f3_mad(other, axis, -lsf_f3_dot(axis, other));
         across = lsf_f3_normalize_or(across, lsf_basis_about(axis).t);
-        float turn = united - spread;
-        axis = lsf_f3_mad(lsf_f3_scale(axis, cosf(turn)), across, sinf(turn));
+        float angle = united - spread;
+        axis = lsf_f3_mad(lsf_f3_scale(axis, cosf(angle)), across, sinf(angle));
         axis = lsf_f3_normalize(axis);
         spread = united + LSF_LIGHT_ROUNDING;
     }

@@ -232,21 +232,23 @@ static float sine_of(float cosine)
     return sqrtf(above(1.0f - cosine * cosine, 0.0f));
 }
 
-static bool out_of_range(const lsf_light_node *n, lsf_float3 way)
+static bool out_of_range(const lsf_light_node *n, lsf_float3 to_receiver)
 {
     if (isinf(n->range))
         return false;
-    float x = above(fabsf(way.x) - n->half.x, 0.0f), y = above(fabsf(way.y) - n->half.y, 0.0f);
-    float z = above(fabsf(way.z) - n->half.z, 0.0f);
+    float x = above(fabsf(to_receiver.x) - n->half.x, 0.0f),
+          y = above(fabsf(to_receiver.y) - n->half.y, 0.0f);
+    float z = above(fabsf(to_receiver.z) - n->half.z, 0.0f);
     return x * x + y * y + z * z > n->range * n->range;
 }
 
-/* Cosine of the angle between the axis and `way`, less the spread of both. */
-static float emitted_cosine(const lsf_light_node *n, lsf_float3 way, float cos_size, float sin_size)
+/* Cosine of the angle between the axis and `to_receiver`, less the spread of both. */
+static float emitted_cosine(const lsf_light_node *n, lsf_float3 to_receiver, float cos_size,
+                            float sin_size)
 {
     if (n->cos_spread == -1.0f)
         return 1.0f;
-    float cosine = lsf_f3_dot(n->axis, way);
+    float cosine = lsf_f3_dot(n->axis, to_receiver);
     if (n->two_sided)
         cosine = fabsf(cosine);
     if (cosine >= n->cos_spread)
@@ -257,13 +259,13 @@ static float emitted_cosine(const lsf_light_node *n, lsf_float3 way, float cos_s
 }
 
 /* Largest cosine between the receiver's normal and a direction to the group. */
-static float received_cosine(const lsf_light_receiver *receiver, lsf_float3 way, float cos_size,
-                             float sin_size)
+static float received_cosine(const lsf_light_receiver *receiver, lsf_float3 to_receiver,
+                             float cos_size, float sin_size)
 {
     lsf_float3 n = receiver->normal;
     if (n.x == 0.0f && n.y == 0.0f && n.z == 0.0f)
         return 1.0f;
-    float cosine = -lsf_f3_dot(n, way);
+    float cosine = -lsf_f3_dot(n, to_receiver);
     if (receiver->both_sides)
         cosine = fabsf(cosine);
     return cosine >= cos_size ? 1.0f : cosine * cos_size + sine_of(cosine) * sin_size;
@@ -274,19 +276,19 @@ static float received_cosine(const lsf_light_receiver *receiver, lsf_float3 way,
  * where it can send no light. */
 static float importance(const lsf_light_node *n, const lsf_light_receiver *receiver)
 {
-    lsf_float3 way = lsf_f3_sub(receiver->position, n->middle);
-    float distance2 = lsf_f3_dot(way, way);
+    lsf_float3 to_receiver = lsf_f3_sub(receiver->position, n->middle);
+    float distance2 = lsf_f3_dot(to_receiver, to_receiver);
     if (!(distance2 > n->radius2))
         return n->intensity / above(n->radius2, LSF_LIGHT_DISTANCE2_MIN);
-    if (out_of_range(n, way))
+    if (out_of_range(n, to_receiver))
         return 0.0f;
     float sin2 = n->radius2 / distance2;
     float sin_size = sqrtf(sin2), cos_size = sqrtf(1.0f - sin2);
-    way = lsf_f3_scale(way, 1.0f / sqrtf(distance2));
-    float received = received_cosine(receiver, way, cos_size, sin_size);
+    to_receiver = lsf_f3_scale(to_receiver, 1.0f / sqrtf(distance2));
+    float received = received_cosine(receiver, to_receiver, cos_size, sin_size);
     if (received <= -LSF_LIGHT_ROUNDING)
         return 0.0f;
-    float emitted = emitted_cosine(n, way, cos_size, sin_size);
+    float emitted = emitted_cosine(n, to_receiver, cos_size, sin_size);
     if (emitted <= n->cos_emission - LSF_LIGHT_ROUNDING)
         return 0.0f;
     return n->intensity * above(emitted, LSF_LIGHT_ROUNDING) * above(received, LSF_LIGHT_ROUNDING) /
@@ -413,9 +415,9 @@ float lsf_light_tree_probability(const lsf_light_tree *tree, const lsf_light_rec
         return 0.0f;
     if (asks_all(tree, most))
         return 1.0f;
-    uint32_t way[DEEPEST], length = 0;
+    uint32_t path[DEEPEST], length = 0;
     for (uint32_t node = tree->leaves[light]; node != 0; node = tree->nodes[node].parent)
-        way[length++] = node;
+        path[length++] = node;
     float probability = 1.0f;
     uint32_t node = 0;
     while (length > 0) {
@@ -423,7 +425,7 @@ float lsf_light_tree_probability(const lsf_light_tree *tree, const lsf_light_rec
         most = smaller(most, tree->nodes[node].lights);
         if (!share_out(tree, receiver, node, most, &s))
             return 0.0f;
-        uint32_t next = way[--length];
+        uint32_t next = path[--length];
         int which = next == node + 1 ? 0 : 1;
         probability *= s.probability[which];
         most = s.most[which];

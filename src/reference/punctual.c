@@ -94,11 +94,11 @@ static float joined_pdf(const lsf_reference_world *world, uint32_t index, const 
         emitted = spot_factor(light, lsf_f3_scale(s->direction, -1.0f)) /
                   lsf_spot_integral(scale, spot_offset(light, scale));
     }
-    lsf_float3 way = lsf_f3_sub(y->position, x);
+    lsf_float3 span = lsf_f3_sub(y->position, x);
     float turned = fabsf(lsf_f3_dot(y->geometric_normal, s->direction) /
                          lsf_f3_dot(y->geometric_normal, from_x));
     float chosen = lsf_lit_probability(&world->lights, x, index);
-    return chosen * emitted * turned * lsf_f3_dot(way, way) / (s->distance * s->distance);
+    return chosen * emitted * turned * lsf_f3_dot(span, span) / (s->distance * s->distance);
 }
 
 /* Weight of a direction that the walk has drawn and that has hit a surface lit directly: the
@@ -140,9 +140,9 @@ static lsf_float3 draw_emitted(const lsf_light_state *light, const float u[2])
         return lsf_sample_sphere(u[0], u[1]);
     float scale = lsf_spot_scale(light->cos_inner, light->cos_outer);
     float cosine = lsf_spot_cosine(u[0], scale, spot_offset(light, scale));
-    float sine = sqrtf(fmaxf(1.0f - cosine * cosine, 0.0f)), turn = 2.0f * LSF_PI * u[1];
+    float sine = sqrtf(fmaxf(1.0f - cosine * cosine, 0.0f)), azimuth = 2.0f * LSF_PI * u[1];
     lsf_basis frame = lsf_basis_about(lsf_f3_load(light->direction));
-    return lsf_basis_to_world(&frame, lsf_f3(sine * cosf(turn), sine * sinf(turn), cosine));
+    return lsf_basis_to_world(&frame, lsf_f3(sine * cosf(azimuth), sine * sinf(azimuth), cosine));
 }
 
 bool lsf_punctual_begin(const lsf_reference_geometry *geometry, const lsf_light_state *light,

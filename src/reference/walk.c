@@ -133,9 +133,9 @@ lsf_float3 lsf_walk_passes(lsf_walk *w, lsf_float3 direction, const lsf_float3 *
     const lsf_float3 dark = {0.0f, 0.0f, 0.0f};
     lsf_float3 left = {1.0f, 1.0f, 1.0f}, origin = lsf_ray_origin(&w->surface, direction);
     for (*walls = 0; *walls < LSF_REFERENCE_WALLS; ++*walls) {
-        lsf_float3 way = target ? lsf_f3_sub(*target, origin) : direction;
+        lsf_float3 span = target ? lsf_f3_sub(*target, origin) : direction;
         lsf_reference_hit hit;
-        if (!lsf_reference_trace(&w->world->geometry, origin, way, 0.0f, target ? REACH : INFINITY,
+        if (!lsf_reference_trace(&w->world->geometry, origin, span, 0.0f, target ? REACH : INFINITY,
                                  lsf_walk_chance(w), &hit))
             return left;
         lsf_reference_surface wall;

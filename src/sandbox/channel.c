@@ -85,7 +85,7 @@ static bool take_source(lsf_sandbox_channel *channel, const char *word, const ch
 }
 
 bool lsf_sandbox_channel_parse(lsf_sandbox_channel *channel, const char *source, const char *folder,
-                               const char *place, lsf_error *error)
+                               const char *location, lsf_error *error)
 {
     *channel = (lsf_sandbox_channel){0};
     char *copy = strdup(source), *rest = NULL;
@@ -98,7 +98,7 @@ bool lsf_sandbox_channel_parse(lsf_sandbox_channel *channel, const char *source,
         lsf_error_set(error, LSF_ERROR_USAGE,
                       "%s: name a channel's source: a file, a, b, c, d, "
                       "previous, keyboard, noise, or cube and a file",
-                      place);
+                      location);
     if (good && cube && channel->source == LSF_SOURCE_FILE)
         set_defaults(channel, LSF_SOURCE_CUBE);
     while (good && (word = strtok_r(NULL, " \t\r", &rest))) {
@@ -107,12 +107,12 @@ bool lsf_sandbox_channel_parse(lsf_sandbox_channel *channel, const char *source,
             lsf_error_set(error, LSF_ERROR_USAGE,
                           "%s: %s: expected wrap=repeat, clamp or mirror, filter=nearest, linear "
                           "or mipmap, or flip=no",
-                          place, word);
+                          location, word);
     }
     bool kept = channel->source == LSF_SOURCE_BUFFER || channel->source == LSF_SOURCE_PREVIOUS;
     if (good && kept && channel->mipmap)
         good = lsf_error_set(error, LSF_ERROR_USAGE,
-                             "%s: filter=mipmap is for pictures; take filter=linear", place);
+                             "%s: filter=mipmap is for pictures; take filter=linear", location);
     free(copy);
     return good;
 }
@@ -194,25 +194,25 @@ static bool holds_radiance(const char *path)
     return dot && (strcmp(dot, ".exr") == 0 || strcmp(dot, ".hdr") == 0);
 }
 
-static bool bad_file(const char *place, const lsf_error *reason, lsf_error *error)
+static bool bad_file(const char *location, const lsf_error *reason, lsf_error *error)
 {
-    return lsf_error_set(error, reason->code, "%.500s: %.3000s", place, reason->message);
+    return lsf_error_set(error, reason->code, "%.500s: %.3000s", location, reason->message);
 }
 
-static bool load_file(lsf_sandbox_channel *channel, lsf_context *context, const char *place,
+static bool load_file(lsf_sandbox_channel *channel, lsf_context *context, const char *location,
                       lsf_error *error)
 {
     lsf_error reason = {0};
     bool radiance = holds_radiance(channel->path);
     lsf_image *image = lsf_image_load(channel->path, &reason);
     if (!image)
-        return bad_file(place, &reason, error);
+        return bad_file(location, &reason, error);
     float *texels = texels_of(image, !radiance, channel->flip);
     channel->width = image->width;
     channel->height = image->height;
-    bool good = texels || lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory", place);
+    bool good = texels || lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory", location);
     if (good && !create_texture(channel, context, radiance ? GL_RGBA32F : GL_RGBA8, &reason))
-        good = bad_file(place, &reason, error);
+        good = bad_file(location, &reason, error);
     if (good)
         glTextureSubImage2D(channel->texture, 0, 0, 0, (GLsizei)image->width,
                             (GLsizei)image->height, GL_RGBA, GL_FLOAT, texels);
@@ -261,14 +261,14 @@ static bool upload_face(const lsf_sandbox_channel *channel, uint32_t face, const
 }
 
 static bool resample(lsf_sandbox_channel *channel, lsf_context *context, const lsf_image *image,
-                     const char *place, lsf_error *error)
+                     const char *location, lsf_error *error)
 {
     bool radiance = holds_radiance(channel->path);
     uint32_t side = image->height / 2 > 0 ? image->height / 2 : 1;
     float *from = texels_of(image, !radiance, false);
     float *texels = lsf_alloc((uint64_t)side * side, 4 * sizeof *texels);
     bool good =
-        (from && texels) || lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory", place);
+        (from && texels) || lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory", location);
     channel->width = channel->height = side;
     good = good && create_texture(channel, context, GL_RGBA32F, error);
     for (uint32_t face = 0; good && face < CUBE_FACES; face++) {
@@ -284,7 +284,7 @@ static bool resample(lsf_sandbox_channel *channel, lsf_context *context, const l
     return good;
 }
 
-static bool load_faces(lsf_sandbox_channel *channel, lsf_context *context, const char *place,
+static bool load_faces(lsf_sandbox_channel *channel, lsf_context *context, const char *location,
                        lsf_error *error)
 {
     static const char *const names[CUBE_FACES] = {"px", "nx", "py", "ny", "pz", "nz"};
@@ -295,7 +295,7 @@ static bool load_faces(lsf_sandbox_channel *channel, lsf_context *context, const
         char *path = lsf_format("%.*s%s%s", (int)(mark - channel->path), channel->path, names[face],
                                 mark + 2);
         lsf_image *image = path ? lsf_image_load(path, &reason) : NULL;
-        good = image || bad_file(place, &reason, error);
+        good = image || bad_file(location, &reason, error);
         if (good && face == 0) {
             channel->width = channel->height = image->width;
             good = create_texture(channel, context, GL_RGBA32F, error);
@@ -303,7 +303,7 @@ static bool load_faces(lsf_sandbox_channel *channel, lsf_context *context, const
         if (good && (image->width != channel->width || image->height != channel->width))
             good = lsf_error_set(error, LSF_ERROR_FILE,
                                  "%s: %s is %ux%u; all six faces have to be squares of one size",
-                                 place, path, image->width, image->height);
+                                 location, path, image->width, image->height);
         float *texels = good ? texels_of(image, !holds_radiance(path), false) : NULL;
         good = good && (texels ? upload_face(channel, face, texels)
                                : lsf_error_set(error, LSF_ERROR_RENDER, "out of memory"));
@@ -314,15 +314,15 @@ static bool load_faces(lsf_sandbox_channel *channel, lsf_context *context, const
     return good;
 }
 
-static bool load_cube(lsf_sandbox_channel *channel, lsf_context *context, const char *place,
+static bool load_cube(lsf_sandbox_channel *channel, lsf_context *context, const char *location,
                       lsf_error *error)
 {
     lsf_error reason = {0};
     if (strstr(channel->path, "%s"))
-        return load_faces(channel, context, place, error);
+        return load_faces(channel, context, location, error);
     lsf_image *image = lsf_image_load(channel->path, &reason);
-    bool good =
-        image ? resample(channel, context, image, place, error) : bad_file(place, &reason, error);
+    bool good = image ? resample(channel, context, image, location, error)
+                      : bad_file(location, &reason, error);
     lsf_image_destroy(image);
     return good;
 }
@@ -337,8 +337,8 @@ static bool same(const lsf_sandbox_channel *a, const lsf_sandbox_channel *b)
 }
 
 bool lsf_sandbox_channel_load(lsf_sandbox_channel *channel, lsf_context *context,
-                              lsf_sandbox_channel *before, uint32_t before_count, const char *place,
-                              lsf_error *error)
+                              lsf_sandbox_channel *before, uint32_t before_count,
+                              const char *location, lsf_error *error)
 {
     if (channel->source < LSF_SOURCE_NOISE)
         return true;
@@ -353,8 +353,8 @@ bool lsf_sandbox_channel_load(lsf_sandbox_channel *channel, lsf_context *context
             return true;
         }
     bool good = channel->source == LSF_SOURCE_NOISE  ? make_noise(channel, context, error)
-                : channel->source == LSF_SOURCE_CUBE ? load_cube(channel, context, place, error)
-                                                     : load_file(channel, context, place, error);
+                : channel->source == LSF_SOURCE_CUBE ? load_cube(channel, context, location, error)
+                                                     : load_file(channel, context, location, error);
     if (good && channel->mipmap)
         glGenerateTextureMipmap(channel->texture);
     if (good)

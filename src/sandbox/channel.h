@@ -28,13 +28,13 @@ typedef struct lsf_sandbox_channel {
 } lsf_sandbox_channel;
 
 /* Reads the channel's description, with paths relative to `folder`. The message of
- * LSF_ERROR_USAGE begins with `place`. */
+ * LSF_ERROR_USAGE begins with `location`. */
 bool lsf_sandbox_channel_parse(lsf_sandbox_channel *channel, const char *source, const char *folder,
-                               const char *place, lsf_error *error);
+                               const char *location, lsf_error *error);
 /* Makes its texture; borrows that of a channel in `before` with the same description. */
 bool lsf_sandbox_channel_load(lsf_sandbox_channel *channel, lsf_context *context,
-                              lsf_sandbox_channel *before, uint32_t before_count, const char *place,
-                              lsf_error *error);
+                              lsf_sandbox_channel *before, uint32_t before_count,
+                              const char *location, lsf_error *error);
 /* Takes over the ownership of a borrowed texture. */
 void lsf_sandbox_channel_keep(lsf_sandbox_channel *channel);
 void lsf_sandbox_channel_finish(lsf_sandbox_channel *channel, lsf_context *context);

@@ -279,7 +279,7 @@ void lsf_sandbox_engine_bind(const lsf_sandbox_engine *engine, uint32_t needs)
         const lsf_reflective_shadow_map_outputs *map = &engine->reflective.outputs;
         lsf_shadow_bind(&map->shadow);
         lsf_bind_texture(LSF_UNIT_REFLECTIVE_SURFACE, map->seen.surface);
-        lsf_bind_texture(LSF_UNIT_REFLECTIVE_GLOSS, map->seen.gloss);
+        lsf_bind_texture(LSF_UNIT_REFLECTIVE_SPECULAR_PARAMS, map->seen.specular_params);
     } else if (has(engine, LSF_NEED_SHADOW)) {
         lsf_shadow_bind(&engine->shadow_map.outputs.shadow);
     }

@@ -120,7 +120,7 @@ static bool check_type(const lsf_sandbox_pass_text *pass, GLuint program, uint32
     glGetActiveUniformsiv(program, 1, &index, GL_UNIFORM_TYPE, &type);
     return (GLenum)type == wanted ||
            lsf_error_set(error, LSF_ERROR_RENDER, "%s:%u: declare uniform %s;",
-                         pass->places[row].path, pass->places[row].line, name->use);
+                         pass->locations[row].path, pass->locations[row].line, name->use);
 }
 
 bool lsf_sandbox_pass_build(lsf_sandbox_pass *pass, lsf_context *context,

@@ -34,11 +34,11 @@ static bool refuse(const scanner *s, const char *name, const char *use)
                          use);
 }
 
-static bool set_place(const scanner *s, lsf_sandbox_place *place)
+static bool set_location(const scanner *s, lsf_sandbox_location *location)
 {
-    free(place->path);
-    *place = (lsf_sandbox_place){strdup(s->path), s->line};
-    return place->path || out_of_memory(s);
+    free(location->path);
+    *location = (lsf_sandbox_location){strdup(s->path), s->line};
+    return location->path || out_of_memory(s);
 }
 
 /* --- annotations --- */
@@ -53,7 +53,7 @@ static bool read_channel(const scanner *s, const char *rest)
     lsf_sandbox_channel_text *channel = &s->pass->channels[index];
     free(channel->source);
     channel->source = strdup(rest + end);
-    return channel->source ? set_place(s, &channel->place) : out_of_memory(s);
+    return channel->source ? set_location(s, &channel->location) : out_of_memory(s);
 }
 
 /* The uniform of the line; a range is known once it was read anywhere. */
@@ -117,7 +117,7 @@ static bool read_light(scanner *s, const char *rest)
     if (sscanf(rest, " %u", &index) != 1)
         return refuse(s, "@light", "// @light N");
     s->text->light = index;
-    return set_place(s, &s->text->light_place);
+    return set_location(s, &s->text->light_location);
 }
 
 static bool read_output(scanner *s, const char *rest)
@@ -183,7 +183,7 @@ static bool note_name(scanner *s, const char *word, size_t length, bool declared
     if (pass->mentions[name])
         return true;
     pass->mentions[name] = true;
-    return set_place(s, &pass->places[name]);
+    return set_location(s, &pass->locations[name]);
 }
 
 static bool is_precision(const char *word, size_t length)
@@ -261,10 +261,10 @@ bool lsf_sandbox_scan(lsf_sandbox_text *text, lsf_sandbox_pass_text *pass,
         pass->needs |= lsf_sandbox_needs_of_file(source->paths[i]);
     for (uint64_t i = 0; i < source->line_count && good; i++) {
         size_t length = strcspn(at, "\n");
-        if (source->places[i].foreign) {
+        if (source->origins[i].foreign) {
             char *line = strndup(at, length);
-            s.path = source->paths[source->places[i].file];
-            s.line = source->places[i].line;
+            s.path = source->paths[source->origins[i].file];
+            s.line = source->origins[i].line;
             good = line ? scan_line(&s, line) : out_of_memory(&s);
             free(line);
         }

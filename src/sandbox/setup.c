@@ -114,11 +114,11 @@ static void plan_bundle(lsf_sandbox_setup *setup)
 static void plan_seen_switches(lsf_plan *plan, const lsf_plan *seen)
 {
     const lsf_requirements *r = &seen->requirements;
-    bool gloss = lsf_gbuffer_gloss(seen) != GL_NONE;
+    bool specular_params = lsf_gbuffer_specular_params(seen) != GL_NONE;
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", seen->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
-    lsf_plan_switch_add(plan, "LSF_GLOSS", gloss, "roughness or metallic vary");
-    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", gloss && r->anisotropic,
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic,
                         "some material is anisotropic");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", seen->transmission,
                         "light passes materials that transmit");
@@ -134,7 +134,7 @@ static void plan_switches(lsf_sandbox_setup *setup)
     lsf_plan *plan = setup->plan;
     const lsf_plan *seen = setup->own & LSF_NEED_GBUFFER || !setup->picture ? plan : setup->picture;
     plan_seen_switches(plan, seen);
-    lsf_scene_gpu_lobe_switches(plan, lsf_gbuffer_gloss(seen) != GL_NONE);
+    lsf_scene_gpu_lobe_switches(plan, lsf_gbuffer_specular_params(seen) != GL_NONE);
     if (setup->own == 0)
         return;
     lsf_plan_switch_add(plan, "LSF_LIGHT_COUNT", (int)setup->setup.state.light_count,
@@ -153,9 +153,9 @@ static void plan_names(lsf_plan *plan, const lsf_sandbox_text *text)
 {
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++)
         for (uint32_t i = 0; lsf_sandbox_row_at(i); i++) {
-            const lsf_sandbox_place *place = &text->passes[p].places[i];
-            if (place->path && lsf_sandbox_row_at(i)->needs)
-                lsf_plan_remark(plan, "%s:%u: %s", place->path, place->line,
+            const lsf_sandbox_location *location = &text->passes[p].locations[i];
+            if (location->path && lsf_sandbox_row_at(i)->needs)
+                lsf_plan_remark(plan, "%s:%u: %s", location->path, location->line,
                                 lsf_sandbox_row_at(i)->name);
         }
 }
@@ -206,12 +206,12 @@ static bool check_scene(const lsf_sandbox_setup *setup, const lsf_sandbox_text *
         return true;
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++)
         for (uint32_t i = 0; lsf_sandbox_row_at(i); i++) {
-            const lsf_sandbox_place *place = &text->passes[p].places[i];
-            if (place->path && lsf_sandbox_row_at(i)->needs)
+            const lsf_sandbox_location *location = &text->passes[p].locations[i];
+            if (location->path && lsf_sandbox_row_at(i)->needs)
                 return lsf_error_set(error, LSF_ERROR_USAGE,
                                      "%s:%u: %s is of a scene, and there is none: name one behind "
                                      "the shader",
-                                     place->path, place->line, lsf_sandbox_row_at(i)->name);
+                                     location->path, location->line, lsf_sandbox_row_at(i)->name);
         }
     return lsf_error_set(error, LSF_ERROR_USAGE,
                          "a file that the shader includes is of a scene, and there is none: name "
@@ -232,10 +232,11 @@ static bool check_light(const lsf_sandbox_setup *setup, const lsf_sandbox_text *
     uint32_t lights = setup->setup.state.light_count;
     if (!needs(setup, LSF_NEED_SHADOW) || text->light < lights)
         return true;
-    const lsf_sandbox_place *place = &text->light_place;
-    if (place->path)
+    const lsf_sandbox_location *location = &text->light_location;
+    if (location->path)
         return lsf_error_set(error, LSF_ERROR_USAGE, "%s:%u: @light %u: the scene has %u light%s",
-                             place->path, place->line, text->light, lights, lsf_plural(lights));
+                             location->path, location->line, text->light, lights,
+                             lsf_plural(lights));
     return lsf_error_set(error, LSF_ERROR_USAGE,
                          "the shader names a light's map, and the scene has no point, spot or "
                          "directional light; --default-light always adds one");

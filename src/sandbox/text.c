@@ -204,8 +204,8 @@ static bool watch_included(lsf_sandbox_text *text, const lsf_shader_source *sour
 {
     bool good = true;
     for (uint64_t i = 0; i < source->line_count && good; i++)
-        if (source->places[i].foreign)
-            good = lsf_sandbox_text_watch(text, source->paths[source->places[i].file]);
+        if (source->origins[i].foreign)
+            good = lsf_sandbox_text_watch(text, source->paths[source->origins[i].file]);
     return good;
 }
 
@@ -269,10 +269,10 @@ static void free_pass(lsf_sandbox_pass_text *pass)
 {
     free_part(&pass->part);
     for (size_t i = 0; i < LSF_SANDBOX_NAMES; i++)
-        free(pass->places[i].path);
+        free(pass->locations[i].path);
     for (size_t i = 0; i < LSF_SANDBOX_CHANNELS; i++) {
         free(pass->channels[i].source);
-        free(pass->channels[i].place.path);
+        free(pass->channels[i].location.path);
     }
 }
 
@@ -288,7 +288,7 @@ void lsf_sandbox_text_finish(lsf_sandbox_text *text)
         free(text->uniforms[i].name);
     for (uint64_t i = 0; i < text->file_count; i++)
         free(text->files[i].path);
-    free(text->light_place.path);
+    free(text->light_location.path);
     free(text->defines);
     free(text->uniforms);
     free(text->files);

@@ -16,15 +16,15 @@ enum {
 #define LSF_SANDBOX_CHANNELS 4
 #define LSF_SANDBOX_NAMES 96 /* at least as many as the table has */
 
-typedef struct lsf_sandbox_place {
+typedef struct lsf_sandbox_location {
     char *path; /* NULL: nowhere */
     uint32_t line;
-} lsf_sandbox_place;
+} lsf_sandbox_location;
 
 /* The description of a channel, as it was written. */
 typedef struct lsf_sandbox_channel_text {
     char *source; /* "wood.png wrap=clamp"; NULL: there is none */
-    lsf_sandbox_place place;
+    lsf_sandbox_location location;
 } lsf_sandbox_channel_text;
 
 typedef struct lsf_sandbox_pass_text {
@@ -33,10 +33,10 @@ typedef struct lsf_sandbox_pass_text {
     bool compute;
     bool main_image; /* it has mainImage, and main is to be made for it */
     bool main;
-    bool mentions[LSF_SANDBOX_NAMES];            /* which rows of the table it names */
-    bool declares[LSF_SANDBOX_NAMES];            /* ... and declares itself */
-    lsf_sandbox_place places[LSF_SANDBOX_NAMES]; /* where it names them first; also those in the
-                                                  * common part */
+    bool mentions[LSF_SANDBOX_NAMES];                  /* which rows of the table it names */
+    bool declares[LSF_SANDBOX_NAMES];                  /* ... and declares itself */
+    lsf_sandbox_location locations[LSF_SANDBOX_NAMES]; /* where it names them first; also those in
+                                                        * the common part */
     uint32_t needs;
     lsf_sandbox_channel_text channels[LSF_SANDBOX_CHANNELS];
     bool feeds_back; /* some pass reads its own picture of a frame before */
@@ -71,7 +71,7 @@ typedef struct lsf_sandbox_text {
     bool keyboard; /* some channel reads it */
     uint32_t light;
     float bundle[3];
-    lsf_sandbox_place light_place;
+    lsf_sandbox_location light_location;
     char **defines; /* "pass.key=value" */
     uint64_t define_count, define_capacity;
     lsf_sandbox_own *uniforms;

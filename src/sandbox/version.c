@@ -55,25 +55,25 @@ static bool parse_channel(lsf_sandbox_text *text, const lsf_sandbox_params *para
     const lsf_sandbox_pass_text *pass = &text->passes[p];
     const lsf_sandbox_channel_text *said = &pass->channels[c];
     const char *given = given_channel(params, p, c), *source = given ? given : said->source;
-    char name[16], place[512] = "channel";
+    char name[16], location[512] = "channel";
     snprintf(name, sizeof name, "iChannel%u", c);
     uint32_t row = lsf_sandbox_find_name(name, strlen(name));
     if (!pass->part.text || !pass->mentions[row])
         return true;
     if (!source) {
         lsf_log(LSF_LOG_WARNING, "%s:%u: %s is black: say what it is by // @channel %u SOURCE",
-                pass->places[row].path, pass->places[row].line, name, c);
+                pass->locations[row].path, pass->locations[row].line, name, c);
         return true;
     }
     if (!given)
-        snprintf(place, sizeof place, "%.480s:%u", said->place.path, said->place.line);
-    if (!lsf_sandbox_channel_parse(channel, source, given ? "." : text->folder, place, error))
+        snprintf(location, sizeof location, "%.480s:%u", said->location.path, said->location.line);
+    if (!lsf_sandbox_channel_parse(channel, source, given ? "." : text->folder, location, error))
         return false;
     if (channel->source == LSF_SOURCE_BUFFER && !text->passes[channel->buffer].part.text)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "%s: there is no buffer %s: add a section // @buffer %s, or a file "
                              "beside the shader",
-                             place, lsf_sandbox_pass_name(channel->buffer),
+                             location, lsf_sandbox_pass_name(channel->buffer),
                              lsf_sandbox_pass_name(channel->buffer));
     note_feedback(text, p, channel);
     text->keyboard |= channel->source == LSF_SOURCE_KEYBOARD;
@@ -127,14 +127,14 @@ static bool load_channels(lsf_sandbox_version *version, lsf_context *context,
 {
     for (uint32_t p = 0; p < LSF_SANDBOX_PASSES; p++)
         for (uint32_t c = 0; c < LSF_SANDBOX_CHANNELS; c++) {
-            const lsf_sandbox_place *said = &version->text.passes[p].channels[c].place;
+            const lsf_sandbox_location *said = &version->text.passes[p].channels[c].location;
             lsf_sandbox_channel *channel = &version->passes[p].channels[c];
             lsf_sandbox_channel *old = before ? before->passes[p].channels : NULL;
-            char place[512] = "channel";
+            char location[512] = "channel";
             if (said->path)
-                snprintf(place, sizeof place, "%.480s:%u: @channel", said->path, said->line);
+                snprintf(location, sizeof location, "%.480s:%u: @channel", said->path, said->line);
             if (!lsf_sandbox_channel_load(channel, context, old, old ? LSF_SANDBOX_CHANNELS : 0,
-                                          place, error))
+                                          location, error))
                 return false;
         }
     return true;

@@ -11,12 +11,12 @@
 /* --- checks --- */
 
 /* Names the part in messages. */
-typedef struct place {
+typedef struct location {
     uint32_t mesh, part;
     lsf_error *error;
-} place;
+} location;
 
-static bool check_values(const place *at, const char *name, const float *values, uint32_t width,
+static bool check_values(const location *at, const char *name, const float *values, uint32_t width,
                          uint32_t count, float least)
 {
     for (uint64_t i = 0; values && i < (uint64_t)width * count; i++)
@@ -30,7 +30,7 @@ static bool check_values(const place *at, const char *name, const float *values,
     return true;
 }
 
-static bool check_indices(const place *at, const lsf_mesh_part *part)
+static bool check_indices(const location *at, const lsf_mesh_part *part)
 {
     uint32_t corners = part->indices ? part->index_count : part->vertex_count;
     if (!part->indices && part->index_count > 0)
@@ -48,7 +48,7 @@ static bool check_indices(const place *at, const lsf_mesh_part *part)
     return true;
 }
 
-static bool check_part(const lsf_scene *scene, const place *at, const lsf_mesh_part *part)
+static bool check_part(const lsf_scene *scene, const location *at, const lsf_mesh_part *part)
 {
     uint32_t count = part->vertex_count;
     if (part->material >= scene->material_count && part->material != LSF_NONE)
@@ -243,7 +243,7 @@ uint32_t lsf_scene_add_mesh(lsf_scene *scene, const char *name, const lsf_mesh_p
     if (!lsf_draft_given(scene, error) || !lsf_given(parts, "parts", error))
         return LSF_NONE;
     for (uint32_t i = 0; i < part_count; i++) {
-        const place at = {scene->mesh_count, i, error};
+        const location at = {scene->mesh_count, i, error};
         if (!check_part(scene, &at, &parts[i]))
             return LSF_NONE;
     }

@@ -17,8 +17,8 @@ void lsf_environment_rotate(lsf_environment *environment, float rotation)
 }
 
 /* The angle from the zenith comes from atan2: acos would lose half of its digits there. */
-void lsf_environment_place(const lsf_environment *environment, lsf_float3 direction, double *u,
-                           double *v)
+void lsf_environment_uv(const lsf_environment *environment, lsf_float3 direction, double *u,
+                        double *v)
 {
     double x = (double)direction.x, y = (double)direction.y, z = (double)direction.z;
     *u = 0.5 + atan2(z, x) / (2.0 * M_PI) + (double)environment->turn;
@@ -43,7 +43,7 @@ lsf_float3 lsf_environment_radiance(const lsf_environment *environment, lsf_floa
     if (map->width == 0)
         return lsf_f3_load(map->radiance);
     double u, v;
-    lsf_environment_place(map, direction, &u, &v);
+    lsf_environment_uv(map, direction, &u, &v);
     double x = u * map->width - 0.5, y = v * map->height - 0.5;
     int64_t left = (int64_t)floor(x), top = (int64_t)floor(y);
     float tx = (float)(x - (double)left), ty = (float)(y - (double)top);

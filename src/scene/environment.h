@@ -15,8 +15,8 @@ void lsf_environment_rotate(lsf_environment *environment, float rotation);
 
 /* Position of a unit direction on the map, u in [0, 1) around the horizon, v in [0, 1] from the
  * zenith. */
-void lsf_environment_place(const lsf_environment *environment, lsf_float3 direction, double *u,
-                           double *v);
+void lsf_environment_uv(const lsf_environment *environment, lsf_float3 direction, double *u,
+                        double *v);
 
 /* The unit direction at `u` around the horizon of the map, whose angle from the zenith has the
  * cosine `zenith_cosine`: cos(pi v) of a position (u, v). */

@@ -7,7 +7,7 @@
 #include "math/sampling.h"
 
 /* The key's entry, or the free entry where it belongs. */
-static lsf_key_entry *place_of(const lsf_key_map *map, lsf_key key)
+static lsf_key_entry *slot_of(const lsf_key_map *map, lsf_key key)
 {
     uint64_t hash =
         lsf_hash64(((uint64_t)key.word[0] << 32 | key.word[1]) ^ lsf_hash64(key.word[2]));
@@ -26,7 +26,7 @@ static bool grow(lsf_key_map *map)
         return false;
     for (uint64_t i = 0; i < map->capacity; i++)
         if (map->entries[i].used)
-            *place_of(&larger, map->entries[i].key) = map->entries[i];
+            *slot_of(&larger, map->entries[i].key) = map->entries[i];
     free(map->entries);
     *map = larger;
     return true;
@@ -37,7 +37,7 @@ bool lsf_key_map_find(lsf_key_map *map, lsf_key key, uint32_t fresh, uint32_t *v
     /* It is at most half full, so that probes stay short. */
     if (2 * map->count >= map->capacity && !grow(map))
         return false;
-    lsf_key_entry *entry = place_of(map, key);
+    lsf_key_entry *entry = slot_of(map, key);
     if (!entry->used) {
         *entry = (lsf_key_entry){key, fresh, 1};
         map->count++;

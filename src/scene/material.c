@@ -29,8 +29,8 @@ lsf_texture_slot *lsf_material_slot(lsf_material *material, uint32_t use)
     return (lsf_texture_slot *)((char *)material + slot_offsets[use]);
 }
 
-void lsf_texture_slot_place(lsf_texture_slot *slot, const double offset[2], double rotation,
-                            const double scale[2])
+void lsf_texture_slot_set_transform(lsf_texture_slot *slot, const double offset[2], double rotation,
+                                    const double scale[2])
 {
     double c = cos(rotation), s = sin(rotation);
     const double rows[2][3] = {{c * scale[0], s * scale[1], offset[0]},

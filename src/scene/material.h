@@ -21,8 +21,8 @@ lsf_texture_slot *lsf_material_slot(lsf_material *material, uint32_t use);
 /* Sets the transform T * R * S of KHR_texture_transform, where R turns the coordinates
  * counter-clockwise as seen in the image (v points down), as Khronos' TextureTransformTest shows.
  */
-void lsf_texture_slot_place(lsf_texture_slot *slot, const double offset[2], double rotation,
-                            const double scale[2]);
+void lsf_texture_slot_set_transform(lsf_texture_slot *slot, const double offset[2], double rotation,
+                                    const double scale[2]);
 
 /* glTF's default material without a name; a Lambert one where materials are diffuse only. */
 lsf_material lsf_default_material(bool diffuse_only);

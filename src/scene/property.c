@@ -120,7 +120,7 @@ static void place_slot(lsf_texture_slot *slot)
 {
     const double offset[2] = {(double)slot->offset[0], (double)slot->offset[1]};
     const double scale[2] = {(double)slot->scale[0], (double)slot->scale[1]};
-    lsf_texture_slot_place(slot, offset, (double)slot->rotation, scale);
+    lsf_texture_slot_set_transform(slot, offset, (double)slot->rotation, scale);
 }
 
 /* Sets the members that follow from a material's properties, as when files are read. */

@@ -128,7 +128,7 @@ float lsf_sky_pdf(const lsf_sky *sky, lsf_float3 direction)
         return 0.25f / LSF_PI;
     const lsf_environment *map = sky->environment;
     double u, v, texels = (double)map->width * map->height;
-    lsf_environment_place(map, direction, &u, &v);
+    lsf_environment_uv(map, direction, &u, &v);
     double x = u * map->width - 0.5, y = v * map->height - 0.5;
     int64_t left = (int64_t)floor(x), top = (int64_t)floor(y);
     double tx = x - (double)left, ty = y - (double)top;

@@ -48,7 +48,7 @@ typedef struct tessellation {
     double shape;
     uint64_t capacity[LSF_COUNT(streams)]; /* vertices */
     /* Of the mesh at work: places, and bends between two of them. */
-    lsf_key_map places, edges;
+    lsf_key_map positions, edges;
     edge_bend *bends;
     uint64_t bend_count, bend_capacity;
     /* Of the primitive at work: new vertices at old ones, and the first new one inside the edge
@@ -74,14 +74,14 @@ static const float *position_of(const tessellation *t, uint32_t vertex)
 
 /* --- bends of edges */
 
-static bool find_place(tessellation *t, uint32_t vertex, uint32_t *place)
+static bool find_position(tessellation *t, uint32_t vertex, uint32_t *position)
 {
     lsf_key key;
     for (int c = 0; c < 3; c++) {
         float x = position_of(t, vertex)[c] + 0.0f; /* -0 and 0 are one place */
         memcpy(&key.word[c], &x, sizeof x);
     }
-    return lsf_key_map_find(&t->places, key, (uint32_t)t->places.count, place);
+    return lsf_key_map_find(&t->positions, key, (uint32_t)t->positions.count, position);
 }
 
 static bool find_bend(tessellation *t, uint32_t a, uint32_t b, edge_bend **bend)
@@ -91,7 +91,7 @@ static bool find_bend(tessellation *t, uint32_t a, uint32_t b, edge_bend **bend)
     if (!lsf_grow(&bends, &t->bend_capacity, t->bend_count + 1, sizeof *t->bends))
         return false;
     t->bends = bends;
-    if (!find_place(t, a, &from) || !find_place(t, b, &to))
+    if (!find_position(t, a, &from) || !find_position(t, b, &to))
         return false;
     lsf_key key = {{from < to ? from : to, from < to ? to : from, 0}};
     if (!lsf_key_map_find(&t->edges, key, (uint32_t)t->bend_count, &index))
@@ -378,7 +378,7 @@ static bool keep_primitive(tessellation *t, const lsf_primitive *source, lsf_pri
 /* Primitives whose edges are one another's: those of a mesh. */
 static bool split_group(tessellation *t, uint32_t first, uint32_t count)
 {
-    lsf_key_map_clear(&t->places);
+    lsf_key_map_clear(&t->positions);
     lsf_key_map_clear(&t->edges);
     t->bend_count = 0;
     for (uint32_t p = first; p < first + count; p++)
@@ -463,7 +463,7 @@ lsf_scene *lsf_scene_tessellate(const lsf_scene *scene, uint32_t factor, float s
     tessellation t = {.source = scene, .factor = factor, .shape = (double)shape};
     t.target = create_copy(scene, index_count);
     bool done = t.target && split_all(&t) && lsf_scene_compute_requirements(t.target);
-    lsf_key_map_finish(&t.places);
+    lsf_key_map_finish(&t.positions);
     lsf_key_map_finish(&t.edges);
     lsf_key_map_finish(&t.corners);
     lsf_key_map_finish(&t.sides);

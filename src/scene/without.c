@@ -59,7 +59,7 @@ static void without_sheens(lsf_material *m)
     drop(&m->sheen_roughness_texture);
 }
 
-static void without_gloss(lsf_material *m)
+static void without_roughness_metallic(lsf_material *m)
 {
     m->roughness = 1.0f;
     m->metallic = 0.0f;
@@ -153,7 +153,7 @@ static const struct feature_row {
     [LSF_FEATURE_UNLIT] = {"unlit materials", without_unlit, NULL},
     [LSF_FEATURE_MASKS] = {"alpha masks", without_masks, NULL},
     [LSF_FEATURE_BLENDING] = {"blending", without_blending, NULL},
-    [LSF_FEATURE_GLOSS] = {"gloss", without_gloss, NULL},
+    [LSF_FEATURE_ROUGHNESS_METALLIC] = {"roughness/metallic", without_roughness_metallic, NULL},
     [LSF_FEATURE_NORMAL_MAPS] = {"normal maps", without_normal_maps, NULL},
     [LSF_FEATURE_ANISOTROPY] = {"anisotropy", without_anisotropy, NULL},
     [LSF_FEATURE_TINTED_REFLECTION] = {"tinted reflection", without_tinted_reflection, NULL},
@@ -188,7 +188,7 @@ static bool asks_for(const lsf_requirements *r, lsf_feature feature)
         return r->masked;
     case LSF_FEATURE_BLENDING:
         return r->blended;
-    case LSF_FEATURE_GLOSS:
+    case LSF_FEATURE_ROUGHNESS_METALLIC:
         return r->glossy;
     case LSF_FEATURE_NORMAL_MAPS:
         return r->normal_mapped || r->coat_normal_mapped;

@@ -56,7 +56,7 @@ static bool begin(grid *g, const char *technique, const char *const *sweeps, uin
 }
 
 /* Goes to the next combination; false after the last. */
-static bool turn(grid *g)
+static bool next_combination(grid *g)
 {
     for (uint32_t i = g->count; i-- > 0;) {
         g->values[i] += strcspn(g->values[i], ",");
@@ -99,7 +99,7 @@ bool lsf_sweep_grid_add(lsf_measurement *m, const char *const *techniques, uint3
         if (good)
             do
                 good = add_current(m, &g, techniques[t], error);
-            while (good && turn(&g));
+            while (good && next_combination(&g));
     }
     for (uint32_t i = 0; good && i < sweep_count; i++)
         if (!used[i])

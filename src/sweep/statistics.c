@@ -11,11 +11,11 @@ static int ascending(const void *a, const void *b)
 
 static double quantile(const double *sorted, size_t count, double q)
 {
-    double place = q * (double)(count - 1);
-    size_t below = (size_t)place;
+    double rank = q * (double)(count - 1);
+    size_t below = (size_t)rank;
     if (below + 1 >= count)
         return sorted[count - 1];
-    return sorted[below] + (place - (double)below) * (sorted[below + 1] - sorted[below]);
+    return sorted[below] + (rank - (double)below) * (sorted[below + 1] - sorted[below]);
 }
 
 lsf_quartiles lsf_quartiles_of(double *values, size_t count)

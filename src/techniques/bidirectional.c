@@ -234,7 +234,7 @@ static void share_bundle(const bidirectional *b, const lsf_iteration *iteration,
 
 /* One sample: a VPL of each kind, and a path along bundles that begins with one of the same number.
  */
-typedef struct sample_turn {
+typedef struct sample_work {
     bidirectional *b;
     const lsf_iteration *iteration;
     lsf_bidirectional_shade_inputs inputs;
@@ -243,51 +243,51 @@ typedef struct sample_turn {
     float iterations;
     uint32_t vpl, emitter; /* the VPLs whose maps are current; LSF_NONE: there is none */
     float light_probability;
-} sample_turn;
+} sample_work;
 
-static void connect_vpl(sample_turn *turn, bool deep, uint32_t vpl,
+static void connect_vpl(sample_work *work, bool deep, uint32_t vpl,
                         const lsf_bidirectional_sample *sample)
 {
-    bidirectional *b = turn->b;
-    lsf_bidirectional_shade_inputs inputs = turn->inputs;
+    bidirectional *b = work->b;
+    lsf_bidirectional_shade_inputs inputs = work->inputs;
     const lsf_shadow shadow = lsf_vpl_shadow(&b->vpl, vpl);
     inputs.bundle_pdf = b->bundle_pdf;
     inputs.shadow = &shadow;
     inputs.vpls = b->vpl.outputs.vpls;
-    lsf_bidirectional_shade_vpl(&b->shade, turn->iteration, &inputs, sample, deep, vpl,
-                                &turn->region);
+    lsf_bidirectional_shade_vpl(&b->shade, work->iteration, &inputs, sample, deep, vpl,
+                                &work->region);
 }
 
 /* Joins visible points to the VPL of either kind. */
-static void connect_visible(sample_turn *turn, bool emitter)
+static void connect_visible(sample_work *work, bool emitter)
 {
-    const lsf_bidirectional_sampling *s = &turn->b->sampling;
+    const lsf_bidirectional_sampling *s = &work->b->sampling;
     bool shared = emitter ? s->bundle_emitter : s->bundle_light;
-    lsf_bidirectional_sample sample = {.vpl_count = turn->tile_vpls,
-                                       .bundle_count = shared ? turn->tile_bundles : 0.0f,
-                                       .weight = 1.0f / turn->tile_vpls,
-                                       .iterations = turn->iterations,
-                                       .light_probability = turn->light_probability,
+    lsf_bidirectional_sample sample = {.vpl_count = work->tile_vpls,
+                                       .bundle_count = shared ? work->tile_bundles : 0.0f,
+                                       .weight = 1.0f / work->tile_vpls,
+                                       .iterations = work->iterations,
+                                       .light_probability = work->light_probability,
                                        .emitter = emitter};
-    connect_vpl(turn, false, emitter ? turn->emitter : turn->vpl, &sample);
+    connect_vpl(work, false, emitter ? work->emitter : work->vpl, &sample);
 }
 
 /* A VPL found with the density a by area stands for 1 / (n a) of it, n being those that a pixel's
  * vertices are joined to over all iterations. No disc of that area can shed more than as many times
  * its radiance as there are in the half sphere above, pi: its 1/d^2 is held where d is the disc's
  * radius. */
-static float bound(const sample_turn *turn, float vertices)
+static float bound(const sample_work *work, float vertices)
 {
-    float radii = turn->b->shade_params.bound;
-    return radii * radii / (LSF_PI * vertices * lsf_iteration_expected(turn->iteration));
+    float radii = work->b->shade_params.bound;
+    return radii * radii / (LSF_PI * vertices * lsf_iteration_expected(work->iteration));
 }
 
 /* Joins the vertices that the segment found to the VPL of either kind. */
-static void connect_deep(sample_turn *turn, lsf_bidirectional_sample sample, uint32_t segment,
+static void connect_deep(sample_work *work, lsf_bidirectional_sample sample, uint32_t segment,
                          bool emitter)
 {
-    const lsf_bidirectional_sampling *s = &turn->b->sampling;
-    uint32_t vpl = emitter ? turn->emitter : turn->vpl;
+    const lsf_bidirectional_sampling *s = &work->b->sampling;
+    uint32_t vpl = emitter ? work->emitter : work->vpl;
     uint32_t bounces = emitter ? segment : segment + 1;
     if (vpl == LSF_NONE || bounces > s->bounces)
         return;
@@ -295,37 +295,37 @@ static void connect_deep(sample_turn *turn, lsf_bidirectional_sample sample, uin
     bool shared = emitter ? s->bundle_emitter : s->bundle_light;
     bool alone = !shared || segment == s->segments;
     sample.bundle_count = alone ? 0.0f : 1.0f;
-    sample.bound = alone ? bound(turn, sample.path_count) : 0.0f;
+    sample.bound = alone ? bound(work, sample.path_count) : 0.0f;
     sample.emitter = emitter;
-    connect_vpl(turn, true, vpl, &sample);
+    connect_vpl(work, true, vpl, &sample);
 }
 
 /* One bundle's length of a path: from visible points (segment 1) or from the hits before. */
-static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, uint32_t light)
+static void trace_segment(sample_work *work, uint32_t first, uint32_t segment, uint32_t light)
 {
-    bidirectional *b = turn->b;
+    bidirectional *b = work->b;
     const lsf_bidirectional_sampling *s = &b->sampling;
     bool deep = segment > 1;
     uint32_t bundle = (first + segment - 1) % s->bundle_count;
     uint32_t before = (first + segment + s->bundle_count - 2) % s->bundle_count;
     bool lit = s->bundle_light && segment <= s->bounces;
-    lsf_bidirectional_shade_inputs inputs = turn->inputs;
+    lsf_bidirectional_shade_inputs inputs = work->inputs;
     lsf_ray_bundle_origins origins = {.depth = deep ? 0 : inputs.seen->depth,
                                       .pixels = inputs.seen->pixels,
                                       .position = deep ? b->shade.outputs.position : 0,
                                       .surface =
                                           deep ? b->shade.outputs.surface : inputs.seen->surface};
     inputs.hits =
-        lsf_ray_bundle_search(b->bundle, turn->iteration, bundle, &origins, &turn->region);
+        lsf_ray_bundle_search(b->bundle, work->iteration, bundle, &origins, &work->region);
     /* Beyond the visible point each path is joined to one VPL. */
     lsf_bidirectional_sample sample = {
         .vpl_count = !s->vpl_light && !s->vpl_emitter ? 0.0f
                      : deep                           ? 1.0f
-                                                      : turn->tile_vpls,
-        .bundle_count = deep ? 1.0f : turn->tile_bundles,
-        .weight = 1.0f / turn->tile_bundles,
-        .path_count = turn->tile_bundles,
-        .iterations = turn->iterations,
+                                                      : work->tile_vpls,
+        .bundle_count = deep ? 1.0f : work->tile_bundles,
+        .weight = 1.0f / work->tile_bundles,
+        .path_count = work->tile_bundles,
+        .iterations = work->iterations,
         .light_probability = lit ? light_probability(b, light) : 1.0f,
         .emitter_weight = s->vpl_emitter ? lsf_emitters_weight(&b->emitters) : 0.0f,
         .arrival = b->aims[before].direction,
@@ -333,78 +333,78 @@ static void trace_segment(sample_turn *turn, uint32_t first, uint32_t segment, u
     if (s->vpl_emitter && !s->bundle_emitter)
         sample.bundle_count = 0.0f; /* nor do they share the light of punctual ones */
     inputs.bundle_pdf = b->bundle_pdf;
-    share_bundle(b, turn->iteration, bundle, deep, &sample);
+    share_bundle(b, work->iteration, bundle, deep, &sample);
     inputs.shadow = &b->rsm.outputs.shadow;
     inputs.importance = b->rsm.outputs.importance;
     inputs.nodes = lsf_ray_bundle_nodes(b->bundle, bundle);
-    lsf_bidirectional_shade_hit(&b->shade, turn->iteration, &inputs, &sample, deep, s->emission,
-                                lit, &turn->region);
+    lsf_bidirectional_shade_hit(&b->shade, work->iteration, &inputs, &sample, deep, s->emission,
+                                lit, &work->region);
     sample.arrival = b->aims[bundle].direction;
     sample.arrival_pdf = b->aims[bundle].pdf;
-    sample.light_probability = turn->light_probability;
-    connect_deep(turn, sample, segment, false);
-    connect_deep(turn, sample, segment, true);
+    sample.light_probability = work->light_probability;
+    connect_deep(work, sample, segment, false);
+    connect_deep(work, sample, segment, true);
 }
 
-static void place_on_emitter(sample_turn *turn, uint32_t i)
+static void place_on_emitter(sample_work *work, uint32_t i)
 {
-    bidirectional *b = turn->b;
+    bidirectional *b = work->b;
     uint32_t bits[2];
-    lsf_iteration_sample_dealt(turn->iteration, i, b->sampling.emitter_count,
+    lsf_iteration_sample_dealt(work->iteration, i, b->sampling.emitter_count,
                                LSF_PURPOSE_VPL_EMITTER, bits);
     const double u[2] = {lsf_unit_double(bits[0]), lsf_unit_double(bits[1])};
     lsf_emitter_sample sample = lsf_emitters_sample(&b->emitters, u);
-    turn->emitter = b->vpl.first_emitter + i;
-    lsf_vpl_emit(&b->vpl, turn->iteration, turn->emitter, &sample);
+    work->emitter = b->vpl.first_emitter + i;
+    lsf_vpl_emit(&b->vpl, work->iteration, work->emitter, &sample);
 }
 
-static void run_sample(sample_turn *turn, uint32_t i, uint32_t light)
+static void run_sample(sample_work *work, uint32_t i, uint32_t light)
 {
-    bidirectional *b = turn->b;
+    bidirectional *b = work->b;
     const lsf_bidirectional_sampling *s = &b->sampling;
     uint32_t slot = i % s->tiles;
-    turn->region = lsf_sparse_region(&turn->iteration->grid, s->interleave, slot);
-    turn->tile_vpls = dealt(s->vpl_light ? s->vpl_count : s->emitter_count, s->tiles, slot);
-    turn->tile_bundles = dealt(s->bundle_count, s->tiles, slot);
+    work->region = lsf_sparse_region(&work->iteration->grid, s->interleave, slot);
+    work->tile_vpls = dealt(s->vpl_light ? s->vpl_count : s->emitter_count, s->tiles, slot);
+    work->tile_bundles = dealt(s->bundle_count, s->tiles, slot);
     if (i < s->vpl_count) {
-        turn->vpl = i;
-        turn->light_probability = light_probability(b, light);
-        lsf_vpl_shadow_map(&b->vpl, turn->iteration, i);
-        connect_visible(turn, false);
+        work->vpl = i;
+        work->light_probability = light_probability(b, light);
+        lsf_vpl_shadow_map(&b->vpl, work->iteration, i);
+        connect_visible(work, false);
     }
     if (i < s->emitter_count && b->emitters.power.sum > 0.0) {
-        place_on_emitter(turn, i);
-        lsf_vpl_shadow_map(&b->vpl, turn->iteration, turn->emitter);
-        connect_visible(turn, true);
+        place_on_emitter(work, i);
+        lsf_vpl_shadow_map(&b->vpl, work->iteration, work->emitter);
+        connect_visible(work, true);
     }
     if (i >= s->bundle_count)
         return;
     if (s->segments == 1)
-        lsf_ray_bundle_build(b->bundle, turn->iteration, i);
+        lsf_ray_bundle_build(b->bundle, work->iteration, i);
     for (uint32_t segment = 1; segment <= s->segments; segment++)
-        trace_segment(turn, i, segment, light);
+        trace_segment(work, i, segment, light);
 }
 
 /* The samples of one light: its reflective shadow map, then each VPL and path. */
-static void run_light(sample_turn *turn, uint32_t light, uint32_t count)
+static void run_light(sample_work *work, uint32_t light, uint32_t count)
 {
-    bidirectional *b = turn->b;
+    bidirectional *b = work->b;
     uint32_t first = 0;
     while (first < count && b->lights[first] != light)
         first++;
     if (first == count)
         return;
-    lsf_reflective_shadow_map_run(&b->rsm, turn->iteration, light, &b->chain.gbuffer.outputs.seen);
+    lsf_reflective_shadow_map_run(&b->rsm, work->iteration, light, &b->chain.gbuffer.outputs.seen);
     const lsf_vpl_inputs map = {.shadow = &b->rsm.outputs.shadow,
                                 .seen = &b->rsm.outputs.seen,
                                 .importance = b->rsm.outputs.importance,
                                 .sums = b->rsm.outputs.sums};
-    for (uint32_t i = first; i < count && lsf_iteration_goes_on(turn->iteration); i++) {
+    for (uint32_t i = first; i < count && lsf_iteration_goes_on(work->iteration); i++) {
         if (b->lights[i] != light)
             continue;
         if (i < b->sampling.vpl_count)
-            lsf_vpl_draw(&b->vpl, turn->iteration, i, 1, light_probability(b, light), &map);
-        run_sample(turn, i, light);
+            lsf_vpl_draw(&b->vpl, work->iteration, i, 1, light_probability(b, light), &map);
+        run_sample(work, i, light);
     }
 }
 
@@ -413,7 +413,7 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
 {
     const lsf_bidirectional_sampling *s = &b->sampling;
     uint32_t count = sample_count(s);
-    sample_turn turn = {.b = b,
+    sample_work work = {.b = b,
                         .iteration = iteration,
                         .inputs = *inputs,
                         .iterations = suppressed_iterations(b, iteration),
@@ -433,10 +433,10 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
         pick_lights(b, iteration, count);
         for (uint32_t light = 0; light < iteration->light_count && lsf_iteration_goes_on(iteration);
              light++)
-            run_light(&turn, light, count);
+            run_light(&work, light, count);
     } else {
         for (uint32_t i = 0; i < count && lsf_iteration_goes_on(iteration); i++)
-            run_sample(&turn, i, LSF_NONE);
+            run_sample(&work, i, LSF_NONE);
     }
 }
 

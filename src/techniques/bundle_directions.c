@@ -110,9 +110,9 @@ static lsf_float3 direction_at(const lsf_bundle_directions *d, double x, double 
         lsf_f3((float)(sine * cos(angle)), (float)cosine, (float)(sine * sin(angle))));
 }
 
-static uint32_t cell_along(double place, uint32_t count)
+static uint32_t cell_along(double fraction, uint32_t count)
 {
-    double i = place * count;
+    double i = fraction * count;
     return i <= 0.0 ? 0 : i >= count ? count - 1 : (uint32_t)i;
 }
 

@@ -12,21 +12,21 @@
 #include "techniques/voxel_chain.h"
 
 /* How light is carried, decided from the scene and the options. */
-typedef struct way {
+typedef struct variant {
     bool traced;      /* light comes to visible points in other ways than directly from punctual
                        * lights */
     bool shines;      /* surfaces or an environment emit */
     uint32_t levels;  /* of radiance */
     uint32_t bounces; /* from voxel to voxel */
-} way;
+} variant;
 
 /* Light of punctual lights is on voxels already, and the last bounce is at visible points; light of
  * surfaces and environments has to come to voxels first. */
-static way choose_way(const lsf_plan *plan, const lsf_pass_params *params)
+static variant choose_variant(const lsf_plan *plan, const lsf_pass_params *params)
 {
     const lsf_requirements *r = &plan->requirements;
-    way w = {.levels = lsf_cone_levels(&params->cone),
-             .shines = r->emissive || r->unlit || r->environment};
+    variant w = {.levels = lsf_cone_levels(&params->cone),
+                 .shines = r->emissive || r->unlit || r->environment};
     w.traced = lsf_voxel_chain_has_voxels(plan) && (plan->bounces > 0 || w.shines);
     if (w.traced && plan->bounces > 0)
         w.bounces = plan->bounces - (w.shines ? 0 : 1);
@@ -34,7 +34,7 @@ static way choose_way(const lsf_plan *plan, const lsf_pass_params *params)
 }
 
 typedef struct cone {
-    way way;
+    variant variant;
     lsf_voxel_chain chain;
     lsf_voxel_mip mip;
     lsf_voxel_bounce bounce;
@@ -43,7 +43,7 @@ typedef struct cone {
     lsf_compose compose;
 } cone;
 
-static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w)
+static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const variant *w)
 {
     uint32_t slices = lsf_cone_slices(&params->cone);
     return (lsf_voxel_chain_use){
@@ -55,7 +55,7 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const way *w
         .bytes_per_voxel = (8 * slices * 8 / 7 + 1) * (w->bounces < 2 ? w->bounces : 2)};
 }
 
-static void remark(lsf_plan *plan, const way *w)
+static void remark(lsf_plan *plan, const variant *w)
 {
     const lsf_requirements *r = &plan->requirements;
     if (w->shines)
@@ -67,7 +67,7 @@ static void remark(lsf_plan *plan, const way *w)
 
 static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
-    way w = choose_way(plan, params);
+    variant w = choose_variant(plan, params);
     plan->voxel_chance = w.traced && plan->straight && !params->cone.sealed;
     if (w.traced) {
         lsf_voxel_chain_use use = chain_use(params, &w);
@@ -97,12 +97,12 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
                           const lsf_pass_params *params, const lsf_scene_gpu *scene,
                           const lsf_state *state, lsf_error *error)
 {
-    lsf_voxel_chain_use use = chain_use(params, &c->way);
+    lsf_voxel_chain_use use = chain_use(params, &c->variant);
     const lsf_voxel_grid *grid = &c->chain.grid;
     return lsf_voxel_chain_create(&c->chain, context, plan, params, scene, state, &use, error) &&
-           (c->way.levels == 1 ||
+           (c->variant.levels == 1 ||
             lsf_voxel_mip_create(&c->mip, context, plan, grid, use.sides, error)) &&
-           (c->way.bounces == 0 ||
+           (c->variant.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
            lsf_sparse_chain_create(&c->sparse, context, plan, params, error);
@@ -115,10 +115,10 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
     cone *c = *self = lsf_alloc(1, sizeof *c);
     if (!c)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
-    c->way = choose_way(plan, params);
-    return (c->way.traced ? create_traced(c, context, plan, params, scene, state, error)
-                          : lsf_direct_chain_create(&c->chain.direct, context, plan, params, scene,
-                                                    NULL, error)) &&
+    c->variant = choose_variant(plan, params);
+    return (c->variant.traced ? create_traced(c, context, plan, params, scene, state, error)
+                              : lsf_direct_chain_create(&c->chain.direct, context, plan, params,
+                                                        scene, NULL, error)) &&
            lsf_compose_create(&c->compose, context, plan, error);
 }
 
@@ -126,7 +126,7 @@ static lsf_update update_cone(void *self, const lsf_pass_params *params,
                               const lsf_iteration *iteration, const lsf_changes *changes)
 {
     cone *c = self;
-    lsf_voxel_chain_use use = chain_use(params, &c->way);
+    lsf_voxel_chain_use use = chain_use(params, &c->variant);
     lsf_update update = lsf_voxel_chain_update(&c->chain, params, iteration, &use, changes);
     c->mip.grid = c->bounce.grid = c->trace.grid = c->chain.grid;
     return update;
@@ -134,7 +134,7 @@ static lsf_update update_cone(void *self, const lsf_pass_params *params,
 
 static void build_pyramid(cone *c, GLuint radiance)
 {
-    if (c->way.levels > 1)
+    if (c->variant.levels > 1)
         lsf_voxel_mip_run(&c->mip, c->chain.voxels, radiance);
 }
 
@@ -146,9 +146,9 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     const lsf_voxels *voxels = c->chain.voxels;
     GLuint base = c->chain.light.radiance, light = base;
     uint32_t done = 0;
-    if (c->way.bounces > 0)
+    if (c->variant.bounces > 0)
         lsf_voxel_bounce_begin(&c->bounce, voxels);
-    if (c->way.bounces > 0 && c->way.shines) {
+    if (c->variant.bounces > 0 && c->variant.shines) {
         const lsf_voxel_bounce_sum reflected = {.source = base};
         const lsf_voxel_bounce_sum all = {.base = base, .keep = true};
         lsf_voxel_chain_emit(&c->chain);
@@ -161,7 +161,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
         lsf_voxel_chain_lights(&c->chain, iteration, iteration->plan->bounces > 0);
     }
     build_pyramid(c, light);
-    for (; done < c->way.bounces; done++) {
+    for (; done < c->variant.bounces; done++) {
         const lsf_voxel_bounce_sum sum = {.base = base, .source = light};
         light = lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &sum);
         build_pyramid(c, light);
@@ -188,9 +188,9 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
     lsf_split_light light = {0};
     /* The roughness whose lobe is as narrow as a voxel seen over half the scene's extent:
      * narrower ones show no more. */
-    float voxel = c->way.traced ? 2.0f / (float)c->chain.grid.resolution : 0.0f;
+    float voxel = c->variant.traced ? 2.0f / (float)c->chain.grid.resolution : 0.0f;
     c->chain.direct.gbuffer.lobe_angle = voxel * voxel;
-    if (c->way.traced)
+    if (c->variant.traced)
         light = trace(c, iteration);
     else
         lsf_direct_chain_run(&c->chain.direct, iteration);
@@ -198,7 +198,7 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
     parts.indirect = light;
     lsf_compose_run(&c->compose, iteration, &parts);
     *outputs = (lsf_technique_outputs){.parts = parts, .layers = c->compose.outputs};
-    if (c->way.traced)
+    if (c->variant.traced)
         outputs->voxels = lsf_voxel_chain_view(&c->chain, iteration);
 }
 
@@ -220,10 +220,10 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
 {
     cone *c = self;
     uint32_t count = lsf_voxel_chain_report(&c->chain, reports);
-    if (c->way.traced) {
-        if (c->way.bounces > 0)
+    if (c->variant.traced) {
+        if (c->variant.bounces > 0)
             reports[count++] = (lsf_pass_report){.timer = c->bounce.timer};
-        if (c->way.levels > 1)
+        if (c->variant.levels > 1)
             reports[count++] = (lsf_pass_report){.timer = c->mip.timer};
         count += lsf_sparse_chain_report_split(&c->sparse, reports + count);
         reports[count++] = (lsf_pass_report){.timer = c->trace.timer};

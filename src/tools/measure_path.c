@@ -37,8 +37,8 @@ static bool prepare_frame(lsf_measure_job *job, const lsf_sequence *sequence,
     if (view) {
         double distance = 0.0, length = 0.0;
         for (int axis = 0; axis < 3; axis++) {
-            double way = center[axis] - view->position[axis];
-            distance += way * way;
+            double offset = center[axis] - view->position[axis];
+            distance += offset * offset;
             length += (double)view->forward[axis] * (double)view->forward[axis];
         }
         for (int axis = 0; axis < 3; axis++) {

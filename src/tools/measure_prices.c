@@ -27,8 +27,8 @@ static bool time_both(lsf_measure_job *job, lsf_renderer *const renderers[2],
     double differences[FRAMES + 1];
     for (int frame = 0; frame <= FRAMES; frame++) {
         double milliseconds[2];
-        for (int turn = 0; turn < 2; turn++) {
-            int which = (turn + frame) % 2; /* each comes first as often as second */
+        for (int half = 0; half < 2; half++) {
+            int which = (half + frame) % 2; /* each comes first as often as second */
             if (!time_frame(job, renderers[which], &milliseconds[which], error))
                 return false;
             lsf_progress_bar_draw(&job->bar, ++job->done, job->total);

@@ -12,17 +12,17 @@
 
 lsf_sequence lsf_sequence_of(const lsf_settings *settings)
 {
-    uint32_t turn = settings->turntable;
-    lsf_sequence sequence = {.wanted = settings->frames.given || turn > 0,
+    uint32_t turntable_frames = settings->turntable;
+    lsf_sequence sequence = {.wanted = settings->frames.given || turntable_frames > 0,
                              .first = settings->frames.first,
                              .last = settings->frames.last,
                              .start = settings->time,
                              .step = 1.0 / settings->fps,
-                             .turntable = turn,
+                             .turntable = turntable_frames,
                              .resume = settings->resume,
                              .temporal = settings->temporal};
     if (!settings->frames.given)
-        sequence.last = turn > 0 ? turn - 1 : 0;
+        sequence.last = turntable_frames > 0 ? turntable_frames - 1 : 0;
     return sequence;
 }
 
@@ -83,17 +83,17 @@ char *lsf_sequence_path(const char *output, uint32_t frame)
     return path.text;
 }
 
-static void turn(double *x, double *z, double angle)
+static void rotate(double *x, double *z, double angle)
 {
     double turned = cos(angle) * *x + sin(angle) * *z;
     *z = -sin(angle) * *x + cos(angle) * *z;
     *x = turned;
 }
 
-static void turn_direction(float direction[3], double angle)
+static void rotate_direction(float direction[3], double angle)
 {
     double x = (double)direction[0], z = (double)direction[2];
-    turn(&x, &z, angle);
+    rotate(&x, &z, angle);
     direction[0] = (float)x;
     direction[2] = (float)z;
 }
@@ -106,12 +106,12 @@ const lsf_view *lsf_sequence_view(const lsf_sequence *sequence, const lsf_scene 
         return NULL;
     double angle = 2.0 * M_PI * frame / sequence->turntable;
     double x = view->position[0] - center[0], z = view->position[2] - center[2];
-    turn(&x, &z, angle);
+    rotate(&x, &z, angle);
     *turned = *view;
     turned->position[0] = center[0] + x;
     turned->position[2] = center[2] + z;
-    turn_direction(turned->forward, angle);
-    turn_direction(turned->up, angle);
+    rotate_direction(turned->forward, angle);
+    rotate_direction(turned->up, angle);
     return turned;
 }
 

@@ -27,7 +27,7 @@ static bool add_light(lsf_lights_setting *lights, const lsf_command_option *opti
     return true;
 }
 
-static void *place_of(lsf_settings *settings, const lsf_command_option *option)
+static void *target_of(lsf_settings *settings, const lsf_command_option *option)
 {
     return (char *)settings + option->offset;
 }
@@ -53,10 +53,10 @@ static bool bad_value(const lsf_command_option *option, const char *text, const 
     return false;
 }
 
-static bool append_value(lsf_list_setting *place, const lsf_command_option *option,
+static bool append_value(lsf_list_setting *target, const lsf_command_option *option,
                          const char *text, lsf_error *error)
 {
-    return lsf_list_append(place, text) ||
+    return lsf_list_append(target, text) ||
            lsf_error_set(error, LSF_ERROR_RENDER, "--%s %s: no memory left", option->name, text);
 }
 
@@ -78,13 +78,13 @@ static const char *next_aov(size_t index, void *user)
     return index < LSF_AOV_COUNT ? lsf_aov_name(1u << index) : NULL;
 }
 
-static bool set_choice(int *place, const lsf_command_option *option, const char *text)
+static bool set_choice(int *target, const lsf_command_option *option, const char *text)
 {
     int value = (int)option->minimum;
     for (const char *choice = option->choices;; value++) {
         size_t length = strcspn(choice, "|");
         if (strlen(text) == length && strncmp(text, choice, length) == 0) {
-            *place = value;
+            *target = value;
             return true;
         }
         if (choice[length] == '\0')
@@ -94,18 +94,18 @@ static bool set_choice(int *place, const lsf_command_option *option, const char 
 }
 
 /* An argument of --json that ends like a scene or a picture was meant for another option. */
-static bool set_json(const char **place, const char *text)
+static bool set_json(const char **target, const char *text)
 {
     static const char *const others[] = {".gltf", ".glb", ".exr", ".hdr", ".png", ".jpg"};
     const char *ending = strrchr(text, '.');
     for (size_t i = 0; ending && i < LSF_COUNT(others); i++)
         if (strcasecmp(ending, others[i]) == 0)
             return false;
-    *place = text;
+    *target = text;
     return *text != '\0';
 }
 
-static bool set_frames(lsf_frames_setting *place, const lsf_command_option *option,
+static bool set_frames(lsf_frames_setting *target, const lsf_command_option *option,
                        const char *text)
 {
     size_t length = strcspn(text, "-");
@@ -118,11 +118,11 @@ static bool set_frames(lsf_frames_setting *place, const lsf_command_option *opti
     if (!lsf_parse_integer(first, most, &values[0]) ||
         !lsf_parse_integer(text + length + 1, most, &values[1]) || values[0] > values[1])
         return false;
-    *place = (lsf_frames_setting){true, (uint32_t)values[0], (uint32_t)values[1]};
+    *target = (lsf_frames_setting){true, (uint32_t)values[0], (uint32_t)values[1]};
     return true;
 }
 
-static bool set_resolution(uint32_t *place, const lsf_command_option *option, const char *text)
+static bool set_resolution(uint32_t *target, const lsf_command_option *option, const char *text)
 {
     size_t length = strcspn(text, ",xX");
     char width[16];
@@ -135,15 +135,15 @@ static bool set_resolution(uint32_t *place, const lsf_command_option *option, co
     if (!lsf_parse_integer(width, most, &values[0]) ||
         !lsf_parse_integer(text + length + 1, most, &values[1]) || values[0] == 0 || values[1] == 0)
         return false;
-    place[0] = (uint32_t)values[0];
-    place[1] = (uint32_t)values[1];
+    target[0] = (uint32_t)values[0];
+    target[1] = (uint32_t)values[1];
     return true;
 }
 
-static bool set_aovs(uint32_t *place, const lsf_command_option *option, const char *text,
+static bool set_aovs(uint32_t *target, const lsf_command_option *option, const char *text,
                      lsf_error *error)
 {
-    uint32_t aovs = *place; /* a repeated --aov adds to the list */
+    uint32_t aovs = *target; /* a repeated --aov adds to the list */
     for (const char *part = text;; part++) {
         size_t length = strcspn(part, ",");
         char name[LSF_CHANNEL_NAME_SIZE];
@@ -163,11 +163,11 @@ static bool set_aovs(uint32_t *place, const lsf_command_option *option, const ch
         if (*part == '\0')
             break;
     }
-    *place = aovs;
+    *target = aovs;
     return true;
 }
 
-static bool set_define(lsf_list_setting *place, const lsf_command_option *option, const char *text,
+static bool set_define(lsf_list_setting *target, const lsf_command_option *option, const char *text,
                        lsf_error *error)
 {
     size_t length = strcspn(text, "=");
@@ -187,13 +187,13 @@ static bool set_define(lsf_list_setting *place, const lsf_command_option *option
                              text, instead);
     if (!found)
         return bad_value(option, text, lsf_nearest(key, next_key, &known), error);
-    return append_value(place, option, text, error);
+    return append_value(target, option, text, error);
 }
 
 /* A list of numbers is a uniform radiance; anything else is a file. A text that can only have
  * been meant as numbers (digits, signs, points and commas) is not looked for as a file, nor is a
  * bare word, such as a colour's name, unless there is such a file. */
-static bool set_environment(lsf_environment_setting *place, const lsf_command_option *option,
+static bool set_environment(lsf_environment_setting *target, const lsf_command_option *option,
                             const char *text, lsf_error *error)
 {
     lsf_environment_setting setting = {0};
@@ -204,11 +204,11 @@ static bool set_environment(lsf_environment_setting *place, const lsf_command_op
         return bad_value(option, text, NULL, error);
     else
         setting.path = text;
-    *place = setting;
+    *target = setting;
     return true;
 }
 
-static bool set_background(lsf_background_setting *place, const lsf_command_option *option,
+static bool set_background(lsf_background_setting *target, const lsf_command_option *option,
                            const char *text)
 {
     lsf_background_setting setting = {.kind = LSF_BACKGROUND_UNIFORM};
@@ -218,18 +218,18 @@ static bool set_background(lsf_background_setting *place, const lsf_command_opti
         setting.kind = LSF_BACKGROUND_TRANSPARENT;
     else if (!lsf_parse_numbers(text, option->minimum, option->maximum, 3, setting.radiance))
         return false;
-    *place = setting;
+    *target = setting;
     return true;
 }
 
-static bool set_threshold(lsf_list_setting *place, const lsf_command_option *option,
+static bool set_threshold(lsf_list_setting *target, const lsf_command_option *option,
                           const char *text, lsf_error *error)
 {
     const char *equals = strchr(text, '=');
     double value;
     if (!equals || equals == text || !lsf_parse_number(equals + 1, -1e30, 1e30, &value))
         return bad_value(option, text, NULL, error);
-    return append_value(place, option, text, error);
+    return append_value(target, option, text, error);
 }
 
 static bool bad_technique(const lsf_command_option *option, const char *text, lsf_error *error)
@@ -245,7 +245,7 @@ static bool bad_technique(const lsf_command_option *option, const char *text, ls
     return false;
 }
 
-static bool set_techniques(lsf_list_setting *place, const lsf_command_option *option,
+static bool set_techniques(lsf_list_setting *target, const lsf_command_option *option,
                            const char *text, lsf_error *error)
 {
     for (const char *part = text;; part++) {
@@ -259,7 +259,7 @@ static bool set_techniques(lsf_list_setting *place, const lsf_command_option *op
         lsf_print(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), part);
         if (!found)
             return bad_technique(option, name, error);
-        if (!append_value(place, option, found, error))
+        if (!append_value(target, option, found, error))
             return false;
         part += length;
         if (*part == '\0')
@@ -270,85 +270,85 @@ static bool set_techniques(lsf_list_setting *place, const lsf_command_option *op
 bool lsf_settings_set(lsf_settings *settings, const lsf_command_option *option, const char *text,
                       lsf_error *error)
 {
-    void *place = place_of(settings, option);
+    void *target = target_of(settings, option);
     uint64_t integer;
     double number;
     bool good = false;
     switch (option->type) {
     case LSF_VALUE_FLAG:
-        *(bool *)place = true;
+        *(bool *)target = true;
         return true;
     case LSF_VALUE_COUNT:
         good = lsf_parse_integer(text, (uint64_t)option->maximum, &integer) &&
                integer >= (uint64_t)option->minimum;
         if (good)
-            *(uint32_t *)place = (uint32_t)integer;
+            *(uint32_t *)target = (uint32_t)integer;
         break;
     case LSF_VALUE_SEED:
         good = lsf_parse_integer(text, UINT64_MAX, &integer);
         if (good)
-            *(uint64_t *)place = integer;
+            *(uint64_t *)target = integer;
         break;
     case LSF_VALUE_DOUBLE:
         good = lsf_parse_number(text, option->minimum, option->maximum, &number);
         if (good)
-            *(double *)place = number;
+            *(double *)target = number;
         break;
     case LSF_VALUE_FLOAT:
         good = lsf_parse_number(text, option->minimum, option->maximum, &number);
         if (good)
-            *(float *)place = (float)number;
+            *(float *)target = (float)number;
         break;
     case LSF_VALUE_VECTOR: {
         lsf_vector_setting vector = {.given = true};
         good = lsf_parse_numbers(text, option->minimum, option->maximum, 3, vector.value);
         if (good)
-            *(lsf_vector_setting *)place = vector;
+            *(lsf_vector_setting *)target = vector;
         break;
     }
     case LSF_VALUE_LIGHT:
-        good = add_light(place, option, text);
+        good = add_light(target, option, text);
         break;
     case LSF_VALUE_FRAMES:
-        good = set_frames(place, option, text);
+        good = set_frames(target, option, text);
         break;
     case LSF_VALUE_RESOLUTION:
-        good = set_resolution(place, option, text);
+        good = set_resolution(target, option, text);
         break;
     case LSF_VALUE_TEXT:
         good = *text != '\0';
         if (good)
-            *(const char **)place = text;
+            *(const char **)target = text;
         break;
     case LSF_VALUE_JSON:
-        good = set_json(place, text);
+        good = set_json(target, text);
         break;
     case LSF_VALUE_TEXTS:
-        return *text ? append_value(place, option, text, error)
+        return *text ? append_value(target, option, text, error)
                      : bad_value(option, text, NULL, error);
     case LSF_VALUE_PRESET:
-        *(int *)place = lsf_preset_number(option, text);
+        *(int *)target = lsf_preset_number(option, text);
         good = *text != '\0';
         break;
     case LSF_VALUE_CHOICE:
-        good = set_choice(place, option, text);
+        good = set_choice(target, option, text);
         break;
     case LSF_VALUE_TECHNIQUE:
         for (uint32_t i = 0; !good && lsf_technique_name(i); i++)
             good = strcmp(lsf_technique_name(i), text) == 0;
         if (!good)
             return bad_technique(option, text, error);
-        *(const char **)place = text;
+        *(const char **)target = text;
         break;
     case LSF_VALUE_TECHNIQUES:
-        return set_techniques(place, option, text, error);
+        return set_techniques(target, option, text, error);
     case LSF_VALUE_AOVS:
-        return set_aovs(place, option, text, error);
+        return set_aovs(target, option, text, error);
     case LSF_VALUE_DEFINE:
     case LSF_VALUE_SWEEP:
-        return set_define(place, option, text, error);
+        return set_define(target, option, text, error);
     case LSF_VALUE_ENVIRONMENT:
-        return *text ? set_environment(place, option, text, error)
+        return *text ? set_environment(target, option, text, error)
                      : bad_value(option, text, NULL, error);
     case LSF_VALUE_EXPOSURE: {
         lsf_exposure_setting exposure = {.automatic = strcmp(text, "auto") == 0};
@@ -356,14 +356,14 @@ bool lsf_settings_set(lsf_settings *settings, const lsf_command_option *option, 
             exposure.automatic || lsf_parse_number(text, option->minimum, option->maximum, &number);
         exposure.ev = good && !exposure.automatic ? (float)number : 0.0f;
         if (good)
-            *(lsf_exposure_setting *)place = exposure;
+            *(lsf_exposure_setting *)target = exposure;
         break;
     }
     case LSF_VALUE_BACKGROUND:
-        good = set_background(place, option, text);
+        good = set_background(target, option, text);
         break;
     case LSF_VALUE_THRESHOLD:
-        return set_threshold(place, option, text, error);
+        return set_threshold(target, option, text, error);
     }
     return good || bad_value(option, text, NULL, error);
 }

@@ -45,7 +45,7 @@ static void load(const float from[3], double to[3])
 /* --- spherical coordinates about the vertical axis --- */
 
 typedef struct spherical {
-    double turn, rise, distance; /* radians, from +z and from the horizon */
+    double azimuth, rise, distance; /* radians, from +z and from the horizon */
 } spherical;
 
 static spherical of_offset(const double offset[3])
@@ -57,9 +57,9 @@ static spherical of_offset(const double offset[3])
 static void to_offset(const spherical *d, double offset[3])
 {
     double rise = fmax(-STEEPEST, fmin(STEEPEST, d->rise));
-    offset[0] = d->distance * cos(rise) * sin(d->turn);
+    offset[0] = d->distance * cos(rise) * sin(d->azimuth);
     offset[1] = d->distance * sin(rise);
-    offset[2] = d->distance * cos(rise) * cos(d->turn);
+    offset[2] = d->distance * cos(rise) * cos(d->azimuth);
 }
 
 /* From the target to the position. */
@@ -129,7 +129,7 @@ bool lsf_viewer_camera_reset(lsf_viewer_camera *camera, const lsf_scene *scene,
 void lsf_viewer_camera_orbit(lsf_viewer_camera *camera, double dx, double dy)
 {
     spherical back = back_of(camera);
-    back.turn -= ORBIT_SPEED * dx;
+    back.azimuth -= ORBIT_SPEED * dx;
     back.rise += ORBIT_SPEED * dy;
     stand(camera, &back);
 }
@@ -185,7 +185,7 @@ void lsf_viewer_camera_look(lsf_viewer_camera *camera, double dx, double dy)
     load(camera->target, target);
     subtract(target, position, offset);
     spherical ahead = of_offset(offset);
-    ahead.turn -= LOOK_SPEED * dx;
+    ahead.azimuth -= LOOK_SPEED * dx;
     ahead.rise -= LOOK_SPEED * dy;
     to_offset(&ahead, offset);
     for (int i = 0; i < 3; i++)
@@ -232,9 +232,9 @@ void lsf_viewer_camera_focus(lsf_viewer_camera *camera, const double point[3])
 
 void lsf_viewer_camera_from(lsf_viewer_camera *camera, lsf_viewer_axis axis)
 {
-    static const double turns[] = {0.0, M_PI, 0.5 * M_PI, -0.5 * M_PI, 0.0, 0.0};
+    static const double azimuths[] = {0.0, M_PI, 0.5 * M_PI, -0.5 * M_PI, 0.0, 0.0};
     spherical back = back_of(camera);
-    back.turn = turns[axis];
+    back.azimuth = azimuths[axis];
     back.rise = axis == LSF_VIEWER_TOP ? STEEPEST : axis == LSF_VIEWER_BOTTOM ? -STEEPEST : 0.0;
     stand(camera, &back);
 }

@@ -149,7 +149,7 @@ static void move(lsf_viewer *viewer, int axis)
 }
 
 /* Rotates by as much as the held point of the ring moves along it. */
-static void turn(lsf_viewer *viewer, int axis)
+static void rotate(lsf_viewer *viewer, int axis)
 {
     double a[2], b[2], step = 1e-3;
     if (!on_ring(viewer, axis, viewer->ring_angle - step, a) ||
@@ -184,7 +184,7 @@ void lsf_viewer_drag_handle(lsf_viewer *viewer)
     if (viewer->dragged < RINGS)
         move(viewer, viewer->dragged);
     else if (viewer->dragged < SCALE)
-        turn(viewer, viewer->dragged - RINGS);
+        rotate(viewer, viewer->dragged - RINGS);
     else
         scale(viewer);
 }

@@ -115,7 +115,7 @@ class Prices(CommandTest):
     def test_the_interior(self):
         text = self.run_command("plan", INTERIOR, "--environment", "1,1,1", "--prices").stdout.decode()
         rows = [line[:18].strip() for line in text.splitlines()[1:]]
-        self.assertEqual(rows, ["emission", "gloss", "normal maps", "textures", "vertex colours", "lights",
+        self.assertEqual(rows, ["emission", "roughness/metallic", "normal maps", "textures", "vertex colours", "lights",
                                 "environment"])
         price = self.price("textures", INTERIOR)
         self.assertIn("scene.texture x 6", price["resources"])

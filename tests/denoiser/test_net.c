@@ -126,7 +126,7 @@ static void maps_share_bytes(void **unused)
         for (uint32_t i = 0; i <= chain.step_count; i++)
             chain.maps[i].bytes =
                 (uint64_t)chain.maps[i].features * chain.maps[i].width * chain.maps[i].height;
-        lsf_net_chain_place(&chain, 64);
+        lsf_net_chain_assign_offsets(&chain, 64);
         for (uint32_t step = 0; step < chain.step_count; step++)
             for (uint32_t a = 1; a <= chain.step_count; a++)
                 for (uint32_t b = 1; b < a; b++) {

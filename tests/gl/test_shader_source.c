@@ -60,8 +60,8 @@ static void test_includes_once_with_lines(void **state)
         size_t length = strcspn(line, "\n");
         assert_int_equal(length, strlen(expected[i].text));
         assert_memory_equal(line, expected[i].text, length);
-        assert_string_equal(source.paths[source.places[i].file], expected[i].path);
-        assert_int_equal(source.places[i].line, expected[i].line);
+        assert_string_equal(source.paths[source.origins[i].file], expected[i].path);
+        assert_int_equal(source.origins[i].line, expected[i].line);
         line += length + 1;
     }
     assert_int_equal(*line, '\0');
@@ -139,10 +139,10 @@ static void test_places_of_each_driver(void **state)
 {
     (void)state;
     char *paths[] = {"defines", "passes/a.frag.glsl", "lib/b.glsl"};
-    lsf_shader_place places[] = {{0, 1, false}, {0, 2, false},  {1, 1, false},
-                                 {2, 1, false}, {2, 14, false}, {1, 3, false}};
+    lsf_shader_origin origins[] = {{0, 1, false}, {0, 2, false},  {1, 1, false},
+                                   {2, 1, false}, {2, 14, false}, {1, 3, false}};
     lsf_shader_source source = {
-        .paths = paths, .path_count = 3, .places = places, .line_count = LSF_COUNT(places)};
+        .paths = paths, .path_count = 3, .origins = origins, .line_count = LSF_COUNT(origins)};
     static const char *const cases[][2] = {
         {"0:5(7): error: `x' undeclared\n", "lib/b.glsl:14: error: `x' undeclared\n"},
         {"0:6(2): preprocessor error: y\n", "passes/a.frag.glsl:3: preprocessor error: y\n"},

@@ -97,7 +97,7 @@ static const shared_struct structs[] = {
     {"shared/voxel_data.h",
      "lsf_voxel_brick_data",
      sizeof(struct lsf_voxel_brick_data),
-     {MEMBER(lsf_voxel_brick_data, place), MEMBER(lsf_voxel_brick_data, low),
+     {MEMBER(lsf_voxel_brick_data, cell), MEMBER(lsf_voxel_brick_data, low),
       MEMBER(lsf_voxel_brick_data, high), MEMBER(lsf_voxel_brick_data, sides)}},
     {"shared/emitter_data.h",
      "lsf_emitter_point_data",
@@ -131,8 +131,9 @@ static const shared_struct structs[] = {
      "lsf_vpl_data",
      sizeof(struct lsf_vpl_data),
      {MEMBER(lsf_vpl_data, position), MEMBER(lsf_vpl_data, geometric_normal),
-      MEMBER(lsf_vpl_data, normal), MEMBER(lsf_vpl_data, base_color), MEMBER(lsf_vpl_data, gloss),
-      MEMBER(lsf_vpl_data, to_light), MEMBER(lsf_vpl_data, intensity)}},
+      MEMBER(lsf_vpl_data, normal), MEMBER(lsf_vpl_data, base_color),
+      MEMBER(lsf_vpl_data, specular_params), MEMBER(lsf_vpl_data, to_light),
+      MEMBER(lsf_vpl_data, intensity)}},
 };
 
 static GLuint block_program(lsf_context *context, const shader_folder *folder,

@@ -62,14 +62,14 @@ void surface_rig_start(surface_rig *r)
     lsf_iteration_begin(&r->iteration, 0);
     r->maps.depth = surface_rig_texture(r, GL_DEPTH_COMPONENT32F, r->width, r->height);
     r->maps.surface = surface_rig_texture(r, GL_RGBA32UI, r->width, r->height);
-    r->maps.gloss = surface_rig_texture(r, GL_RG32UI, r->width, r->height);
+    r->maps.specular_params = surface_rig_texture(r, GL_RG32UI, r->width, r->height);
 }
 
 void surface_rig_end(surface_rig *r)
 {
     lsf_texture_destroy(r->context, &r->maps.depth);
     lsf_texture_destroy(r->context, &r->maps.surface);
-    lsf_texture_destroy(r->context, &r->maps.gloss);
+    lsf_texture_destroy(r->context, &r->maps.specular_params);
     lsf_iteration_destroy(&r->iteration);
     lsf_setup_finish(&r->setup);
     gl_test_check(r->context);
@@ -133,7 +133,8 @@ void surface_rig_upload(surface_rig *r)
     glTextureSubImage2D(r->maps.depth, 0, 0, 0, w, h, GL_DEPTH_COMPONENT, GL_FLOAT, r->depths);
     glTextureSubImage2D(r->maps.surface, 0, 0, 0, w, h, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                         r->surfaces);
-    glTextureSubImage2D(r->maps.gloss, 0, 0, 0, w, h, GL_RG_INTEGER, GL_UNSIGNED_INT, r->glosses);
+    glTextureSubImage2D(r->maps.specular_params, 0, 0, 0, w, h, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                        r->glosses);
 }
 
 seen surface_rig_wall(const surface_rig *r, float distance)

@@ -49,7 +49,7 @@ static void fill(pyramid *p, uint32_t parity, GLuint bricks)
                     continue;
                 if (x % 4 == 0 && y % 4 == 0 && z % 4 == 0)
                     list[header[3]++] =
-                        (struct lsf_voxel_brick_data){.place = x / 4 | y / 4 << 10 | z / 4 << 20,
+                        (struct lsf_voxel_brick_data){.cell = x / 4 | y / 4 << 10 | z / 4 << 20,
                                                       .low = UINT32_MAX,
                                                       .high = UINT32_MAX,
                                                       .sides = (1u << p->sides) - 1};
@@ -345,7 +345,7 @@ static void grids(void **state)
         {"voxel.resolution=1", "cone.count=1", "cone.step=2"},
         {"voxel.resolution=16", "cone.count=32", "cone.offset=0"},
         {"voxel.resolution=24", "cone.sealed=false", "cone.offset=1"},
-        {"voxel.resolution=32", "cone.sides=isotropic", "cone.turn=false"},
+        {"voxel.resolution=32", "cone.sides=isotropic", "cone.rotate=false"},
         {"voxel.resolution=32", "cone.distance=0", "cone.jitter=false"},
         {"voxel.resolution=32", "voxel.jitter=false", "sparse.grid=16"},
     };

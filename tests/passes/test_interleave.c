@@ -46,7 +46,7 @@ static void shader_agrees(void **unused)
                         "void main()\n"
                         "{\n"
                         "    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
-                        "    ivec2 place = interleave_place(pixel, length);\n"
+                        "    ivec2 place = interleave_position(pixel, length);\n"
                         "    places[pixel.y * length.x + pixel.x] =\n"
                         "        ivec4(place, interleave_pixel(place, length));\n"
                         "}\n");

@@ -21,8 +21,8 @@ typedef struct rig {
     lsf_light_filter filter;
     lsf_gbuffer_maps gbuffer;
     GLuint irradiance, specular, picture;
-    texels light, gloss; /* of the next iteration */
-    texels raw, out;     /* the means of all of them, and what the filter makes of these */
+    texels light, specular_params; /* of the next iteration */
+    texels raw, out; /* the means of all of them, and what the filter makes of these */
     uint32_t iterations;
 } rig;
 
@@ -83,7 +83,7 @@ static void set_light(rig *r, uint32_t i, float irradiance, float specular)
 {
     for (int c = 0; c < 3; c++) {
         r->light[i][c] = irradiance;
-        r->gloss[i][c] = specular;
+        r->specular_params[i][c] = specular;
     }
 }
 
@@ -93,7 +93,7 @@ static void iterate(rig *r)
     if (r->iterations == 0)
         surface_rig_upload(&r->s);
     surface_rig_write(r->irradiance, r->s.width, r->s.height, r->light[0]);
-    surface_rig_write(r->specular, r->s.width, r->s.height, r->gloss[0]);
+    surface_rig_write(r->specular, r->s.width, r->s.height, r->specular_params[0]);
     const lsf_light_parts parts = {.gbuffer = &r->gbuffer,
                                    .indirect = {r->irradiance, r->specular}};
     r->s.iteration.done = r->iterations++;

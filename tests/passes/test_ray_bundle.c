@@ -298,7 +298,7 @@ static uint32_t *hits_of(const lsf_scene *scene, const lsf_ray_bundle_params *pa
 #define HIT_BYTES (64 * 48 * 4 * sizeof(uint32_t))
 
 /* Too little room by one node, twice and a hundredfold: the same hits as with ample room. */
-static void room_grows(void **unused)
+static void capacity_grows(void **unused)
 {
     (void)unused;
     lsf_scene *scene = room();
@@ -306,13 +306,13 @@ static void room_grows(void **unused)
         lsf_ray_bundle_params params = bundle_params(64, (lsf_ray_bundle_raster)raster);
         uint64_t counts[LSF_RAY_BUNDLE_COUNTS];
         params.slices = 0;
-        params.room = 32.0f;
+        params.capacity = 32.0f;
         uint32_t *ample = hits_of(scene, &params, counts);
         double needed = (double)counts[LSF_RAY_BUNDLE_OVERFLOW];
         assert_true(counts[LSF_RAY_BUNDLE_REGROWN] == 0 && needed > 1000.0);
         const double rooms[] = {needed, needed - 1.0, needed / 2.0, needed / 100.0};
         for (int i = 0; i < 4; i++) {
-            params.room = (float)(floor(rooms[i]) / (64.0 * 64.0));
+            params.capacity = (float)(floor(rooms[i]) / (64.0 * 64.0));
             uint32_t *hits = hits_of(scene, &params, counts);
             assert_int_equal(counts[LSF_RAY_BUNDLE_REGROWN], i == 0 ? 0 : 1);
             assert_memory_equal(hits, ample, HIT_BYTES);
@@ -452,7 +452,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(box_from_inside),       cmocka_unit_test(box_beside_a_stray_triangle),
         cmocka_unit_test(across_a_gap),          cmocka_unit_test(rasters_agree),
-        cmocka_unit_test(search_is_brute_force), cmocka_unit_test(room_grows),
+        cmocka_unit_test(search_is_brute_force), cmocka_unit_test(capacity_grows),
         cmocka_unit_test(distances_alone),       cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(coinciding_surfaces),   cmocka_unit_test(thousands_of_layers),
         cmocka_unit_test(empty_and_flat),

@@ -234,7 +234,7 @@ static void drawn_as_dense(void **unused)
         double x, y;
         float pdf;
         lsf_float3 d = lsf_sky_sample(&sky, u, &pdf);
-        lsf_environment_place(map, d, &x, &y);
+        lsf_environment_uv(map, d, &x, &y);
         int texel = (y < 1.0 ? (int)(y * HEIGHT) : HEIGHT - 1) * WIDTH + (int)(x * WIDTH);
         means[texel] += 1.0 / (double)pdf / COUNT;
     }

@@ -37,7 +37,7 @@ static void rig_begin_view(rig *r, uint32_t width, uint32_t height, uint32_t str
     surface_rig_start(&r->s);
     if (!lsf_sparse_create(&r->pass, r->s.context, plan, &r->params, &error))
         fail_msg("%s", error.message);
-    lsf_sparse_grid_places(plan, r->places);
+    lsf_sparse_grid_texture_size(plan, r->places);
     r->irradiance = surface_rig_texture(&r->s, GL_RGBA32F, r->places[0], r->places[1]);
     r->specular = surface_rig_texture(&r->s, GL_RGBA32F, r->places[0], r->places[1]);
     r->pixels = calloc(r->places[0] * r->places[1], sizeof *r->pixels);
@@ -189,7 +189,7 @@ static void places_see_their_pixels(void **unused)
                               (GLsizei)(count * sizeof *depths), depths);
             glGetTextureImage(r.pass.split.surface, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                               (GLsizei)(count * sizeof *surfaces), surfaces);
-            glGetTextureImage(r.pass.split.gloss, 0, GL_RG_INTEGER, GL_UNSIGNED_INT,
+            glGetTextureImage(r.pass.split.specular_params, 0, GL_RG_INTEGER, GL_UNSIGNED_INT,
                               (GLsizei)(count * sizeof *glosses), glosses);
             for (uint32_t tile = 0; tile < tiles * tiles; tile++) {
                 lsf_region region = lsf_sparse_region(grid, tiles, tile);

@@ -100,12 +100,14 @@ static void make_glossy(lsf_scene *scene, lsf_material *material)
     material->roughness = 0.5f;
 }
 
-static void gloss(void **unused)
+static void specular_params(void **unused)
 {
     (void)unused;
-    const char *const names[] = {"gbuffer.gloss"};
+    const char *const names[] = {"gbuffer.specular_params"};
     check_feature(make_glossy, 0, 1, names, PIXELS * 4,
-                  "gbuffer.LSF_GLOSS gbuffer.LSF_GLOSS_TARGET direct_light.LSF_GLOSS ", 0);
+                  "gbuffer.LSF_SPECULAR_PARAMS gbuffer.LSF_SPECULAR_PARAMS_TARGET "
+                  "direct_light.LSF_SPECULAR_PARAMS ",
+                  0);
 }
 
 static void make_emissive(lsf_scene *scene, lsf_material *material)
@@ -366,7 +368,7 @@ static void options_that_are_gone(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gloss),
+        cmocka_unit_test(specular_params),
         cmocka_unit_test(emission),
         cmocka_unit_test(directional_light),
         cmocka_unit_test(mask),

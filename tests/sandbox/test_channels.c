@@ -21,7 +21,7 @@ static int remove_folder(void **state)
     return system(command) == 0 ? sandbox_teardown(state) : -1;
 }
 
-static char *place(const char *name)
+static char *location(const char *name)
 {
     return lsf_format("%s/%s", folder, name);
 }
@@ -30,7 +30,7 @@ static char *place(const char *name)
 static void write_png(const char *name, uint8_t red)
 {
     const uint8_t rgb[] = {0, 0, 0, red, 0, 0, 0, 128, 0, 0, 0, 255};
-    char *path = place(name);
+    char *path = location(name);
     lsf_error error;
     if (!lsf_image_save_rgb8(rgb, 2, 2, path, NULL, &error))
         fail_msg("%s", error.message);
@@ -48,7 +48,7 @@ static void write_exr(const char *name, uint32_t width, uint32_t height, float s
         image->pixels[3 * i + 1] = scale * ((float)(i / width) + 0.5f) / (float)height;
         image->pixels[3 * i + 2] = 10;
     }
-    char *path = place(name);
+    char *path = location(name);
     if (!lsf_image_save(image, path, NULL, &error))
         fail_msg("%s", error.message);
     lsf_image_destroy(image);
@@ -170,7 +170,7 @@ static void test_changes(void **state)
         uint8_t red = i == 0 ? 64 : 192;
         if (i == 1)
             write_png("four.png", red);
-        char *path = place("four.png");
+        char *path = location("four.png");
         if (i == 2)
             unlink(path);
         free(path);

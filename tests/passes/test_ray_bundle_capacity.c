@@ -44,7 +44,7 @@ static outcome render(const lsf_scene *scene, uint32_t bounces, double chained, 
 {
     static const float eye[3] = {0.3f, 0.5f, 2.9f}, target[3] = {0, 0, 0};
     char text[64];
-    snprintf(text, sizeof text, "bundle.room=%.9g", chained / (SIDE * SIDE));
+    snprintf(text, sizeof text, "bundle.capacity=%.9g", chained / (SIDE * SIDE));
     const char *const options[] = {text, "bundle.resolution=64", "bundle.slices=0"};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     lsf_error error = {0};

@@ -1,7 +1,7 @@
 /* Transmittance between the surface in a pixel and the eye. Switches LSF_STRAIGHT, LSF_ABSORPTION: surfaces in
  * front of it transmit light, and some of them bound media. */
-#ifndef LSF_LIB_WAY_TO_EYE
-#define LSF_LIB_WAY_TO_EYE
+#ifndef LSF_LIB_TRANSMITTANCE_TO_EYE
+#define LSF_LIB_TRANSMITTANCE_TO_EYE
 
 #if LSF_STRAIGHT
 layout(binding = 10) uniform sampler2D tint_texture;
@@ -10,7 +10,7 @@ layout(binding = 11) uniform sampler2D absorption_texture;
 #endif
 #endif
 
-vec3 left_on_the_way(ivec2 pixel)
+vec3 transmittance_to_eye(ivec2 pixel)
 {
     vec3 tint = vec3(1.0);
 #if LSF_STRAIGHT
