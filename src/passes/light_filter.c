@@ -210,7 +210,7 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
                   const lsf_light_filter_inputs *inputs, const GLuint filtered[2])
 {
     const lsf_light_filter_part *parts = inputs->parts;
-    int32_t window = pass->params.steps % 2; /* the turn that holds no filtered light */
+    int32_t window = pass->params.steps % 2; /* the one without filtered light */
     if (pass->params.limit) {
         begin(plan, pass->ping_pong_framebuffers[window], pass->change);
         set_guide(pass);
