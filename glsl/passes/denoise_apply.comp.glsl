@@ -18,18 +18,24 @@ vec3 changed(vec3 light, vec3 change, float unit)
     return light + (max(light, 0.0) + unit) * (exp(clamp(change, -LSF_DENOISE_MOST, LSF_DENOISE_MOST)) - 1.0);
 }
 
-/* What light is near the pixel, at least and at most. */
-vec3 within_neighbours(ivec2 pixel, int part, vec3 light)
+/* Between filtered light and the mean of its neighbours' logarithms: the network chooses how far light is blended, and a
+ * dark reflection beside a bright one stays dark. */
+vec3 blended(ivec2 pixel, int part, vec3 own, vec3 light, float unit)
 {
     ivec2 size = textureSize(filtered_textures[part], 0);
-    vec3 low = vec3(1e38), high = vec3(0.0);
+    vec3 sum = vec3(0.0);
+    float count = 0.0;
     for (int j = -LSF_DENOISE_NEAR; j <= LSF_DENOISE_NEAR; j++)
         for (int i = -LSF_DENOISE_NEAR; i <= LSF_DENOISE_NEAR; i++) {
-            vec4 filtered = texelFetch(filtered_textures[part], clamp(pixel + ivec2(i, j), ivec2(0), size - 1), 0);
-            low = filtered.a < 0.0 ? low : min(low, filtered.rgb);
-            high = filtered.a < 0.0 ? high : max(high, filtered.rgb);
+            ivec2 at = pixel + ivec2(i, j), nearest = clamp(at, ivec2(0), size - 1);
+            vec4 filtered = texelFetch(filtered_textures[part], nearest, 0);
+            if (at == nearest && filtered.a >= 0.0) {
+                sum += log(1.0 + min(max(filtered.rgb, 0.0) / unit, 1e30));
+                count += 1.0;
+            }
         }
-    return clamp(light, low, high);
+    vec3 mean = count > 0.0 ? unit * (exp(sum / count) - 1.0) : own;
+    return clamp(light, min(own, mean), max(own, mean));
 }
 
 /* `part` is a constant in each call: not every driver finds images by a number that it has to compute. */
@@ -42,9 +48,9 @@ void apply(ivec2 pixel, int part, vec3 change)
         vec4 filtered = texelFetch(filtered_textures[part], pixel, 0);
         vec3 factor = texelFetch(factor_textures[part], pixel, 0).rgb;
         if (filtered.a >= 0.0 && scale > 0.0) {
-            filtered.rgb = max(changed(filtered.rgb, change, part_unit(part) * scale / LSF_DENOISE_BEND), 0.0);
-            if (part == 1) /* what is dark in a reflection is not made bright */
-                filtered.rgb = within_neighbours(pixel, part, filtered.rgb);
+            float unit = part_unit(part) * scale / LSF_DENOISE_BEND;
+            vec3 after_change = max(changed(filtered.rgb, change, unit), 0.0);
+            filtered.rgb = part == 1 ? blended(pixel, part, filtered.rgb, after_change, unit) : after_change;
             before.rgb = factor * light.rgb;
             after.rgb = factor * filtered.rgb;
         }

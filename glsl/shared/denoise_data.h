@@ -14,8 +14,8 @@
 /* Largest change of a logarithm by the network. */
 #define LSF_DENOISE_MOST 10.0f
 
-/* Radius [pixels] of the neighbourhood whose filtered specular light bounds that of its middle. */
-#define LSF_DENOISE_NEAR 2
+/* Radius [pixels] of the neighbourhood in which the network may blend specular light. */
+#define LSF_DENOISE_NEAR 1
 
 /* Side [pixels] of a work group over the picture or a feature map. */
 #define LSF_DENOISE_TILE 16

@@ -14,7 +14,7 @@ DECODER = ((96, 96), (72, 72), (54, 54), (40, 40), (64, 32))
 SLOPE = 0.1  # of the leaky ReLU below 0
 MULTIPLE = 2 ** (len(ENCODER) - 1)  # of which sizes have to be
 U_MOST = 20.0
-NEAR = 5  # pixels to the side of the window whose specular light bounds that of its middle
+NEAR = 3  # pixels to the side of the window in which specular light may be blended
 
 
 class Net(nn.Module):
@@ -62,10 +62,11 @@ def padded(x):
 
 
 def corrected(x, change):
-    """u of the light that comes out, of an example (light.py) and the change. Of specular light it is no more and no less
-    than neighbours have: what is dark in a reflection is not made bright."""
+    """u of the light that comes out, of an example (light.py) and the change. Of specular light the net chooses how far it
+    goes to its neighbours' mean: what is dark in a reflection is not made bright."""
     u = torch.clamp(x[:, 6:12] + change, 0.0, U_MOST)
-    light, told = x[:, 9:12], x[:, 27:28] > 0
-    high = functional.max_pool2d(torch.where(told, light, torch.zeros(())), NEAR, 1, NEAR // 2)
-    low = -functional.max_pool2d(torch.where(told, -light, torch.full((), -U_MOST)), NEAR, 1, NEAR // 2)
-    return torch.cat((u[:, :3], torch.minimum(torch.maximum(u[:, 3:], low), high)), 1)
+    light, told = x[:, 9:12], (x[:, 27:28] > 0).to(x.dtype)
+    near = [functional.avg_pool2d(part, NEAR, 1, NEAR // 2) for part in (light * told, told)]
+    mean = torch.where(told > 0, near[0] / near[1].clamp(min=1e-6), light)
+    blended = torch.minimum(torch.maximum(u[:, 3:], torch.minimum(light, mean)), torch.maximum(light, mean))
+    return torch.cat((u[:, :3], blended), 1)

@@ -190,19 +190,21 @@ static double gain_of(const double sums[2])
     return sums[0] > 0.0 && sums[1] > 0.0 ? fmin(fmax(sums[0] / sums[1], 0.5), 2.0) : 1.0;
 }
 
-/* Specular light is no brighter and no darker than what was filtered of 5 x 5 pixels. */
-static double among_neighbours(const rig *r, uint32_t i, int c, double light)
+/* Specular light lies between what was filtered and the mean of its logarithms over 3 x 3 pixels.
+ */
+static double blended(const rig *r, uint32_t i, int c, double light, double unit)
 {
     int w = (int)r->s.width, h = (int)r->s.height, x = (int)i % w, y = (int)i / w;
-    double low = 1e300, high = 0.0;
-    for (int v = y - 2; v <= y + 2; v++)
-        for (int u = x - 2; u <= x + 2; u++) {
+    double own = (double)r->filtered_texels[1][i][c], sum = 0.0, count = 0.0;
+    for (int v = y - 1; v <= y + 1; v++)
+        for (int u = x - 1; u <= x + 1; u++) {
             if (u < 0 || v < 0 || u >= w || v >= h || r->filtered_texels[1][v * w + u][3] < 0.0f)
                 continue;
-            low = fmin(low, (double)r->filtered_texels[1][v * w + u][c]);
-            high = fmax(high, (double)r->filtered_texels[1][v * w + u][c]);
+            sum += log(1.0 + (double)r->filtered_texels[1][v * w + u][c] / unit);
+            count += 1.0;
         }
-    return fmin(fmax(light, low), high);
+    double mean = unit * (exp(sum / count) - 1.0);
+    return fmin(fmax(light, fmin(own, mean)), fmax(own, mean));
 }
 
 /* Sets `expected` to what comes out, of the network's state, which is brought to the next frame. */
@@ -233,7 +235,7 @@ static void expect(const rig *r, float *state, texels expected[2])
                 if (r->filtered_texels[part][i][3] >= 0.0f) {
                     light =
                         unit * (exp(fmax(log(1.0 + light / unit) + (double)output[at], 0.0)) - 1.0);
-                    light = part == 1 ? among_neighbours(r, i, c, light) : light;
+                    light = part == 1 ? blended(r, i, c, light, unit) : light;
                     sums[part][c][0] += factor * (double)r->light_texels[part][i][c];
                     sums[part][c][1] += factor * light;
                 }
