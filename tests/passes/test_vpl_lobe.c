@@ -95,17 +95,13 @@ static void lobes_carry_the_flux(void **unused)
     shader_folder_destroy(&folder);
 }
 
-/* A spot that slants down to a floor of metal, between two walls that it does not light itself: the
- * one that the floor mirrors it to is bright. */
-static void metal_mirrors_light(void **unused)
+/* A spot that slants down to a floor of metal, between two walls that it does not light itself. */
+static lsf_scene *metal_floor(float roughness)
 {
-    (void)unused;
-    static const char *const options[] = {"cloud.count=16384", "voxel.resolution=64",
-                                          "rsm.resolution=64"};
     lsf_scene *scene = build_scene();
     lsf_material *metal = build_material(scene, 0.9f, 0.9f, 0.9f);
     metal->metallic = 1.0f;
-    metal->roughness = 0.2f;
+    metal->roughness = roughness;
     build_floor(scene, 0.0f, 1.0f);
     build_material(scene, 0.5f, 0.5f, 0.5f);
     build_quad(scene, lsf_f3(1, 0, -1), lsf_f3(1, 0, 1), lsf_f3(1, 2, 1), lsf_f3(1, 2, -1));
@@ -115,26 +111,55 @@ static void metal_mirrors_light(void **unused)
     spot->inner_cone = 0.1f;
     spot->outer_cone = 0.2f;
     finish_gl_scene(scene);
+    return scene;
+}
+
+/* Mean radiance of the wall on that side, from the middle of the room. */
+static double wall(const lsf_scene *scene, float side, const char *node, uint32_t samples)
+{
+    const char *const options[] = {"cloud.count=16384", "voxel.resolution=64", "rsm.resolution=64",
+                                   node};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS,
                                 .technique = "substitute_tree",
                                 .raw = true,
-                                .samples = 8,
+                                .samples = samples,
                                 .bounces = 1,
                                 .options = options,
                                 .option_count = LSF_COUNT(options)};
-    double walls[2];
-    for (int i = 0; i < 2; i++) {
-        float side = i == 0 ? -1.0f : 1.0f;
-        double rgb[3];
-        lsf_image *image =
-            render_gl_from(scene, params, 16, lsf_f3(-0.6f * side, 1.0f, 0), lsf_f3(side, 1.0f, 0));
-        mean_rgb(image, 0, rgb);
-        walls[i] = rgb[1];
-        lsf_image_destroy(image);
-    }
-    print_message("away from the spot %.4g, back to it %.4g\n", walls[1], walls[0]);
-    assert_true(walls[1] > 8.0 * walls[0]);
+    double rgb[3];
+    lsf_image *image =
+        render_gl_from(scene, params, 16, lsf_f3(-0.6f * side, 1.0f, 0), lsf_f3(side, 1.0f, 0));
+    mean_rgb(image, 0, rgb);
+    lsf_image_destroy(image);
+    return rgb[1];
+}
+
+/* The wall that the floor mirrors the spot to is bright, also where VPLs are drawn by their
+ * luminance alone, which knows of no lobes. */
+static void metal_mirrors_light(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = metal_floor(0.2f);
+    double back = wall(scene, -1.0f, "light_tree.node=substitute", 8);
+    double away = wall(scene, 1.0f, "light_tree.node=substitute", 8);
+    double drawn = wall(scene, 1.0f, "light_tree.node=vpl", 8);
+    print_message("away from the spot %.4g, by luminance %.4g, back to it %.4g\n", away, drawn,
+                  back);
+    assert_true(away > 8.0 * back);
+    assert_true(fabs(away / drawn - 1.0) <= 0.1);
     lsf_scene_destroy(scene);
+}
+
+static void mirrors_are_finite(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 2; i++) {
+        lsf_scene *scene = metal_floor((float)i);
+        double away = wall(scene, 1.0f, "light_tree.lobe_alpha=0", 1);
+        print_message("roughness %d: %.4g\n", i, away);
+        assert_true(isfinite(away) && away > 0.0);
+        lsf_scene_destroy(scene);
+    }
 }
 
 int main(void)
@@ -142,6 +167,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lobes_carry_the_flux),
         cmocka_unit_test(metal_mirrors_light),
+        cmocka_unit_test(mirrors_are_finite),
     };
     return cmocka_run_group_tests_name("vpl_lobe", tests, NULL, NULL);
 }
