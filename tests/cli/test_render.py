@@ -230,7 +230,7 @@ class Json(CommandTest):
         report = self.read_json("a.json")
         self.assertEqual(set(report), {
             "lightsheaf", "command", "scene", "output", "technique", "seed", "bounces", "resolution",
-            "lost_share", "exposure",
+            "lost_share", "exposure", "denoiser_weights",
             "samples", "interrupted", "options", "device", "seconds", "passes", "gl_bytes", "notes"})
         self.assertEqual(report["command"], "render")
         self.assertEqual(report["technique"], "bidirectional")
