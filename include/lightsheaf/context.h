@@ -42,13 +42,13 @@ typedef struct lsf_context_params {
 /* Makes a context and makes it current on the calling thread. `params` NULL means the defaults.
  * LSF_ERROR_NO_GL names what was tried and which package to install.
  *
- * Several contexts may live at once, on one thread or on several that render at the same time. A
- * context, and what was made with it, is used by one thread at a time: the one that made it, until
- * lsf_context_release_current lets another take it. Every function that needs a context makes it
- * current and leaves it so: a program with a GL context of its own on the same thread makes that
- * current again. A thread that was given an OSMesa context by the program itself has to release it
- * before it uses an EGL one of the library: the two do not know of each other. GLFW wants its
- * windows made and destroyed on the main thread.
+ * Several contexts may live at once, on one thread or on several that render at the same time;
+ * those in software take turns, an iteration each. A context, and what was made with it, is used by
+ * one thread at a time: the one that made it, until lsf_context_release_current lets another take
+ * it. Every function that needs a context makes it current and leaves it so: a program with a GL
+ * context of its own on the same thread makes that current again. A thread that was given an OSMesa
+ * context by the program itself has to release it before it uses an EGL one of the library: the two
+ * do not know of each other. GLFW wants its windows made and destroyed on the main thread.
  *
  * The environment can decide what no option did: LIGHTSHEAF_BACKEND=egl|osmesa|glfw replaces
  * LSF_BACKEND_AUTO, and LIGHTSHEAF_EGL_LIBRARY, LIGHTSHEAF_OSMESA_LIBRARY and

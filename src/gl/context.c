@@ -199,17 +199,21 @@ lsf_context *lsf_context_create(const lsf_context_params *params, lsf_error *err
     lsf_context_params wanted = *params;
     wanted.debug = params->debug || params->fail_on_gl_error;
     double start = lsf_now();
+    lsf_turn_begin();
     release_current();
     if (!create_platform(context, &wanted, backend, error)) {
         free(context);
-        return NULL;
+        context = NULL;
+    } else {
+        set_current(context);
+        if (!initialise(context, params, error)) {
+            lsf_context_destroy(context);
+            context = NULL;
+        }
     }
-    set_current(context);
-    if (!initialise(context, params, error)) {
-        lsf_context_destroy(context);
-        return NULL;
-    }
-    lsf_log(LSF_LOG_DEBUG, "context made in %.1f ms", (lsf_now() - start) * 1e3);
+    lsf_turn_end();
+    if (context)
+        lsf_log(LSF_LOG_DEBUG, "context made in %.1f ms", (lsf_now() - start) * 1e3);
     return context;
 }
 
@@ -261,6 +265,7 @@ void lsf_context_destroy(lsf_context *context)
 {
     if (!context)
         return;
+    lsf_turn_begin();
     if (context->functions.GetString && lsf_context_make_current(context, NULL)) {
         for (uint64_t i = 0; i < context->program_count; i++)
             glDeleteProgram(context->programs[i].program);
@@ -273,6 +278,7 @@ void lsf_context_destroy(lsf_context *context)
     if (current_context == context)
         release_current();
     context->ops->destroy(context->platform);
+    lsf_turn_end();
     free(context->programs);
     free(context->allocations);
     free(context->shader_dir);
@@ -308,25 +314,50 @@ static bool check_entry(lsf_error *error)
                          "it first");
 }
 
-lsf_context *lsf_context_enter(lsf_context *context, lsf_error *error)
+static bool prepare(lsf_context *context, lsf_error *error)
 {
     if (!lsf_context_make_current(context, error))
-        return NULL;
+        return false;
     if (context->wrapped && context->entered == 0) {
         if (!check_entry(error))
-            return NULL;
+            return false;
         lsf_state_reset(context);
         lsf_state_set_conventions();
     }
-    context->entered++;
-    return context;
+    return true;
+}
+
+lsf_context *lsf_context_enter(lsf_context *context, lsf_error *error)
+{
+    bool turns = context && context->software;
+    if (turns)
+        lsf_turn_begin();
+    if (prepare(context, error)) {
+        context->entered++;
+        return context;
+    }
+    if (turns)
+        lsf_turn_end();
+    return NULL;
 }
 
 void lsf_context_leave(lsf_context **entered)
 {
     lsf_context *context = *entered;
-    if (context && --context->entered == 0 && context->wrapped)
+    if (!context)
+        return;
+    if (--context->entered == 0 && context->wrapped)
         lsf_state_reset(context);
+    if (context->software)
+        lsf_turn_end();
+}
+
+void lsf_context_pause(const lsf_context *context)
+{
+    if (!context->software)
+        return;
+    lsf_turn_end();
+    lsf_turn_begin();
 }
 
 bool lsf_context_release_current(lsf_context *context, lsf_error *error)
@@ -337,8 +368,12 @@ bool lsf_context_release_current(lsf_context *context, lsf_error *error)
         return lsf_error_set(error, LSF_ERROR_USAGE,
                              "the context is not current on this thread; release it on the thread "
                              "that used it last");
+    if (context->software)
+        lsf_turn_begin();
     glFlush();
     release_current();
+    if (context->software)
+        lsf_turn_end();
     return true;
 }
 

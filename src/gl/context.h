@@ -49,6 +49,11 @@ typedef struct lsf_binding_counts {
 
 #define LSF_GROUP_DEPTH_MAX 16
 
+/* A thread's turn among those that use software contexts, in the order of their asking. Turns nest.
+ */
+void lsf_turn_begin(void);
+void lsf_turn_end(void);
+
 struct lsf_context {
     const lsf_backend_ops *ops;
     void *platform;

@@ -19,6 +19,9 @@
 #define LSF_LEAVE __attribute__((cleanup(lsf_context_leave)))
 lsf_context *lsf_context_enter(lsf_context *context, lsf_error *error);
 void lsf_context_leave(lsf_context **entered); /* *entered NULL allowed */
+/* Lets other threads use their contexts, between two pieces of a function's work; contexts in
+ * software take turns. */
+void lsf_context_pause(const lsf_context *context);
 
 /* --- memory: every byte of GL storage goes through these and is counted --- */
 

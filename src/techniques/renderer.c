@@ -540,6 +540,7 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
             wait_for_gpu(renderer);
         if (!leaves_time(renderer, start))
             break;
+        lsf_context_pause(renderer->context);
     }
     wait_for_gpu(renderer);
     if (!lsf_renderer_catch_up(renderer, true, error))

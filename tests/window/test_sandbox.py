@@ -87,10 +87,10 @@ class Sandbox(WindowTest):
 
         editor = threading.Thread(target=edit, daemon=True)
         editor.start()
-        shots = [line for frame in (10, 130, 250) for line in (f"{frame} key F12", f"{frame + 1} key-up F12")]
-        steps = [f"{frame} step 0.02" for frame in range(5, 255)]
+        shots = [line for frame in (10, 130, 730) for line in (f"{frame} key F12", f"{frame + 1} key-up F12")]
+        steps = [f"{frame} step 0.02" for frame in range(5, 735)]
         lines = sorted(["4 key F6", "5 key-up F6", "6 settle", *shots, *steps], key=lambda line: int(line.split()[0]))
-        done = self.show(red, *lines, "260 close")
+        done = self.show(red, *lines, "740 close")
         self.assertIn("my.frag:1: error: `wrong' undeclared", done.stderr)
         self.assertEqual([self.shot(number)[2][5][5] for number in (1, 2, 3)], [(255, 0, 0), (255, 0, 0), (0, 255, 0)])
 
