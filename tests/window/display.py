@@ -7,6 +7,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -62,8 +63,10 @@ class WindowTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
+        """At once, so that who reads the file meanwhile never finds half of it."""
+        with open(self.path(name + ".new"), "w", encoding="utf-8") as file:
             file.write(text)
+        os.replace(file.name, self.path(name))
         return self.path(name)
 
     def environment(self):
@@ -75,6 +78,33 @@ class WindowTest(unittest.TestCase):
                               capture_output=True, stdin=subprocess.DEVNULL, timeout=timeout)
         self.assertEqual(done.returncode, status, f"{' '.join(words)}\n{done.stdout}\n{done.stderr}")
         return done
+
+    def replay_shots(self, *words, first=(), shot, environment=None):
+        """A program whose replay does `first`, then takes a `shot` (steps) for as long as the test goes on.
+
+        It looks at files that change by the replay's time, of which half a second is between two shots."""
+        steps = [*shot, *(12 * ["step 0.05"]), "settle"]
+        script = self.write("script", "".join(f"{1 + k} {line}\n" for k, line in enumerate([*first, *(2000 * steps)])))
+        program = subprocess.Popen([*words, "--replay", script], cwd=self.folder, env=environment or self.environment(),
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(program.kill)
+        return program
+
+    def shown(self, program, what, good=lambda rows: True, ending=".png"):
+        """Waits for a shot from now on whose rows are `good`: those rows."""
+        def newest():
+            """The shot before the last one, which may be half written; 0: there is none."""
+            return max(sum(name.endswith(ending) for name in os.listdir(self.folder)) - 1, 0)
+
+        number = newest()
+        while True:
+            while newest() <= number and program.poll() is None:
+                time.sleep(0.01)
+            self.assertIsNone(program.poll(), what)
+            number = newest()
+            rows = read_png(self.path(f"lightsheaf-{number:04}{ending}"))[2]
+            if good(rows):
+                return rows
 
 
 def read_png(path, alpha=False):

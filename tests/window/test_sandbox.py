@@ -1,7 +1,6 @@
 """The sandbox in a window, under a display without a screen."""
 import os
 import threading
-import time
 
 from display import WindowTest, main, read_png
 
@@ -78,21 +77,26 @@ class Sandbox(WindowTest):
     def test_saving_the_shader(self):
         """A mistake is told, and the last good shader goes on; what comes after it is shown."""
         red = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 1.0); }"
+        self.write("my.frag", red)
+        hide, pause = (("key Tab", "key-up Tab"), ("key F6", "key-up F6"))
+        program = self.replay_shots(COMMAND, "sandbox", "my.frag", "-r", SIZE, first=[*hide, *pause, "settle"],
+                                    shot=["key F12", "key-up F12"])
+        told = []
+        reader = threading.Thread(target=lambda: told.extend(program.stderr), daemon=True)
+        reader.start()
 
-        def edit():
-            for number, color in ((1, "wrong"), (2, "0.0, 1.0, 0.0")):
-                while not os.path.exists(self.path(f"lightsheaf-{number:04}.png")):
-                    time.sleep(0.01)
-                self.write("my.frag", red.replace("1.0, 0.0, 0.0", color))
-
-        editor = threading.Thread(target=edit, daemon=True)
-        editor.start()
-        shots = [line for frame in (10, 130, 730) for line in (f"{frame} key F12", f"{frame + 1} key-up F12")]
-        steps = [f"{frame} step 0.02" for frame in range(5, 735)]
-        lines = sorted(["4 key F6", "5 key-up F6", "6 settle", *shots, *steps], key=lambda line: int(line.split()[0]))
-        done = self.show(red, *lines, "740 close")
-        self.assertIn("my.frag:1: error: `wrong' undeclared", done.stderr)
-        self.assertEqual([self.shot(number)[2][5][5] for number in (1, 2, 3)], [(255, 0, 0), (255, 0, 0), (0, 255, 0)])
+        self.shown(program, "the first shader", lambda rows: rows[5][5] == (255, 0, 0))
+        self.write("my.frag", red.replace("1.0, 0.0, 0.0", "wrong"))
+        while not told:
+            self.assertEqual(self.shown(program, "the mistake")[5][5], (255, 0, 0))
+        self.assertIn("my.frag:1: error: `wrong' undeclared", told[0])
+        self.assertEqual(self.shown(program, "the last good shader")[5][5], (255, 0, 0))
+        self.write("my.frag", red.replace("1.0, 0.0, 0.0", "0.0, 1.0, 0.0"))
+        self.shown(program, "what comes after it", lambda rows: rows[5][5] == (0, 255, 0))
+        program.terminate()
+        program.wait()
+        reader.join()
+        program.stderr.close()
 
     def test_mistakes_and_hangs(self):
         done = self.show("void mainImage(out vec4 c, in vec2 p) { c = x; }", "3 key F6", "4 key-up F6", "30 settle",

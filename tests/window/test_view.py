@@ -4,9 +4,7 @@ import json
 import os
 import shlex
 import shutil
-import subprocess
 import sys
-import time
 
 from display import Display, WindowTest, main, read_png
 
@@ -120,23 +118,15 @@ class View(WindowTest):
             text = file.read()
         shutil.copy(os.path.join(SCENES, "cornell_point.bin"), self.folder)
         self.write("room.gltf", text)
-        # Time for the change to be written and seen, between two of many pictures.
-        shots = [f"{frame} key F12\n{frame + 1} settle" for frame in range(6, 1200, 60)]
-        script = self.write("script", "\n".join(["2 key Tab", "3 key-up Tab", f"4 drop {self.path('room.gltf')}",
-                                                 "5 settle", *shots, "1200 close"]) + "\n")
-        program = subprocess.Popen([COMMAND, "view", "-r", SIZE, "-s", "1", "-t", "direct", "--replay", script],
-                                   cwd=self.folder, env=self.environment(), stderr=subprocess.PIPE, text=True)
-        for _ in range(3000):
-            if os.path.exists(self.path("lightsheaf-0001.png")) or program.poll() is not None:
-                break
-            time.sleep(0.01)
+        program = self.replay_shots(COMMAND, "view", "-r", SIZE, "-s", "1", "-t", "direct", shot=["key F12", "key-up F12"],
+                                    first=["key Tab", "key-up Tab", f"drop {self.path('room.gltf')}", "settle"])
+        bright = self.shown(program, "the room")[36][48]
         document = json.loads(text)
         document["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] *= 0.5
         self.write("room.gltf", json.dumps(document))
-        self.assertEqual((program.communicate()[1], program.returncode), ("", 0))
-        saved = sorted(name for name in os.listdir(self.folder) if name.startswith("lightsheaf-"))
-        bright, dim = (read_png(self.path(name))[2][36][48] for name in (saved[0], saved[-1]))
-        self.assertGreater(sum(bright), sum(dim) + 30)
+        self.shown(program, "the room by half its light", lambda rows: sum(bright) > sum(rows[36][48]) + 30)
+        program.terminate()
+        self.assertEqual(program.communicate()[1], "")
 
     def test_what_frames_take_and_show(self):
         """A line for each frame; and what a moving picture is, beside the path tracer's from the same place."""
@@ -174,41 +164,21 @@ class View(WindowTest):
             text = file.read()
         red = text.replace("display_out =", "display_out = vec4(1.0, 0.0, 0.0, 1.0); vec4 before =")
 
-        # Looks at files every half a second of the replay's time; ends with the test.
-        shots = ["key Shift", "key F12", "key-up F12", "key-up Shift", *(12 * ["step 0.05"]), "settle"]
-        script = self.write("script", "".join(f"{10 + k} {line}\n" for k, line in enumerate(2000 * shots)))
         environment = dict(self.environment())
         environment.pop("MESA_SHADER_DUMP_PATH", None)  # for tests/shaders: one is wrong on purpose
-        program = subprocess.Popen([COMMAND, "view", os.path.join(SCENES, "cornell_point.gltf"), "--shader-dir", folder,
-                                    "-r", "300,200", "-s", "1", "-t", "direct", "--replay", script],
-                                   cwd=self.folder, env=environment, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(program.kill)
-        def newest():
-            """The shot before the last one, which may be half written; 0: there is none."""
-            return max(sum(name.endswith("-window.png") for name in os.listdir(self.folder)) - 1, 0)
+        program = self.replay_shots(COMMAND, "view", os.path.join(SCENES, "cornell_point.gltf"), "--shader-dir", folder,
+                                    "-r", "300,200", "-s", "1", "-t", "direct", environment=environment,
+                                    first=["settle"], shot=["key Shift", "key F12", "key-up F12", "key-up Shift"])
 
         def shown(what, good):
-            """What a shot shows that is `good`, of those from now on."""
-            number = newest()
-            while True:
-                while newest() <= number and program.poll() is None:
-                    time.sleep(0.01)
-                self.assertIsNone(program.poll(), what)
-                number = newest()
-                rows = read_png(self.path(f"lightsheaf-{number:04}-window.png"))[2]
-                if good(rows):
-                    return rows[100][60]
-
-        def write(content):
-            with open(shader, "w", encoding="utf-8") as file:
-                file.write(content)
+            return self.shown(program, what, good, ending="-window.png")[100][60]
 
         first = shown("the picture", lambda rows: True)
-        write("wrong")
+        self.write(shader, "wrong")
         shown("the red heading", lambda rows: any(r > 200 and 80 < g < 150 for r, g, b in sum(rows, [])))
-        write(red)
+        self.write(shader, red)
         shown("the red picture", lambda rows: rows[100][60] == (255, 0, 0))
-        write(text)
+        self.write(shader, text)
         shown("the picture again", lambda rows: rows[100][60] == first)
         program.terminate()
         self.assertEqual(program.communicate()[1], "")
