@@ -6,7 +6,7 @@
 #include "frame/iteration.h"
 
 /* Cells across the picture's shorter side, at half of all visible points' depth, below which light
- * that bounces is off by 5 % and more: measured in docs/voxels.md, "Where it fails". */
+ * that bounces is off by 5 % and more: measured in docs/voxels.md, "Limitations". */
 #define LSF_GRAIN_CELLS 16.0f
 
 /* Warns, once the depth of the first picture is there (the G-buffer's), when the plan's grain is
