@@ -1,13 +1,16 @@
 /* Light that voxels send out. Switches LSF_EMIT: their emission, which replaces the previous value, else the
- * following is added; LSF_REFLECT: the light of the current light that the side facing it reflects. */
+ * following is added; LSF_REFLECT: the light of the current light that the side facing it reflects, or, with
+ * LSF_SHADOW_SKY, that of a batch of directions of the environment. */
 #include "lib/voxel_reflect.glsl"
 #include "lib/voxel_shading.glsl"
 #include "lib/voxel_sides.glsl"
 #include "shared/brdf.h"
 #if LSF_REFLECT
-#include "lib/light.glsl"
 #include "lib/shadow.glsl"
+#if !LSF_SHADOW_SKY
+#include "lib/light.glsl"
 #include "shared/light.h"
+#endif
 #endif
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D albedo_texture;
@@ -28,7 +31,8 @@ layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D emission_texture;
 /* Points in voxels are stored to 2^-10 of a voxel, and the receiver is lifted off its surface by as much. */
 #define LIFT (1.0 / 1024.0)
 
-#if LSF_SKY
+#if LSF_SHADOW_SKY
+layout(location = 0) uniform int sky_map_count;
 /* Number of cosine-distributed rays that find the environment from a voxel. */
 layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 #endif
@@ -47,32 +51,50 @@ reflector material_at(ivec3 cell)
     return voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, specular_params, transmission);
 }
 
-/* Radiance of the side that faces the light. */
-vec3 reflected(ivec3 cell, vec3 n, vec3 shading, out bool front)
+/* Adds the radiance of the side that faces the light, with `irradiance` on a plane that faces it. */
+void reflect_light(reflector material, vec3 position, vec3 n, vec3 shading, vec3 to_light, vec3 irradiance,
+                   inout vec3 front, inout vec3 back)
 {
-    uint point = texelFetch(point_texture, cell, 0).r;
-    vec3 position = voxel_to_position(vec3(cell) + voxel_point_unpack(point));
-    vec3 irradiance;
-    float distance2;
-    vec3 to_light = light_direction(position, irradiance, distance2);
-    front = dot(n, to_light) > 0.0;
-    vec3 side = front ? n : -n;
-    float cosine = max(dot(front ? shading : -shading, to_light), 0.0);
-#if LSF_SKY
-    float density = light.intensity.w; /* 0: the light is no part of the environment */
+    bool faces = dot(n, to_light) > 0.0;
+    vec3 side = faces ? n : -n;
+    float cosine = max(dot(faces ? shading : -shading, to_light), 0.0);
+#if LSF_SHADOW_SKY
+    float density = sky_maps[shadow_sky_map].to_sky.w;
     if (density > 0.0)
         irradiance *= density / (density + sky_rays * cosine / LSF_PI);
 #endif
-    float visibility = shadow_visibility(position + LIFT * grid.origin.w * side, side);
+    vec3 lifted = position + LIFT * grid.origin.w * side;
+    float visibility = shadow_visibility(lifted, side);
 #if LSF_SHADOW_TINT
-    irradiance *= shadow_tint(position + LIFT * grid.origin.w * side, side, vec3(1.0));
+    irradiance *= shadow_tint(lifted, side, vec3(1.0));
 #endif
+    vec3 radiance =
+        reflectance(material, cosine) * irradiance * (visibility * cosine / LSF_PI * grid.unit.y);
+    front += faces ? radiance : vec3(0.0);
+    back += faces ? vec3(0.0) : radiance;
+}
+
+/* Radiance of both sides. */
+void reflected(ivec3 cell, vec3 n, vec3 shading, inout vec3 front, inout vec3 back)
+{
+    uint point = texelFetch(point_texture, cell, 0).r;
+    vec3 position = voxel_to_position(vec3(cell) + voxel_point_unpack(point));
+    reflector material = material_at(cell);
 #if LSF_EMISSION
     if (voxel_unlit(point))
-        return vec3(0.0);
+        return;
 #endif
-    return reflectance(material_at(cell), cosine) * irradiance *
-           (visibility * cosine / LSF_PI * grid.unit.y);
+#if LSF_SHADOW_SKY
+    for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++)
+        if (sky_maps[shadow_sky_map].error.y > 0.0)
+            reflect_light(material, position, n, shading, sky_maps[shadow_sky_map].to_sky.xyz,
+                          sky_maps[shadow_sky_map].irradiance.rgb, front, back);
+#else
+    vec3 irradiance;
+    float distance2;
+    vec3 to_light = light_direction(position, irradiance, distance2);
+    reflect_light(material, position, n, shading, to_light, irradiance, front, back);
+#endif
 }
 #endif
 
@@ -114,25 +136,24 @@ uint light_voxel(ivec3 cell)
 {
     uint normal = texelFetch(normal_texture, cell, 0).r;
     vec3 n = voxel_normal_unpack(normal);
-#if LSF_REFLECT
-    bool lit_front;
-    vec3 shading = voxel_normal_unpack(voxel_shading_bits(cell, normal));
-    vec3 light = reflected(cell, n, shading, lit_front);
-#endif
-#if LSF_EMIT
     vec3 front = vec3(0.0), back = vec3(0.0);
-#if LSF_EMISSION
+#if LSF_EMIT && LSF_EMISSION
     front = voxel_emission_unpack(texelFetch(emission_texture, cell, 0).r);
     if (voxel_emits_both(texelFetch(point_texture, cell, 0).r))
         back = front;
 #endif
 #if LSF_REFLECT
-    front += lit_front ? light : vec3(0.0);
-    back += lit_front ? vec3(0.0) : light;
+    vec3 shading = voxel_normal_unpack(voxel_shading_bits(cell, normal));
+    reflected(cell, n, shading, front, back);
 #endif
+#if LSF_EMIT
     return put_side(cell, n, true, front) | put_side(cell, n, false, back);
 #else
-    return put_side(cell, n, lit_front, light);
+    if (front != vec3(0.0))
+        put_side(cell, n, true, front);
+    if (back != vec3(0.0))
+        put_side(cell, n, false, back);
+    return 0u;
 #endif
 }
 

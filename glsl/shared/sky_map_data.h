@@ -18,7 +18,9 @@ struct lsf_sky_map_data {
     vec4 irradiance; /* rgb: on a plane that faces the sky there [W/m^2]; w: the kernel that
                       * suppresses glossy lobes [sr], see brdf_evaluate */
     vec4 texel;      /* width and height of a texel, extent of depths; texels along a side */
-    vec4 error;      /* x: distance of receivers from their surfaces by rounding */
+    vec4 error;      /* x: distance of receivers from their surfaces by rounding; y: 1 where the
+                      * map serves all points of the scene, 0 where only those that the camera
+                      * sees */
     vec4 unused;     /* pads a batch to a multiple of 256 bytes */
 };
 

@@ -67,15 +67,21 @@ static void plan_map(lsf_plan *plan, const lsf_shadow_map_params *params, const 
     lsf_plan_texture_desc_add(plan, full_name, &desc, "light passes thin walls");
 }
 
+static void needed_kinds(const lsf_state *state, bool needed[LSF_LIGHT_PROJECTION_KINDS])
+{
+    for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++)
+        needed[kind] = false;
+    for (uint32_t i = 0; i < state->light_count; i++)
+        needed[lsf_light_projection_kind_of(&state->lights[i])] = true;
+}
+
 void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                          const lsf_state *state)
 {
-    bool needed[LSF_LIGHT_PROJECTION_KINDS] = {false};
-    for (uint32_t i = 0; i < state->light_count; i++)
-        needed[lsf_light_projection_kind_of(&state->lights[i])] = true;
-    lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s%s see", state->light_count,
-                      lsf_plural(state->light_count),
-                      plan->sky_lights > 0 ? " and directions of the environment" : "");
+    bool needed[LSF_LIGHT_PROJECTION_KINDS];
+    needed_kinds(state, needed);
+    lsf_plan_pass_add(plan, "shadow_map", "what %u punctual light%s see%s", state->light_count,
+                      lsf_plural(state->light_count), state->light_count == 1 ? "s" : "");
     lsf_plan_reads(plan, "scene");
     lsf_plan_switch_add(plan, "LSF_GRADIENT", params->filter == LSF_SHADOW_FILTER_NONE,
                         "shadow.filter is none: planes are compared");
@@ -100,7 +106,7 @@ void lsf_shadow_map_plan_scene(lsf_plan *plan, const lsf_shadow_map_params *para
                                const lsf_state *state, uint32_t resolution)
 {
     bool needed[LSF_LIGHT_PROJECTION_KINDS];
-    lsf_light_projection_kinds(plan, state, needed);
+    needed_kinds(state, needed);
     if (needed[LSF_LIGHT_PROJECTION_WINDOWS])
         plan_map(plan, params, "scene", 1, resolution, "the whole scene, for voxels");
     else

@@ -1,5 +1,5 @@
-/* Light that voxels send out: their emission, and the light of punctual lights that they
- * reflect. See voxel_light.md. */
+/* Light that voxels send out: their emission, and the light of punctual lights and of the
+ * environment's directions that they reflect. See voxel_light.md. */
 #ifndef LSF_PASSES_VOXEL_LIGHT_H
 #define LSF_PASSES_VOXEL_LIGHT_H
 
@@ -10,6 +10,7 @@ typedef struct lsf_voxel_light_use {
     uint32_t sides;  /* 1 (the front), LSF_VOXEL_SIDES_SURFACE or LSF_VOXEL_SIDES_AXES */
     uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and
                       * texels of empty voxels mean nothing */
+    bool lights;     /* there are punctual lights */
     bool pcf;        /* maps have no gradients */
     float sky_rays;  /* number of rays that find the environment from a voxel by chance, drawn by
                       * the cosine */
@@ -21,8 +22,9 @@ typedef struct lsf_voxel_light {
                       * a surface faces that way */
     lsf_voxel_light_use use;
     bool written; /* since it began */
-    bool sky;     /* some lights stand for the environment */
-    GLuint clear_program, emit_program, first_program, add_program;
+    GLuint clear_program, emit_program;
+    GLuint first_program, add_program; /* 0: there are no punctual lights */
+    GLuint sky_program;                /* 0: the environment lights by no directions */
     lsf_timer *timer;
 } lsf_voxel_light;
 
@@ -34,8 +36,11 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxels *voxels);
 /* Writes the voxels' emission where no light was added; does nothing after lights. */
 void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels);
-/* Adds the reflected light of a light, by its shadow map, to the voxels' emission. */
+/* Adds the reflected light of a punctual light, by its shadow map, to the voxels' emission. */
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxels *voxels, const lsf_shadow *shadow);
+/* The same of directions of the environment, by those of `maps` that hold the whole scene. */
+void lsf_voxel_light_add_sky(lsf_voxel_light *pass, const lsf_voxels *voxels,
+                             const lsf_shadow *maps, uint32_t count);
 void lsf_voxel_light_destroy(lsf_voxel_light *pass);
 
 #endif

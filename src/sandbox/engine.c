@@ -60,6 +60,8 @@ static bool create_own(lsf_sandbox_engine *engine, lsf_error *error)
                                &engine->gpu, error)) &&
            (!plans(engine, "shadow_map") ||
             lsf_shadow_map_create(&engine->shadow_map, context, setup->plan, error)) &&
+           (!plans(engine, "sky_map") ||
+            lsf_sky_map_create(&engine->sky_map, context, setup->plan, &engine->gpu, error)) &&
            (!has(engine, LSF_NEED_REFLECTIVE) ||
             lsf_reflective_shadow_map_create(&engine->reflective, context, setup->plan, error)) &&
            create_voxels(engine, error) &&
@@ -124,13 +126,18 @@ static void run_voxels(lsf_sandbox_engine *engine)
     lsf_voxel_light *light = &engine->voxel_light;
     lsf_shadow_map *map = &engine->shadow_map;
     lsf_voxel_light_begin(light, engine->voxels);
-    for (uint32_t i = 0; map->timer && i < iteration->light_count; i++) {
+    for (uint32_t i = 0; map->timer && i < iteration->state->light_count; i++) {
         if (iteration->lights[i].type == LSF_LIGHT_DIRECTIONAL)
             lsf_shadow_map_run_scene(map, iteration, i);
         else
             lsf_shadow_map_run(map, iteration, i);
         lsf_voxel_light_add(light, engine->voxels, &map->outputs.shadow);
     }
+    if (engine->sky_map.timer)
+        lsf_sky_map_begin_scene(&engine->sky_map, iteration);
+    while (engine->sky_map.timer && lsf_sky_map_next(&engine->sky_map, iteration))
+        lsf_voxel_light_add_sky(light, engine->voxels, &engine->sky_map.outputs.shadow,
+                                engine->sky_map.outputs.count);
     lsf_voxel_light_emit(light, engine->voxels);
     lsf_voxel_mip_run(&engine->voxel_mip, engine->voxels, light->radiance);
 }
@@ -303,6 +310,7 @@ uint32_t lsf_sandbox_engine_report(lsf_sandbox_engine *engine, lsf_timer **timer
     lsf_timer *const candidates[LSF_SANDBOX_ENGINE_TIMERS] = {
         engine->gbuffer.timer,
         engine->shadow_map.timer,
+        engine->sky_map.timer,
         engine->reflective.timer,
         engine->voxelize ? lsf_voxelize_timer(engine->voxelize) : NULL,
         engine->voxel_light.timer,
@@ -327,6 +335,7 @@ void lsf_sandbox_engine_destroy(lsf_sandbox_engine *engine)
     lsf_voxelize_destroy(engine->voxelize);
     lsf_reflective_shadow_map_destroy(&engine->reflective);
     lsf_shadow_map_destroy(&engine->shadow_map);
+    lsf_sky_map_destroy(&engine->sky_map);
     lsf_gbuffer_destroy(&engine->gbuffer);
     if (engine->iteration.context)
         lsf_iteration_destroy(&engine->iteration);

@@ -7,6 +7,7 @@
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
 #include "passes/shadow_map.h"
+#include "passes/sky_map.h"
 #include "passes/tonemap.h"
 #include "passes/voxel_light.h"
 #include "passes/voxel_mip.h"
@@ -45,6 +46,7 @@ typedef struct lsf_sandbox_engine {
     lsf_iteration iteration;
     lsf_gbuffer gbuffer;
     lsf_shadow_map shadow_map;
+    lsf_sky_map sky_map;
     lsf_reflective_shadow_map reflective;
     lsf_voxel_grid grid;
     lsf_voxelize *voxelize;
@@ -69,7 +71,7 @@ void lsf_sandbox_engine_bind(const lsf_sandbox_engine *engine, uint32_t needs);
 uint32_t lsf_sandbox_engine_report(lsf_sandbox_engine *engine, lsf_timer **timers);
 void lsf_sandbox_engine_destroy(lsf_sandbox_engine *engine);
 
-#define LSF_SANDBOX_ENGINE_TIMERS 8
+#define LSF_SANDBOX_ENGINE_TIMERS 9
 
 /* The grid of voxels, and how they keep light. */
 lsf_voxel_grid lsf_sandbox_grid(const lsf_sandbox_setup *setup);

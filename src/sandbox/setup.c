@@ -11,8 +11,10 @@
 /* What it has made anyway. */
 #define SHARED_NEEDS (LSF_NEED_VIEW | LSF_NEED_GBUFFER | LSF_NEED_MOTION)
 
-/* Texels of a directional light's map to a voxel's side, as voxel techniques have them. */
+/* Texels of a directional light's map to a voxel's side, and of a direction's of the environment,
+ * as voxel techniques have them. */
 #define MAP_TEXELS 4
+#define SKY_MAP_TEXELS 1
 
 static bool needs(const lsf_sandbox_setup *setup, lsf_sandbox_need need)
 {
@@ -29,6 +31,7 @@ lsf_voxel_light_use lsf_sandbox_voxel_light(const lsf_sandbox_setup *setup)
     const lsf_pass_params *params = &setup->setup.pass_params;
     return (lsf_voxel_light_use){.sides = LSF_VOXEL_SIDES_AXES,
                                  .levels = LSF_VOXEL_LEVELS,
+                                 .lights = lit(setup),
                                  .pcf = params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
 }
 
@@ -63,19 +66,20 @@ static void plan_maps(lsf_sandbox_setup *setup)
 {
     lsf_plan *plan = setup->plan;
     const lsf_pass_params *params = &setup->setup.pass_params;
-    bool light_on_voxels = needs(setup, LSF_NEED_RADIANCE) && (lit(setup) || plan->sky_lights > 0);
+    bool on_voxels = needs(setup, LSF_NEED_RADIANCE), sky = plan->sky_lights > 0;
     bool reflective = needs(setup, LSF_NEED_REFLECTIVE);
-    if ((needs(setup, LSF_NEED_SHADOW) && !reflective) || light_on_voxels)
+    if ((needs(setup, LSF_NEED_SHADOW) && !reflective) || (on_voxels && lit(setup)))
         lsf_shadow_map_plan(plan, &params->shadow_map, &setup->setup.state);
     else
         lsf_plan_omit(plan, "shadow_map", "the shader names no shadow");
     if (reflective)
         lsf_reflective_shadow_map_plan(
             plan, &params->reflective_shadow_map, &setup->setup.state,
-            &(lsf_reflective_shadow_map_use){.sky = plan->sky_lights > 0 &&
-                                                    plan->requirements.environment_map});
+            &(lsf_reflective_shadow_map_use){.sky = sky && plan->requirements.environment_map});
     else
         lsf_plan_omit(plan, "reflective_shadow_map", "the shader does not name it");
+    if (on_voxels && sky)
+        lsf_sky_map_plan(plan, 0);
 }
 
 static void plan_voxels(lsf_sandbox_setup *setup)
@@ -88,9 +92,11 @@ static void plan_voxels(lsf_sandbox_setup *setup)
     }
     lsf_voxel_grid grid = lsf_sandbox_grid(setup);
     lsf_voxel_grid_remark(plan, &params->voxel_grid, &grid);
-    if (needs(setup, LSF_NEED_RADIANCE) && (lit(setup) || plan->sky_lights > 0))
+    if (needs(setup, LSF_NEED_RADIANCE) && lit(setup))
         lsf_shadow_map_plan_scene(plan, &params->shadow_map, &setup->setup.state,
                                   MAP_TEXELS * grid.resolution);
+    if (needs(setup, LSF_NEED_RADIANCE) && plan->sky_lights > 0)
+        lsf_sky_map_plan_scene(plan, SKY_MAP_TEXELS * grid.resolution);
     lsf_voxelize_plan(plan, &params->voxelize, &grid);
     if (!needs(setup, LSF_NEED_RADIANCE)) {
         lsf_plan_omit(plan, "voxel_light", "the shader names no light of voxels");

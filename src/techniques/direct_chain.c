@@ -28,7 +28,7 @@ void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const 
 {
     lsf_gbuffer_plan(plan);
     bool sky = plan->sky_lights > 0;
-    if (state->light_count > 0 || (sky && use && use->voxels))
+    if (state->light_count > 0)
         lsf_shadow_map_plan(plan, &params->shadow_map, state);
     else if (sky)
         lsf_plan_omit(plan, "shadow_map", "no punctual light");
@@ -78,23 +78,25 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
 }
 
-void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteration)
+void lsf_direct_chain_sky_begin(lsf_direct_chain *chain, const lsf_iteration *iteration)
 {
-    const lsf_sky_map_outputs *maps = &chain->sky_map.outputs;
-    if (!chain->sky_map.timer)
-        return;
     lsf_open_sky_run(&chain->open_sky, iteration, &chain->gbuffer.outputs.seen,
                      chain->direct_light.control);
     lsf_sky_map_begin(&chain->sky_map, iteration);
-    while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(&chain->sky_map, iteration)) {
-        lsf_direct_light_inputs inputs = {.seen = &chain->gbuffer.outputs.seen,
-                                          .shadow = &maps->shadow,
-                                          .open =
-                                              chain->open_sky.timer ? &chain->open_sky.light : NULL,
-                                          .first = maps->first,
-                                          .directions = maps->count};
-        lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
-    }
+}
+
+bool lsf_direct_chain_sky_next(lsf_direct_chain *chain, const lsf_iteration *iteration)
+{
+    const lsf_sky_map_outputs *maps = &chain->sky_map.outputs;
+    if (!lsf_iteration_goes_on(iteration) || !lsf_sky_map_next(&chain->sky_map, iteration))
+        return false;
+    lsf_direct_light_inputs inputs = {.seen = &chain->gbuffer.outputs.seen,
+                                      .shadow = &maps->shadow,
+                                      .open = chain->open_sky.timer ? &chain->open_sky.light : NULL,
+                                      .first = maps->first,
+                                      .directions = maps->count};
+    lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
+    return true;
 }
 
 void lsf_direct_chain_lights(lsf_direct_chain *chain, const lsf_iteration *iteration)
@@ -102,7 +104,11 @@ void lsf_direct_chain_lights(lsf_direct_chain *chain, const lsf_iteration *itera
     uint32_t lights = iteration->state->light_count;
     for (uint32_t i = 0; i < lights && lsf_iteration_goes_on(iteration); i++)
         lsf_direct_chain_light(chain, iteration, i);
-    lsf_direct_chain_sky(chain, iteration);
+    if (!chain->sky_map.timer)
+        return;
+    lsf_direct_chain_sky_begin(chain, iteration);
+    while (lsf_direct_chain_sky_next(chain, iteration))
+        ;
 }
 
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration)

@@ -22,7 +22,6 @@ typedef struct lsf_direct_chain {
 typedef struct lsf_direct_chain_use {
     lsf_sky_chance chance;
     float paths[2]; /* as in lsf_direct_light_use */
-    bool voxels;    /* they are lit by each light, too */
 } lsf_direct_chain_use;
 
 void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
@@ -32,11 +31,14 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
                              const lsf_direct_chain_use *use, lsf_error *error);
 void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteration);
 /* The same in parts, for a technique that has a use of its own for each punctual light's map:
- * the G-buffer; then each such light; then the environment. */
+ * the G-buffer; then each such light; then the environment, where the plan has sky_map. */
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration);
 void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration,
                             uint32_t light);
-void lsf_direct_chain_sky(lsf_direct_chain *chain, const lsf_iteration *iteration);
+void lsf_direct_chain_sky_begin(lsf_direct_chain *chain, const lsf_iteration *iteration);
+/* Light of the next batch of directions, whose maps are then in sky_map.outputs; false when there
+ * is none. */
+bool lsf_direct_chain_sky_next(lsf_direct_chain *chain, const lsf_iteration *iteration);
 /* All parts in order. */
 void lsf_direct_chain_lights(lsf_direct_chain *chain, const lsf_iteration *iteration);
 /* The light that it found, to which others add. */

@@ -5,6 +5,9 @@
 /* Texels of a directional light's map to a voxel's side: shadow borders are then finer than voxels.
  */
 #define MAP_TEXELS 4
+/* The same of maps of the environment's directions, which are many: voxels blur their light as much
+ * as such texels do. */
+#define SKY_MAP_TEXELS 1
 
 /* Levels of a texture take a seventh more than its finest. */
 static uint32_t bytes_per_voxel(const lsf_plan *plan, const lsf_pass_params *params,
@@ -15,10 +18,12 @@ static uint32_t bytes_per_voxel(const lsf_plan *plan, const lsf_pass_params *par
            (use->levels > 1 ? (radiance + 6) / 7 : 0) + use->bytes_per_voxel;
 }
 
-static lsf_voxel_light_use light_use(const lsf_pass_params *params, const lsf_voxel_chain_use *use)
+static lsf_voxel_light_use light_use(const lsf_pass_params *params, const lsf_state *state,
+                                     const lsf_voxel_chain_use *use)
 {
     return (lsf_voxel_light_use){.sides = use->sides,
                                  .levels = use->levels,
+                                 .lights = state->light_count > 0,
                                  .sky_rays = use->voxel_rays,
                                  .pcf = params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
 }
@@ -39,8 +44,10 @@ lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params 
 static void plan_light(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
                        const lsf_voxel_chain_use *use, const lsf_voxel_grid *grid)
 {
-    lsf_voxel_light_use light = light_use(params, use);
+    lsf_voxel_light_use light = light_use(params, state, use);
     lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid->resolution);
+    if (plan->sky_lights > 0)
+        lsf_sky_map_plan_scene(plan, SKY_MAP_TEXELS * grid->resolution);
     lsf_voxelize_plan(plan, &params->voxelize, grid);
     lsf_voxel_light_plan(plan, grid, &light);
     if (lsf_voxel_view_needed(plan))
@@ -51,9 +58,7 @@ void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const l
                           const lsf_voxel_chain_use *use)
 {
     bool lit = use->sides > 0;
-    lsf_direct_chain_use direct = use->direct;
-    direct.voxels = lit && lsf_voxel_chain_has_voxels(plan);
-    lsf_direct_chain_plan(plan, params, state, &direct);
+    lsf_direct_chain_plan(plan, params, state, &use->direct);
     if (!lsf_voxel_chain_has_voxels(plan)) {
         lsf_plan_omit(plan, "voxelize", "the scene has no triangles");
         if (lit)
@@ -83,7 +88,7 @@ bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const 
         return false;
     if (!lsf_voxel_chain_has_voxels(plan))
         return true;
-    lsf_voxel_light_use light = light_use(params, use);
+    lsf_voxel_light_use light = light_use(params, state, use);
     chain->grid = lsf_voxel_chain_grid(plan, params, state, use);
     lsf_voxel_grid_set_unit(&chain->grid, scene->scene, state);
     chain->lit = use->sides > 0;
@@ -137,15 +142,35 @@ void lsf_voxel_chain_emit(lsf_voxel_chain *chain)
         lsf_voxel_light_emit(&chain->light, chain->voxels);
 }
 
+/* Voxels are lit by the maps of what the camera sees, where they hold the whole scene, and by maps
+ * of the other directions that do. */
+static void run_sky(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels)
+{
+    lsf_sky_map *map = &chain->direct.sky_map;
+    lsf_direct_chain_sky_begin(&chain->direct, iteration);
+    while (lsf_direct_chain_sky_next(&chain->direct, iteration))
+        if (on_voxels && map->outputs.whole > 0)
+            lsf_voxel_light_add_sky(&chain->light, chain->voxels, &map->outputs.shadow,
+                                    map->outputs.count);
+    if (!on_voxels)
+        return;
+    lsf_sky_map_begin_scene(map, iteration);
+    while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(map, iteration))
+        lsf_voxel_light_add_sky(&chain->light, chain->voxels, &map->outputs.shadow,
+                                map->outputs.count);
+}
+
 void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels)
 {
-    for (uint32_t i = 0; i < iteration->light_count && lsf_iteration_goes_on(iteration); i++) {
-        if (i < iteration->state->light_count)
-            lsf_direct_chain_light(&chain->direct, iteration, i);
-        if (on_voxels && chain->voxelize)
+    uint32_t lights = iteration->state->light_count;
+    on_voxels = on_voxels && chain->voxelize;
+    for (uint32_t i = 0; i < lights && lsf_iteration_goes_on(iteration); i++) {
+        lsf_direct_chain_light(&chain->direct, iteration, i);
+        if (on_voxels)
             light_voxels(chain, iteration, i);
     }
-    lsf_direct_chain_sky(&chain->direct, iteration);
+    if (chain->direct.sky_map.timer)
+        run_sky(chain, iteration, on_voxels);
     lsf_voxel_chain_emit(chain); /* where no light has brought it along */
 }
 

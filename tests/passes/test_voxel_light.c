@@ -208,13 +208,86 @@ static void emitters_and_leftovers(void **unused)
     }
 }
 
+enum { SKY_PLACES = 2 };
+
+/* On the floor, below a square and far from it. */
+static const lsf_float3 sky_places[SKY_PLACES] = {{0.0f, 0.0f, 0.0f}, {-1.7f, 0.0f, 2.3f}};
+
+/* How much of what a point of the floor sees, by the cosine, a square covers that reaches from -1
+ * to 1 one unit above it. */
+static double covered(lsf_float3 at)
+{
+    enum { STEPS = 400 };
+    double sum = 0.0, step = 2.0 / STEPS;
+    for (int i = 0; i < STEPS; i++)
+        for (int k = 0; k < STEPS; k++) {
+            double x = (i + 0.5) * step - 1.0 - (double)at.x;
+            double z = (k + 0.5) * step - 1.0 - (double)at.z;
+            double r2 = x * x + z * z + 1.0;
+            sum += step * step / (M_PI * r2 * r2);
+        }
+    return sum;
+}
+
+static lsf_scene *square_over_floor(float fov_y)
+{
+    static const double looks_down[16] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 20, 0, 1};
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    build_floor(scene, 0.0f, 4.0f);
+    build_quad(scene, lsf_f3(-1, 1, 1), lsf_f3(1, 1, 1), lsf_f3(1, 1, -1), lsf_f3(-1, 1, -1));
+    build_environment(scene, 1.0f);
+    scene->diffuse_only = true;
+    scene->cameras[0].fov_y = fov_y;
+    memcpy(scene->cameras[0].matrix, looks_down, sizeof looks_down);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+/* Radiance of the floor under a white sky, the mean over iterations, where a camera looks down with
+ * that field of view; returns the number of maps that voxels had to have of their own. */
+static uint32_t light_under_square(float fov_y, double radiance[SKY_PLACES])
+{
+    enum { ITERATIONS = 256 };
+    lsf_scene *scene = square_over_floor(fov_y);
+    voxel_rig v;
+    voxel_rig_init(&v, scene, 64, LSF_VOXELIZE_COMPUTE, false, LSF_VOXEL_SIDES_SURFACE);
+    uint32_t own = 0;
+    radiance[0] = radiance[1] = 0.0;
+    for (uint32_t i = 0; i < ITERATIONS; i++) {
+        voxel_rig_run(&v, i);
+        own += v.sky_map.scene.count;
+        float *all = voxel_rig_read_radiance(&v);
+        for (int k = 0; k < SKY_PLACES; k++)
+            radiance[k] += (double)all[4 * voxel_rig_voxel_at(&v, sky_places[k])] / ITERATIONS;
+        free(all);
+    }
+    voxel_rig_finish(&v);
+    destroy_scene(scene);
+    return own;
+}
+
+/* By maps of what the camera sees, where that is the whole scene, and by maps of voxels' own. */
+static void sky_in_closed_form(void **unused)
+{
+    (void)unused;
+    double seen[SKY_PLACES], own[SKY_PLACES];
+    assert_int_equal(light_under_square(0.8f, seen), 0);
+    assert_true(light_under_square(0.02f, own) > 0);
+    for (int k = 0; k < SKY_PLACES; k++) {
+        double expected = 0.5 * (1.0 - covered(sky_places[k]));
+        print_message("%.5f and %.5f, expected %.5f\n", seen[k], own[k], expected);
+        assert_true(fabs(seen[k] / expected - 1.0) <= 0.02);
+        assert_true(fabs(own[k] / expected - 1.0) <= 0.02);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(floor_in_closed_form),
-        cmocka_unit_test(lobes_in_closed_form),
-        cmocka_unit_test(walls_have_two_sides),
-        cmocka_unit_test(emitters_and_leftovers),
+        cmocka_unit_test(floor_in_closed_form), cmocka_unit_test(lobes_in_closed_form),
+        cmocka_unit_test(walls_have_two_sides), cmocka_unit_test(emitters_and_leftovers),
+        cmocka_unit_test(sky_in_closed_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #define MAP_RESOLUTION 512
+#define SKY_MAP_RESOLUTION 128
 
 /* Of the radiance, so that it is kept fit to be filtered. */
 #define LEVELS 2
@@ -10,9 +11,11 @@
 static void init_light(voxel_rig *rig)
 {
     lsf_error error = {0};
-    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = LEVELS};
+    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = LEVELS, .lights = true};
     lsf_plan *plan = rig->setup.plan;
     if (!lsf_shadow_map_create(&rig->shadow_map, rig->context, plan, &error) ||
+        (plan->sky_lights > 0 &&
+         !lsf_sky_map_create(&rig->sky_map, rig->context, plan, &rig->scene, &error)) ||
         !lsf_voxel_light_create(&rig->light, rig->context, plan, &use, &error))
         fail_msg("%s", error.message);
 }
@@ -20,9 +23,13 @@ static void init_light(voxel_rig *rig)
 static void plan_light(voxel_rig *rig)
 {
     const lsf_shadow_map_params shadow_map = {LSF_SHADOW_MAP_PARAMS_DEFAULTS};
-    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = LEVELS};
+    const lsf_voxel_light_use use = {.sides = rig->sides, .levels = LEVELS, .lights = true};
     lsf_shadow_map_plan(rig->setup.plan, &shadow_map, &rig->setup.state);
     lsf_shadow_map_plan_scene(rig->setup.plan, &shadow_map, &rig->setup.state, MAP_RESOLUTION);
+    if (rig->setup.plan->sky_lights > 0) {
+        lsf_sky_map_plan(rig->setup.plan, SKY_MAP_RESOLUTION);
+        lsf_sky_map_plan_scene(rig->setup.plan, SKY_MAP_RESOLUTION);
+    }
     lsf_voxel_light_plan(rig->setup.plan, &rig->grid, &use);
 }
 
@@ -58,6 +65,18 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
     assert_int_equal(lsf_context_get_info(rig->context).gl_bytes, lsf_plan_bytes(plan));
 }
 
+static void add_sky(voxel_rig *rig)
+{
+    const lsf_sky_map_outputs *maps = &rig->sky_map.outputs;
+    lsf_sky_map_begin(&rig->sky_map, &rig->iteration);
+    while (lsf_sky_map_next(&rig->sky_map, &rig->iteration))
+        if (maps->whole > 0)
+            lsf_voxel_light_add_sky(&rig->light, rig->outputs, &maps->shadow, maps->count);
+    lsf_sky_map_begin_scene(&rig->sky_map, &rig->iteration);
+    while (lsf_sky_map_next(&rig->sky_map, &rig->iteration))
+        lsf_voxel_light_add_sky(&rig->light, rig->outputs, &maps->shadow, maps->count);
+}
+
 static void run_light(voxel_rig *rig)
 {
     lsf_voxel_light_begin(&rig->light, rig->outputs);
@@ -65,6 +84,8 @@ static void run_light(voxel_rig *rig)
         lsf_shadow_map_run_scene(&rig->shadow_map, &rig->iteration, i);
         lsf_voxel_light_add(&rig->light, rig->outputs, &rig->shadow_map.outputs.shadow);
     }
+    if (rig->sky_map.timer)
+        add_sky(rig);
     lsf_voxel_light_emit(&rig->light, rig->outputs);
 }
 
@@ -90,6 +111,7 @@ void voxel_rig_finish(voxel_rig *rig)
     voxel_rig_bind(rig);
     lsf_voxel_light_destroy(&rig->light);
     lsf_shadow_map_destroy(&rig->shadow_map);
+    lsf_sky_map_destroy(&rig->sky_map);
     lsf_voxelize_destroy(rig->pass);
     lsf_iteration_destroy(&rig->iteration);
     lsf_scene_gpu_destroy(&rig->scene);

@@ -3,6 +3,7 @@
 #define LSF_TESTS_PASSES_VOXEL_RIG_H
 
 #include "passes/shadow_map.h"
+#include "passes/sky_map.h"
 #include "passes/voxel_light.h"
 #include "passes/voxelize.h"
 #include "render_gl.h"
@@ -17,6 +18,7 @@ typedef struct voxel_rig {
     lsf_voxelize *pass;
     const lsf_voxels *outputs;
     lsf_shadow_map shadow_map;
+    lsf_sky_map sky_map; /* where there is an environment: with maps of what the camera sees */
     lsf_voxel_light light;
     uint32_t sides; /* 0: voxels are not lit */
 } voxel_rig;
