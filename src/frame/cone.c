@@ -10,24 +10,24 @@
 
 const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
     {"cone.count", LSF_OPTION_INT, offsetof(lsf_cone_params, count), 1, LSF_CONE_MAX, NULL, "",
-     "diffuse cones of a point; more are narrower"},
+     "diffuse cones per point; more cones are narrower"},
     {"cone.sides", LSF_OPTION_ENUM, offsetof(lsf_cone_params, sides), 0, 0, "isotropic|anisotropic",
-     "", "whether voxels look the same from all directions, or not"},
+     "", "anisotropic: voxels look different from six directions; isotropic: the same from all"},
     {"cone.offset", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, offset), 0.0, 8.0, NULL, "voxels",
-     "that cones start above the surface"},
+     "height above the surface at which cones that march start"},
     {"cone.step", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, step), 0.1, 2.0, NULL, "texels",
-     "from one look to the next, at the cone's width"},
+     "length of a step of cones that march, in texels as wide as the cone"},
     {"cone.opacity", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, opacity), 0.1, 16.0, NULL, "",
-     "factor of the voxels' opacity; above 1 thin walls leak less"},
+     "factor of the voxels' opacity for cones that march; above 1 thin walls leak less"},
     {"cone.distance", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, distance), 0.0, 4.0, NULL,
-     "half extents of the scene", "that cones reach at most"},
+     "half extents of the scene", "maximum length of cones"},
     {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
-     "other elevations each iteration, so that no direction is left out in the mean"},
+     "varies the elevation of cones in each iteration, so that the mean covers all directions"},
     {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
-     "cones are rays that end at the surface they meet: no light comes through walls; off: smooth, "
-     "and leaking"},
+     "cones are rays that end at the first surface, so that walls do not leak; off: cones march, "
+     "which is smoother and leaks"},
     {"cone.rotate", LSF_OPTION_BOOL, offsetof(lsf_cone_params, rotate), 0, 0, NULL, "",
-     "other directions for each pixel"},
+     "gives each pixel its own directions of cones"},
 };
 
 uint32_t lsf_cone_levels(const lsf_cone_params *params)

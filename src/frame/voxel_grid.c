@@ -15,12 +15,11 @@
 
 const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT] = {
     {"voxel.resolution", LSF_OPTION_INT, offsetof(lsf_voxel_grid_params, resolution), 1, 512, NULL,
-     "voxels", "along the scene's longest side"},
+     "voxels", "voxels along the scene's longest side"},
     {"voxel.memory", LSF_OPTION_FLOAT, offsetof(lsf_voxel_grid_params, memory), 1.0, 1048576.0,
-     NULL, "MiB", "that the grid's textures may take; the resolution is halved until they do"},
+     NULL, "MiB", "memory limit of the grid's textures; the resolution is halved until they fit"},
     {"voxel.jitter", LSF_OPTION_BOOL, offsetof(lsf_voxel_grid_params, jitter), 0, 0, NULL, "",
-     "shifts the grid within a voxel each iteration, so that the picture shows no voxels in the "
-     "mean"},
+     "shifts the grid within a voxel in each iteration, so that the mean shows no voxels"},
 };
 
 /* The grid has two voxels more than the scene takes: half of one on each side leaves space for

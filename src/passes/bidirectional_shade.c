@@ -11,24 +11,24 @@
 const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT] = {
     {"bidirectional.strategy", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, strategy),
      0, 0, "both|vpl|bundle", "",
-     "how light of punctual lights and emissive surfaces is sampled: by VPLs and ray-bundles "
-     "combined, or by one alone"},
+     "samples light of punctual lights and emissive surfaces by VPLs and ray-bundles combined, or "
+     "by one of them alone"},
     {"bidirectional.sequence", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, sequence),
      0, 0, "sobol|random", "",
-     "numbers that pick lights, VPLs and directions of bundles: low-discrepancy or plain random"},
+     "random numbers of lights, VPLs and directions of bundles: low-discrepancy or plain random"},
     {"bidirectional.suppression", LSF_OPTION_ENUM,
      offsetof(lsf_bidirectional_shade_params, suppression), 0, 0, "roughness|clamp|none", "",
-     "against spikes on glossy surfaces: roughness follows the density of samples, or the lobe is "
-     "cut off"},
+     "suppresses spikes on glossy surfaces; roughness: widens the lobe by the density of samples; "
+     "clamp: cuts the lobe off"},
     {"bidirectional.kernel_samples", LSF_OPTION_FLOAT,
      offsetof(lsf_bidirectional_shade_params, kernel_samples), 0.01, 1e6, NULL, "samples",
-     "that suppression spreads a glossy lobe over; fewer: sharper and spikier"},
+     "samples over which suppression spreads a glossy lobe; fewer: sharper, with more spikes"},
     {"mis.beta", LSF_OPTION_FLOAT, offsetof(lsf_bidirectional_shade_params, mis_beta), 0.0, 100.0,
      NULL, "", "exponent of the power heuristic; 0: equal weights"},
     {"bidirectional.bound", LSF_OPTION_FLOAT, offsetof(lsf_bidirectional_shade_params, bound), 0.0,
      1e6, NULL, "disc radii",
-     "where VPLs alone end a path, they count as no nearer than this, of the disc of the area that "
-     "one stands for; 0: exact, with spikes"},
+     "smallest distance of VPLs from what they light where they alone end a path, relative to the "
+     "disc of the area that a VPL represents; 0: exact, with spikes"},
 };
 
 static const char *const vpl_names[2] = {"bidirectional_shade_vpl", "bidirectional_shade_vpl_deep"};

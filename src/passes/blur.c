@@ -7,7 +7,7 @@
 
 const lsf_option_row lsf_blur_options[LSF_BLUR_OPTION_COUNT] = {
     {"sparse.blur", LSF_OPTION_INT, offsetof(lsf_blur_params, phases), 0, 8, NULL, "phases",
-     "of a blur of the light that points gather, in each iteration, each for rougher surfaces than "
+     "phases of a blur of the gathered light in each iteration, each for rougher surfaces than "
      "the one before; 0: no blur, 5: as in the frames of the papers"},
 };
 

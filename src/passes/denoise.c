@@ -9,8 +9,8 @@
 const lsf_option_row lsf_denoise_options[LSF_DENOISE_OPTION_COUNT] = {
     {"denoise.processor", LSF_OPTION_ENUM, offsetof(lsf_denoise_params, processor), 0, 0,
      "auto|gl|cpu", "",
-     "what runs the network of light_filter.kind=network; auto: the CPU where OpenGL is software "
-     "and the module for it is installed"},
+     "processor that runs the network of light_filter.kind=network; auto: the CPU if OpenGL is "
+     "software and the module for it is installed"},
 };
 
 #define AT(member) offsetof(lsf_denoise, member)

@@ -11,14 +11,14 @@
 const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
     {"gbuffer.texture_lod_bias", LSF_OPTION_FLOAT, offsetof(lsf_gbuffer_params, texture_lod_bias),
      -16.0, 16.0, NULL, "levels",
-     "added to the mipmap level; below 0 sharper and noisier, above 0 blurrier"},
+     "added to the mipmap level of textures; below 0 sharper and noisier, above 0 blurrier"},
     {"gbuffer.frame_time", LSF_OPTION_FLOAT, offsetof(lsf_gbuffer_params, frame_time), 0.0, 1e6,
-     NULL, "s", "motion is measured from this much earlier"},
+     NULL, "s", "time between a frame and the one before it, for motion vectors"},
     {"gbuffer.side", LSF_OPTION_ENUM, offsetof(lsf_gbuffer_params, side), 0, 0, "auto|1|2|4",
      "points",
-     "sampled along a pixel's side in an iteration, with direct light of their own, for what "
-     "bounces there is one of them; auto: 1, but more under an environment as long as they are "
-     "fewer than the triangles in its shadow maps"},
+     "points sampled along each side of a pixel in an iteration: all get direct light, one of "
+     "them indirect light; auto: 1, or more under an environment while the points are fewer than "
+     "the triangles in its shadow maps"},
 };
 
 static void plan_switches(lsf_plan *plan)

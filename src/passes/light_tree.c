@@ -19,19 +19,20 @@
 const lsf_option_row lsf_light_tree_options[LSF_LIGHT_TREE_OPTION_COUNT] = {
     {"light_tree.similarity", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, similarity), 0.0,
      1.0, NULL, "",
-     "a node of the tree stands for the lights below it where the product of the cosines between "
-     "merged normals is at least this"},
+     "smallest product of the cosines between merged normals for which a node of the tree may "
+     "represent the lights below it"},
     {"light_tree.spread", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, spread), 0.0, 1e6, NULL,
      "of the scene's longest side",
-     "a node of the tree stands for the lights below it where their standard deviation from its "
-     "plane is at most this"},
+     "largest standard deviation of lights from the plane of their node for which the node may "
+     "represent them"},
     {"light_tree.diagonal", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_params, diagonal), 0.0, 1e6,
      NULL, "of the scene's longest side",
-     "a node of the tree stands for the lights below it where its box is no larger than this; 0: "
-     "any size"},
+     "largest diagonal of a node's box for which the node may represent the lights below it; 0: "
+     "any"},
     {"light_tree.covariance", LSF_OPTION_BOOL, offsetof(lsf_light_tree_params, covariance), 0, 0,
      NULL, "",
-     "nodes keep how positions vary along all directions, and not along three axes alone"},
+     "nodes store the covariance of positions along all directions instead of the variances along "
+     "three axes"},
 };
 
 static const struct {

@@ -21,36 +21,35 @@
 const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT] = {
     {"light_tree.node", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, node), 0, 0,
      "substitute|lightcut|vpl", "",
-     "where a sample ends: diffuse ones at a node that stands for many virtual point lights, or "
-     "all "
-     "at one of these, found by what it may contribute or by its brightness alone"},
+     "where a sample ends; substitute: at a node that represents many virtual point lights, if "
+     "the sample is diffuse; lightcut: at one light, chosen by its possible contribution; vpl: at "
+     "one light, chosen by its brightness alone"},
     {"light_tree.angle", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, angle), 0.0, 1e6,
      NULL, "rad",
-     "a node of the tree stands for the lights below it at points that see their standard "
-     "deviation "
-     "under at most this angle; 0: at all points"},
+     "largest angle that the standard deviation of a node's lights may subtend at a point for the "
+     "node to represent them; 0: any"},
     {"light_tree.cut", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, cut), 0.0, 1e6,
      NULL, "rad",
-     "samples begin at nodes of the tree whose lights' standard deviation a point sees under at "
-     "most this angle; smaller: slower, with fewer specks; 0: all begin at the root"},
+     "samples begin at nodes of the tree whose lights' standard deviation subtends at most this "
+     "angle at the point; smaller: slower, with fewer bright pixels; 0: all begin at the root"},
     {"light_tree.samples", LSF_OPTION_INT, offsetof(lsf_light_tree_sample_params, samples), 1,
-     LSF_LIGHT_TREE_SAMPLE_MOST, NULL, "samples", "of the cloud for each point in an iteration"},
+     LSF_LIGHT_TREE_SAMPLE_MOST, NULL, "samples", "samples of the cloud per point and iteration"},
     {"light_tree.bound", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, bound), 0.0, 1e6,
      NULL, "disc radii",
-     "virtual point lights count as no nearer than this, of the disc of the area that one stands "
-     "for; 0: exact, with spikes"},
+     "smallest distance of virtual point lights from what they light, relative to the disc of the "
+     "area that one represents; 0: exact, with spikes"},
     {"light_tree.kernel_samples", LSF_OPTION_FLOAT,
      offsetof(lsf_light_tree_sample_params, kernel_samples), 0.0, 1e6, NULL, "samples",
-     "virtual point lights over which a glossy lobe is spread; fewer: sharper and spikier, 0: "
-     "exact"},
+     "virtual point lights over which a glossy lobe is spread; fewer: sharper, with more spikes; "
+     "0: exact"},
     {"light_tree.lobe_alpha", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, lobe_alpha),
      0.0, 1.0, NULL, "",
-     "least squared roughness of surfaces that cast specular light on others, in one iteration: it "
-     "falls with the sixth root of their number; 0: exact, with spikes"},
+     "smallest squared roughness, in one iteration, of surfaces that cast specular light on "
+     "others; it falls with the sixth root of the number of iterations; 0: exact, with spikes"},
     {"light_tree.sight", LSF_OPTION_ENUM, offsetof(lsf_light_tree_sample_params, sight), 0, 0,
      "voxels|exact|open", "",
-     "what hides a sample: voxels; to measure by, each opaque triangle, of scenes with few, or "
-     "nothing"},
+     "what occludes samples; voxels: the voxels; for measurements, exact: each opaque triangle of "
+     "a scene with few; open: nothing"},
 };
 
 const char *const lsf_light_tree_sample_count_names[LSF_LIGHT_TREE_SAMPLE_COUNTS] = {

@@ -14,21 +14,25 @@
 
 const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT] = {
     {"bundle.count", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, count), 1, 4096, NULL, "",
-     "ray-bundles an iteration"},
+     "ray-bundles per iteration"},
     {"bundle.resolution", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, resolution), 16, 4096,
      NULL, "texels", "width and height of a bundle's map"},
     {"bundle.window", LSF_OPTION_ENUM, offsetof(lsf_ray_bundle_params, window), 0, 0,
      "auto|visible|scene", "",
-     "what a bundle covers; auto: the scene when paths go on from its hits, else what is seen"},
+     "what a bundle covers; visible: the visible points; scene: the whole scene; auto: scene if "
+     "paths continue from its hits, else visible"},
     {"bundle.slices", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, slices), 0, MAX_SLICES, NULL,
-     "", "fragments of a texel with a place of their own, the others are chained; 0: chain all"},
+     "",
+     "fragments of a texel that are stored at fixed positions, the others are chained; 0: all are "
+     "chained"},
     {"bundle.capacity", LSF_OPTION_FLOAT, offsetof(lsf_ray_bundle_params, capacity), 0.0, 1024.0,
-     NULL, "", "room for chained fragments for each texel; it grows where it does not do"},
+     NULL, "", "initial capacity for chained fragments, per texel; it grows when it is exceeded"},
     {"bundle.raster", LSF_OPTION_ENUM, offsetof(lsf_ray_bundle_params, raster), 0, 0, "compute|gl",
      "", "compute: small triangles by a compute shader, large ones by GL; gl: all by GL"},
     {"bundle.environment_offset", LSF_OPTION_FLOAT,
      offsetof(lsf_ray_bundle_params, environment_offset), 1e-3, 1e6, NULL, "",
-     "radiance added to the environment map when directions are drawn from it, in its means"},
+     "radiance added to the environment map when directions of bundles are drawn from it, "
+     "relative to its mean"},
 };
 
 const char *const lsf_ray_bundle_count_names[LSF_RAY_BUNDLE_COUNTS] = {"nodes", "chained",

@@ -17,11 +17,13 @@
 
 const lsf_option_row lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT] = {
     {"rsm.resolution", LSF_OPTION_INT, offsetof(lsf_reflective_shadow_map_params, resolution), 16,
-     4096, NULL, "texels", "side of each face of the maps that VPLs are drawn from"},
+     4096, NULL, "texels",
+     "width and height of each face of a reflective shadow map, from which VPLs are drawn"},
     {"rsm.pdf", LSF_OPTION_ENUM, offsetof(lsf_reflective_shadow_map_params, pdf), 0, 0,
      "auto|uniform|adaptive", "",
-     "VPLs are drawn as the light shines, or where surfaces reflect it to what is seen; auto: the "
-     "latter with directional lights where VPLs are few, for most of their light may go elsewhere"},
+     "how VPLs are drawn; uniform: by the light's own distribution; adaptive: by the light that "
+     "they reflect to visible points; auto: adaptive for directional lights if VPLs are few, else "
+     "uniform"},
 };
 
 static const struct {

@@ -9,24 +9,24 @@
 const lsf_option_row lsf_sparse_options[LSF_SPARSE_OPTION_COUNT] = {
     {"sparse.grid", LSF_OPTION_ENUM, offsetof(lsf_sparse_params, grid), 0, 0, "auto|1|2|4|8|16",
      "pixels",
-     "from point to point at which indirect light is gathered, halved whenever all pixels have had "
-     "their turn; 1: every pixel; auto: 1, or with a time limit and cone or voxel_path as fine as "
-     "the first iteration takes"},
+     "initial distance between the points at which indirect light is gathered, halved each time "
+     "all pixels have been points; 1: every pixel; auto: 1, or with a time limit and cone or "
+     "voxel_path as fine as the first iteration allows"},
     {"interleave.size", LSF_OPTION_INT, offsetof(lsf_sparse_params, interleave), 0, 8, NULL,
      "points",
-     "side of the pattern in which neighbouring pixels take different samples; 1: all the same; 0: "
-     "4 up to 4 iterations without a grid, and up to 128 in pictures of 131072 pixels and more; 2 "
-     "up "
-     "to 128 and with a time limit; else 1"},
+     "side of the pattern in which neighbouring pixels take different samples; 1: all take the "
+     "same; 0: 4 up to 4 iterations, and without a time limit in pictures of 131072 pixels and "
+     "more; 3 up to 8; else 2; but 1 with --raw, and beyond 128 iterations without a time limit"},
     {"sparse.radius", LSF_OPTION_INT, offsetof(lsf_sparse_params, radius), 1, 16, NULL, "points",
-     "how far to search for light of the surface that a pixel shows"},
+     "distance up to which points on a pixel's surface are searched for"},
     {"sparse.slope", LSF_OPTION_FLOAT, offsetof(lsf_sparse_params, slope), 1e-3, 10.0, NULL, "",
-     "a point that rises from the pixel's plane by this for its distance counts half"},
+     "a point has half its weight where its height above the pixel's plane is this times its "
+     "distance"},
     {"sparse.normal_weight", LSF_OPTION_FLOAT, offsetof(lsf_sparse_params, normal_weight), 0.0, 1e4,
      NULL, "", "exponent of the cosine between the normals of a pixel and a point"},
     {"sparse.outliers", LSF_OPTION_BOOL, offsetof(lsf_sparse_params, outliers), 0, 0, NULL, "",
-     "light of a point that is two standard deviations off its neighbours' is scaled to their "
-     "mean"},
+     "scales the light of points that is two standard deviations off their neighbours' to the "
+     "neighbours' mean"},
 };
 
 const char *const lsf_sparse_count_names[LSF_SPARSE_COUNTS] = {"alone", "borrowed"};

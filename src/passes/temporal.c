@@ -7,13 +7,13 @@
 
 const lsf_option_row lsf_temporal_options[LSF_TEMPORAL_OPTION_COUNT] = {
     {"temporal.frames", LSF_OPTION_INT, offsetof(lsf_temporal_params, frames), 1, 65536, NULL,
-     "frames", "light of the frames before counts for no more than this"},
+     "frames", "largest weight of light from earlier frames"},
     {"temporal.lag", LSF_OPTION_INT, offsetof(lsf_temporal_params, lag), 1, 65536, NULL, "frames",
-     "1 % is left by then of lights that were changed"},
+     "frames after which 1 % is left of lights that were changed"},
     {"temporal.denoised_frames", LSF_OPTION_INT, offsetof(lsf_temporal_params, denoised_frames), 0,
      65536, NULL, "frames",
-     "denoised light of the frames before counts for no more than this, less where its brightness "
-     "changes; with light_filter.kind=network; 0: not at all"},
+     "largest weight of denoised light from earlier frames, less where its brightness changes; "
+     "with light_filter.kind=network; 0: none"},
 };
 
 #define AT(member) offsetof(lsf_temporal, member)

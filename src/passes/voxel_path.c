@@ -13,14 +13,14 @@
 
 const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
     {"voxel_path.min_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, min_samples), 1,
-     LSF_VOXEL_PATH_MOST, NULL, "paths", "that begin at a pixel of roughness 0"},
+     LSF_VOXEL_PATH_MOST, NULL, "paths", "paths that begin at a pixel of roughness 0"},
     {"voxel_path.max_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, max_samples), 1,
-     LSF_VOXEL_PATH_MOST, NULL, "paths", "that begin at a pixel of roughness 1"},
+     LSF_VOXEL_PATH_MOST, NULL, "paths", "paths that begin at a pixel of roughness 1"},
     {"voxel_path.emitters", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, emitters), 0, 16, NULL,
      "points",
-     "drawn on emissive surfaces at each vertex of a path; 0: paths find these by chance"},
+     "points sampled on emissive surfaces at each vertex of a path; 0: paths find these by chance"},
     {"voxel_path.sequence", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, sequence), 0, 0,
-     "sobol|texture", "", "random numbers: of low discrepancy, or from a texture as in the paper"},
+     "sobol|texture", "", "random numbers: low-discrepancy, or from a texture as in the paper"},
 };
 
 /* Condition of textures, beside LSF_TEXTURE_SPECULAR. */

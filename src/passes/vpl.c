@@ -29,10 +29,10 @@ _Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_draw.c
 
 const lsf_option_row lsf_vpl_options[LSF_VPL_OPTION_COUNT] = {
     {"vpl.count", LSF_OPTION_INT, offsetof(lsf_vpl_params, count), 0, 4096, NULL, "",
-     "virtual point lights an iteration, of punctual lights and as many on emissive surfaces; 0: "
+     "virtual point lights per iteration of punctual lights, and as many on emissive surfaces; 0: "
      "none"},
     {"vpl.shadow_resolution", LSF_OPTION_INT, offsetof(lsf_vpl_params, shadow_resolution), 16, 4096,
-     NULL, "texels", "side of a VPL's shadow map"},
+     NULL, "texels", "width and height of a VPL's shadow map"},
 };
 
 /* Those that light falls on. */

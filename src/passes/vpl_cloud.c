@@ -26,13 +26,12 @@ static const char emitter_name[] = "vpl_cloud.emitters";
 const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT] = {
     {"cloud.count", LSF_OPTION_INT, offsetof(lsf_vpl_cloud_params, count), 8192, 1048576, NULL,
      "VPLs",
-     "of the substitute tree in an iteration, at most: 4096 of them on emissive surfaces, where "
-     "there are any, the others where light was reflected"},
+     "maximum number of VPLs of the substitute tree in an iteration: 4096 of them on emissive "
+     "surfaces, if there are any, the others where light was reflected"},
     {"cloud.lobe_share", LSF_OPTION_FLOAT, offsetof(lsf_vpl_cloud_params, lobe_share), 0.0, 1.0,
      NULL, "of what is reflected",
-     "virtual point lights shed specular light in its own directions where it is at least this "
-     "part, "
-     "as diffuse light elsewhere; 0: everywhere, with more noise"},
+     "smallest share of specular reflection for which virtual point lights keep its direction; "
+     "below it they emit diffusely; 0: they always keep it, with more noise"},
 };
 
 lsf_vpl_cloud_shape lsf_vpl_cloud_shape_of(const lsf_vpl_cloud_params *params,

@@ -107,7 +107,7 @@ static int32_t choose_grid(const lsf_render_params *params)
     return logarithm + 1;
 }
 
-/* What nobody says. */
+/* Values of options that default to "automatic". */
 static void choose_points(lsf_pass_params *pass_params, const lsf_render_params *params)
 {
     lsf_sparse_params *sparse = &pass_params->sparse;

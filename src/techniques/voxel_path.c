@@ -165,7 +165,7 @@ static const char *const groups[] = {"voxel", "voxel_path", "sparse", NULL};
 
 const lsf_technique lsf_technique_voxel_path = {
     .name = "voxel_path",
-    .help = "global illumination by paths through the scene's voxels, blurred and upsampled",
+    .help = "global illumination by paths through the scene's voxels",
     .groups = groups,
     .bounces = true,
     .refracts = true,
