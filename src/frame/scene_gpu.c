@@ -489,7 +489,7 @@ void lsf_scene_gpu_bind_environment(const lsf_scene_gpu *gpu)
     lsf_bind_texture(LSF_UNIT_ENVIRONMENT, gpu->environment);
     if (environment->present)
         glUniform4f(LSF_LOCATION_ENVIRONMENT, environment->radiance[0], environment->radiance[1],
-                    environment->radiance[2], environment->turn);
+                    environment->radiance[2], environment->u_offset);
 }
 
 void lsf_scene_gpu_bind_material(const lsf_scene_gpu *gpu, uint32_t material, lsf_draw_mode mode)

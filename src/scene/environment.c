@@ -11,9 +11,9 @@ static lsf_float3 texel(const lsf_environment *map, int64_t x, int64_t y)
 
 void lsf_environment_rotate(lsf_environment *environment, float rotation)
 {
-    double turn = (double)rotation / 360.0;
+    double rotations = (double)rotation / 360.0;
     environment->rotation = rotation;
-    environment->turn = (float)(turn - floor(turn));
+    environment->u_offset = (float)(rotations - floor(rotations));
 }
 
 /* The angle from the zenith comes from atan2: acos would lose half of its digits there. */
@@ -21,7 +21,7 @@ void lsf_environment_uv(const lsf_environment *environment, lsf_float3 direction
                         double *v)
 {
     double x = (double)direction.x, y = (double)direction.y, z = (double)direction.z;
-    *u = 0.5 + atan2(z, x) / (2.0 * M_PI) + (double)environment->turn;
+    *u = 0.5 + atan2(z, x) / (2.0 * M_PI) + (double)environment->u_offset;
     *u -= floor(*u);
     *v = atan2(hypot(x, z), y) / M_PI;
 }
@@ -29,7 +29,7 @@ void lsf_environment_uv(const lsf_environment *environment, lsf_float3 direction
 lsf_float3 lsf_environment_direction(const lsf_environment *environment, double u,
                                      double zenith_cosine)
 {
-    double angle = 2.0 * M_PI * (u - 0.5 - (double)environment->turn);
+    double angle = 2.0 * M_PI * (u - 0.5 - (double)environment->u_offset);
     double sine = sqrt(fmax(1.0 - zenith_cosine * zenith_cosine, 0.0));
     return lsf_f3_normalize(
         lsf_f3((float)(sine * cos(angle)), (float)zenith_cosine, (float)(sine * sin(angle))));

@@ -211,14 +211,14 @@ typedef struct lsf_animated_value {
     lsf_curve curve;
 } lsf_animated_value;
 
-/* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi + turn, v = acos(y) / pi
- * from the top row. width == 0: uniform `radiance`. */
+/* Radiance from outside. Direction to texel: u = 0.5 + atan2(z, x) / 2pi + u_offset,
+ * v = acos(y) / pi from the top row. width == 0: uniform `radiance`. */
 typedef struct lsf_environment {
     bool present;
-    bool by_default; /* nobody gave it: the sky of default_light.c */
+    bool by_default; /* the sky of default_light.c */
     float radiance[3];
     float rotation; /* of the map about +y, anticlockwise seen from above, in degrees */
-    float turn;     /* the same in full turns, 0..1 */
+    float u_offset; /* the same in full rotations, 0..1 */
     uint32_t width, height;
     float *texels;  /* 3 each, linear radiance */
     float *given;   /* texels, or radiance, as they were before an edit scaled them; NULL: none */
@@ -254,7 +254,7 @@ typedef struct lsf_extension {
  * whether it is out of date. */
 typedef struct lsf_edits {
     uint64_t nodes, lights, materials;
-    uint64_t environment; /* turned or scaled */
+    uint64_t environment; /* rotated or scaled */
     uint64_t radiance;    /* ... scaled */
     uint64_t movable;     /* number of nodes that were ever set, which may all move */
 } lsf_edits;

@@ -38,7 +38,7 @@ static double solid_angle(const lsf_bundle_directions *d, uint32_t cell)
 static float cell_luminance(const lsf_bundle_directions *d, const lsf_environment *map,
                             uint32_t cell)
 {
-    double u = (cell % d->width + 0.5) / d->width + (double)map->turn;
+    double u = (cell % d->width + 0.5) / d->width + (double)map->u_offset;
     u -= floor(u);
     uint32_t x = (uint32_t)(u * map->width);
     return lsf_environment_texel_luminance(map, x < map->width ? x : 0, cell / d->width);

@@ -96,13 +96,13 @@ static void plane_under_a_map(void **unused)
 {
     (void)unused;
     const struct {
-        float sun, turn;
+        float sun, u_offset;
     } cases[] = {{0.5f, 0.0f}, {3000.0f, 0.3f}};
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
         lsf_float3 normal;
         lsf_scene *scene = plane_scene(&normal);
         add_sky(scene, cases[i].sun);
-        scene->environment.turn = cases[i].turn;
+        scene->environment.u_offset = cases[i].u_offset;
         finish_gl_scene(scene);
         expect_plane(scene, normal, "direct", 1024, 1e-3);
         expect_plane(scene, normal, "bidirectional", 128, 1e-2);
@@ -205,9 +205,9 @@ static void quarter_turn(void **unused)
         float angle = 0.7f * (float)i;
         lsf_float3 before = lsf_f3(cosf(angle), 0.4f, -sinf(angle));
         lsf_float3 after = lsf_f3(before.z, 0.4f, -before.x);
-        sky->turn = 0.0f;
+        sky->u_offset = 0.0f;
         lsf_float3 expected = lsf_environment_radiance(sky, lsf_f3_normalize(before));
-        sky->turn = 0.25f;
+        sky->u_offset = 0.25f;
         lsf_float3 turned = lsf_environment_radiance(sky, lsf_f3_normalize(after));
         assert_true(fabs((double)(turned.x / expected.x) - 1.0) <= 1e-4);
     }
@@ -223,7 +223,7 @@ static void drawn_as_dense(void **unused)
     lsf_scene *scene = build_scene();
     add_sky(scene, 10.0f);
     lsf_environment *map = &scene->environment;
-    map->turn = 0.1f;
+    map->u_offset = 0.1f;
     lsf_sky sky;
     assert_true(lsf_sky_init(&sky, map));
     double means[TEXELS] = {0.0}, sum = 0.0;

@@ -175,7 +175,7 @@ static void edits_of_the_environment(void **state)
     assert_true(lsf_scene_edit(scene, "environment/strength=0.25", &error));
     assert_true(scene->environment.radiance[0] == 0.125f && scene->environment.radiance[2] == 0.5f);
     assert_true(lsf_scene_edit(scene, "environment/rotation=-90", &error));
-    assert_true(scene->environment.turn == 0.75f);
+    assert_true(scene->environment.u_offset == 0.75f);
     float rotation, strength;
     assert_true(lsf_scene_get_environment(scene, &rotation, &strength, &error));
     assert_true(rotation == -90.0f && strength == 0.25f);
