@@ -23,7 +23,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord)
     }
     if (!lsf_seen(fragCoord))
         return;
-    ivec2 texel = ivec2(floor(lsf_bundle_place(lsf_position(fragCoord))));
+    ivec2 texel = ivec2(floor(lsf_bundle_texel(lsf_position(fragCoord))));
     float shade = 0.75 + 0.25 * lsf_normal(fragCoord).y;
     fragColor.rgb = shade * hue(lsf_bundle_count(texel));
 }

@@ -9,7 +9,7 @@ int lsf_bundle_size()
     return LSF_BUNDLE_SIDE;
 }
 
-vec2 lsf_bundle_place(vec3 position)
+vec2 lsf_bundle_texel(vec3 position)
 {
     return bundle_map_position(bundle_coordinates(position));
 }

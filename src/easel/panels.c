@@ -18,11 +18,11 @@ static void show_clock(lsf_easel *easel)
     lsf_ui_same_line();
     if (lsf_ui_button("Step"))
         easel->step = true;
-    lsf_ui_help("F7: one frame more");
+    lsf_ui_help("F7: advance one frame");
     lsf_ui_same_line();
     if (lsf_ui_button("Restart"))
         lsf_easel_restart(easel);
-    lsf_ui_help("F5: time and buffers begin anew");
+    lsf_ui_help("F5: restart time and buffers");
     lsf_ui_text(LSF_UI_TEXT, "frame %u, %.2f s", answer->number, easel->time_of_last);
     lsf_ui_text(LSF_UI_DIM, "%.1f frames/s, %.1f ms, %ux%u",
                 easel->frame_seconds > 0.0 ? 1.0 / easel->frame_seconds : 0.0, answer->milliseconds,
@@ -64,10 +64,10 @@ static void show_picture_settings(lsf_easel *easel)
         easel->reduction = 1 << index;
         easel->dirty = true;
     }
-    lsf_ui_help("Pixels of the picture to one of the window");
+    lsf_ui_help("Pixels of the picture per pixel of the window");
     if (lsf_ui_slider("Exposure", &easel->exposure, -10.0f, 10.0f, "%.1f EV", false))
         easel->dirty = true;
-    lsf_ui_help("Of shaders that write radiance");
+    lsf_ui_help("For shaders that write radiance");
 }
 
 static void show_times(const lsf_easel_answer *answer)
@@ -95,10 +95,11 @@ static void show_side(lsf_easel *easel)
     if (lsf_ui_section("Passes", false))
         show_times(&easel->answer);
     if (lsf_ui_section("Keys", false))
-        lsf_ui_text_wrapped(LSF_UI_DIM,
-                            "Left button: iMouse. With a scene right turns the camera, middle "
-                            "moves it, the wheel brings it nearer. F5 restart, F6 pause, F7 step, "
-                            "F11 full screen, F12 picture, Tab hides this.");
+        lsf_ui_text_wrapped(
+            LSF_UI_DIM,
+            "Left button: iMouse. With a scene: right rotates, middle moves, the wheel zooms "
+            "the camera. F5 restart, F6 pause, F7 step, F11 full screen, F12 picture, Tab hides "
+            "this.");
     lsf_ui_panel_end();
 }
 
@@ -111,7 +112,7 @@ static void show_error(const lsf_easel *easel, const char *text)
         return;
     lsf_ui_panel_begin("error", rect, false);
     lsf_ui_text(LSF_UI_ERROR, "%s",
-                easel->canvas_frames > 0 ? "The last good shader goes on"
+                easel->canvas_frames > 0 ? "The last good shader keeps running"
                                          : "There is no picture yet");
     lsf_ui_listing("message", text, ERROR_LINES);
     lsf_ui_panel_end();

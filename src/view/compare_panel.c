@@ -102,12 +102,13 @@ void lsf_viewer_compare_tab(lsf_viewer *viewer)
         lsf_viewer_drop_rival(viewer);
         compare->rival = rival;
     }
-    lsf_ui_help("The other half of the picture; drag the bar between. The path tracer runs on the "
-                "CPU, beside, in the same bounces and iterations");
+    lsf_ui_help(
+        "Other half of the picture; drag the bar between them. The path tracer runs on the CPU in "
+        "parallel, with the same bounces and iterations");
     if (rival == LSF_VIEWER_ALONE)
         return;
     lsf_ui_check("Difference", &compare->difference);
-    lsf_ui_help("Shows how far the two are apart, in the half of the other one");
+    lsf_ui_help("Shows the difference of the two in the other half");
     if (lsf_ui_slider("Gain", &compare->gain, 0.25f, 64.0f, "%.2f", true))
         compare->measured = false;
     lsf_ui_gap();
@@ -123,5 +124,5 @@ void lsf_viewer_compare_tab(lsf_viewer *viewer)
     if (compare->measured)
         numbers(&compare->result);
     else
-        lsf_ui_text(LSF_UI_DIM, "Numbers follow when both are finished");
+        lsf_ui_text(LSF_UI_DIM, "Numbers appear when both are finished");
 }

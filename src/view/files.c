@@ -186,7 +186,7 @@ void lsf_viewer_start_page(lsf_viewer *viewer)
     };
     lsf_ui_dialogue_begin("Start", 26.0f);
     lsf_ui_text(LSF_UI_ACCENT, "Lightsheaf");
-    lsf_ui_text_wrapped(LSF_UI_TEXT, "Let a .glb or .gltf fall here, or begin with one of these.");
+    lsf_ui_text_wrapped(LSF_UI_TEXT, "Drop a .glb or .gltf here, or start with one of these.");
     lsf_ui_gap();
     for (size_t i = 0; viewer->start->scene_folder && i < LSF_COUNT(scenes); i++) {
         char path[4096];

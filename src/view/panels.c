@@ -13,8 +13,9 @@
 
 static void file_menu(lsf_viewer *viewer)
 {
-    if (lsf_ui_menu_item("Save picture", "F12", false,
-                         "As soon as it is finished; what lightsheaf render makes, to the bit"))
+    if (lsf_ui_menu_item(
+            "Save picture", "F12", false,
+            "Saves the picture when it is finished, with the bits of lightsheaf render"))
         lsf_viewer_screenshot(viewer);
     if (lsf_ui_menu_item("Save view", "Ctrl+S", false,
                          "Camera and settings, for lightsheaf render --view"))

@@ -78,7 +78,7 @@ static void node_values(lsf_viewer *viewer)
             by[i] = (double)position[i] - (double)before[i];
         lsf_viewer_move_node(viewer, viewer->node, by);
     }
-    lsf_ui_help("In the scene; or drag the arrows in the picture");
+    lsf_ui_help("In scene units; or drag the arrows in the picture");
 }
 
 /* W/sr become W/m^2, and the other way, as from one extent of the scene away. */
@@ -105,7 +105,8 @@ static void light_values(lsf_viewer *viewer)
         return;
     int type = (int)desc.type;
     bool changed = lsf_ui_choice("Kind", &type, lsf_viewer_light_types, 3);
-    lsf_ui_help("Spot and directional lights shine along their node, which the rings turn");
+    lsf_ui_help(
+        "Spot and directional lights shine along their node's axis, which the rings rotate");
     if (changed)
         change_type(viewer, &desc, (lsf_light_type)type);
     float most = fmaxf(desc.intensity[0], fmaxf(desc.intensity[1], desc.intensity[2]));
@@ -140,7 +141,7 @@ static void material_values(lsf_viewer *viewer)
     if (!lsf_scene_get_material(viewer->scene, viewer->material, &desc, NULL))
         return;
     bool changed = lsf_ui_color3("Base colour", desc.base_color);
-    lsf_ui_help("By which the material's texture, if it has one, is multiplied");
+    lsf_ui_help("Multiplies the material's texture, if it has one");
     changed = lsf_ui_slider("Metallic", &desc.metallic, 0.0f, 1.0f, "%.2f", false) || changed;
     changed = lsf_ui_slider("Roughness", &desc.roughness, 0.0f, 1.0f, "%.2f", false) || changed;
     float most = fmaxf(desc.emission[0], fmaxf(desc.emission[1], desc.emission[2]));
@@ -164,7 +165,7 @@ static void environment_values(lsf_viewer *viewer, float rotation, float strengt
     bool changed = lsf_ui_slider("Turn", &rotation, -180.0f, 180.0f, "%.0f°", false);
     lsf_ui_help("About the vertical axis, anticlockwise seen from above");
     changed = lsf_ui_slider("Strength", &strength, 0.0f, 16.0f, "%.2f", true) || changed;
-    lsf_ui_help("The environment's radiance is multiplied by it");
+    lsf_ui_help("Factor of the environment's radiance");
     if (changed)
         lsf_viewer_set_environment(viewer, rotation, fmaxf(strength, 0.0f));
 }
@@ -189,9 +190,9 @@ void lsf_viewer_scene_tab(lsf_viewer *viewer)
             list(viewer, LSF_KIND_LIGHT, &viewer->light, 4.5f);
         if (viewer->light != LSF_NONE)
             light_values(viewer);
-        if (lsf_ui_button(viewer->placing ? "Click where it is to be" : "New light"))
+        if (lsf_ui_button(viewer->placing ? "Click a surface" : "New light"))
             viewer->placing = !viewer->placing;
-        lsf_ui_help("Puts a light a little off the surface that is clicked next");
+        lsf_ui_help("Adds a light slightly above the surface that you click next");
     }
     if (lsf_ui_section("Materials", true)) {
         list(viewer, LSF_KIND_MATERIAL, &viewer->material, 6.0f);

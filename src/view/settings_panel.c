@@ -16,10 +16,10 @@ static void display_section(lsf_viewer *viewer)
     lsf_viewer_settings *settings = &viewer->settings;
     if (lsf_ui_slider("Exposure", &settings->exposure, -8.0f, 8.0f, "%+.2f EV", false))
         viewer->tones_changed = true;
-    lsf_ui_help("Radiance is multiplied by 2 to the power of it; Ctrl+click to type");
+    lsf_ui_help("Multiplies radiance by 2 to this power; Ctrl+click to type");
     if (lsf_ui_choice("Tone curve", &settings->curve, curves, LSF_COUNT(curves)))
         viewer->tones_changed = true;
-    lsf_ui_help("neutral keeps base colours, none is cut off at 1, aces and agx are like film");
+    lsf_ui_help("neutral preserves base colours, none is clamped at 1, aces and agx resemble film");
     if (lsf_ui_button("Expose for this picture"))
         viewer->expose_wanted = true;
     lsf_ui_help("Brings the picture's log-average luminance to middle grey");
@@ -40,18 +40,18 @@ static void picture_section(lsf_viewer *viewer)
         settings->samples = (uint32_t)(samples < 1 ? 1 : samples);
         lsf_viewer_touch_settings(viewer);
     }
-    lsf_ui_help("After so many a still picture is finished");
+    lsf_ui_help("Iterations of a finished still picture");
     int bounces = settings->bounces;
     if (lsf_ui_slider_int("Bounces", &bounces, -1, 16, bounces < 0 ? "as the scene asks" : NULL,
                           false)) {
         settings->bounces = bounces;
         lsf_viewer_touch_settings(viewer);
     }
-    lsf_ui_help("Indirect bounces of light; 0 is direct light only, below it as many as the scene "
-                "asks for");
+    lsf_ui_help("Indirect bounces of light; 0 is direct light only; the leftmost position takes "
+                "the scene's default");
     if (lsf_ui_check("Raw", &settings->raw))
         lsf_viewer_touch_settings(viewer);
-    lsf_ui_help("The mean of the iterations alone: no filter");
+    lsf_ui_help("The mean of the iterations without a filter");
 }
 
 static void background_choice(lsf_viewer *viewer)
@@ -63,8 +63,9 @@ static void background_choice(lsf_viewer *viewer)
     lsf_viewer_settings *settings = &viewer->settings;
     int background = (int)settings->background;
     bool changed = lsf_ui_choice("Background", &background, names, (int)LSF_COUNT(names));
-    lsf_ui_help("What is seen where no surface is; transparent is black in the window, and gives "
-                "pictures that are saved an alpha");
+    lsf_ui_help(
+        "Background where no surface is; transparent is black in the window, and gives saved "
+        "pictures an alpha channel");
     settings->background = (lsf_background)background;
     if (settings->background == LSF_BACKGROUND_UNIFORM)
         changed = lsf_ui_color3("Its radiance", settings->background_radiance) || changed;
@@ -80,7 +81,7 @@ static void layer_choice(lsf_viewer *viewer)
         names[count] = lsf_viewer_layer_name(count);
     if (lsf_ui_choice("Layer", &viewer->settings.layer, names, count))
         lsf_viewer_touch_settings(viewer);
-    lsf_ui_help("What is shown: the picture, or what it is made of; voxels with voxel techniques");
+    lsf_ui_help("Shows the picture or one of its layers; layers of voxels with voxel techniques");
 }
 
 /* --- options of passes --- */
@@ -271,29 +272,29 @@ static const uint32_t pass_colors[] = {0x4c8df0ff, 0xe8b04bff, 0x57b55cff, 0xe55
 
 static void plot(const lsf_viewer_times *times)
 {
-    lsf_rect place = lsf_ui_place(7.0f);
-    float most = 1e-3f, bar = place.width / (float)LSF_VIEWER_HISTORY;
+    lsf_rect area = lsf_ui_area(7.0f);
+    float most = 1e-3f, bar = area.width / (float)LSF_VIEWER_HISTORY;
     for (uint32_t f = 0; f < LSF_VIEWER_HISTORY; f++) {
         float sum = 0.0f;
         for (uint32_t i = 0; i < times->pass_count; i++)
             sum += times->milliseconds[f][i];
         most = fmaxf(most, sum);
     }
-    lsf_ui_draw_begin(LSF_IN_PANEL, &place);
-    lsf_ui_draw_rect(place, 0x00000040, true, 3.0f);
+    lsf_ui_draw_begin(LSF_IN_PANEL, &area);
+    lsf_ui_draw_rect(area, 0x00000040, true, 3.0f);
     for (uint32_t f = 0; f < LSF_VIEWER_HISTORY; f++) {
         const float *row = times->milliseconds[(times->next + f) % LSF_VIEWER_HISTORY];
-        float base = place.y + place.height;
+        float base = area.y + area.height;
         for (uint32_t i = 0; i < times->pass_count; i++) {
-            float high = 0.94f * place.height * row[i] / most;
+            float high = 0.94f * area.height * row[i] / most;
             base -= high;
-            lsf_ui_draw_rect((lsf_rect){place.x + bar * (float)f, base, bar, high},
+            lsf_ui_draw_rect((lsf_rect){area.x + bar * (float)f, base, bar, high},
                              pass_colors[i % LSF_COUNT(pass_colors)], true, 0.0f);
         }
     }
     char text[32];
     lsf_print(text, sizeof text, "%.1f ms", (double)most);
-    lsf_ui_draw_text(place.x + 6.0f, place.y + 2.0f, lsf_ui_rgba(LSF_UI_DIM), text);
+    lsf_ui_draw_text(area.x + 6.0f, area.y + 2.0f, lsf_ui_rgba(LSF_UI_DIM), text);
     lsf_ui_draw_end();
 }
 
@@ -305,9 +306,9 @@ static void legend(const lsf_viewer_times *times)
     for (uint32_t i = 0; i < times->pass_count; i++) {
         if (times->mean[i] < 1e-4f * sum)
             continue;
-        lsf_rect place = lsf_ui_place(0.01f);
+        lsf_rect area = lsf_ui_area(0.01f);
         lsf_ui_draw_begin(LSF_IN_PANEL, NULL);
-        lsf_ui_draw_rect((lsf_rect){place.x, place.y + 0.5f * line, 0.7f * line, 0.7f * line},
+        lsf_ui_draw_rect((lsf_rect){area.x, area.y + 0.5f * line, 0.7f * line, 0.7f * line},
                          pass_colors[i % LSF_COUNT(pass_colors)], true, 2.0f);
         lsf_ui_draw_end();
         lsf_ui_text(LSF_UI_TEXT, "     %s", times->names[i]);
@@ -338,7 +339,8 @@ void lsf_viewer_passes_tab(lsf_viewer *viewer)
     lsf_ui_gap();
     if (lsf_ui_slider("Frame budget", &budget, 5.0f, 1000.0f, "%.0f ms", true))
         viewer->budget.seconds = 1e-3 * (double)budget;
-    lsf_ui_help("While things move, pictures are as large, and maps as fine, as this allows");
+    lsf_ui_help("Time of a frame while something moves, which decides the size of pictures and "
+                "the fineness of maps");
     lsf_ui_text(LSF_UI_DIM, "moving pictures at %.0f %% of the sides%s",
                 100.0 * lsf_budget_scale(&viewer->budget),
                 lsf_budget_coarse(&viewer->budget) > 0 ? ", coarser maps" : "");

@@ -112,9 +112,9 @@ void lsf_ui_scope_end(void);
 
 /* --- drawing --- */
 
-/* The rectangle of the next item in the panel, so many lines high, which is left free for
- * drawing. */
-lsf_rect lsf_ui_place(float lines);
+/* Leaves the next item of the panel free for drawing, `lines` high, and returns its
+ * rectangle. */
+lsf_rect lsf_ui_area(float lines);
 /* Names a rectangle that is drawn by hand, for a replay to press or drag; `held`: it is being
  * dragged. */
 void lsf_ui_mark(const char *label, float x, float y, bool held);

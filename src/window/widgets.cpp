@@ -385,7 +385,7 @@ void lsf_ui_scope_end(void)
 
 /* --- drawing --- */
 
-lsf_rect lsf_ui_place(float lines)
+lsf_rect lsf_ui_area(float lines)
 {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, lines * em());

@@ -127,14 +127,14 @@ static void test_bundle(void **state)
     (void)state;
     /* Through the box: its top and its bottom, and the floor; beside it the floor alone. */
     check("// @bundle 0 -1 0\n" IMAGE
-          "{ c = vec4(lsf_bundle_count(ivec2(lsf_bundle_place(vec3(0.0)))), "
-          "lsf_bundle_count(ivec2(lsf_bundle_place(vec3(0.7, 0.0, 0.6)))), "
+          "{ c = vec4(lsf_bundle_count(ivec2(lsf_bundle_texel(vec3(0.0)))), "
+          "lsf_bundle_count(ivec2(lsf_bundle_texel(vec3(0.7, 0.0, 0.6)))), "
           "-lsf_bundle_direction().y, 1.0); }",
           0, 0, 3, 1, 1, 1e-6f);
     /* In lists without places of their own as well; the depths of the three lie apart as they do.
      */
     check("// @bundle 0 -1 0\n// @define bundle.slices=0\n" IMAGE
-          "{ ivec2 t = ivec2(lsf_bundle_place(vec3(0.0))); float low = 1.0, high = 0.0; vec3 e;\n"
+          "{ ivec2 t = ivec2(lsf_bundle_texel(vec3(0.0))); float low = 1.0, high = 0.0; vec3 e;\n"
           "float blue = 0.0;\n"
           "for (int i = 0; i < lsf_bundle_count(t); i++) { uint n = lsf_bundle_node(t, i);\n"
           "    low = min(low, lsf_bundle_depth(n)); high = max(high, lsf_bundle_depth(n));\n"

@@ -21,7 +21,7 @@ MOUSE = ["move 100 100", "button 0", "move 110 105", "button-up 0", "key Shift",
 SCENE = ["press Scene", "press tall block", "drag 9 0 handle X", "drag 0 -9 handle Y", "drag 5 5 handle Z",
          "drag 5 5 ring X", "drag 5 5 ring Y", "drag 5 5 ring Z", "drag 3 -3 handle scale", "set Position = 0,0.2,0",
          "press Nodes", "press Lamp", "set Kind = spot", "set Cone = 40", "set Intensity = 1", "set Colour = 1,0.5,0.5",
-         "press New light", "press Click where it is to be", "press Lights", "press white", "set Base colour = 0.5,0.5,0.5", "set Metallic = 0.1",
+         "press New light", "press Click a surface", "press Lights", "press white", "set Base colour = 0.5,0.5,0.5", "set Metallic = 0.1",
          "set Roughness = 0.5", "set Emission = 0.1", "set Its colour = 1,1,0.5", "press Materials", "set Turn = 20",
          "set Strength = 0.5", "press Environment", "press Notes"]
 PICTURE = ["press Picture", "set Technique = cone", "set Technique = direct", "set Iterations = 2", "set Bounces = 1",
