@@ -40,8 +40,8 @@ static void follow_process(lsf_easel *easel)
     if (easel->process.asked && limit > 0.0 && lsf_now() - easel->process.since > limit) {
         lsf_easel_process_end(&easel->process);
         snprintf(easel->trouble, sizeof easel->trouble,
-                 "%s: frame %u: no end after %g s: look for a loop that never ends; the shader "
-                 "runs again once it is saved, or by Restart",
+                 "%s: frame %u: no end after %g s: look for an endless loop; saving the shader or "
+                 "Restart runs it again",
                  easel->start->sandbox.path, easel->request.frame.number, limit);
     }
     const struct timespec now = stamp_of(easel->start->sandbox.path);

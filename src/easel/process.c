@@ -113,7 +113,8 @@ static lsf_easel_news gone(lsf_easel_process *process, lsf_error *error)
     waitpid(process->id, &status, 0);
     process->id = 0;
     if (WIFSIGNALED(status))
-        lsf_error_set(error, LSF_ERROR_RENDER, "the process that ran the shader died of %s",
+        lsf_error_set(error, LSF_ERROR_RENDER,
+                      "the process of the shader was ended by the signal: %s",
                       strsignal(WTERMSIG(status)));
     else
         lsf_error_set(error, LSF_ERROR_RENDER, "the process that ran the shader ended");

@@ -114,9 +114,8 @@ static bool refuse_unknown(const char *assignment, size_t length, lsf_error *err
     snprintf(key, sizeof key, "%.*s", (int)length, assignment);
     const char *instead = lsf_option_replaced(key);
     if (instead)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "-D %s: there is no such option any more; instead: %s", assignment,
-                             instead);
+        return lsf_error_set(error, LSF_ERROR_USAGE, "-D %s: this option was replaced by: %s",
+                             assignment, instead);
     return lsf_error_set(error, LSF_ERROR_USAGE,
                          "%s: no such option of a pass; lsf_option_list has all (lightsheaf "
                          "render --list-options)",

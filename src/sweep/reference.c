@@ -112,7 +112,7 @@ bool lsf_kept_reference_load(lsf_kept_reference *kept, const char *path, lsf_err
     if (!bytes)
         return false;
     bool good = is_whole(bytes, length, &header) ||
-                lsf_error_set(error, LSF_ERROR_FILE, "%s: is no whole reference; remove it", path);
+                lsf_error_set(error, LSF_ERROR_FILE, "%s: is damaged; remove it", path);
     good = good && create_halves(&loaded, header.width, header.height, error);
     for (size_t h = 0; good && h < 2; h++) {
         memcpy(loaded.halves[h]->pixels, bytes + sizeof header + h * half_bytes(&header),

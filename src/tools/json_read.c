@@ -44,7 +44,7 @@ static bool read_unit(reader *r, uint32_t *unit)
     for (int i = 0; i < 4; i++, r->at++) {
         const char *digits = "0123456789abcdef", *digit;
         if (r->at >= r->end || !*r->at || !(digit = strchr(digits, *r->at | 0x20)))
-            return fail(r, "four hexadecimal digits are missing behind \\u");
+            return fail(r, "four hexadecimal digits are missing after \\u");
         *unit = *unit * 16 + (uint32_t)(digit - digits);
     }
     return true;

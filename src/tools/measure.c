@@ -49,9 +49,10 @@ static bool check_outputs(const lsf_settings *settings, lsf_error *error)
     const char *taken = NULL;
     for (size_t i = 0; i < LSF_COUNT(all.paths); i++) {
         if (is_standard_output(all.paths[i]) && taken)
-            return lsf_error_set(error, LSF_ERROR_USAGE,
-                                 "%s - and %s -: only one of them can go to standard output", taken,
-                                 all.names[i]);
+            return lsf_error_set(
+                error, LSF_ERROR_USAGE,
+                "%s - and %s -: only one of them can be written to standard output", taken,
+                all.names[i]);
         if (all.paths[i] && !lsf_file_can_write(all.paths[i], error))
             return false;
         taken = is_standard_output(all.paths[i]) ? all.names[i] : taken;
@@ -65,23 +66,22 @@ static bool check_settings(const lsf_settings *settings, lsf_error *error)
     const char *path = settings->json_path;
     if (budget && wanted)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--budget-ms and --error: one of them can be asked for at a time");
+                             "--budget-ms and --error exclude each other; leave one out");
     if (settings->saved_preset && !budget && !wanted)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--save-preset %s: say what it shall be the best for, with "
-                             "--budget-ms or --error",
+                             "--save-preset %s: needs a search; add --budget-ms or --error",
                              settings->saved_preset);
     if (settings->temporal && !settings->frames.given && settings->turntable == 0)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--temporal: there are no frames; say which with --frames or "
-                             "--turntable");
+                             "--temporal: there are no frames; add --frames or --turntable");
     if ((settings->frames.given && settings->frames.first == settings->frames.last) ||
         settings->turntable == 1)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--frames: two frames at least tell what changes between them");
+        return lsf_error_set(
+            error, LSF_ERROR_USAGE,
+            "--frames: at least two frames are needed to measure changes between them");
     if (settings->resume && (!path || is_standard_output(path)))
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--resume: name the file with the points, with --json FILE");
+                             "--resume: needs the file of the points; add --json FILE");
     return check_outputs(settings, error);
 }
 

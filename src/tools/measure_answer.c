@@ -31,11 +31,10 @@ static void add_certainty(lsf_string *text, const lsf_answer *answer)
     double per_cent = floor(100.0 * answer->confidence);
     lsf_string_add(text, "%u candidates, %u to the end; ", answer->candidates, answer->finalists);
     if (isnan(answer->relmse))
-        lsf_string_add(text, "that none of these is better by 10 %% has a probability of %.0f %%\n",
+        lsf_string_add(text, "the probability that none of these is better by 10 %% is %.0f %%\n",
                        per_cent);
     else
-        lsf_string_add(text, "that its error is no larger has a probability of %.0f %%\n",
-                       per_cent);
+        lsf_string_add(text, "the probability that its error is no larger is %.0f %%\n", per_cent);
 }
 
 void lsf_measure_add_answer(lsf_string *text, const lsf_measurement *measurement)
@@ -50,15 +49,15 @@ void lsf_measure_add_answer(lsf_string *text, const lsf_measurement *measurement
         if (!isnan(answer->confidence))
             add_certainty(text, answer);
     } else {
-        lsf_string_add(text, "Nothing that was measured gives ");
+        lsf_string_add(text, "No measurement gives ");
         add_question(text, answer);
         lsf_string_add(text, "; the nearest: ");
         add_finding(text, answer);
         lsf_string_add(text, "\n");
     }
     if (measurement->interrupted)
-        lsf_string_add(text, "The search was interrupted before it was sure; --resume goes on with "
-                             "it.\n");
+        lsf_string_add(
+            text, "The search was interrupted before it was certain; --resume continues it.\n");
     lsf_string_add(text, "\n    %s\n", answer->command);
 }
 

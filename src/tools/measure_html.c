@@ -19,7 +19,7 @@ bool lsf_measure_begin_pictures(lsf_settings *settings, char **folder, lsf_error
         return lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
     if (!mkdtemp(*folder)) {
         lsf_error_set(error, LSF_ERROR_FILE,
-                      "cannot make a folder for pictures, %s: %s; set TMPDIR, or give --pictures",
+                      "cannot create a folder for pictures, %s: %s; set TMPDIR, or give --pictures",
                       *folder, strerror(errno));
         free(*folder);
         *folder = NULL;

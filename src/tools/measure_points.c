@@ -144,7 +144,7 @@ static bool search(lsf_measure_job *job, lsf_error *error)
     lsf_answer *answer = &job->measurement.answer;
     if (!answer->given)
         return lsf_error_set(error, LSF_ERROR_RENDER,
-                             "there is no answer: nothing could be measured");
+                             "there is no result: nothing could be measured");
     answer->command = lsf_measure_command(job, answer->configuration, answer->samples);
     return answer->command || lsf_error_set(error, LSF_ERROR_RENDER, "no memory left");
 }

@@ -169,23 +169,22 @@ static bool read_points(lsf_measurement *m, const lsf_json_document *d, const ch
     const char *key = lsf_json_find_string(d, root, "key");
     const char *command = lsf_json_find_string(d, root, "command");
     if (!key || !command || strcmp(command, "measure") != 0)
-        return lsf_error_set(error, LSF_ERROR_FILE,
-                             "%s: is not what measure --json has written; name another file, or "
-                             "leave out --resume",
-                             path);
+        return lsf_error_set(
+            error, LSF_ERROR_FILE,
+            "%s: was not written by measure --json; name another file, or leave out --resume",
+            path);
     if (strcmp(key, m->key) != 0)
         return lsf_error_set(error, LSF_ERROR_FILE,
                              "%s: something else was measured: the scene, the reference, the "
-                             "options, the device or the version are others; name another file, "
-                             "or leave out --resume",
+                             "options, the device or the "
+                             "version differ; name another file, or leave out --resume",
                              path);
     const lsf_json_value *point = lsf_json_first(d, lsf_json_find(d, root, "points"));
     for (uint32_t i = 0; point; point = lsf_json_next(d, point), i++)
         if (!read_point(m, d, point))
-            return lsf_error_set(error, LSF_ERROR_FILE,
-                                 "%s: point %u is not as measure --json writes them; leave out "
-                                 "--resume",
-                                 path, i);
+            return lsf_error_set(
+                error, LSF_ERROR_FILE,
+                "%s: point %u is not in the format of measure --json; leave out --resume", path, i);
     return true;
 }
 

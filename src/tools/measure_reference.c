@@ -67,9 +67,9 @@ static void load_cached(lsf_kept_reference *kept, const char *path, const lsf_se
     if (!path || access(path, F_OK) != 0)
         return;
     if (!lsf_kept_reference_load(kept, path, &error)) {
-        lsf_log(LSF_LOG_WARNING, "%s; the reference is traced anew", error.message);
+        lsf_log(LSF_LOG_WARNING, "%s; the reference is traced again", error.message);
     } else if (kept->width != settings->resolution[0] || kept->height != settings->resolution[1]) {
-        lsf_log(LSF_LOG_WARNING, "%s: is of another size; the reference is traced anew", path);
+        lsf_log(LSF_LOG_WARNING, "%s: has another size; the reference is traced again", path);
         lsf_kept_reference_finish(kept);
     }
 }
@@ -101,9 +101,8 @@ static bool trace(const lsf_settings *settings, const lsf_scene *scene,
     return lsf_interrupted()
                ? lsf_error_set(
                      error, LSF_ERROR_RENDER,
-                     "interrupted before the reference was done; nothing "
-                     "was measured%s",
-                     path && kept->rounds > 0 ? ", what was traced is kept for the next time" : "")
+                     "interrupted before the reference was complete; nothing was measured%s",
+                     path && kept->rounds > 0 ? ", but its samples so far are cached" : "")
                : good;
 }
 
@@ -143,7 +142,7 @@ static bool save(const lsf_settings *settings, const lsf_kept_reference *kept,
     if (!folder)
         return true;
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return lsf_error_set(error, LSF_ERROR_FILE, "--pictures %s: cannot make the folder: %s",
+        return lsf_error_set(error, LSF_ERROR_FILE, "--pictures %s: cannot create the folder: %s",
                              folder, strerror(errno));
     lsf_image *mean = lsf_image_create(a->width, a->height, 3, names, error);
     for (size_t i = 0; mean && i < (size_t)3 * a->width * a->height; i++)

@@ -86,7 +86,8 @@ void lsf_measure_add_table(lsf_string *text, const lsf_measurement *m)
         for (uint32_t i = 0; i < m->point_count; i++)
             if (m->points[i].configuration == c && is_shown(m, &m->points[i]))
                 add_point(text, m, &m->points[i], width);
-    lsf_string_add(text,
-                   "* on the Pareto front: nothing is better in as little time. noise: of relMSE, "
-                   "the rest is bias.\n");
+    lsf_string_add(
+        text,
+        "* on the Pareto front: no point is better in the same time or less. noise: its share of "
+        "relMSE; the rest is bias.\n");
 }

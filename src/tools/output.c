@@ -72,9 +72,9 @@ static bool check_halves(lsf_destination *destination, lsf_error *error)
 {
     const char *path = destination->path;
     if (strcmp(path, "-") == 0)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--halves: three pictures do not fit into standard output; give a "
-                             "file to --output");
+        return lsf_error_set(
+            error, LSF_ERROR_USAGE,
+            "--halves: cannot write three pictures to standard output; give a file to --output");
     size_t stem = stem_length(path);
     for (int half = 0; half < 2; half++) {
         destination->half_paths[half] =
@@ -95,7 +95,7 @@ static bool check_json(const lsf_destination *destination, const char *json, lsf
                (destination->half_paths[half] && strcmp(json, destination->half_paths[half]) == 0);
     if (same)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--json %s: the picture goes there; give it another place", json);
+                             "--json %s: this is the path of the picture; use another one", json);
     return true;
 }
 
@@ -176,14 +176,13 @@ static bool check_distinct(const lsf_destination *destinations, uint32_t last,
             const char *a = path_of(&destinations[i], pair % 3);
             const char *b = path_of(&destinations[last], pair / 3);
             if (a && b && strcmp(a, b) == 0)
-                return lsf_error_set(error, LSF_ERROR_USAGE,
-                                     "--output %s: the pictures of %s and %s would both go to %s; "
-                                     "%s",
-                                     settings->output, scenes->items[i], scenes->items[last], a,
-                                     strstr(settings->output, "%s")
-                                         ? "render them one after the other"
-                                         : "write %s where the scene's name is to be, as in "
-                                           "-o '%s.png'");
+                return lsf_error_set(
+                    error, LSF_ERROR_USAGE,
+                    "--output %s: the pictures of %s and %s have the same path, %s; %s",
+                    settings->output, scenes->items[i], scenes->items[last], a,
+                    strstr(settings->output, "%s")
+                        ? "render them separately"
+                        : "write %s in place of the scene's name, as in -o '%s.png'");
         }
     return true;
 }
@@ -194,8 +193,8 @@ lsf_destination *lsf_destinations_create(const lsf_settings *settings, uint32_t 
     if (!settings->output) {
         lsf_error_set(
             error, LSF_ERROR_USAGE,
-            "--output: missing; say where the picture goes: -o picture.exr, .hdr, .png, or "
-            "- for standard output");
+            "--output: missing; give the file of the picture: -o picture.exr, .hdr, .png, or - for "
+            "standard output");
         return NULL;
     }
     lsf_destination *destinations = lsf_alloc(count, sizeof *destinations);
@@ -226,7 +225,7 @@ void lsf_destination_expose(lsf_destination *destination, const lsf_image *image
     if (destination->format != LSF_IMAGE_FORMAT_PNG || !isnan(destination->exposure))
         return;
     destination->exposure = lsf_image_auto_exposure(image);
-    lsf_report_line("%s: exposure %+.2f EV, by which the log-average luminance is 0.18",
+    lsf_report_line("%s: exposure %+.2f EV, which brings the log-average luminance to 0.18",
                     destination->path, (double)destination->exposure);
 }
 
@@ -237,9 +236,9 @@ void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64
     if (100 * seen < pixels)
         lsf_log(LSF_LOG_WARNING,
                 "%s: nearly black: less than 1 in 100 pixels shows more than 1 %% of white%s; "
-                "%s--default-light always lights the rest",
+                "%s--default-light always adds light",
                 destination->path, exposed ? "" : ", a radiance of 0.01",
-                exposed ? "--exposure auto brightens what is lit, " : "");
+                exposed ? "use --exposure auto for a dimly lit scene; " : "");
 }
 
 /* Counts pixels that surfaces cover, and those of them that show more than 1 % of white. */

@@ -187,8 +187,7 @@ static bool check_operands(const lsf_settings *settings, lsf_error *error)
                              "sandbox: needs a shader; --new my.frag writes one to begin with");
     if (count > command->operands_max)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "%s: one operand too many; %s takes %s, and `lightsheaf help %s` "
-                             "explains",
+                             "%s: one operand too many; %s takes %s; see `lightsheaf help %s`",
                              settings->operands.items[command->operands_max], command->name,
                              command->operands, command->name);
     return true;
@@ -217,7 +216,7 @@ static bool read_preset_file(lsf_settings *settings, const lsf_command_option *o
 {
     if (option->choices && access(path, F_OK) != 0)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--preset %s: neither one of %s nor a file that is there", path,
+                             "--preset %s: neither one of %s nor a file that exists", path,
                              option->choices);
     return lsf_preset_read(settings, path, error);
 }

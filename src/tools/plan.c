@@ -85,8 +85,7 @@ static bool print_sandbox(void *user, uint32_t index, const char *path, lsf_json
     bool named = settings->operands.count > 0;
     double seconds;
     if (settings->prices && !named)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--prices: the shader has no scene whose features cost; name one");
+        return lsf_error_set(error, LSF_ERROR_USAGE, "--prices: needs a scene after the shader");
     lsf_scene *scene = named ? lsf_tool_load_scene(settings, path, &seconds, error) : NULL;
     bool good = scene || !named;
     if (good && settings->prices)

@@ -71,7 +71,7 @@ static bool read_line(lsf_settings *settings, char *line, lsf_error *error)
     if (!option) {
         const char *nearest = lsf_nearest(line, next_name, (void *)(uintptr_t)settings->command);
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "%s: not an option of %s that a preset may hold%s%s%s", line,
+                             "%s: not an option of %s that a preset can have%s%s%s", line,
                              settings->command->name, nearest ? "; did you mean " : "",
                              nearest ? nearest : "", nearest ? "?" : "");
     }

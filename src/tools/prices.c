@@ -125,7 +125,7 @@ void lsf_prices_add_text(lsf_string *text, const lsf_prices *prices)
         free(rest.text);
     }
     if (prices->count == 0)
-        lsf_string_add(text, "nothing: the scene has none of the features that cost\n");
+        lsf_string_add(text, "nothing: the scene has none of the features with a cost\n");
 }
 
 /* --- JSON --- */

@@ -153,7 +153,7 @@ static void report(const render_job *job, lsf_json *json)
                     job->settings->technique, light, job->stats.render_seconds, total,
                     device.renderer);
     if (job->stats.lost_share > 0.0)
-        lsf_report_line("%s: bounds took %.3g %% of the light away", job->destination->path,
+        lsf_report_line("%s: bounds removed %.3g %% of the light", job->destination->path,
                         100.0 * job->stats.lost_share);
     lsf_summary summary = {
         .settings = job->settings,
@@ -202,7 +202,7 @@ static bool render_frame(render_job *job, const lsf_sequence *sequence, uint32_t
         return false;
     if (lsf_interrupted())
         return lsf_error_set(error, LSF_ERROR_RENDER,
-                             "interrupted in frame %u of %u to %u; --resume goes on with it",
+                             "interrupted in frame %u of %u to %u; --resume continues with it",
                              number, sequence->first, sequence->last);
     if (!save(job, error))
         return false;

@@ -50,21 +50,24 @@ bool lsf_sequence_check_output(const lsf_sequence *sequence, const char *output,
     uint32_t count = count_conversions(output);
     if (sequence->wanted && count != 1)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--output %s: write %%d, or %%04d for leading zeros, once where the "
-                             "number of a frame is to be, as in -o 'frame_%%04d.png'",
+                             "--output %s: write %%d, or %%04d for leading zeros, once in place of "
+                             "the frame's number, as "
+                             "in -o 'frame_%%04d.png'",
                              output);
     if (!sequence->wanted && count > 0)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--output %s: holds the place of a frame's number, and there are no "
-                             "frames; say which with --frames or --turntable",
+                             "--output %s: contains %%d for a frame's number, but there are no "
+                             "frames; add --frames or "
+                             "--turntable",
                              output);
     if (sequence->temporal && sequence->resume)
         return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--resume and --temporal: a frame needs those before it, whose light "
-                             "is in no picture; leave one of them out");
+                             "--resume and --temporal exclude each other: a frame needs the light "
+                             "of those before it, "
+                             "which no file contains; leave one out");
     return sequence->wanted || (!sequence->resume && !sequence->temporal) ||
            lsf_error_set(error, LSF_ERROR_USAGE,
-                         "--%s: there are no frames; say which with --frames or --turntable",
+                         "--%s: there are no frames; add --frames or --turntable",
                          sequence->resume ? "resume" : "temporal");
 }
 

@@ -182,9 +182,8 @@ static bool set_define(lsf_list_setting *target, const lsf_command_option *optio
         found = strcmp(known.key, key) == 0;
     const char *instead = found ? NULL : lsf_option_replaced(key);
     if (instead)
-        return lsf_error_set(error, LSF_ERROR_USAGE,
-                             "--%s %s: there is no such option any more; instead: %s", option->name,
-                             text, instead);
+        return lsf_error_set(error, LSF_ERROR_USAGE, "--%s %s: this option was replaced by: %s",
+                             option->name, text, instead);
     if (!found)
         return bad_value(option, text, lsf_nearest(key, next_key, &known), error);
     return append_value(target, option, text, error);

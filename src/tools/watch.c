@@ -44,8 +44,7 @@ static int report_hang(const step *last, double seconds)
 {
     lsf_error error;
     lsf_error_set(&error, LSF_ERROR_RENDER,
-                  "%s: no end after %g s: look for a loop that never ends, or give it longer by "
-                  "--watchdog",
+                  "%s: no end after %g s: look for an endless loop, or raise --watchdog",
                   last->what, seconds);
     return lsf_report_error(&error);
 }
@@ -58,8 +57,9 @@ static int status_of(pid_t child, const step *last)
         ;
     if (WIFEXITED(status))
         return WEXITSTATUS(status);
-    lsf_error_set(&error, LSF_ERROR_RENDER, "%s: the process that ran the shader died of %s",
-                  last->what, strsignal(WTERMSIG(status)));
+    lsf_error_set(&error, LSF_ERROR_RENDER,
+                  "%s: the process of the shader was ended by the signal: %s", last->what,
+                  strsignal(WTERMSIG(status)));
     return lsf_report_error(&error);
 }
 

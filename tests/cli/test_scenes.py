@@ -59,7 +59,7 @@ class Several(CommandTest):
             self.refuse("render", "a.gltf", "folder/b.v2.gltf", "-o", output, "--format", "png",
                         says=["a.gltf", "folder/b.v2.gltf", output, "-o '%s.png'"])
         self.refuse("render", "a.gltf", "folder/a.gltf", "-o", "%s.png", *SMALL,
-                    says=["a.gltf and folder/a.gltf", "a.png", "one after the other"])
+                    says=["a.gltf and folder/a.gltf", "a.png", "separately"])
         self.scene("a_b.gltf")
         self.refuse("reference", "a.gltf", "a_b.gltf", "-o", "%s.exr", "--halves", says=["a_b.exr"])
         self.assertFalse([name for name in self.files() if name.endswith((".png", ".exr"))])

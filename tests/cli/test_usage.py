@@ -108,7 +108,7 @@ class Refusals(CommandTest):
         self.refuse("render", "-o", "a.exr", "-D", "shadow.fliter=pcf",
                     says=["shadow.fliter=pcf", "did you mean shadow.filter?"])
         self.refuse("render", "-o", "a.exr", "-D", "shadow", says=["pass.key=value"])
-        self.refuse("render", "-o", "a.exr", "-D", "cone.scale=0.5", says=["any more", "sparse.grid"])
+        self.refuse("render", "-o", "a.exr", "-D", "cone.scale=0.5", says=["replaced by", "sparse.grid"])
         scene = self.scene()
         self.refuse("plan", scene, "-D", "shadow.filter=soft", says=["shadow.filter", "pcf"])
         self.refuse("render", scene, "-o", "a.exr", "-D", "shadow.filter=",

@@ -113,7 +113,7 @@ class Measure(CommandTest):
             file.seek(100)
             file.write(b"\0\1\2\3")
         done = self.measure("-t", "direct", "-s", "1")
-        self.assertIn("the reference is traced anew", done.text)
+        self.assertIn("the reference is traced again", done.text)
         self.assertNotIn("warning", self.measure("-t", "direct", "-s", "1").text)
 
     def test_another_scene_is_another_reference(self):
@@ -140,7 +140,7 @@ class Measure(CommandTest):
         with open(self.path("a.json"), "w", encoding="utf-8") as file:
             file.write('{"command": "render"}')
         self.refuse("measure", CORNELL, *SMALL, *words, "--resume", status=FILE,
-                    says=["a.json: is not what measure --json has written"])
+                    says=["a.json: was not written by measure --json"])
 
     def test_an_answer(self):
         done = self.measure("-t", "direct,voxel_path", "--sweep", "voxel.resolution=8,16",
@@ -181,7 +181,7 @@ class Measure(CommandTest):
         self.assertIs(self.read_json("a.json")["answer"]["met"], True)
         done = self.measure(*words, "--error", "1e-9", "--json", "a.json")
         self.assertIs(self.read_json("a.json")["answer"]["met"], False)
-        self.assertIn("Nothing that was measured gives relMSE 1e-09", done.stdout.decode())
+        self.assertIn("No measurement gives relMSE 1e-09", done.stdout.decode())
 
     def test_an_interrupt_keeps_what_is_measured(self):
         words = ["measure", CORNELL, *SMALL, "-t", "direct", "-s", "65536", "--json", "a.json"]
@@ -233,8 +233,8 @@ class Measure(CommandTest):
     def test_wrong_usage(self):
         for words, says in (
                 (["--budget-ms", "1", "--error", "1"], "--budget-ms and --error"),
-                (["--save-preset", "a"], "--save-preset a: say what"),
-                (["--resume"], "--resume: name the file"),
+                (["--save-preset", "a"], "--save-preset a: needs a search"),
+                (["--resume"], "--resume: needs the file"),
                 (["--json", "-", "--csv", "-"], "only one of them"),
                 (["--csv", "-", "--html", "-"], "--csv - and --html -: only one of them"),
                 (["-t", "direct", "--sweep", "vpl.count=1,2"], "none of the techniques takes"),
@@ -243,7 +243,7 @@ class Measure(CommandTest):
                 (["--sweep", "vpl.count=1,many"], "vpl.count"),
                 (["-t", "direct,cones"], "did you mean"),
                 (["--temporal"], "--temporal: there are no frames"),
-                (["--frames", "3-3"], "--frames: two frames"),
+                (["--frames", "3-3"], "--frames: at least two frames"),
                 (["--seeds", "1"], "--seeds 1")):
             self.refuse("measure", CORNELL, *SMALL, *words, says=[says])
         self.assertEqual(self.files(), [])

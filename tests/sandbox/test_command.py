@@ -58,7 +58,7 @@ class Sandbox(CommandTest):
             saved[name] = {each["feature"]: each["bytes"] for each in self.read_json("p.json")["prices"]["features"]}
         self.assertEqual((set(saved["seen"]), set(saved["lit"])), ({"emission", "lights"}, {"emission"}))
         self.assertGreater(saved["lit"]["emission"], 0)
-        self.refuse("plan", "--sandbox", "seen.frag", "--prices", says=["--prices: the shader has no scene"])
+        self.refuse("plan", "--sandbox", "seen.frag", "--prices", says=["--prices: needs a scene"])
 
     def test_mistakes(self):
         self.write("bad.frag", "void mainImage(out vec4 c, in vec2 p)\n{\n    c = vec4(q);\n}\n")

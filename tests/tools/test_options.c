@@ -415,7 +415,7 @@ static void test_presets(void **state)
         const char *text, *says;
     } bad[] = {
         {"technique=cone\nsamples=none\n", "line 2: --samples none: expected a whole number"},
-        {"sample=3", "line 1: sample: not an option of render that a preset may hold; did you mean "
+        {"sample=3", "line 1: sample: not an option of render that a preset can have; did you mean "
                      "samples?"},
         {"output=b.exr", "output: not an option"},
         {"preset=b", "preset: not an option"},
