@@ -18,6 +18,8 @@ layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D transmission_te
 #endif
 layout(location = 0) uniform bvec3 sum_of; /* terms of the output: its previous value, the base, the reflected
                                             * light */
+layout(location = 1) uniform float sky_rays; /* number by which the environment's light is shared with its
+                                              * directions, whatever the number of cones here */
 
 /* Rotation of the cone set, from a pattern of 4 x 4 x 4 voxels. */
 float cell_rotation(ivec3 cell)
@@ -42,7 +44,7 @@ vec3 gather(reflector material, vec3 position, vec3 n, vec3 shading, float rotat
         vec3 seen = light.radiance;
 #if LSF_ENVIRONMENT
         seen += light.transmittance * grid.unit.y *
-                sky_left(environment_radiance(direction), cone_gather.z * local.z / LSF_PI);
+                sky_left(environment_radiance(direction), sky_rays * local.z / LSF_PI);
 #endif
         sum += reflectance(material, local.z) * seen;
     }

@@ -9,6 +9,7 @@
 /* Texture unit and uniform of passes/voxel_bounce.comp.glsl. */
 #define UNIT_BASE 1
 #define LOCATION_SUM_OF 0
+#define LOCATION_SKY_RAYS 1
 
 static const char *const radiance_names[2] = {"voxel_bounce.radiance",
                                               "voxel_bounce.other_radiance"};
@@ -92,6 +93,16 @@ void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxels *voxels)
     lsf_timer_end(pass->timer);
 }
 
+/* Light that is reflected again before it is seen counts less, and many voxels average its noise:
+ * fewer rays find it. All are needed of marching cones, which fill the hemisphere, and where
+ * directions do not change from iteration to iteration. */
+static int32_t cone_count(const lsf_cone_params *params, uint32_t later)
+{
+    int32_t share = 1 + (int32_t)later;
+    bool fewer = params->sealed && params->jitter;
+    return fewer ? (params->count + share - 1) / share : params->count;
+}
+
 GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
                             const lsf_voxels *voxels, const lsf_voxel_bounce_sum *sum)
 {
@@ -103,12 +114,17 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     glUniform3i(LOCATION_SUM_OF, sum->keep, sum->base != 0, sum->source != 0);
     lsf_bind_texture(UNIT_BASE, sum->base);
     lsf_voxels_bind(voxels);
-    if (sum->source)
-        lsf_cone_bind(&pass->params, &pass->grid, iteration, sum->source);
+    if (sum->source) {
+        lsf_cone_params cones = pass->params;
+        cones.count = cone_count(&pass->params, sum->later);
+        lsf_cone_bind(&cones, &pass->grid, iteration, sum->source);
+    }
     lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);
-    if (iteration->plan->requirements.environment)
+    if (iteration->plan->requirements.environment) {
         lsf_iteration_bind_sky(iteration);
+        glUniform1f(LOCATION_SKY_RAYS, (float)pass->params.count);
+    }
     dispatch(radiance, voxels->bricks);
     lsf_timer_end(pass->timer);
     return radiance;

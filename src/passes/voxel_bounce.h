@@ -7,9 +7,10 @@
 
 /* The terms of the sum; pyramids as of voxel_light.h. */
 typedef struct lsf_voxel_bounce_sum {
-    GLuint base;   /* added unchanged; 0: nothing */
-    GLuint source; /* added after reflection; 0: nothing. It may be the output of the last run */
-    bool keep;     /* the output of the last run is a part of the sum; not with a source */
+    GLuint base;    /* added unchanged; 0: nothing */
+    GLuint source;  /* added after reflection; 0: nothing. It may be the output of the last run */
+    uint32_t later; /* number of times that voxels reflect the sum's light after this */
+    bool keep;      /* the output of the last run is a part of the sum; not with a source */
 } lsf_voxel_bounce_sum;
 
 typedef struct lsf_voxel_bounce {

@@ -149,7 +149,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     if (c->variant.bounces > 0)
         lsf_voxel_bounce_begin(&c->bounce, voxels);
     if (c->variant.bounces > 0 && c->variant.shines) {
-        const lsf_voxel_bounce_sum reflected = {.source = base};
+        const lsf_voxel_bounce_sum reflected = {.source = base, .later = c->variant.bounces - 1};
         const lsf_voxel_bounce_sum all = {.base = base, .keep = true};
         lsf_voxel_chain_emit(&c->chain);
         build_pyramid(c, base);
@@ -162,7 +162,8 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     }
     build_pyramid(c, light);
     for (; done < c->variant.bounces; done++) {
-        const lsf_voxel_bounce_sum sum = {.base = base, .source = light};
+        const lsf_voxel_bounce_sum sum = {
+            .base = base, .source = light, .later = c->variant.bounces - 1 - done};
         light = lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &sum);
         build_pyramid(c, light);
     }
