@@ -117,7 +117,7 @@ static lsf_easel_news gone(lsf_easel_process *process, lsf_error *error)
                       "the process of the shader was ended by the signal: %s",
                       strsignal(WTERMSIG(status)));
     else
-        lsf_error_set(error, LSF_ERROR_RENDER, "the process that ran the shader ended");
+        lsf_error_set(error, LSF_ERROR_RENDER, "the process of the shader ended");
     lsf_easel_process_end(process);
     return LSF_EASEL_GONE;
 }

@@ -91,15 +91,15 @@ void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
 {
     lsf_plan_remark(
         plan,
-        "a voxel is %.3g wide, in scene units: a grid over all of the scene blurs bounced "
-        "light by as much, and sees no room that is smaller",
+        "a voxel is %.3g scene units wide: a grid over the whole scene blurs indirect light by as "
+        "much, and misses smaller rooms",
         (double)grid->side / plan->requirements.scale);
     if (grid->resolution != (uint32_t)params->resolution)
-        lsf_plan_remark(plan,
-                        "a grid of %u voxels instead of %d along the scene's longest side: a finer "
-                        "one takes more than voxel.memory=%g, or textures deeper than %d",
-                        grid->resolution, params->resolution, (double)params->memory,
-                        MAX_TEXTURE_DEPTH);
+        lsf_plan_remark(
+            plan,
+            "a grid of %u voxels instead of %d along the scene's longest side: a finer one exceeds "
+            "voxel.memory=%g, or the maximum texture depth of %d",
+            grid->resolution, params->resolution, (double)params->memory, MAX_TEXTURE_DEPTH);
 }
 
 struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,

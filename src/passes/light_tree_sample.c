@@ -87,12 +87,13 @@ static void plan_triangles(lsf_plan *plan, const lsf_light_tree_sample_params *p
     lsf_scene_gpu_plan_triangles(plan);
     if (!triangles_are_few(plan, params))
         lsf_plan_remark(plan,
-                        "light_tree.sight=exact tries at most %d triangles, shared among "
-                        "light_tree.samples; the scene has %llu: voxels hide instead",
+                        "light_tree.sight=exact tests at most %d triangles, shared among "
+                        "light_tree.samples; the "
+                        "scene has %llu: voxels are used instead",
                         TRIANGLES_MOST, (unsigned long long)plan->requirements.triangles);
     else if (plan->transmission || plan->requirements.masked)
-        lsf_plan_remark(plan, "light_tree.sight=exact: masked and transparent surfaces hide "
-                              "nothing");
+        lsf_plan_remark(plan,
+                        "light_tree.sight=exact: masked and transparent surfaces do not occlude");
 }
 
 void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_params *params,

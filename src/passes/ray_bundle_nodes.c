@@ -234,8 +234,8 @@ static void use_fewer_texels(lsf_ray_bundle *pass, uint32_t needed, uint32_t mos
     pass->side -= 2 * (uint32_t)unused;
     lsf_log(
         LSF_LOG_WARNING,
-        "a ray-bundle of %u x %u texels meets %u surfaces and more, beyond those in slices, and "
-        "this device has room for %u: from here on %u x %u texels are used",
+        "a ray-bundle of %u x %u texels hits %u surfaces and more, in addition to those in slices, "
+        "and this device has memory for %u: from now on %u x %u texels are used",
         before, before, needed, most, pass->side, pass->side);
 }
 

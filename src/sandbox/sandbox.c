@@ -243,7 +243,7 @@ bool lsf_sandbox_run(lsf_sandbox *sandbox, const lsf_sandbox_frame *frame, lsf_e
         return false;
     if (!sandbox->version.stage)
         return lsf_error_set(error, LSF_ERROR_RENDER,
-                             "the sandbox has nothing to run since it could not be made anew");
+                             "the sandbox has nothing to run because it could not be recreated");
     if (sandbox->version.text.needs != 0) {
         lsf_update update = lsf_sandbox_engine_run(&sandbox->version.stage->engine, frame, error);
         if (update == LSF_UPDATE_REPLAN) {

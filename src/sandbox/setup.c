@@ -215,13 +215,12 @@ static bool check_scene(const lsf_sandbox_setup *setup, const lsf_sandbox_text *
             const lsf_sandbox_location *location = &text->passes[p].locations[i];
             if (location->path && lsf_sandbox_row_at(i)->needs)
                 return lsf_error_set(error, LSF_ERROR_USAGE,
-                                     "%s:%u: %s is of a scene, and there is none: name one behind "
-                                     "the shader",
+                                     "%s:%u: %s needs a scene: name one after the shader",
                                      location->path, location->line, lsf_sandbox_row_at(i)->name);
         }
-    return lsf_error_set(error, LSF_ERROR_USAGE,
-                         "a file that the shader includes is of a scene, and there is none: name "
-                         "one behind the shader");
+    return lsf_error_set(
+        error, LSF_ERROR_USAGE,
+        "a file that the shader includes needs a scene: name one after the shader");
 }
 
 static bool check_triangles(const lsf_sandbox_setup *setup, lsf_error *error)

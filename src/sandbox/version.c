@@ -61,7 +61,7 @@ static bool parse_channel(lsf_sandbox_text *text, const lsf_sandbox_params *para
     if (!pass->part.text || !pass->mentions[row])
         return true;
     if (!source) {
-        lsf_log(LSF_LOG_WARNING, "%s:%u: %s is black: say what it is by // @channel %u SOURCE",
+        lsf_log(LSF_LOG_WARNING, "%s:%u: %s is black: declare its source by // @channel %u SOURCE",
                 pass->locations[row].path, pass->locations[row].line, name, c);
         return true;
     }

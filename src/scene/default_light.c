@@ -45,15 +45,15 @@ static void note_why(lsf_scene *scene, float emitted)
 {
     if (!scene->requirements.emissive)
         lsf_scene_add_note(scene, "the file has no light and no environment was given: a default "
-                                  "sky and key light show it; without default light it stays "
-                                  "dark");
+                                  "sky and key light are added; "
+                                  "without default light it stays dark");
     else
-        lsf_scene_add_note(scene,
-                           "the file has no light but emissive materials, which would leave half "
-                           "of its surfaces, were they white, at a luminance of %.2g or less, "
-                           "below %g: a default sky and key light show it; without default "
-                           "light it is left to them",
-                           (double)emitted, (double)LSF_LIT_LUMINANCE_MIN);
+        lsf_scene_add_note(
+            scene,
+            "the file has no light but emissive materials, which would give half of its "
+            "surfaces, assumed to be white, a luminance of %.2g or less, below %g: a default "
+            "sky and key light are added; without default light only these materials light it",
+            (double)emitted, (double)LSF_LIT_LUMINANCE_MIN);
 }
 
 static bool add_sky(lsf_environment *sky)
@@ -95,9 +95,8 @@ bool lsf_default_light_add(lsf_scene *scene, lsf_default_light mode, lsf_error *
             goto no_memory;
         if (emitted >= LSF_LIT_LUMINANCE_MIN) {
             lsf_log(LSF_LOG_INFO,
-                    "emissive materials light the scene: half of its surfaces, were "
-                    "they white, would have a luminance of %.2g or more; no default "
-                    "light is added",
+                    "emissive materials light the scene: half of its surfaces, assumed to be "
+                    "white, would have a luminance of %.2g or more; no default light is added",
                     (double)emitted);
             return true;
         }

@@ -14,7 +14,7 @@ static bool has_environment(const lsf_scene *scene, lsf_error *error)
     return lsf_scene_given(scene, error) &&
            (scene->environment.present ||
             lsf_error_set(error, LSF_ERROR_USAGE,
-                          "environment: the scene has none that could be turned or scaled"));
+                          "environment: the scene has none to rotate or scale"));
 }
 
 bool lsf_scene_get_environment(const lsf_scene *scene, float *rotation, float *strength,

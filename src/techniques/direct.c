@@ -27,18 +27,18 @@ static void plan_direct(lsf_plan *plan, const lsf_pass_params *params, const lsf
     lsf_direct_chain_plan(plan, params, state, NULL);
     if (!lit)
         lsf_log(LSF_LOG_WARNING, "no point, spot or directional light and no environment: the "
-                                 "direct technique leaves every surface black but for what it "
-                                 "emits");
+                                 "direct technique leaves every "
+                                 "surface black except for its emission");
     if (needs_compose(plan, lit))
         lsf_compose_plan(plan, &(lsf_compose_use){.direct = lit});
     else
         lsf_plan_omit(plan, "compose", "reflected light is the whole picture");
     if (r->emissive)
-        lsf_plan_remark(plan, "emissive surfaces are seen, but light other surfaces only with the "
-                              "bidirectional technique");
+        lsf_plan_remark(
+            plan, "emissive surfaces are visible, but light others only with the other techniques");
     if (r->environment && plan->sky_lights == 0)
-        lsf_plan_remark(plan, "environment.directions=0: the environment is seen, but lights "
-                              "nothing");
+        lsf_plan_remark(plan,
+                        "environment.directions=0: the environment is visible, but lights nothing");
     if (plan->aovs & (LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR))
         lsf_plan_remark(plan, "the direct technique has no indirect light; its layers are black");
 }

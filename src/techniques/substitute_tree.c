@@ -58,7 +58,8 @@ static void remark(lsf_plan *plan)
         lsf_plan_remark(plan, "with a tree of lights, direct light of surfaces is in the indirect "
                               "layers");
     if (r->unlit)
-        lsf_plan_remark(plan, "unlit surfaces are seen, but light no others with this technique");
+        lsf_plan_remark(plan,
+                        "unlit surfaces are visible, but light no others with this technique");
     if (r->environment && plan->sky_lights == 0)
         lsf_plan_remark(plan, "environment.directions=0: the environment is seen, but lights "
                               "nothing");

@@ -83,7 +83,7 @@ class Pictures(CommandTest):
         scene = self.scene(emissive=True, light=False)
         words = ("-t", "direct", *SMALL)
         done = self.run_command("render", scene, "-o", "a.exr", *words[:6])
-        self.assertIn("a default sky and key light show it", done.text)
+        self.assertIn("a default sky and key light are added", done.text)
         self.run_command("render", scene, "-o", "b.exr", "--default-light", "never", *words)
         done = self.run_command("compare", "a.exr", "b.exr", "--json", "-")
         measured = json.loads(done.stdout)

@@ -44,7 +44,7 @@ class Sandbox(CommandTest):
         plan = self.read_json("plan.json")
         self.assertEqual([each["name"] for each in plan["passes"]], ["gbuffer", "sandbox"])
         self.assertIn("seen.frag:1: lsf_depth", plan["notes"])
-        self.refuse("plan", "--sandbox", "seen.frag", says=["seen.frag:1: lsf_depth is of a scene"])
+        self.refuse("plan", "--sandbox", "seen.frag", says=["seen.frag:1: lsf_depth needs a scene"])
 
     def test_prices(self):
         """Of what the shader names; without lights there is no map of one, so that they have no price there."""

@@ -240,7 +240,7 @@ static void test_errors(void **state)
         {"// @slider 1 0\nuniform float x;\n" IMAGE "{ c = vec4(x); }", "test.frag:1: @slider: "},
         {"uniform vec2 iResolution;\n" IMAGE "{ c = iResolution.xyxy; }",
          "test.frag:1: declare uniform vec3 iResolution;"},
-        {IMAGE "{ c = vec4(lsf_depth(p)); }", "test.frag:2: lsf_depth is of a scene"},
+        {IMAGE "{ c = vec4(lsf_depth(p)); }", "test.frag:2: lsf_depth needs a scene"},
         {"// @buffer a\n" IMAGE "{}", "test.frag: there are buffers, but no picture"},
         {"// @image\n" IMAGE "{}\n// @image\n" IMAGE "{}", "test.frag:4: image is there already"},
     };
