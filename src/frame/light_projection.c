@@ -17,6 +17,9 @@
 /* Each cascade sees this many times farther than the one before. */
 #define CASCADE_RATIO 3.0f
 
+/* Texels along a side of a fitted map, where a few would do. */
+#define MIN_FITTED_SIDE 32.0f
+
 lsf_light_projection_kind lsf_light_projection_kind_of(const lsf_light_state *light)
 {
     if (light->type == LSF_LIGHT_DIRECTIONAL)
@@ -198,6 +201,30 @@ static void fit_depths(struct lsf_light_data *data, lsf_float3 along, const box 
     data->map_shape.y = high + margin - start;
 }
 
+/* Smaller side of a pixel, on a plane of constant view depth. */
+static float pixel_size(const lsf_iteration *iteration, float depth)
+{
+    const lsf_camera_state *camera = &iteration->state->camera;
+    lsf_float3 across =
+        lsf_f3_mad(lsf_f3_load(camera->start_dx), lsf_f3_load(camera->forward_dx), depth);
+    lsf_float3 down =
+        lsf_f3_mad(lsf_f3_load(camera->start_dy), lsf_f3_load(camera->forward_dy), depth);
+    return 2.0f * fminf(lsf_f3_length(across) / (float)iteration->plan->width,
+                        lsf_f3_length(down) / (float)iteration->plan->height);
+}
+
+/* As many texels as what the camera sees from outside needs: each as wide as a pixel where the
+ * scene is nearest, over N^1/4 of N iterations. Borders are blurred by a texel, which moves the mean
+ * of a pixel by its square: this error falls with N as fast as the noise. */
+static void fit_texels(struct lsf_light_data *data, const lsf_iteration *iteration, float nearest,
+                       const float extent[2])
+{
+    float texel = pixel_size(iteration, nearest) / powf(lsf_iteration_expected(iteration), 0.25f);
+    float texels = ceilf(fmaxf(2.0f * fmaxf(extent[0], extent[1]) / texel, MIN_FITTED_SIDE));
+    data->map_shape.z = fminf(texels, data->map_shape.z);
+    data->map_shape.w = 1.0f / data->map_shape.z;
+}
+
 /* Nested windows: each reaches a third as deep into the visible scene as the next one, so that a
  * texel is everywhere about as wide as a pixel is there; the last holds all that is visible. */
 static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration *iteration,
@@ -210,8 +237,6 @@ static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration 
     float reach = farthest - nearest;
     for (uint32_t i = 0; i < faces; i++, reach /= CASCADE_RATIO) {
         box view = view_box(&iteration->state->camera, axes, nearest + reach);
-        if (layout->fitted && i == 0)
-            fit_depths(data, axes[2], &view, scene);
         float center[2], extent[2];
         for (int axis = 0; axis < 2; axis++) {
             float low = fmaxf(view.low[axis], scene->low[axis]);
@@ -219,6 +244,10 @@ static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration 
             bool outside = !(low <= high); /* nothing of the scene is in view */
             center[axis] = outside ? scene->low[axis] : 0.5f * (low + high);
             extent[axis] = outside ? 0.0f : 0.5f * (high - low);
+        }
+        if (layout->fitted && i == 0) {
+            fit_depths(data, axes[2], &view, scene);
+            fit_texels(data, iteration, nearest, extent);
         }
         set_window(data, faces - 1 - i, axes, center, extent);
     }
@@ -285,8 +314,6 @@ void lsf_light_projection_project(struct lsf_light_data *data, const lsf_iterati
     }
     lsf_float3 axes[3] = {[2] = lsf_f3_load(light->direction)};
     rotated_axes(light, numbers[0] * 2.0f * LSF_PI, &axes[0], &axes[1]);
-    data->map_offset.x = (2.0f * shift[0] - 1.0f) / texels;
-    data->map_offset.y = (2.0f * shift[1] - 1.0f) / texels;
     if (light->type == LSF_LIGHT_DIRECTIONAL) {
         project_windows(data, iteration, layout, axes);
     } else {
@@ -295,6 +322,8 @@ void lsf_light_projection_project(struct lsf_light_data *data, const lsf_iterati
         set_face(data, 0, axes[0], axes[1], axes[2]);
         data->map_window[0] = (lsf_vec4){0.0f, 0.0f, extent, extent};
     }
+    data->map_offset.x = (2.0f * shift[0] - 1.0f) * data->map_shape.w;
+    data->map_offset.y = (2.0f * shift[1] - 1.0f) * data->map_shape.w;
 }
 
 /* x, y = +-1 on the map. */

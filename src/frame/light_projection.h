@@ -48,9 +48,9 @@ typedef struct lsf_light_projection_layout {
     uint32_t faces;
     bool view;   /* windows of a directional light are nested about what the camera sees; else one
                   * window holds the whole scene */
-    bool fitted; /* depths of such windows are limited to what the camera sees; else they hold
-                  * the whole scene */
-    uint32_t resolution; /* texels along a face's side */
+    bool fitted; /* depths of such windows are limited to what the camera sees, and texels to as
+                  * many as it needs; else depths hold the whole scene */
+    uint32_t resolution; /* texels along a face's side, the largest number of them where fitted */
     uint32_t purpose;    /* seeds of its random rotation and offset are of lsf_iteration_seed's
                           * purposes from here on, two for each light */
     lsf_light_use use;

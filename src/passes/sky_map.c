@@ -238,9 +238,10 @@ static struct lsf_light_data project(const lsf_iteration *iteration, uint32_t li
 static bool serves_scene(const lsf_sky_map *pass, const lsf_iteration *iteration, uint32_t light,
                          const struct lsf_light_data *seen)
 {
-    if (pass->scene.side == 0 || pass->seen.side < pass->scene.side)
+    uint32_t side = (uint32_t)seen->map_shape.z;
+    if (pass->scene.side == 0 || side < pass->scene.side)
         return false;
-    struct lsf_light_data scene = project(iteration, light, pass->seen.side, false);
+    struct lsf_light_data scene = project(iteration, light, side, false);
     return memcmp(&seen->map_window[0], &scene.map_window[0], sizeof scene.map_window[0]) == 0 &&
            seen->map_shape.x <= scene.map_shape.x && seen->map_shape.y >= scene.map_shape.y;
 }
@@ -289,6 +290,12 @@ void lsf_sky_map_begin_scene(lsf_sky_map *pass, const lsf_iteration *iteration)
     start(pass, target);
 }
 
+/* Texels along a side of a map of the batch. */
+static uint32_t side_of(const lsf_sky_map *pass, uint32_t layer)
+{
+    return (uint32_t)pass->target->maps[pass->outputs.first + layer].texel.w;
+}
+
 /* Of the scene's listed triangles, the largest of which come first, how many the pipeline draws. */
 static uint32_t large_count(const lsf_sky_map *pass, const lsf_iteration *iteration, uint32_t layer)
 {
@@ -305,7 +312,8 @@ static void draw_surfaces(lsf_sky_map *pass, const lsf_iteration *iteration, uin
     uint32_t light = target->lights[pass->outputs.first + layer];
     const lsf_draw_region *region = &target->regions[pass->outputs.first + layer];
     bool listed = iteration->scene->triangle_count > 0;
-    lsf_begin_surfaces(target->side, target->side, pass->large_program);
+    uint32_t side = side_of(pass, layer);
+    lsf_begin_surfaces(side, side, pass->large_program);
     glEnable(GL_DEPTH_CLAMP);
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     glNamedFramebufferTextureLayer(target->framebuffer, GL_COLOR_ATTACHMENT0,
@@ -368,6 +376,7 @@ static void draw_tints(lsf_sky_map *pass, const lsf_iteration *iteration)
     for (uint32_t i = 0; i < pass->outputs.count; i++) {
         uint32_t light = target->lights[pass->outputs.first + i];
         glBindFramebuffer(GL_FRAMEBUFFER, target->tint_framebuffers[i]);
+        glViewport(0, 0, (GLsizei)side_of(pass, i), (GLsizei)side_of(pass, i));
         glClearNamedFramebufferfv(target->tint_framebuffers[i], GL_COLOR, 0, white);
         glUniform1i(0, (GLint)i);
         lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_SHADOW_MAP, light);
