@@ -24,12 +24,14 @@ sky_found sky_found_both(sky_found a, sky_found b)
 }
 
 /* The share to use, for either lobe, from directions that are independent of those that use it: their regression,
- * with one more direction added that is occluded and would have brought as much as the largest of them. */
+ * with one more direction added that would have brought as much as the largest of them: occluded for the diffuse
+ * lobe; for the specular one, of which few directions tell, as much of it arrives as of diffuse light. */
 vec2 sky_control_share(sky_found found)
 {
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
     vec2 whole = found.whole + found.most;
-    return vec2(whole.x > 0.0 ? found.lit.x / whole.x : 0.0, whole.y > 0.0 ? found.lit.y / whole.y : 0.0);
+    float diffuse = whole.x > 0.0 ? found.lit.x / whole.x : 0.0;
+    return vec2(diffuse, whole.y > 0.0 ? (found.lit.y + diffuse * found.most.y) / whole.y : diffuse);
 #else
     return vec2(1.0);
 #endif

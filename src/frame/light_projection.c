@@ -214,8 +214,8 @@ static float pixel_size(const lsf_iteration *iteration, float depth)
 }
 
 /* As many texels as what the camera sees from outside needs: each as wide as a pixel where the
- * scene is nearest, over N^1/4 of N iterations. Borders are blurred by a texel, which moves the mean
- * of a pixel by its square: this error falls with N as fast as the noise. */
+ * scene is nearest, over N^1/4 of N iterations. Borders are blurred by a texel, which moves the
+ * mean of a pixel by its square: this error falls with N as fast as the noise. */
 static void fit_texels(struct lsf_light_data *data, const lsf_iteration *iteration, float nearest,
                        const float extent[2])
 {

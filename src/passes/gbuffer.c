@@ -17,8 +17,8 @@ const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
     {"gbuffer.side", LSF_OPTION_ENUM, offsetof(lsf_gbuffer_params, side), 0, 0, "auto|1|2|4",
      "points",
      "points sampled along each side of a pixel in an iteration: all get direct light, one of "
-     "them indirect light; auto: 1, or more under an environment while the points are fewer than "
-     "the triangles in its shadow maps"},
+     "them indirect light; auto: 1, or more under an environment while its shadow maps draw twice "
+     "as many triangles as there are points"},
 };
 
 static void plan_switches(lsf_plan *plan)

@@ -5,11 +5,11 @@
 #include "scene/environment.h"
 
 const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT] = {
-    {"environment.directions", LSF_OPTION_INT, offsetof(lsf_sky_light_params, directions), 0, 256,
+    {"environment.directions", LSF_OPTION_INT, offsetof(lsf_sky_light_params, directions), -1, 256,
      NULL, "directions",
-     "drawn by the environment's radiance in an iteration, each with a shadow map; 0: bundles, "
-     "cones "
-     "and paths find the environment by chance, and the direct technique is not lit by it"},
+     "drawn by the environment's radiance in an iteration, each with a shadow map; -1: 16 where it "
+     "alone lights what the camera sees from outside, else 8; 0: bundles, cones and paths find the "
+     "environment by chance, and the direct technique is not lit by it"},
     {"environment.open", LSF_OPTION_INT, offsetof(lsf_sky_light_params, open), 0, 64, NULL,
      "samples",
      "of the environment's light as if nothing cast shadows, in a pixel and iteration, by its "
@@ -21,10 +21,12 @@ const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT] = {
 };
 
 uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
-                             const lsf_sky_light_params *params)
+                             const lsf_sky_light_params *params, bool open)
 {
     bool lit = requirements->environment && requirements->triangles > 0;
-    return lit ? (uint32_t)params->directions : 0;
+    if (!lit)
+        return 0;
+    return params->directions >= 0 ? (uint32_t)params->directions : open ? 16 : 8;
 }
 
 bool lsf_sky_light_is_controlled(uint32_t directions, const lsf_sky_light_params *params)

@@ -17,13 +17,14 @@ typedef enum lsf_sky_light_control {
 } lsf_sky_light_control;
 
 typedef struct lsf_sky_light_params {
-    int32_t directions; /* drawn an iteration; 0: the environment is found by chance alone */
+    int32_t directions; /* drawn an iteration; 0: the environment is found by chance alone; below
+                         * 0: 16 in the open, else 8 */
     int32_t open;       /* samples of its light without shadows, of each of two kinds in a pixel
                          * and iteration; 0: none */
     int32_t control;    /* lsf_sky_light_control: how much of that light directions count on */
 } lsf_sky_light_params;
 
-#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = 8, .open = 32, .control = LSF_SKY_LIGHT_SHARE
+#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = -1, .open = 32, .control = LSF_SKY_LIGHT_SHARE
 
 #define LSF_SKY_LIGHT_OPTION_COUNT 3
 extern const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT];
@@ -43,9 +44,9 @@ typedef struct lsf_sky_share {
 } lsf_sky_share;
 
 /* How many lights stand for the environment: none without an environment, or where nothing can
- * be lit. */
+ * be lit. `open`: it is the only light, and surrounds the scene. */
 uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
-                             const lsf_sky_light_params *params);
+                             const lsf_sky_light_params *params, bool open);
 
 /* Whether `directions` of an iteration count on the environment's light without shadows. */
 bool lsf_sky_light_is_controlled(uint32_t directions, const lsf_sky_light_params *params);

@@ -57,32 +57,36 @@ static bool tessellate(lsf_setup *setup, const lsf_scene *scene, lsf_error *erro
     return setup->tessellated != NULL;
 }
 
-static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
-{
-    const lsf_state *state = &setup->state;
-    memset(basis, 0, sizeof *basis); /* padding, too: it is compared as bytes */
-    memcpy(&basis->requirements, &setup->scene->requirements, sizeof basis->requirements);
-    for (uint32_t i = 0; i < state->light_count; i++) {
-        basis->lights[state->lights[i].type]++;
-        basis->shines = basis->shines || lsf_light_power(&state->lights[i]) > 0.0f;
-    }
-    basis->movable = setup->scene->edits.movable;
-    basis->orthographic = state->camera.orthographic;
-    basis->divided = setup->plan->islands.count > 1;
-    basis->width = setup->params.width;
-    basis->height = setup->params.height;
-}
-
 /* Iterations up to which patterns of 4 and of 3 pixels a side pay in any picture, and one of any
  * size; beyond, the picture without converges faster. In pictures of so many pixels the maps of 16
  * samples take less than the pixels do. src/passes/light_filter.md has the measurements. */
 enum { PATTERN_4 = 4, PATTERN_3 = 8, PATTERN_ANY = 128, PATTERN_4_PIXELS = 1 << 17 };
 
-/* The default of interleave.size: the fewer iterations, the more samples in each. */
-static int32_t choose_interleave(const lsf_render_params *params)
+/* Whether the environment, and no lamp, lights what the camera sees from outside. */
+static bool stands_in_the_open(const lsf_setup *setup)
 {
+    const lsf_requirements *r = &setup->scene->requirements;
+    const lsf_state *state = &setup->state;
+    bool outside = false;
+    for (int axis = 0; axis < 3; axis++)
+        outside = outside || state->camera.start[axis] < state->reach_min[axis] ||
+                  state->camera.start[axis] > state->reach_max[axis];
+    return r->environment && state->light_count == 0 && outside;
+}
+
+/* Whether a pattern costs more than it brings: little light bounces, and directions that all
+ * pixels share find the rest, which a filter would only blur. */
+static bool is_shared(const lsf_setup *setup)
+{
+    return stands_in_the_open(setup) && !setup->scene->requirements.emissive;
+}
+
+/* The default of interleave.size: the fewer iterations, the more samples in each. */
+static int32_t choose_interleave(const lsf_setup *setup)
+{
+    const lsf_render_params *params = &setup->params;
     bool limited = isfinite(params->time_limit);
-    if (params->raw || (params->samples > PATTERN_ANY && !limited))
+    if (params->raw || (params->samples > PATTERN_ANY && !limited) || is_shared(setup))
         return 1;
     bool large = (uint64_t)params->width * params->height >= PATTERN_4_PIXELS && !limited;
     if (params->samples <= PATTERN_4 || large)
@@ -108,15 +112,15 @@ static int32_t choose_grid(const lsf_render_params *params)
 }
 
 /* Values of options that default to "automatic". */
-static void choose_points(lsf_pass_params *pass_params, const lsf_render_params *params)
+static void choose_points(lsf_setup *setup)
 {
-    lsf_sparse_params *sparse = &pass_params->sparse;
+    lsf_sparse_params *sparse = &setup->pass_params.sparse;
     if (sparse->grid == 0) {
-        sparse->grid = choose_grid(params);
+        sparse->grid = choose_grid(&setup->params);
         sparse->chosen = sparse->grid > 1;
     }
-    if (sparse->interleave == 0)
-        sparse->interleave = choose_interleave(params);
+    if (setup->interleave_chosen)
+        sparse->interleave = choose_interleave(setup);
 }
 
 /* Whether pixels draw rays or samples of their own. */
@@ -145,8 +149,8 @@ static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *techni
 
 enum { LONGEST_SIDE = 4 };
 
-/* Sample points of a pixel cost little beside maps that draw more triangles than there are points,
- * and take the noise off edges and textures that is most of what few iterations leave. */
+/* Sample points of a pixel cost little beside maps that draw twice as many triangles as there are
+ * points, and take the noise off edges and textures that is most of what few iterations leave. */
 static uint32_t pixel_side(const lsf_setup *setup, const lsf_technique *technique)
 {
     const lsf_plan *plan = setup->plan;
@@ -158,7 +162,7 @@ static uint32_t pixel_side(const lsf_setup *setup, const lsf_technique *techniqu
     uint64_t drawn = plan->sky_lights * plan->requirements.triangles;
     uint64_t pixels = (uint64_t)plan->width * plan->height;
     uint32_t side = 1;
-    while (!setup->params.raw && side < LONGEST_SIDE && 4 * side * side * pixels <= drawn)
+    while (!setup->params.raw && side < LONGEST_SIDE && 8 * side * side * pixels <= drawn)
         side *= 2;
     return side;
 }
@@ -178,6 +182,23 @@ static void set_seen(lsf_setup *setup, const lsf_technique *technique)
                     technique->bounces ? ", one of which gathers the light that bounces" : "");
 }
 
+static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
+{
+    const lsf_state *state = &setup->state;
+    memset(basis, 0, sizeof *basis); /* padding, too: it is compared as bytes */
+    memcpy(&basis->requirements, &setup->scene->requirements, sizeof basis->requirements);
+    for (uint32_t i = 0; i < state->light_count; i++) {
+        basis->lights[state->lights[i].type]++;
+        basis->shines = basis->shines || lsf_light_power(&state->lights[i]) > 0.0f;
+    }
+    basis->movable = setup->scene->edits.movable;
+    basis->orthographic = state->camera.orthographic;
+    basis->open = stands_in_the_open(setup);
+    basis->divided = setup->plan->islands.count > 1;
+    basis->width = setup->params.width;
+    basis->height = setup->params.height;
+}
+
 static bool begin_plan(lsf_setup *setup, lsf_error *error)
 {
     const lsf_render_params *params = &setup->params;
@@ -185,6 +206,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     lsf_plan *plan = setup->plan = lsf_alloc(1, sizeof *plan);
     if (!plan)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
+    choose_points(setup);
     plan->requirements = setup->scene->requirements;
     plan->transmission = plan->requirements.transmissive;
     plan->straight = plan->transmission && technique && !technique->refracts;
@@ -202,7 +224,8 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
         plan->bounces = by_scene ? plan->requirements.bounces : params->bounces;
     plan->aovs = params->aovs;
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
-        plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light);
+        plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light,
+                                               stands_in_the_open(setup));
     set_seen(setup, technique);
     bool shared = !technique || !draws_itself(technique);
     plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
@@ -289,7 +312,6 @@ static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *
             !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count, pass_params,
                             params->options[i], error))
             return false;
-    choose_points(pass_params, params);
     return true;
 }
 
@@ -302,6 +324,7 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
         !check_params(params, error) || !read_options(&setup->pass_params, params, error) ||
         !keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
+    setup->interleave_chosen = setup->pass_params.sparse.interleave == 0;
     lsf_view_params view = view_of(setup, params->time, NULL);
     return lsf_state_update(&setup->state, setup->scene, &view, error) &&
            update_previous(setup, params->time, NULL, error) && begin_plan(setup, error);

@@ -16,6 +16,7 @@ typedef struct lsf_plan_basis {
     uint64_t movable;                           /* number of nodes that were edited */
     bool divided;                               /* into islands, for maps over all of it */
     bool orthographic;
+    bool open; /* the environment, and no lamp, lights a scene that is seen from outside */
     uint32_t width, height;
 } lsf_plan_basis;
 
@@ -24,6 +25,7 @@ typedef struct lsf_setup {
     lsf_render_params params; /* the camera and the strings that it points to are owned */
     float camera_position[3], camera_target[3];
     lsf_pass_params pass_params;
+    bool interleave_chosen;  /* interleave.size is left to each plan */
     const lsf_scene *source; /* the caller's */
     const lsf_scene *scene;  /* the scene that is drawn: the caller's, or `tessellated` */
     lsf_scene *tessellated;  /* NULL unless tessellation.factor is above 1 */
