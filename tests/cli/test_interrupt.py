@@ -46,7 +46,7 @@ class Interrupt(CommandTest):
         self.assertTrue(sent, seen)
         return process.returncode, seen.decode()
 
-    def test_what_has_converged_is_saved(self):
+    def test_converged_picture_is_saved(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             status, seen = self.start_and_interrupt("render", "--json", "a.json", number=number)
             self.assertEqual(status, DONE, seen)

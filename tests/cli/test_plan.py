@@ -58,7 +58,7 @@ class Graph(CommandTest):
             self.assertEqual(set(edges), expected)
             self.assertEqual(len(edges), len(expected))
 
-    def test_all_that_is_read_was_filled_or_is_of_the_scene(self):
+    def test_resources_that_are_read_were_written_or_belong_to_the_scene(self):
         for technique in TECHNIQUES:
             plan = json.loads(self.run_command("plan", INTERIOR, "--technique", technique,
                                                "--json", "-").stdout)

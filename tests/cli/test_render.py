@@ -96,7 +96,7 @@ class Pictures(CommandTest):
         self.assertEqual(self.pixels("c.exr"), self.pixels("d.exr"))
         self.assertNotEqual(self.pixels("c.exr"), self.pixels("e.exr"))
 
-    def test_darkness_is_not_silent(self):
+    def test_dark_picture_warns(self):
         scene = self.scene(light=False)
         words = ("render", scene, "-t", "direct", *SMALL[:4], "-o", "a.png")
         self.assertNotIn("nearly black", self.run_command(*words).text)

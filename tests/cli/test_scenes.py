@@ -21,7 +21,7 @@ class Several(CommandTest):
         self.scene("folder/b.v2.gltf", light=False)
         return ["a.gltf", "bad.gltf", "folder/b.v2.gltf"]
 
-    def test_pictures_have_names_of_their_own(self):
+    def test_pictures_have_distinct_names(self):
         done = self.run_command("render", *self.three(), "-o", "folder/%s_%s.png", "--json", "all.json",
                                 *SMALL, status=FILE)
         self.assertEqual(sorted(os.listdir(self.path("folder"))),
@@ -52,7 +52,7 @@ class Several(CommandTest):
         self.run_command("render", "bad.gltf", "a.gltf", "-o", "%s.png", "--camera", "Back", *SMALL,
                          status=FILE)
 
-    def test_output_that_does_not_tell_them_apart(self):
+    def test_output_without_distinct_names(self):
         self.three()
         self.scene("folder/a.gltf")
         for output in ("c.png", "-"):
@@ -64,7 +64,7 @@ class Several(CommandTest):
         self.refuse("reference", "a.gltf", "a_b.gltf", "-o", "%s.exr", "--halves", says=["a_b.exr"])
         self.assertFalse([name for name in self.files() if name.endswith((".png", ".exr"))])
 
-    def test_every_place_is_looked_at_first(self):
+    def test_every_path_is_checked_first(self):
         self.three()
         os.mkdir(self.path("b.v2.png"))
         self.refuse("render", "a.gltf", "folder/b.v2.gltf", "-o", "%s.png", status=FILE, says=["b.v2.png"])

@@ -26,7 +26,7 @@ class Sequence(CommandTest):
         self.render("--frames", "2-2", "--fps", "4", "-o", "again%d.exr")
         self.assertEqual(self.pixels("again2.exr"), pictures[2])
 
-    def test_turntable_goes_round(self):
+    def test_turntable_orbits(self):
         """Half a turn shows the back, which is hidden; a whole turn is none."""
         self.scene()
         self.render("--turntable", "2", "--frames", "0-2", "-o", "%d.exr", "-t", "direct",

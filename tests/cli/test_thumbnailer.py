@@ -36,7 +36,7 @@ class Thumbnailer(CommandTest):
         self.assertEqual(png_size(picture), (64, 64))
         self.assertEqual(picture[25], 6)
 
-    def test_what_is_no_scene(self):
+    def test_files_that_are_no_scene(self):
         with open(self.path("a.glb"), "wb") as file:
             file.write(b"glTF")
         done = self.thumbnail(self.path("a.glb"), self.path("a.png"), 64)

@@ -69,7 +69,7 @@ class Words(CommandTest):
         self.assertEqual(json.loads(done.stdout)["bounces"], 0)
         self.assertIn("1 sample of direct, rendered in", done.text)
 
-    def test_json_is_alike_in_every_command(self):
+    def test_json_is_uniform_across_commands(self):
         """FILE beside the text, or - in its place."""
         self.run_command("render", self.scene(), "-r", "8,8", "-s", "1", "-o", "a.exr", "--json",
                          "render.json")

@@ -39,7 +39,7 @@ static void holds_the_scene(void **unused)
         }
 }
 
-static void halves_what_does_not_fit(void **unused)
+static void halves_resolution_until_it_fits(void **unused)
 {
     (void)unused;
     const lsf_state state = box(1, 1, 1);
@@ -94,7 +94,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(holds_the_scene),
-        cmocka_unit_test(halves_what_does_not_fit),
+        cmocka_unit_test(halves_resolution_until_it_fits),
         cmocka_unit_test(unit_follows_light),
         cmocka_unit_test(an_empty_scene_has_a_grid),
     };

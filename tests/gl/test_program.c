@@ -77,7 +77,7 @@ static void count_errors(lsf_log_level level, const char *message, void *user)
         log_lines++;
 }
 
-static void test_long_log_is_told_whole(void **state)
+static void test_long_log_is_complete(void **state)
 {
     (void)state;
     need_context();
@@ -258,7 +258,7 @@ int main(void)
     }
         const struct CMUnitTest tests[] = {
             CASE(test_errors_name_path_and_line),
-            CASE(test_long_log_is_told_whole),
+            CASE(test_long_log_is_complete),
             CASE(test_link_error),
             CASE(test_names),
             CASE(test_cache),

@@ -212,7 +212,7 @@ static double seconds_of(clock_t ticks)
     return (double)ticks / CLOCKS_PER_SEC;
 }
 
-static void test_what_primitives_share_is_looked_at_once(void **state)
+static void test_shared_data_is_checked_once(void **state)
 {
     (void)state;
     enum { PRIMITIVES = 4000, TRIANGLES = 100000 };
@@ -279,7 +279,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_let_pass_fits),
         cmocka_unit_test(test_of_a_shared_file_only_the_declared_bytes_are_kept),
-        cmocka_unit_test(test_what_primitives_share_is_looked_at_once),
+        cmocka_unit_test(test_shared_data_is_checked_once),
         cmocka_unit_test(test_notes_are_limited),
     };
     return cmocka_run_group_tests(tests, make_gltf_folder, remove_gltf_folder);

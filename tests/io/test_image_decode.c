@@ -264,7 +264,7 @@ static void test_bombs_are_refused_before_memory_is_taken(void **state)
     assert_true(after.ru_maxrss - before.ru_maxrss < 64 * 1024);
 }
 
-static void test_what_decoding_takes_is_held_against_the_limit(void **state)
+static void test_decoding_respects_the_limit(void **state)
 {
     (void)state;
     lsf_image_header header;
@@ -459,7 +459,7 @@ int main(void)
         cmocka_unit_test(test_jpeg_metadata_is_not_decoded),
         cmocka_unit_test(test_png_metadata_is_not_decoded),
         cmocka_unit_test(test_bombs_are_refused_before_memory_is_taken),
-        cmocka_unit_test(test_what_decoding_takes_is_held_against_the_limit),
+        cmocka_unit_test(test_decoding_respects_the_limit),
         cmocka_unit_test(test_other_kinds_are_refused),
         cmocka_unit_test(test_exr_kinds),
         cmocka_unit_test(test_cut_files_are_refused),

@@ -106,7 +106,7 @@ class Measure(CommandTest):
         self.assertNotEqual(self.reference("--bounces", "0")["key"], first["key"])
         self.assertIs(self.reference("--cache", "none")["cached"], False)
 
-    def test_damage_is_mended(self):
+    def test_damaged_reference_is_traced_again(self):
         key = self.reference()["key"]
         path = self.path(f"cache/{key}.reference")
         with open(path, "r+b") as file:
@@ -175,7 +175,7 @@ class Measure(CommandTest):
             self.assertEqual([one[k] for k in ("seed", "ssim", "bias")],
                              [other[k] for k in ("seed", "ssim", "bias")])
 
-    def test_the_soonest(self):
+    def test_shortest_time_to_an_error(self):
         words = ("-t", "direct,voxel_path", "--sweep", "voxel.resolution=8", "-s", "4")
         self.measure(*words, "--error", "0.9", "--json", "a.json")
         self.assertIs(self.read_json("a.json")["answer"]["met"], True)

@@ -75,7 +75,7 @@ static int warnings(const char *technique, uint32_t bounces, float ground, bool 
 }
 
 /* Once, where a grid or a map over the whole scene is too coarse for what is seen. */
-static void coarse_maps_are_told(void **unused)
+static void coarse_maps_are_reported(void **unused)
 {
     (void)unused;
     static const struct {
@@ -99,6 +99,6 @@ static void coarse_maps_are_told(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(beside_a_stray_triangle),
-                                       cmocka_unit_test(coarse_maps_are_told)};
+                                       cmocka_unit_test(coarse_maps_are_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

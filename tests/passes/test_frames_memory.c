@@ -58,7 +58,7 @@ static void run_frames(lsf_renderer *renderer, lsf_scene *scene, uint32_t first,
     }
 }
 
-static void frames_take_nothing(void **unused)
+static void frames_allocate_nothing(void **unused)
 {
     (void)unused;
     static const char *const techniques[] = {"direct", "bidirectional"};
@@ -113,7 +113,7 @@ static void renderers_and_contexts_give_back_all(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_take_nothing),
+        cmocka_unit_test(frames_allocate_nothing),
         cmocka_unit_test(renderers_and_contexts_give_back_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -326,7 +326,7 @@ static void denoised_light_is_kept(void **unused)
 
 /* --- what is as it was */
 
-static void cut_begins_anew(void **unused)
+static void cut_resets_the_history(void **unused)
 {
     (void)unused;
     float kept[VALUES], again[VALUES], fresh[VALUES];
@@ -406,7 +406,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_frames_are_one),   cmocka_unit_test(pan_is_clean),
         cmocka_unit_test(lamp_is_forgotten),      cmocka_unit_test(box_leaves_no_ghost),
-        cmocka_unit_test(denoised_light_is_kept), cmocka_unit_test(cut_begins_anew),
+        cmocka_unit_test(denoised_light_is_kept), cmocka_unit_test(cut_resets_the_history),
         cmocka_unit_test(unread_frames_count),    cmocka_unit_test(plan_has_it_on_request),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

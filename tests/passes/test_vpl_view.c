@@ -47,7 +47,7 @@ static double wall_radiance(const lsf_scene *scene, const char *pdf, double *dev
 
 /* From the height h the edge of the floor, HALF_FLOOR away, is about h / HALF_FLOOR below the
  * horizon: the floor fills that much less than half of what a point of the wall faces. */
-static void light_what_is_seen(void **unused)
+static void light_visible_surfaces(void **unused)
 {
     (void)unused;
     lsf_scene *scene = wall_scene();
@@ -64,6 +64,6 @@ static void light_what_is_seen(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(light_what_is_seen)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(light_visible_surfaces)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

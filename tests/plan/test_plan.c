@@ -345,7 +345,7 @@ static void points_where_they_pay(void **unused)
 }
 
 /* An option that is gone names what does its work now. */
-static void options_that_are_gone(void **unused)
+static void replaced_options(void **unused)
 {
     (void)unused;
     static const char *const options[][2] = {
@@ -379,7 +379,7 @@ int main(void)
         cmocka_unit_test(bad_params),
         cmocka_unit_test(only_what_is_planned_is_created),
         cmocka_unit_test(points_where_they_pay),
-        cmocka_unit_test(options_that_are_gone),
+        cmocka_unit_test(replaced_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -198,7 +198,7 @@ static void assert_closed(const lsf_scene *scene)
     free(edges);
 }
 
-static void nothing_gapes(void **unused)
+static void no_gaps_open(void **unused)
 {
     (void)unused;
     static const uint32_t factors[] = {2, 3, 8, LSF_TESSELLATE_MAX_FACTOR};
@@ -317,7 +317,7 @@ int main(void)
         cmocka_unit_test(round_things_get_rounder),
         cmocka_unit_test(points_are_those_of_the_paper),
         cmocka_unit_test(flat_things_stay_flat),
-        cmocka_unit_test(nothing_gapes),
+        cmocka_unit_test(no_gaps_open),
         cmocka_unit_test(every_stream_is_carried),
         cmocka_unit_test(plan_counts_the_new_triangles),
         cmocka_unit_test(too_many_triangles_are_refused),

@@ -24,7 +24,7 @@ static double apart(const float a[3], const float b[3])
                 pow((double)(a[2] - b[2]), 2.0));
 }
 
-static void goes_around(void **state)
+static void orbits_the_scene(void **state)
 {
     (void)state;
     lsf_viewer_camera c = camera(), start = c;
@@ -174,7 +174,7 @@ static void budgets_that_cannot_be_held(void **state)
 }
 
 /* A machine that does other work every other second is given what it holds then, ever longer. */
-static void budgets_bear_other_work(void **state)
+static void budgets_tolerate_other_work(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof machines / sizeof machines[0]; i++) {
@@ -191,7 +191,7 @@ static void budgets_bear_other_work(void **state)
 }
 
 /* A price that holds what happened but once is not held against a rung for good. */
-static void budgets_doubt_what_was_dear(void **state)
+static void budgets_retry_slow_sizes(void **state)
 {
     (void)state;
     lsf_budget b;
@@ -208,15 +208,15 @@ static void budgets_doubt_what_was_dear(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(goes_around),
+        cmocka_unit_test(orbits_the_scene),
         cmocka_unit_test(what_is_dragged_stays_under_the_cursor),
         cmocka_unit_test(rays_and_places_agree),
         cmocka_unit_test(budgets_are_held),
         cmocka_unit_test(budgets_are_used),
         cmocka_unit_test(budgets_follow_the_machine),
         cmocka_unit_test(budgets_that_cannot_be_held),
-        cmocka_unit_test(budgets_bear_other_work),
-        cmocka_unit_test(budgets_doubt_what_was_dear),
+        cmocka_unit_test(budgets_tolerate_other_work),
+        cmocka_unit_test(budgets_retry_slow_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

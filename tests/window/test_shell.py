@@ -54,7 +54,7 @@ class Shell(WindowTest):
         said, _ = self.replay("2 size 400 300", "4 minimise", "6 key F11", "8 close")
         self.assertEqual(said[2:4], ["size 400x300", "key 300 0"])
 
-    def test_a_lost_context_is_made_anew(self):
+    def test_lost_context_is_recreated(self):
         said, errors = self.replay("2 set Level = 0", "5 lose-context", "7 press File",
                                    "8 press Save picture", "12 close")
         self.assertEqual([line for line in said if "open" in line or line == "close"],
@@ -62,7 +62,7 @@ class Shell(WindowTest):
         self.assertIn("was lost", errors)
         self.assertEqual(read_png(self.path("window.png"))[2][42][2], (0, 0, 255))
 
-    def test_what_cannot_be_replayed(self):
+    def test_invalid_recordings(self):
         for line, words in (("2 press Nothing", "nothing of that label"),
                             ("2 set Level2 = 1", "is not shown"),
                             ("x key A", "script:1"), ("2 key Nokey", "script:1"),
@@ -80,7 +80,7 @@ class Shell(WindowTest):
         self.assertEqual(len(done.stderr.splitlines()), 1)
         self.assertIn("xvfb-run", done.stderr)
 
-    def test_what_a_user_does_is_recorded_and_replayed(self):
+    def test_input_is_recorded_and_replayed(self):
         """Through the X server's own test of devices."""
         names = ctypes.util.find_library("X11"), ctypes.util.find_library("Xtst")
         if None in names:

@@ -68,7 +68,7 @@ class View(WindowTest):
                      "/base_color=0.25,0.5,0.75,1", "--edit node/9/matrix=1,0,0,0,0,1,0,0,0,0,1,0,0.25"):
             self.assertIn(part, command)
 
-    def test_what_is_turned_and_scaled(self):
+    def test_rotation_and_scale(self):
         """A node by its rings and the square; a light, made a spot, by what it stands on; and the environment."""
         self.run_program(COMMAND, "render", os.path.join(SCENES, "cornell_point.gltf"), "-q", "-t", "direct", "-r",
                          "16,8", "-s", "1", "-o", "sky.exr")
@@ -113,7 +113,7 @@ class View(WindowTest):
         means = [sum(sum(pixel) for row in rows[120:190] for pixel in row[160:]) for rows in (picture, traced)]
         self.assertLess(abs(means[0] / means[1] - 1), 0.1)
 
-    def test_a_scene_that_is_let_fall_and_one_that_changes(self):
+    def test_dropped_scene_and_changed_file(self):
         with open(os.path.join(SCENES, "cornell_point.gltf"), encoding="utf-8") as file:
             text = file.read()
         shutil.copy(os.path.join(SCENES, "cornell_point.bin"), self.folder)
@@ -128,7 +128,7 @@ class View(WindowTest):
         program.terminate()
         self.assertEqual(program.communicate()[1], "")
 
-    def test_what_frames_take_and_show(self):
+    def test_frame_times_are_written(self):
         """A line for each frame; and what a moving picture is, beside the path tracer's from the same place."""
         moves = [f"{5 + k} move {40 + k} {40 + k / 4}" for k in range(12)]
         self.view("1 key Tab", "2 key-up Tab", "3 move 40 40", "4 button 0", *moves, "16 snapshot moved", "17 button-up 0",
@@ -221,14 +221,14 @@ class View(WindowTest):
         self.assertEqual(len(done.stderr.splitlines()), 1)
         self.assertIn("xvfb-run", done.stderr)
 
-    def test_a_scene_that_does_not_load_is_told_in_the_window(self):
+    def test_loading_error_appears_in_the_window(self):
         self.write("bad.gltf", "{")
         self.view("20 key Shift", "20 key F12", "25 close", scene=None,
                   words=[self.path("bad.gltf"), "-r", "320,240"])
         colors = {pixel for row in read_png(self.path("lightsheaf-0001-window.png"))[2] for pixel in row}
         self.assertTrue(any(r > 200 and g < 150 and b < 140 for r, g, b in colors), "the red heading")
 
-    def test_a_view_that_was_saved_is_rendered_and_shown_again(self):
+    def test_saved_view_is_rendered_and_shown(self):
         self.view("1 key Tab", "5 move 40 40", "6 button 0", "7 move 60 30", "8 button-up 0",
                   "9 key Control", "10 key S", "11 key-up S", "12 key-up Control", "13 settle",
                   "14 key F12", "15 settle", "16 close", words=["-t", "direct", "--exposure", "1.5"])
