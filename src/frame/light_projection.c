@@ -17,9 +17,6 @@
 /* Each cascade sees this many times farther than the one before. */
 #define CASCADE_RATIO 3.0f
 
-/* Texels along a side of a fitted map, where a few would do. */
-#define MIN_FITTED_SIDE 32.0f
-
 lsf_light_projection_kind lsf_light_projection_kind_of(const lsf_light_state *light)
 {
     if (light->type == LSF_LIGHT_DIRECTIONAL)
@@ -216,13 +213,15 @@ static float pixel_size(const lsf_iteration *iteration, float depth)
 /* As many texels as what the camera sees from outside needs: each as wide as a pixel where the
  * scene is nearest, over N^1/4 of N iterations. Borders are blurred by a texel, which moves the
  * mean of a pixel by its square: this error falls with N as fast as the noise. */
-static void fit_texels(struct lsf_light_data *data, const lsf_iteration *iteration, float nearest,
+static void fit_texels(struct lsf_light_data *data, const lsf_iteration *iteration,
+                       const lsf_light_projection_layout *layout, float nearest,
                        const float extent[2])
 {
     float texel = pixel_size(iteration, nearest) / powf(lsf_iteration_expected(iteration), 0.25f);
-    float texels = ceilf(fmaxf(2.0f * fmaxf(extent[0], extent[1]) / texel, MIN_FITTED_SIDE));
-    data->map_shape.z = fminf(texels, data->map_shape.z);
-    data->map_shape.w = 1.0f / data->map_shape.z;
+    float texels = ceilf(2.0f * fmaxf(extent[0], extent[1]) / texel);
+    texels = fminf(fmaxf(texels, (float)layout->least), (float)layout->resolution);
+    data->map_shape.z = texels;
+    data->map_shape.w = 1.0f / texels;
 }
 
 /* Nested windows: each reaches a third as deep into the visible scene as the next one, so that a
@@ -247,7 +246,7 @@ static void set_nested_windows(struct lsf_light_data *data, const lsf_iteration 
         }
         if (layout->fitted && i == 0) {
             fit_depths(data, axes[2], &view, scene);
-            fit_texels(data, iteration, nearest, extent);
+            fit_texels(data, iteration, layout, nearest, extent);
         }
         set_window(data, faces - 1 - i, axes, center, extent);
     }

@@ -50,7 +50,8 @@ typedef struct lsf_light_projection_layout {
                   * window holds the whole scene */
     bool fitted; /* depths of such windows are limited to what the camera sees, and texels to as
                   * many as it needs; else depths hold the whole scene */
-    uint32_t resolution; /* texels along a face's side, the largest number of them where fitted */
+    uint32_t least;      /* smallest number of texels along a side where fitted */
+    uint32_t resolution; /* texels along a face's side; the largest number of them where fitted */
     uint32_t purpose;    /* seeds of its random rotation and offset are of lsf_iteration_seed's
                           * purposes from here on, two for each light */
     lsf_light_use use;

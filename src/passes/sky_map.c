@@ -20,6 +20,9 @@ _Static_assert(LSF_SKY_MAPS_MAX * sizeof(struct lsf_sky_map_data) % 256 == 0, "s
 
 #define GROUP_SIZE 64
 
+/* Texels along a side of a map, where what the camera sees needs fewer. */
+#define MIN_SIDE 32
+
 /* Triangles that may be this many texels long have a work group each, others an invocation. */
 #define MANY_TEXELS 5.0f
 
@@ -219,12 +222,14 @@ static struct lsf_sky_map_data map_of(const struct lsf_light_data *light, bool w
         .error = {light->map_offset.z, whole ? 1.0f : 0.0f, 0.0f, 0.0f}};
 }
 
-static struct lsf_light_data project(const lsf_iteration *iteration, uint32_t light, uint32_t side,
-                                     bool seen)
+/* `seen`: what the camera sees, with texels from `least` to `side` along a side; else the scene. */
+static struct lsf_light_data project(const lsf_iteration *iteration, uint32_t light, uint32_t least,
+                                     uint32_t side, bool seen)
 {
     const lsf_light_projection_layout layout = {.faces = 1,
                                                 .view = seen,
                                                 .fitted = seen,
+                                                .least = least,
                                                 .resolution = side,
                                                 .purpose = LSF_PURPOSE_SHADOW_MAP,
                                                 .use = LSF_LIGHT_STRAIGHT};
@@ -241,7 +246,7 @@ static bool serves_scene(const lsf_sky_map *pass, const lsf_iteration *iteration
     uint32_t side = (uint32_t)seen->map_shape.z;
     if (pass->scene.side == 0 || side < pass->scene.side)
         return false;
-    struct lsf_light_data scene = project(iteration, light, side, false);
+    struct lsf_light_data scene = project(iteration, light, side, side, false);
     return memcmp(&seen->map_window[0], &scene.map_window[0], sizeof scene.map_window[0]) == 0 &&
            seen->map_shape.x <= scene.map_shape.x && seen->map_shape.y >= scene.map_shape.y;
 }
@@ -268,9 +273,10 @@ static void start(lsf_sky_map *pass, const lsf_sky_map_target *target)
 void lsf_sky_map_begin(lsf_sky_map *pass, const lsf_iteration *iteration)
 {
     lsf_sky_map_target *target = &pass->seen;
+    uint32_t least = pass->scene.side > MIN_SIDE ? pass->scene.side : MIN_SIDE;
     target->count = 0;
     for (uint32_t i = iteration->state->light_count; i < iteration->light_count; i++) {
-        struct lsf_light_data data = project(iteration, i, target->side, true);
+        struct lsf_light_data data = project(iteration, i, least, target->side, true);
         add_map(target, i, &data, serves_scene(pass, iteration, i, &data));
     }
     start(pass, target);
@@ -284,7 +290,7 @@ void lsf_sky_map_begin_scene(lsf_sky_map *pass, const lsf_iteration *iteration)
     for (uint32_t i = first; i < iteration->light_count; i++) {
         if (pass->seen.count > 0 && pass->seen.maps[i - first].error.y > 0.0f)
             continue;
-        struct lsf_light_data data = project(iteration, i, target->side, false);
+        struct lsf_light_data data = project(iteration, i, target->side, target->side, false);
         add_map(target, i, &data, true);
     }
     start(pass, target);
