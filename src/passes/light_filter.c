@@ -8,15 +8,15 @@
 const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
     {"light_filter.kind", LSF_OPTION_ENUM, offsetof(lsf_light_filter_params, kind), 0, 0,
      "atrous|network", "",
-     "what takes the noise out of light; network: a trained one goes on from what the other has "
-     "filtered"},
+     "filter that removes noise; network: atrous, and then a trained network"},
     {"light_filter.steps", LSF_OPTION_INT, offsetof(lsf_light_filter_params, steps), 0, 8, NULL, "",
      "steps of the filter, each twice as wide as the one before; 0: no filter"},
     {"light_filter.tolerance", LSF_OPTION_FLOAT, offsetof(lsf_light_filter_params, tolerance), 1e-3,
      1e3, NULL, "standard deviations", "differences between neighbours that count as noise"},
     {"light_filter.depth_weight", LSF_OPTION_FLOAT, offsetof(lsf_light_filter_params, depth_weight),
      1e-3, 1e3, NULL, "pixels",
-     "how far neighbours may be off the pixel's plane, for each pixel that they are away"},
+     "height of a neighbour above the pixel's plane, per pixel of its distance, that halves its "
+     "weight"},
     {"light_filter.normal_weight", LSF_OPTION_FLOAT,
      offsetof(lsf_light_filter_params, normal_weight), 0.0, 1e4, NULL, "",
      "exponent of the cosine between the normals of neighbours"},

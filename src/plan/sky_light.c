@@ -7,17 +7,17 @@
 const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT] = {
     {"environment.directions", LSF_OPTION_INT, offsetof(lsf_sky_light_params, directions), -1, 256,
      NULL, "directions",
-     "drawn by the environment's radiance in an iteration, each with a shadow map; -1: 16 where it "
-     "alone lights what the camera sees from outside, else 8; 0: bundles, cones and paths find the "
-     "environment by chance, and the direct technique is not lit by it"},
+     "directions drawn by the environment's radiance in an iteration, each with a shadow map; -1: "
+     "16 where it alone lights what the camera sees from outside, else 8; 0: bundles, cones and "
+     "paths find the environment by chance, and the direct technique is not lit by it"},
     {"environment.open", LSF_OPTION_INT, offsetof(lsf_sky_light_params, open), 0, 64, NULL,
      "samples",
-     "of the environment's light as if nothing cast shadows, in a pixel and iteration, by its "
-     "radiance and by the surface each; 0: shadow maps alone tell what it lights"},
+     "samples per pixel and iteration of the environment's light without shadows, as many by its "
+     "radiance as by the surface; 0: only shadow maps determine its light"},
     {"environment.control", LSF_OPTION_ENUM, offsetof(lsf_sky_light_params, control), 0, 0,
      "share|whole", "",
-     "how much of that light a pixel counts on before shadow maps mend it: the share that "
-     "directions before found, or all"},
+     "weight of the environment's light without shadows in a pixel, which shadow maps then "
+     "correct; share: the part that earlier directions found; whole: all of it"},
 };
 
 uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
