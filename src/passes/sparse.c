@@ -17,7 +17,9 @@ const lsf_option_row lsf_sparse_options[LSF_SPARSE_OPTION_COUNT] = {
      "side of the pattern in which neighbouring pixels take different samples; 1: all take the "
      "same; 0: 4 up to 4 iterations, and without a time limit in pictures of 131072 pixels and "
      "more; 3 up to 8; else 2; but 1 with --raw, beyond 128 iterations without a time limit, and "
-     "where only the environment lights what the camera sees from outside"},
+     "where the environment, and no lamp, lights more than 1024 triangles that the camera sees "
+     "from "
+     "outside"},
     {"sparse.radius", LSF_OPTION_INT, offsetof(lsf_sparse_params, radius), 1, 16, NULL, "points",
      "distance up to which points on a pixel's surface are searched for"},
     {"sparse.slope", LSF_OPTION_FLOAT, offsetof(lsf_sparse_params, slope), 1e-3, 10.0, NULL, "",

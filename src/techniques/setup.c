@@ -74,11 +74,14 @@ static bool stands_in_the_open(const lsf_setup *setup)
     return r->environment && state->light_count == 0 && outside;
 }
 
-/* Whether a pattern costs more than it brings: little light bounces, and directions that all
- * pixels share find the rest, which a filter would only blur. */
+/* Triangles up to which the maps of a pattern's samples cost next to nothing: test rooms. */
+enum { FEW_TRIANGLES = 1024 };
+
+/* Whether a pattern costs more than it brings: little light bounces, directions that all pixels
+ * share find the rest, which a filter would only blur, and each sample draws many triangles. */
 static bool is_shared(const lsf_setup *setup)
 {
-    return stands_in_the_open(setup) && !setup->scene->requirements.emissive;
+    return stands_in_the_open(setup) && setup->scene->requirements.triangles > FEW_TRIANGLES;
 }
 
 /* The default of interleave.size: the fewer iterations, the more samples in each. */
