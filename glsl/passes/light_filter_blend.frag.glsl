@@ -9,6 +9,7 @@ layout(binding = 4) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: varian
 layout(binding = 6) uniform sampler2D filtered_textures[1 + LSF_LOBE];
 layout(binding = 8) uniform sampler2D factor_textures[1 + LSF_LOBE];
 layout(location = 2) uniform float uncertainty; /* relative variance of the variance; below 0: no limit */
+layout(location = 3) uniform bool pattern;      /* neighbours take different samples */
 layout(location = 0) out vec4 change_out;
 
 vec4 window_value(ivec2 at, int part)
@@ -23,7 +24,10 @@ float explained(vec3 change, float gone, vec4 window)
 {
     /* Both the mean square of the change and the variance have a relative variance of 2 / sum of weights. */
     float noise = window.x * (1.0 + 2.0 * sqrt(4.0 / window.a + uncertainty));
-    float alone = luminance(change) * luminance(change), most = 9.0 * gone * (1.0 + sqrt(uncertainty));
+    /* Where a pattern's samples have missed a rare light, its pixels know too little noise, but their neighbours
+     * know it. */
+    float known = pattern ? max(gone, window.x) : gone;
+    float alone = luminance(change) * luminance(change), most = 9.0 * known * (1.0 + sqrt(uncertainty));
     return min(window.y > noise ? noise / window.y : 1.0, alone > most ? most / alone : 1.0);
 }
 

@@ -224,6 +224,7 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
     set_guide(pass);
     glUniform1i(1, false);
     glUniform1f(2, pass->params.limit ? uncertainty_of(iterations) : -1.0f);
+    glUniform1i(3, plan->pattern > 1);
     bind_parts(2, pass->ping_pong[window]);
     bind_parts(4, pass->light);
     bind_parts(6, filtered);
