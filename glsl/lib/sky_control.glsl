@@ -24,8 +24,8 @@ sky_found sky_found_both(sky_found a, sky_found b)
 }
 
 /* The share to use, for either lobe, from directions that are independent of those that use it: their regression,
- * with one more direction added that would have brought as much as the largest of them: occluded for the diffuse
- * lobe; for the specular one, of which few directions tell, as much of it arrives as of diffuse light. */
+ * with one more direction added that is as bright as the largest of them: none of it arrives for the diffuse
+ * lobe, and for the specular lobe, which few directions reach, the share that arrives of diffuse light. */
 vec2 sky_control_share(sky_found found)
 {
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE

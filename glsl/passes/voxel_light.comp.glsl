@@ -79,11 +79,11 @@ void reflected(ivec3 cell, vec3 n, vec3 shading, inout vec3 front, inout vec3 ba
 {
     uint point = texelFetch(point_texture, cell, 0).r;
     vec3 position = voxel_to_position(vec3(cell) + voxel_point_unpack(point));
-    reflector material = material_at(cell);
 #if LSF_EMISSION
     if (voxel_unlit(point))
         return;
 #endif
+    reflector material = material_at(cell);
 #if LSF_SHADOW_SKY
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++)
         if (sky_maps[shadow_sky_map].error.y > 0.0)

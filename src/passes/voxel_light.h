@@ -6,6 +6,13 @@
 #include "frame/light_projection.h"
 #include "frame/voxel_grid.h"
 
+/* Texels of a directional light's map along a voxel's side: shadow borders are finer than voxels.
+ */
+#define LSF_VOXEL_LIGHT_TEXELS 4
+/* The same for maps of the environment's directions: with so many, voxels blur the light as much as
+ * texels do. */
+#define LSF_VOXEL_LIGHT_SKY_TEXELS 1
+
 typedef struct lsf_voxel_light_use {
     uint32_t sides;  /* 1 (the front), LSF_VOXEL_SIDES_SURFACE or LSF_VOXEL_SIDES_AXES */
     uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and

@@ -11,11 +11,6 @@
 /* What it has made anyway. */
 #define SHARED_NEEDS (LSF_NEED_VIEW | LSF_NEED_GBUFFER | LSF_NEED_MOTION)
 
-/* Texels of a directional light's map to a voxel's side, and of a direction's of the environment,
- * as voxel techniques have them. */
-#define MAP_TEXELS 4
-#define SKY_MAP_TEXELS 1
-
 static bool needs(const lsf_sandbox_setup *setup, lsf_sandbox_need need)
 {
     return setup->own & need;
@@ -94,9 +89,9 @@ static void plan_voxels(lsf_sandbox_setup *setup)
     lsf_voxel_grid_remark(plan, &params->voxel_grid, &grid);
     if (needs(setup, LSF_NEED_RADIANCE) && lit(setup))
         lsf_shadow_map_plan_scene(plan, &params->shadow_map, &setup->setup.state,
-                                  MAP_TEXELS * grid.resolution);
+                                  LSF_VOXEL_LIGHT_TEXELS * grid.resolution);
     if (needs(setup, LSF_NEED_RADIANCE) && plan->sky_lights > 0)
-        lsf_sky_map_plan_scene(plan, SKY_MAP_TEXELS * grid.resolution);
+        lsf_sky_map_plan_scene(plan, LSF_VOXEL_LIGHT_SKY_TEXELS * grid.resolution);
     lsf_voxelize_plan(plan, &params->voxelize, &grid);
     if (!needs(setup, LSF_NEED_RADIANCE)) {
         lsf_plan_omit(plan, "voxel_light", "the shader names no light of voxels");

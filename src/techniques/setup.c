@@ -74,12 +74,13 @@ static bool stands_in_the_open(const lsf_setup *setup)
     return r->environment && state->light_count == 0 && outside;
 }
 
-/* Triangles up to which the maps of a pattern's samples cost next to nothing: test rooms. */
+/* Up to this many triangles, as in Cornell boxes, maps for all samples of a pattern cost little. */
 enum { FEW_TRIANGLES = 1024 };
 
-/* Whether a pattern costs more than it brings: little light bounces, directions that all pixels
- * share find the rest, which a filter would only blur, and each sample draws many triangles. */
-static bool is_shared(const lsf_setup *setup)
+/* Whether all pixels should take the same samples. In the open little light bounces, directions of
+ * the environment find the rest, a filter would only blur it, and each sample of a pattern draws
+ * all triangles. */
+static bool shares_samples(const lsf_setup *setup)
 {
     return stands_in_the_open(setup) && setup->scene->requirements.triangles > FEW_TRIANGLES;
 }
@@ -89,7 +90,7 @@ static int32_t choose_interleave(const lsf_setup *setup)
 {
     const lsf_render_params *params = &setup->params;
     bool limited = isfinite(params->time_limit);
-    if (params->raw || (params->samples > PATTERN_ANY && !limited) || is_shared(setup))
+    if (params->raw || (params->samples > PATTERN_ANY && !limited) || shares_samples(setup))
         return 1;
     bool large = (uint64_t)params->width * params->height >= PATTERN_4_PIXELS && !limited;
     if (params->samples <= PATTERN_4 || large)

@@ -2,13 +2,6 @@
 
 #include <string.h>
 
-/* Texels of a directional light's map to a voxel's side: shadow borders are then finer than voxels.
- */
-#define MAP_TEXELS 4
-/* The same of maps of the environment's directions, which are many: voxels blur their light as much
- * as such texels do. */
-#define SKY_MAP_TEXELS 1
-
 /* Levels of a texture take a seventh more than its finest. */
 static uint32_t bytes_per_voxel(const lsf_plan *plan, const lsf_pass_params *params,
                                 const lsf_voxel_chain_use *use)
@@ -45,9 +38,10 @@ static void plan_light(lsf_plan *plan, const lsf_pass_params *params, const lsf_
                        const lsf_voxel_chain_use *use, const lsf_voxel_grid *grid)
 {
     lsf_voxel_light_use light = light_use(params, state, use);
-    lsf_shadow_map_plan_scene(plan, &params->shadow_map, state, MAP_TEXELS * grid->resolution);
+    lsf_shadow_map_plan_scene(plan, &params->shadow_map, state,
+                              LSF_VOXEL_LIGHT_TEXELS * grid->resolution);
     if (plan->sky_lights > 0)
-        lsf_sky_map_plan_scene(plan, SKY_MAP_TEXELS * grid->resolution);
+        lsf_sky_map_plan_scene(plan, LSF_VOXEL_LIGHT_SKY_TEXELS * grid->resolution);
     lsf_voxelize_plan(plan, &params->voxelize, grid);
     lsf_voxel_light_plan(plan, grid, &light);
     if (lsf_voxel_view_needed(plan))

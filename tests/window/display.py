@@ -63,7 +63,7 @@ class WindowTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def write(self, name, text):
-        """At once, so that who reads the file meanwhile never finds half of it."""
+        """Replaces the file in one step, because a program may read it at any time."""
         with open(self.path(name + ".new"), "w", encoding="utf-8") as file:
             file.write(text)
         os.replace(file.name, self.path(name))
