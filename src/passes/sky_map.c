@@ -23,11 +23,8 @@ _Static_assert(LSF_SKY_MAPS_MAX * sizeof(struct lsf_sky_map_data) % 256 == 0, "s
 /* Texels along a side of a map, where what the camera sees needs fewer. */
 #define MIN_SIDE 32
 
-/* Triangles that may be this many texels long have a work group each, others an invocation. */
-#define MANY_TEXELS 5.0f
-
-/* Work groups of a dispatch that GL promises (GL 4.5, table 23.61). */
-#define LARGE_DISPATCH 65535u
+/* The pipeline draws triangles that may be this many texels long, a compute shader the others. */
+#define MANY_TEXELS 16.0f
 
 typedef struct resource_name {
     char text[64];
@@ -349,7 +346,8 @@ static void draw_surfaces(lsf_sky_map *pass, const lsf_iteration *iteration, uin
     }
 }
 
-/* The other triangles that are listed, by a compute shader. */
+/* The other triangles that are listed, by a compute shader. The 128 MiB that every shader can read
+ * hold fewer than a dispatch may have work groups (GL 4.5, table 23.61) times GROUP_SIZE. */
 static void draw_small(lsf_sky_map *pass, const lsf_iteration *iteration)
 {
     const lsf_scene_gpu *scene = iteration->scene;
@@ -358,14 +356,16 @@ static void draw_small(lsf_sky_map *pass, const lsf_iteration *iteration)
     glBindImageTexture(0, pass->outputs.shadow.depth, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_TRIANGLES, scene->triangles);
     glUseProgram(pass->small_program);
+    uint32_t firsts[LSF_SKY_MAPS_MAX], first = scene->triangle_count;
     for (uint32_t layer = 0; layer < pass->outputs.count; layer++) {
-        uint32_t large = large_count(pass, iteration, layer);
-        uint32_t small = scene->triangle_count - large;
-        glUniform1i(0, (GLint)layer);
-        glUniform2ui(1, large, scene->triangle_count);
-        glDispatchCompute((small + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
-        pass->counts[LSF_DRAW_TRIANGLES] += small;
+        firsts[layer] = large_count(pass, iteration, layer);
+        first = firsts[layer] < first ? firsts[layer] : first;
+        pass->counts[LSF_DRAW_TRIANGLES] += scene->triangle_count - firsts[layer];
     }
+    glUniform1i(0, (GLint)pass->outputs.count);
+    glUniform2ui(1, first, scene->triangle_count);
+    glUniform1uiv(2, (GLsizei)pass->outputs.count, firsts);
+    glDispatchCompute((scene->triangle_count - first + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
