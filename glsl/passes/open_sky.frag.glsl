@@ -126,6 +126,9 @@ void main()
 #endif
     view_direction = surface_view(s, -normalize(view_ray_direction(sample_ndc(gl_FragCoord.xy))));
     p = brdf_sampler_of(s, view_direction, true);
+#if LSF_SPECULAR
+    p.specular = 1.0 - LOBE_LEAST; /* directions drawn by the radiance serve the diffuse lobe well */
+#endif
     path_random_key key;
     key.pixel = uint(pixel.x) | uint(pixel.y) << 16;
     key.seed = seed;
