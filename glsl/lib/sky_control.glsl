@@ -10,12 +10,12 @@
 struct sky_found {
     vec2 lit;   /* sums of the product of both */
     vec2 whole; /* sums of the squares of the unoccluded light */
-    vec2 most;  /* the largest of these squares */
+    float most; /* the largest of these squares, diffuse */
 };
 
 sky_found sky_found_nothing()
 {
-    return sky_found(vec2(0.0), vec2(0.0), vec2(0.0));
+    return sky_found(vec2(0.0), vec2(0.0), 0.0);
 }
 
 sky_found sky_found_both(sky_found a, sky_found b)
@@ -23,17 +23,26 @@ sky_found sky_found_both(sky_found a, sky_found b)
     return sky_found(a.lit + b.lit, a.whole + b.whole, max(a.most, b.most));
 }
 
-/* The share to use, for either lobe, from directions that are independent of those that use it: their regression,
- * with one more direction added that is as bright as the largest of them: none of it arrives for the diffuse
- * lobe, and for the specular lobe, which few directions reach, the share that arrives of diffuse light. */
-vec2 sky_control_share(sky_found found)
+/* The share of diffuse light to use, from directions that are independent of those that use it: their regression,
+ * with one more direction added that is as bright as the largest of them and of which nothing arrives. */
+float sky_control_diffuse(sky_found found)
 {
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
-    vec2 whole = found.whole + found.most;
-    float diffuse = whole.x > 0.0 ? found.lit.x / whole.x : 0.0;
-    return vec2(diffuse, whole.y > 0.0 ? (found.lit.y + diffuse * found.most.y) / whole.y : diffuse);
+    float whole = found.whole.x + found.most;
+    return whole > 0.0 ? found.lit.x / whole : 0.0;
 #else
-    return vec2(1.0);
+    return 1.0;
+#endif
+}
+
+/* The share of specular light, from all directions: few reach the lobe, so that half of them would say little.
+ * Where none does, it is that of diffuse light. */
+float sky_control_specular(sky_found found)
+{
+#if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+    return found.whole.y > 0.0 ? found.lit.y / found.whole.y : sky_control_diffuse(found);
+#else
+    return 1.0;
 #endif
 }
 

@@ -92,7 +92,7 @@ layout(binding = 3) uniform sampler2D open_irradiance_texture;
 layout(binding = 4) uniform sampler2D open_specular_texture;
 #endif
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
-/* Statistics of the directions of both sequences: sums in two layers, the largest squares in two more. */
+/* Statistics of the directions of both sequences: sums in two layers, the largest squares in a third. */
 layout(binding = 0, rgba32f) uniform image2DArray control_image;
 #endif
 layout(location = 3) uniform vec2 control; /* the share of one direction; the reciprocal of the light's typical
@@ -110,7 +110,7 @@ sky_found found_by(vec3 diffuse, vec3 specular, vec3 left)
 {
     vec2 whole = control.y * vec2(luminance(diffuse), luminance(specular));
     vec2 lit = control.y * vec2(luminance(diffuse * left), luminance(specular * left));
-    return sky_found(whole * lit, whole * whole, whole * whole);
+    return sky_found(whole * lit, whole * whole, whole.x * whole.x);
 }
 
 /* Adds the current direction. */
@@ -141,7 +141,8 @@ light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2
                        part.lit.specular + share.y * (specular - part.open.specular));
 }
 
-/* The sum over the batch. Each sequence uses the share that the other one has found, which is independent of it. */
+/* The sum over the batch. Each sequence uses the share of diffuse light that the other one has found, which is
+ * independent of it. */
 light_parts controlled_sum(ivec2 pixel, sky_part parts[2], ivec2 directions)
 {
     light_parts open_sky = light_parts(texelFetch(open_irradiance_texture, pixel, 0).rgb, vec3(0.0));
@@ -149,17 +150,19 @@ light_parts controlled_sum(ivec2 pixel, sky_part parts[2], ivec2 directions)
     open_sky.specular = texelFetch(open_specular_texture, pixel, 0).rgb;
 #endif
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+    vec2 most = imageLoad(control_image, ivec3(pixel, 2)).xy;
     for (int i = 0; i < 2; i++) {
-        ivec3 sums = ivec3(pixel, i), most = ivec3(pixel, 2 + i);
-        vec4 before = imageLoad(control_image, sums);
-        vec2 largest_before = imageLoad(control_image, most).xy;
-        parts[i].found = sky_found_both(parts[i].found, sky_found(before.xy, before.zw, largest_before));
-        imageStore(control_image, sums, vec4(parts[i].found.lit, parts[i].found.whole));
-        imageStore(control_image, most, vec4(parts[i].found.most, 0.0, 0.0));
+        vec4 sums = imageLoad(control_image, ivec3(pixel, i));
+        parts[i].found = sky_found_both(parts[i].found, sky_found(sums.xy, sums.zw, most[i]));
+        imageStore(control_image, ivec3(pixel, i), vec4(parts[i].found.lit, parts[i].found.whole));
     }
+    imageStore(control_image, ivec3(pixel, 2), vec4(parts[0].found.most, parts[1].found.most, 0.0, 0.0));
 #endif
-    light_parts one = controlled(parts[0], directions.x, open_sky, sky_control_share(parts[1].found));
-    light_parts other = controlled(parts[1], directions.y, open_sky, sky_control_share(parts[0].found));
+    float specular = sky_control_specular(sky_found_both(parts[0].found, parts[1].found));
+    light_parts one =
+        controlled(parts[0], directions.x, open_sky, vec2(sky_control_diffuse(parts[1].found), specular));
+    light_parts other =
+        controlled(parts[1], directions.y, open_sky, vec2(sky_control_diffuse(parts[0].found), specular));
     return light_parts(one.irradiance + other.irradiance, one.specular + other.specular);
 }
 #endif

@@ -84,13 +84,15 @@ void add_reflected(vec3 u)
 }
 
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
-vec2 share_before(ivec2 pixel, int sequence)
+/* The largest share that the directions of a sequence suggest for either lobe. */
+float share_before(ivec2 pixel, int sequence)
 {
     vec4 sums = texelFetch(control_texture, ivec3(pixel, sequence), 0);
-    vec2 most = texelFetch(control_texture, ivec3(pixel, 2 + sequence), 0).xy;
+    float most = texelFetch(control_texture, ivec3(pixel, 2), 0)[sequence];
     if (sums.z + sums.w == 0.0)
-        return vec2(1.0); /* nothing is known yet */
-    return sky_control_share(sky_found(sums.xy, sums.zw, most));
+        return 1.0; /* nothing is known yet */
+    sky_found found = sky_found(sums.xy, sums.zw, most);
+    return max(sky_control_diffuse(found), sky_control_specular(found));
 }
 #endif
 
@@ -100,8 +102,7 @@ int samples_of(ivec2 pixel)
 {
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
     if (told) {
-        vec2 share = max(share_before(pixel, 0), share_before(pixel, 1));
-        float wanted = float(counts.x) * max(share.x, share.y);
+        float wanted = float(counts.x) * max(share_before(pixel, 0), share_before(pixel, 1));
         return int(exp2(ceil(log2(clamp(wanted, 1.0, float(counts.x))))));
     }
 #endif

@@ -138,11 +138,39 @@ static void mirror_in_the_open(void **unused)
     destroy_scene(scene);
 }
 
+/* A rough metal before a square that half of its lobe meets: the share of specular light is told
+ * by the very directions that use it, and its error vanishes among many. */
+static void lobe_half_covered(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = build_scene();
+    lsf_material *material = build_material(scene, 1, 1, 1);
+    material->metallic = 1.0f;
+    material->roughness = 0.6f;
+    build_floor(scene, 0.0f, 4.0f);
+    build_quad(scene, lsf_f3(-3, 0, 1), lsf_f3(-3, 0, -1), lsf_f3(-1, 2, -1), lsf_f3(-1, 2, 1));
+    build_environment(scene, 1.0f);
+    finish_gl_scene(scene);
+    spread found[CONTROLS];
+    for (int control = NOTHING; control < WHOLE; control++) {
+        const char *const options[3] = {"environment.directions=16", "environment.open=64",
+                                        control_options[control]};
+        found[control] = render_runs(scene, options, 32, lsf_f3(2, 1, 0.1f), lsf_f3(0.01f, 0, 0));
+        print_message("lobe, %s: %.4f, deviation %.4f\n", control_names[control],
+                      found[control].mean, found[control].deviation);
+    }
+    double error = hypot(found[NOTHING].deviation, found[SHARE].deviation) / sqrt((double)RUNS);
+    assert_true(fabs(found[SHARE].mean - found[NOTHING].mean) <=
+                4.0 * error + 0.01 * found[NOTHING].mean);
+    destroy_scene(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(same_light_on_average),
         cmocka_unit_test(mirror_in_the_open),
+        cmocka_unit_test(lobe_half_covered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
