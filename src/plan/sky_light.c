@@ -10,10 +10,11 @@ const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT] = {
      "directions drawn by the environment's radiance in an iteration, each with a shadow map; -1: "
      "16 where it alone lights what the camera sees from outside, else 8; 0: bundles, cones and "
      "paths find the environment by chance, and the direct technique is not lit by it"},
-    {"environment.open", LSF_OPTION_INT, offsetof(lsf_sky_light_params, open), 0, 64, NULL,
+    {"environment.open", LSF_OPTION_INT, offsetof(lsf_sky_light_params, open), -1, 1024, NULL,
      "samples",
      "samples per pixel and iteration of the environment's light without shadows, as many by its "
-     "radiance as by the surface; 0: only shadow maps determine its light"},
+     "radiance as by the surface; -1: 64 where it alone lights what the camera sees from outside "
+     "and no light is kept from frame to frame, else 32; 0: only shadow maps determine its light"},
     {"environment.control", LSF_OPTION_ENUM, offsetof(lsf_sky_light_params, control), 0, 0,
      "share|whole", "",
      "weight of the environment's light without shadows in a pixel, which shadow maps then "
@@ -31,7 +32,7 @@ uint32_t lsf_sky_light_count(const lsf_requirements *requirements,
 
 bool lsf_sky_light_is_controlled(uint32_t directions, const lsf_sky_light_params *params)
 {
-    return directions > 0 && params->open > 0;
+    return directions > 0 && params->open != 0;
 }
 
 void lsf_sky_light_draw(lsf_light_state *light, lsf_sky_share *share, const lsf_sky *sky,

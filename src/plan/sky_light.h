@@ -20,11 +20,11 @@ typedef struct lsf_sky_light_params {
     int32_t directions; /* drawn an iteration; 0: the environment is found by chance alone; below
                          * 0: 16 in the open, else 8 */
     int32_t open;       /* samples of its light without shadows, of each of two kinds in a pixel
-                         * and iteration; 0: none */
+                         * and iteration; 0: none; below 0: 64 in the open, else 32 */
     int32_t control;    /* lsf_sky_light_control: how much of that light directions count on */
 } lsf_sky_light_params;
 
-#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = -1, .open = 32, .control = LSF_SKY_LIGHT_SHARE
+#define LSF_SKY_LIGHT_PARAMS_DEFAULTS .directions = -1, .open = -1, .control = LSF_SKY_LIGHT_SHARE
 
 #define LSF_SKY_LIGHT_OPTION_COUNT 3
 extern const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT];

@@ -2,6 +2,15 @@
 
 #include "base/base.h"
 
+/* Samples of the environment's light without shadows that a pixel takes of each kind. In the open
+ * it counts on nearly all of that light; a frame of many should not take long. */
+static uint32_t open_samples(const lsf_plan *plan, const lsf_sky_light_params *params)
+{
+    if (params->open >= 0)
+        return (uint32_t)params->open;
+    return plan->open && !plan->temporal ? 64 : 32;
+}
+
 static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_params *params,
                                       const lsf_direct_chain_use *use)
 {
@@ -12,7 +21,7 @@ static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_param
                                 ? LSF_SKY_CONTROL_WHOLE
                                 : LSF_SKY_CONTROL_SHARE;
         uint32_t points = plan->pixel_side * plan->pixel_side; /* of a pixel share its samples */
-        while (2 * points * light.sky.open_samples <= (uint32_t)params->sky_light.open)
+        while (2 * points * light.sky.open_samples <= open_samples(plan, &params->sky_light))
             light.sky.open_samples *= 2;
     }
     if (use) {

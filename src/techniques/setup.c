@@ -227,9 +227,10 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     if (technique && technique->bounces)
         plan->bounces = by_scene ? plan->requirements.bounces : params->bounces;
     plan->aovs = params->aovs;
+    plan->open = stands_in_the_open(setup);
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
-        plan->sky_lights = lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light,
-                                               stands_in_the_open(setup));
+        plan->sky_lights =
+            lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light, plan->open);
     set_seen(setup, technique);
     bool shared = !technique || !draws_itself(technique);
     plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
