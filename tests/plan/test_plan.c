@@ -164,10 +164,10 @@ static void environment(void **unused)
                                  "scene.triangles", "open_sky.irradiance",  "open_sky.specular",
                                  "open_sky.drawn",  "direct_light.control", "compose.radiance"};
     /* Eight maps of 128 texels a side, which share a depth buffer; 16 slots of 128 bytes; two
-     * triangles; 1024 directions; two pictures of light without shadows and four layers */
+     * triangles; 1024 directions; two pictures of light without shadows and three layers */
     check_feature(make_environment, 0, 9, names,
                   (uint64_t)128 * 128 * (8 + 1) * 4 + 16 * 128 + 2 * 36 + 1024 * 32 +
-                      (uint64_t)PIXELS * 16 * (2 + 4 + 1),
+                      (uint64_t)PIXELS * 16 * (2 + 3 + 1),
                   "direct_light.LSF_DIRECTIONAL_LIGHT ", 4);
 }
 
