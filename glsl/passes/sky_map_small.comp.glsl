@@ -60,7 +60,8 @@ bool triangle_on_map(int map, vec3 corners[3], out map_triangle t)
     return true;
 }
 
-/* The covered texels of a row: the first, and the end. An edge along the row bounds either all of it or none. */
+/* The covered texels of a row: the first, and the end. `per_edge`: the reciprocal of edges_x. An edge along the row
+ * bounds either all of it or none. */
 ivec2 covered_in_row(map_triangle t, vec3 per_edge, int row)
 {
     vec3 crossings = -(t.edges + float(row) * t.edges_y) * per_edge;

@@ -346,8 +346,8 @@ static void draw_surfaces(lsf_sky_map *pass, const lsf_iteration *iteration, uin
     }
 }
 
-/* The other triangles that are listed, by a compute shader. The 128 MiB that every shader can read
- * hold fewer than a dispatch may have work groups (GL 4.5, table 23.61) times GROUP_SIZE. */
+/* The other triangles that are listed, by a compute shader. The list takes at most 128 MiB, whose
+ * triangles need fewer work groups than GL promises for a dispatch (GL 4.5, table 23.61). */
 static void draw_small(lsf_sky_map *pass, const lsf_iteration *iteration)
 {
     const lsf_scene_gpu *scene = iteration->scene;

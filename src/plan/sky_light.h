@@ -20,7 +20,8 @@ typedef struct lsf_sky_light_params {
     int32_t directions; /* drawn an iteration; 0: the environment is found by chance alone; below
                          * 0: 16 in the open, else 8 */
     int32_t open;       /* samples of its light without shadows, of each of two kinds in a pixel
-                         * and iteration; 0: none; below 0: 64 in the open, else 32 */
+                         * and iteration; 0: none; below 0: 64 in the open, unless light is kept from
+                         * frame to frame, else 32 */
     int32_t control;    /* lsf_sky_light_control: how much of that light directions count on */
 } lsf_sky_light_params;
 

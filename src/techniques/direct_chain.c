@@ -3,7 +3,7 @@
 #include "base/base.h"
 
 /* Samples of the environment's light without shadows that a pixel takes of each kind. In the open
- * it counts on nearly all of that light; a frame of many should not take long. */
+ * it counts on nearly all of that light; frames that keep light are to be fast. */
 static uint32_t open_samples(const lsf_plan *plan, const lsf_sky_light_params *params)
 {
     if (params->open >= 0)
@@ -21,7 +21,8 @@ static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_param
                                 ? LSF_SKY_CONTROL_WHOLE
                                 : LSF_SKY_CONTROL_SHARE;
         uint32_t points = plan->pixel_side * plan->pixel_side; /* of a pixel share its samples */
-        while (2 * points * light.sky.open_samples <= open_samples(plan, &params->sky_light))
+        uint32_t samples = open_samples(plan, &params->sky_light);
+        while (2 * points * light.sky.open_samples <= samples)
             light.sky.open_samples *= 2;
     }
     if (use) {

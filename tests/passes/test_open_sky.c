@@ -138,8 +138,8 @@ static void mirror_in_the_open(void **unused)
     destroy_scene(scene);
 }
 
-/* A rough metal before a square that half of its lobe meets: the share of specular light is told
- * by the very directions that use it, and its error vanishes among many. */
+/* A square covers half of a rough metal's lobe. The share of specular light is estimated from the
+ * directions that use it, too; among many directions the mean must not show it. */
 static void lobe_half_covered(void **unused)
 {
     (void)unused;
