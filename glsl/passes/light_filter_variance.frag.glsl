@@ -20,9 +20,12 @@ float variance_of(float own, vec4 window)
     if (window_moments)
         return window.y;
     float variance = window.x, even = halves && variance > 0.0 ? min(window.y / variance, 1.0) : 1.0;
-    /* Variances of light differ by factors, so that their logarithms are mixed. */
-    float part = uncertainty / (1.0 + uncertainty);
-    return pow(even, 1.0 - part) * variance * pow(max(own / max(variance, 1e-37), 1e-3), 1.0 - part);
+    float share = 1.0 / (1.0 + uncertainty);
+    /* Variances of light differ by factors, so that their logarithms are mixed; but where one pixel has found a
+     * rare light, most of the mean is its own, and it must keep as much. */
+    float mixed = own > variance ? mix(variance, own, share)
+                                 : variance * pow(max(own / max(variance, 1e-37), 1e-3), share);
+    return pow(even, share) * mixed;
 }
 
 void main()
