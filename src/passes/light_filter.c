@@ -125,12 +125,14 @@ static void set_guide(const lsf_light_filter *pass)
     glUniform2f(0, pass->params.depth_weight, pass->params.normal_weight);
 }
 
+/* Kurtosis of noise: that of an exponential distribution, and that of a light that one sample in 64
+ * finds. */
+static const float KURTOSIS = 9.0f, KURTOSIS_RARE = 64.0f;
+
 /* Relative variance of a variance that is known from so many iterations of heavy-tailed noise:
- * (kurtosis - 1) / (n - 1), with the kurtosis of an exponential distribution. One iteration tells
- * next to nothing. */
-static float uncertainty_of(float iterations)
+ * (kurtosis - 1) / (n - 1). One iteration tells next to nothing. */
+static float uncertainty_of(float iterations, float kurtosis)
 {
-    const float kurtosis = 9.0f;
     return (kurtosis - 1.0f) / (iterations > 1.5f ? iterations - 1.0f : 0.01f);
 }
 
@@ -165,8 +167,9 @@ static void divide(const lsf_light_filter *pass, const lsf_plan *plan, float ite
     begin(plan, pass->light_framebuffer, pass->variance);
     set_guide(pass);
     glUniform1i(1, alone);
-    glUniform1f(2, uncertainty_of(iterations));
-    glUniform1i(3, inputs->half != 0);
+    glUniform1f(2, uncertainty_of(iterations, KURTOSIS));
+    /* Halves of shared samples tell little: a light that was found twice may be in both. */
+    glUniform1i(3, inputs->half != 0 && !shares_samples(plan));
     bind_parts(2, pass->ping_pong[1]);
     bind_parts(4, pass->ping_pong[0]);
     lsf_draw_fullscreen(pass->context);
@@ -191,7 +194,8 @@ static float correlation_before(int32_t step)
 static void run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterations)
 {
     const GLuint *light = pass->light;
-    float first = 7.0f * (shares_samples(plan) ? 1.0f + sqrtf(uncertainty_of(iterations)) : 1.0f);
+    float first =
+        7.0f * (shares_samples(plan) ? 1.0f + sqrtf(uncertainty_of(iterations, KURTOSIS)) : 1.0f);
     for (int32_t i = 0; i < pass->params.steps; i++) {
         begin(plan, pass->ping_pong_framebuffers[i % 2], pass->step);
         set_guide(pass);
@@ -223,7 +227,8 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
     lsf_blend_add(1);
     set_guide(pass);
     glUniform1i(1, false);
-    glUniform1f(2, pass->params.limit ? uncertainty_of(iterations) : -1.0f);
+    float kurtosis = shares_samples(plan) ? KURTOSIS_RARE : KURTOSIS;
+    glUniform1f(2, pass->params.limit ? uncertainty_of(iterations, kurtosis) : -1.0f);
     glUniform1i(3, plan->pattern > 1);
     bind_parts(2, pass->ping_pong[window]);
     bind_parts(4, pass->light);
