@@ -234,7 +234,8 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     set_seen(setup, technique);
     bool shared = !technique || !draws_itself(technique);
     plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
-    plan->sky_split = plan->filtered && plan->sky_lights > 0;
+    bool blurs_sky = shares_samples(setup) && plan->pattern == 1 && !params->temporal;
+    plan->sky_split = plan->filtered && !blurs_sky && plan->sky_lights > 0;
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);
     plan->temporal = params->temporal;

@@ -1,9 +1,10 @@
 /* The filter of light in pictures: it makes none of them worse. */
 #include "base/base.h"
 #include "render_gl.h"
+#include "scene/environment.h"
 
-static lsf_image *render_room(const lsf_scene *scene, const char *technique, uint32_t samples,
-                              bool raw, int steps)
+static lsf_image *render(const lsf_scene *scene, const char *technique, uint32_t samples, bool raw,
+                         int steps)
 {
     char option[64];
     snprintf(option, sizeof option, "light_filter.steps=%d", steps);
@@ -33,6 +34,28 @@ static double relmse(const lsf_image *image, const lsf_image *truth)
 
 /* Against the converged estimator, filtered pictures are no worse than the same ones unfiltered;
  * and the same bits twice. Contact shadows are a pixel wide in pictures this small. */
+static void check_scene(const lsf_scene *scene, const char *technique, uint32_t most_samples,
+                        uint32_t truth_samples)
+{
+    lsf_image *truth = render(scene, technique, truth_samples, true, 5);
+    for (uint32_t samples = 1; samples <= most_samples; samples *= 4) {
+        lsf_image *image = render(scene, technique, samples, false, 5);
+        lsf_image *unfiltered = render(scene, technique, samples, false, 0);
+        double filtered = relmse(image, truth), before = relmse(unfiltered, truth);
+        print_message("%s, %2u iterations: relMSE %.4f of %.4f\n", technique, samples, filtered,
+                      before);
+        assert_true(filtered <= before);
+        if (samples == 4) {
+            lsf_image *again = render(scene, technique, samples, false, 5);
+            assert_same_pixels(again, image);
+            lsf_image_destroy(again);
+        }
+        lsf_image_destroy(image);
+        lsf_image_destroy(unfiltered);
+    }
+    lsf_image_destroy(truth);
+}
+
 static void check_technique(const char *technique, uint32_t most_samples, uint32_t truth_samples)
 {
     char path[4096];
@@ -43,23 +66,41 @@ static void check_technique(const char *technique, uint32_t most_samples, uint32
     lsf_scene *scene = lsf_scene_load(path, &scene_params, &error);
     if (!scene)
         fail_msg("%s", error.message);
-    lsf_image *truth = render_room(scene, technique, truth_samples, true, 5);
-    for (uint32_t samples = 1; samples <= most_samples; samples *= 4) {
-        lsf_image *image = render_room(scene, technique, samples, false, 5);
-        lsf_image *unfiltered = render_room(scene, technique, samples, false, 0);
-        double filtered = relmse(image, truth), before = relmse(unfiltered, truth);
-        print_message("%s, %2u iterations: relMSE %.4f of %.4f\n", technique, samples, filtered,
-                      before);
-        assert_true(filtered <= before);
-        if (samples == 4) {
-            lsf_image *again = render_room(scene, technique, samples, false, 5);
-            assert_same_pixels(again, image);
-            lsf_image_destroy(again);
+    check_scene(scene, technique, most_samples, truth_samples);
+    lsf_scene_destroy(scene);
+}
+
+/* A sphere that stands on a floor in the open, between two bright patches of a dim sky. All pixels
+ * take the same directions of the sky, so that neighbours cannot tell noise from light. */
+static lsf_scene *patches_scene(void)
+{
+    enum { WIDTH = 32, HEIGHT = 16, ROW = 5 };
+    lsf_scene *scene = build_scene();
+    scene->cameras[0].matrix[14] = 5.0f;
+    build_material(scene, 0.7f, 0.6f, 0.4f);
+    build_sphere(scene, 3, false);
+    build_quad(scene, lsf_f3(-2, -1, 2), lsf_f3(2, -1, 2), lsf_f3(2, -1, -2), lsf_f3(-2, -1, -2));
+    lsf_environment *sky = &scene->environment;
+    sky->present = true;
+    sky->width = WIDTH;
+    sky->height = HEIGHT;
+    sky->texels = calloc(3 * WIDTH * HEIGHT, sizeof(float));
+    for (int row = 0; row < HEIGHT; row++)
+        for (int column = 0; column < WIDTH; column++) {
+            bool bright = (row == ROW || row == ROW + 1) && column % 16 < 3;
+            for (int c = 0; c < 3; c++)
+                sky->texels[3 * (row * WIDTH + column) + c] = bright ? 30.0f : 0.1f;
         }
-        lsf_image_destroy(image);
-        lsf_image_destroy(unfiltered);
-    }
-    lsf_image_destroy(truth);
+    finish_gl_scene(scene);
+    return scene;
+}
+
+static void open_sky_is_no_worse(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = patches_scene();
+    check_scene(scene, "voxel_path", 4, 64);
+    check_scene(scene, "substitute_tree", 4, 64);
     lsf_scene_destroy(scene);
 }
 
@@ -87,6 +128,7 @@ int main(void)
         cmocka_unit_test(bidirectional_is_no_worse),
         cmocka_unit_test(voxel_path_is_no_worse),
         cmocka_unit_test(cone_is_no_worse),
+        cmocka_unit_test(open_sky_is_no_worse),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
