@@ -132,7 +132,7 @@ void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint
         lsf_plan_pass_add(plan, "sparse_split", "what points see%s",
                           interleave > 1 ? ", those side by side that take the same samples" : "");
         lsf_plan_fills(plan, "points");
-        lsf_plan_reads(plan, there & SPARSE ? "view gbuffer sparse.source" : "gbuffer");
+        lsf_plan_reads(plan, there & SHARED ? "view gbuffer sparse.source" : "gbuffer");
         plan_switches(plan, interleave, false);
     }
 }

@@ -151,10 +151,23 @@ static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *techni
            !lsf_blur_wanted(&pass_params->blur);
 }
 
+/* Whether edges and textures have most of the noise: after few iterations; and more points cost
+ * little beside light that each pixel traces. */
+static bool edges_matter(const lsf_setup *setup, const lsf_technique *technique)
+{
+    enum { FEW = 2, FEW_TRACED = 8, MOST_PIXELS = 1 << 20 }; /* a pixel takes 0.3 KiB more */
+    const lsf_render_params *params = &setup->params;
+    bool traced = technique->traces_pixels;
+    if (!technique->bounces || (uint64_t)params->width * params->height > MOST_PIXELS)
+        return false;
+    return isfinite(params->time_limit) ? traced : params->samples <= (traced ? FEW_TRACED : FEW);
+}
+
 enum { LONGEST_SIDE = 4 };
 
-/* Sample points of a pixel cost little beside maps that draw twice as many triangles as there are
- * points, and take the noise off edges and textures that is most of what few iterations leave. */
+/* Sample points of a pixel take the noise off edges and textures. They cost little beside maps that
+ * draw twice as many triangles as there are points, and beside light that bounces, which is
+ * gathered at one of them. */
 static uint32_t pixel_side(const lsf_setup *setup, const lsf_technique *technique)
 {
     const lsf_plan *plan = setup->plan;
@@ -163,10 +176,12 @@ static uint32_t pixel_side(const lsf_setup *setup, const lsf_technique *techniqu
         return 1;
     if (wanted > 0)
         return 1u << (wanted - 1);
+    if (setup->params.raw)
+        return 1;
     uint64_t drawn = plan->sky_lights * plan->requirements.triangles;
     uint64_t pixels = (uint64_t)plan->width * plan->height;
-    uint32_t side = 1;
-    while (!setup->params.raw && side < LONGEST_SIDE && 8 * side * side * pixels <= drawn)
+    uint32_t side = edges_matter(setup, technique) ? 2 : 1;
+    while (side < LONGEST_SIDE && 8 * side * side * pixels <= drawn)
         side *= 2;
     return side;
 }

@@ -63,6 +63,7 @@ bool lsf_bench_rays(lsf_bench *bench, lsf_error *error)
 {
     lsf_render_params params = lsf_settings_render_params(&bench->settings);
     params.samples = 1;
+    params.raw = true; /* a ray for each pixel */
     lsf_ray_bench *rays = lsf_ray_bench_create(bench->context, bench->scene, &params, error);
     if (!rays)
         return false;

@@ -166,17 +166,32 @@ static void by_paths(void **unused)
     same_light("voxel_path");
 }
 
-/* More of them where the environment's maps draw more triangles than there are points; elsewhere,
- * and where the mean alone is asked for, one. */
+/* More of them where the environment's maps draw more triangles than there are points, after few
+ * iterations, and where pixels trace light in a limited time; elsewhere, and where the mean alone
+ * is asked for, one. */
 static void where_they_pay(void **unused)
 {
     (void)unused;
     static const struct {
-        bool environment, raw, temporal;
-        uint32_t width, side;
-    } cases[] = {{true, false, false, 16, 4}, {true, false, false, 32, 2},
-                 {true, false, false, 64, 1}, {true, true, false, 16, 1},
-                 {true, false, true, 16, 1},  {false, false, false, 16, 1}};
+        const char *technique;
+        uint32_t width, samples, side;
+        bool environment, raw, temporal, limited;
+    } cases[] = {{"bidirectional", 16, 16, 4, .environment = true},
+                 {"bidirectional", 32, 16, 2, .environment = true},
+                 {"bidirectional", 64, 16, 1, .environment = true},
+                 {"bidirectional", 16, 16, 1, .environment = true, .raw = true},
+                 {"bidirectional", 16, 16, 1, .environment = true, .temporal = true},
+                 {"bidirectional", 16, 16, 1},
+                 {"bidirectional", 16, 2, 2},
+                 {"bidirectional", 16, 2, 1, .raw = true},
+                 {"bidirectional", 16, 2, 1, .temporal = true},
+                 {"bidirectional", 1025, 2, 1},
+                 {"direct", 16, 2, 1},
+                 {"cone", 16, 8, 2},
+                 {"cone", 16, 9, 1},
+                 {"cone", 16, 9, 2, .limited = true},
+                 {"voxel_path", 16, 9, 2, .limited = true},
+                 {"bidirectional", 16, 2, 1, .limited = true}};
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
         lsf_error error = {0};
         lsf_scene *scene = build_scene();
@@ -188,6 +203,10 @@ static void where_they_pay(void **unused)
         finish_gl_scene(scene);
         lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = cases[i].raw,
                                     .temporal = cases[i].temporal};
+        params.technique = cases[i].technique;
+        params.samples = cases[i].samples;
+        if (cases[i].limited)
+            params.time_limit = 1.0;
         params.width = params.height = cases[i].width;
         lsf_plan *plan = lsf_plan_create(scene, &params, &error);
         if (!plan)

@@ -28,7 +28,8 @@ static world begin_filtered(lsf_render_params params, const char *filter, const 
                                    "rsm.resolution=64",
                                    "bundle.resolution=64",
                                    "vpl.shadow_resolution=64",
-                                   "cloud.count=8192"};
+                                   "cloud.count=8192",
+                                   "gbuffer.side=1"};
     lsf_error error = {0};
     world w = {.scene = build_scene(), .context = gl_test_context(LSF_BACKEND_OSMESA, NULL)};
     build_corner(w.scene);

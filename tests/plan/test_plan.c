@@ -279,11 +279,12 @@ static void only_what_is_planned_is_created(void **state)
     lsf_plan_destroy(plan);
 }
 
-/* What is planned for a picture of indirect light; NULL with an error. */
+/* What is planned for a picture of indirect light seen at one point of each pixel; NULL with an
+ * error. */
 static lsf_plan *plan_points(const char *technique, double time_limit, uint32_t width, bool raw,
                              const char *option, lsf_error *error)
 {
-    const char *const options[] = {option};
+    const char *const options[] = {"gbuffer.side=1", option};
     lsf_scene *scene = build_scene();
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 2, 0), lsf_f3(0, -1, 0), 1.0f);
     build_material(scene, 0.5f, 0.5f, 0.5f);
@@ -296,7 +297,7 @@ static lsf_plan *plan_points(const char *technique, double time_limit, uint32_t 
     params.width = params.height = width;
     params.raw = raw;
     params.options = options;
-    params.option_count = option ? 1 : 0;
+    params.option_count = option ? 2 : 1;
     lsf_plan *plan = lsf_plan_create(scene, &params, error);
     destroy_scene(scene);
     return plan;
