@@ -136,11 +136,17 @@ static float uncertainty_of(float iterations, float kurtosis)
     return (kurtosis - 1.0f) / (iterations > 1.5f ? iterations - 1.0f : 0.01f);
 }
 
+/* Whether light that bounces is filtered: a few samples find rare lights by chance. */
+static bool bounces(const lsf_plan *plan)
+{
+    return lsf_plan_switch_value(plan, "light_mean", "LSF_INDIRECT");
+}
+
 /* Whether neighbours that take different samples of light that bounces share them with others of
  * the same place in the pattern: what one of these finds alone stands out from all around it. */
 static bool shares_samples(const lsf_plan *plan)
 {
-    return plan->pattern > 1 && lsf_plan_switch_value(plan, "light_mean", "LSF_INDIRECT");
+    return plan->pattern > 1 && bounces(plan);
 }
 
 /* Sets `light` to the parts without tint, with their variances. */
@@ -190,12 +196,19 @@ static float correlation_before(int32_t step)
     return (along * along - independent) / (1.0f - independent);
 }
 
+/* The least tolerance of the first two steps. A single noisy pixel of 49 is 7 standard deviations
+ * away; of one iteration the variance is that among neighbours, and says less. */
+static float first_tolerance(const lsf_plan *plan, float iterations)
+{
+    bool unknown = shares_samples(plan) || (iterations < 1.5f && bounces(plan));
+    return 7.0f * (unknown ? 1.0f + sqrtf(uncertainty_of(iterations, KURTOSIS)) : 1.0f);
+}
+
 /* Sets `filtered`. */
 static void run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterations)
 {
     const GLuint *light = pass->light;
-    float first =
-        7.0f * (shares_samples(plan) ? 1.0f + sqrtf(uncertainty_of(iterations, KURTOSIS)) : 1.0f);
+    float first = first_tolerance(plan, iterations);
     for (int32_t i = 0; i < pass->params.steps; i++) {
         begin(plan, pass->ping_pong_framebuffers[i % 2], pass->step);
         set_guide(pass);
