@@ -18,7 +18,9 @@ const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
      "points",
      "points sampled along each side of a pixel in an iteration: all get direct light, one of "
      "them indirect light; auto: 1, or more under an environment while its shadow maps draw twice "
-     "as many triangles as there are points"},
+     "as many triangles as there are points; 2 or more in pictures of up to 1048576 pixels for up "
+     "to 2 iterations, and with cone, substitute_tree or voxel_path for up to 8 and with a time "
+     "limit"},
 };
 
 static void plan_switches(lsf_plan *plan)

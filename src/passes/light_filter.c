@@ -204,17 +204,31 @@ static float first_tolerance(const lsf_plan *plan, float iterations)
     return 7.0f * (unknown ? 1.0f + sqrtf(uncertainty_of(iterations, KURTOSIS)) : 1.0f);
 }
 
-/* Sets `filtered`. */
-static void run_steps(lsf_light_filter *pass, const lsf_plan *plan, float iterations)
+/* Steps within which the noise is one: light of points that are several pixels apart is spread over
+ * these, and has the same noise there. */
+static int32_t steps_of_points(const lsf_iteration *iteration)
 {
+    int32_t steps = 0;
+    uint32_t apart = iteration->grid.stride / iteration->plan->pixel_side;
+    for (; apart > 1; apart /= 2)
+        steps++;
+    return steps;
+}
+
+/* Sets `filtered`. */
+static void run_steps(lsf_light_filter *pass, const lsf_iteration *iteration, float iterations)
+{
+    const lsf_plan *plan = iteration->plan;
     const GLuint *light = pass->light;
     float first = first_tolerance(plan, iterations);
+    int32_t within = steps_of_points(iteration);
     for (int32_t i = 0; i < pass->params.steps; i++) {
         begin(plan, pass->ping_pong_framebuffers[i % 2], pass->step);
         set_guide(pass);
         glUniform1i(1, 1 << i);
-        glUniform1f(2, i < 2 ? fmaxf(pass->params.tolerance, first) : pass->params.tolerance);
-        glUniform1f(4, correlation_before(i));
+        glUniform1f(2,
+                    i < 2 + within ? fmaxf(pass->params.tolerance, first) : pass->params.tolerance);
+        glUniform1f(4, i < within ? 1.0f : correlation_before(i - within));
         bind_parts(2, light);
         lsf_draw_fullscreen(pass->context);
         light = pass->ping_pong[i % 2];
@@ -259,7 +273,7 @@ void lsf_light_filter_run(lsf_light_filter *pass, const lsf_iteration *iteration
     lsf_iteration_bind_view(iteration);
     lsf_guide_maps_bind(&inputs->guide);
     divide(pass, plan, n, inputs);
-    run_steps(pass, plan, n);
+    run_steps(pass, iteration, n);
     lsf_timer_end(pass->timer);
 }
 

@@ -17,8 +17,9 @@ const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT] = {
     {"shadow.filter", LSF_OPTION_ENUM, offsetof(lsf_shadow_map_params, filter), 0, 0, "none|pcf",
      "", "pcf: 16-tap percentage-closer filter, for single frames"},
     {"shadow.texels_per_pixel", LSF_OPTION_FLOAT, offsetof(lsf_shadow_map_params, texels_per_pixel),
-     0.01, 64.0, NULL, "",
-     "texels of a shadow map, all its faces together, for each pixel of the picture"},
+     0.0, 64.0, NULL, "",
+     "texels of a shadow map, all its faces together, for each pixel of the picture; 0: 16, or 4 "
+     "where a time limit is short for the picture's size"},
 };
 
 #define CASCADES 4
@@ -33,10 +34,16 @@ static const struct {
     {"cascades", CASCADES, "no directional light"},
 };
 
+static double texels_per_pixel(const lsf_shadow_map_params *params)
+{
+    return (double)(params->texels_per_pixel > 0.0f ? params->texels_per_pixel
+                                                    : LSF_SHADOW_MAP_TEXELS);
+}
+
 /* `parts`: faces that share the texels of a map. */
 static uint32_t face_side(const lsf_plan *plan, const lsf_shadow_map_params *params, uint32_t parts)
 {
-    double texels = (double)plan->width * plan->height * params->texels_per_pixel;
+    double texels = (double)plan->width * plan->height * texels_per_pixel(params);
     uint32_t side = (uint32_t)ceil(sqrt(texels / parts));
     return side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
 }
@@ -87,7 +94,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                         "shadow.filter is none: planes are compared");
     lsf_scene_gpu_mask_switches(plan);
     char why[64];
-    lsf_print(why, sizeof why, "%g texels a pixel", (double)params->texels_per_pixel);
+    lsf_print(why, sizeof why, "%g texels a pixel", texels_per_pixel(params));
     for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "shadow_map.%s", kinds[kind].name);

@@ -14,13 +14,15 @@ typedef enum lsf_shadow_filter {
 
 typedef struct lsf_shadow_map_params {
     int32_t filter;         /* lsf_shadow_filter */
-    float texels_per_pixel; /* of the whole map, all faces together, to the picture's pixels */
+    float texels_per_pixel; /* of the whole map, all faces together, to the picture's pixels; 0:
+                             * LSF_SHADOW_MAP_TEXELS */
 } lsf_shadow_map_params;
 
 /* A cascade spans about the picture's width at its far end; at the geometric mean of its depths a
  * pixel is sqrt(3) narrower than there, so sqrt(3) width texels a side match it: four cascades of
  * them are 12 width / height texels a pixel, 16 for a picture of 4:3. */
-#define LSF_SHADOW_MAP_PARAMS_DEFAULTS .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 16.0f
+#define LSF_SHADOW_MAP_TEXELS 16.0f
+#define LSF_SHADOW_MAP_PARAMS_DEFAULTS .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 0.0f
 
 #define LSF_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row lsf_shadow_map_options[LSF_SHADOW_MAP_OPTION_COUNT];

@@ -10,8 +10,8 @@ const lsf_option_row lsf_sparse_options[LSF_SPARSE_OPTION_COUNT] = {
     {"sparse.grid", LSF_OPTION_ENUM, offsetof(lsf_sparse_params, grid), 0, 0, "auto|1|2|4|8|16",
      "pixels",
      "initial distance between the points at which indirect light is gathered, halved each time "
-     "all pixels have been points; 1: every pixel; auto: 1, or with a time limit and cone or "
-     "voxel_path as fine as the first iteration allows"},
+     "all pixels have been points; 1: every pixel; auto: 1, or with a time limit and cone, "
+     "substitute_tree or voxel_path as fine as the first iteration allows"},
     {"interleave.size", LSF_OPTION_INT, offsetof(lsf_sparse_params, interleave), 0, 8, NULL,
      "points",
      "side of the pattern in which neighbouring pixels take different samples; 1: all take the "

@@ -14,7 +14,8 @@ const lsf_option_row lsf_sky_light_options[LSF_SKY_LIGHT_OPTION_COUNT] = {
      "samples",
      "samples per pixel and iteration of the environment's light without shadows, as many by its "
      "radiance as by the surface; -1: 64 where it alone lights what the camera sees from outside "
-     "and no light is kept from frame to frame, else 32; 0: only shadow maps determine its light"},
+     "and no light is kept from frame to frame, else 32, or 8 where a time limit is short for the "
+     "picture's size; 0: only shadow maps determine its light"},
     {"environment.control", LSF_OPTION_ENUM, offsetof(lsf_sky_light_params, control), 0, 0,
      "share|whole", "",
      "weight of the environment's light without shadows in a pixel, which shadow maps then "

@@ -9,6 +9,7 @@
 #include "passes/tonemap.h"
 #include "scene/checks.h"
 #include "scene/tessellate.h"
+#include "techniques/defaults.h"
 
 static bool check_params(const lsf_render_params *params, lsf_error *error)
 {
@@ -57,76 +58,6 @@ static bool tessellate(lsf_setup *setup, const lsf_scene *scene, lsf_error *erro
     return setup->tessellated != NULL;
 }
 
-/* Iterations up to which patterns of 4 and of 3 pixels a side pay in any picture, and one of any
- * size; beyond, the picture without converges faster. In pictures of so many pixels the maps of 16
- * samples take less than the pixels do. src/passes/light_filter.md has the measurements. */
-enum { PATTERN_4 = 4, PATTERN_3 = 8, PATTERN_ANY = 128, PATTERN_4_PIXELS = 1 << 17 };
-
-/* Whether the environment, and no lamp, lights what the camera sees from outside. */
-static bool stands_in_the_open(const lsf_setup *setup)
-{
-    const lsf_requirements *r = &setup->scene->requirements;
-    const lsf_state *state = &setup->state;
-    bool outside = false;
-    for (int axis = 0; axis < 3; axis++)
-        outside = outside || state->camera.start[axis] < state->reach_min[axis] ||
-                  state->camera.start[axis] > state->reach_max[axis];
-    return r->environment && state->light_count == 0 && outside;
-}
-
-/* Up to this many triangles, as in Cornell boxes, maps for all samples of a pattern cost little. */
-enum { FEW_TRIANGLES = 1024 };
-
-/* Whether all pixels should take the same samples. In the open little light bounces, directions of
- * the environment find the rest, a filter would only blur it, and each sample of a pattern draws
- * all triangles. */
-static bool shares_samples(const lsf_setup *setup)
-{
-    return stands_in_the_open(setup) && setup->scene->requirements.triangles > FEW_TRIANGLES;
-}
-
-/* The default of interleave.size: the fewer iterations, the more samples in each. */
-static int32_t choose_interleave(const lsf_setup *setup)
-{
-    const lsf_render_params *params = &setup->params;
-    bool limited = isfinite(params->time_limit);
-    if (params->raw || (params->samples > PATTERN_ANY && !limited) || shares_samples(setup))
-        return 1;
-    bool large = (uint64_t)params->width * params->height >= PATTERN_4_PIXELS && !limited;
-    if (params->samples <= PATTERN_4 || large)
-        return 4;
-    return params->samples <= PATTERN_3 ? 3 : 2;
-}
-
-/* Points that two cores trace in a second, with some of it left for all else: 1 to 6 voxel paths
- * each took 4 us of a core. */
-#define POINTS_PER_SECOND 0x1p18
-
-/* The default of sparse.grid: as fine as the first iteration fits into a time limit. */
-static int32_t choose_grid(const lsf_render_params *params)
-{
-    const lsf_technique *technique = lsf_technique_find(params->technique);
-    double pixels = (double)params->width * params->height;
-    double points = POINTS_PER_SECOND * params->time_limit;
-    bool sparse = technique && technique->traces_pixels && !params->raw;
-    int32_t logarithm = 0;
-    for (; sparse && logarithm < 4 && pixels > points; logarithm++)
-        pixels /= 4.0;
-    return logarithm + 1;
-}
-
-/* Values of options that default to "automatic". */
-static void choose_points(lsf_setup *setup)
-{
-    lsf_sparse_params *sparse = &setup->pass_params.sparse;
-    if (sparse->grid == 0) {
-        sparse->grid = choose_grid(&setup->params);
-        sparse->chosen = sparse->grid > 1;
-    }
-    if (setup->interleave_chosen)
-        sparse->interleave = choose_interleave(setup);
-}
-
 /* Whether pixels draw rays or samples of their own. */
 static bool draws_itself(const lsf_technique *technique)
 {
@@ -142,55 +73,11 @@ static bool filters(const lsf_setup *setup, const lsf_technique *technique)
            (params->sparse.interleave > 1 || draws_itself(technique));
 }
 
-/* Whether one sample point of a pixel can gather what bounces for all of them. */
-static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *technique)
-{
-    const lsf_pass_params *pass_params = &setup->pass_params;
-    return technique && !setup->params.temporal && !(setup->params.aovs & LSF_AOV_MOTION) &&
-           setup->plan->stride == 1 && !pass_params->sparse.outliers &&
-           !lsf_blur_wanted(&pass_params->blur);
-}
-
-/* Whether edges and textures have most of the noise: after few iterations; and more points cost
- * little beside light that each pixel traces. */
-static bool edges_matter(const lsf_setup *setup, const lsf_technique *technique)
-{
-    enum { FEW = 2, FEW_TRACED = 8, MOST_PIXELS = 1 << 20 }; /* a pixel takes 0.3 KiB more */
-    const lsf_render_params *params = &setup->params;
-    bool traced = technique->traces_pixels;
-    if (!technique->bounces || (uint64_t)params->width * params->height > MOST_PIXELS)
-        return false;
-    return isfinite(params->time_limit) ? traced : params->samples <= (traced ? FEW_TRACED : FEW);
-}
-
-enum { LONGEST_SIDE = 4 };
-
-/* Sample points of a pixel take the noise off edges and textures. They cost little beside maps that
- * draw twice as many triangles as there are points, and beside light that bounces, which is
- * gathered at one of them. */
-static uint32_t pixel_side(const lsf_setup *setup, const lsf_technique *technique)
-{
-    const lsf_plan *plan = setup->plan;
-    int32_t wanted = setup->pass_params.gbuffer.side;
-    if (!can_share_pixels(setup, technique))
-        return 1;
-    if (wanted > 0)
-        return 1u << (wanted - 1);
-    if (setup->params.raw)
-        return 1;
-    uint64_t drawn = plan->sky_lights * plan->requirements.triangles;
-    uint64_t pixels = (uint64_t)plan->width * plan->height;
-    uint32_t side = edges_matter(setup, technique) ? 2 : 1;
-    while (side < LONGEST_SIDE && 8 * side * side * pixels <= drawn)
-        side *= 2;
-    return side;
-}
-
 /* What an iteration sees, and where light that bounces is gathered there. */
 static void set_seen(lsf_setup *setup, const lsf_technique *technique)
 {
     lsf_plan *plan = setup->plan;
-    uint32_t side = plan->pixel_side = pixel_side(setup, technique);
+    uint32_t side = plan->pixel_side = lsf_default_pixel_side(setup, technique);
     plan->seen_width = side * plan->width;
     plan->seen_height = side * plan->height;
     if (side == 1)
@@ -212,7 +99,7 @@ static void set_basis(lsf_plan_basis *basis, const lsf_setup *setup)
     }
     basis->movable = setup->scene->edits.movable;
     basis->orthographic = state->camera.orthographic;
-    basis->open = stands_in_the_open(setup);
+    basis->open = lsf_stands_in_the_open(setup);
     basis->divided = setup->plan->islands.count > 1;
     basis->width = setup->params.width;
     basis->height = setup->params.height;
@@ -225,7 +112,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     lsf_plan *plan = setup->plan = lsf_alloc(1, sizeof *plan);
     if (!plan)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
-    choose_points(setup);
+    lsf_default_points(setup);
     plan->requirements = setup->scene->requirements;
     plan->transmission = plan->requirements.transmissive;
     plan->straight = plan->transmission && technique && !technique->refracts;
@@ -242,14 +129,14 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     if (technique && technique->bounces)
         plan->bounces = by_scene ? plan->requirements.bounces : params->bounces;
     plan->aovs = params->aovs;
-    plan->open = stands_in_the_open(setup);
+    plan->open = lsf_stands_in_the_open(setup);
     if (plan->requirements.environment_map || !technique || !technique->draws_lobes)
         plan->sky_lights =
             lsf_sky_light_count(&plan->requirements, &setup->pass_params.sky_light, plan->open);
     set_seen(setup, technique);
     bool shared = !technique || !draws_itself(technique);
     plan->pattern = plan->filtered && shared ? (uint32_t)setup->pass_params.sparse.interleave : 1;
-    bool blurs_sky = shares_samples(setup) && plan->pattern == 1 && !params->temporal;
+    bool blurs_sky = lsf_shares_samples(setup) && plan->pattern == 1 && !params->temporal;
     plan->sky_split = plan->filtered && !blurs_sky && plan->sky_lights > 0;
     if (!technique || technique->maps_scene)
         lsf_islands_find(&plan->islands, setup->scene, &setup->state);

@@ -115,7 +115,8 @@ typedef struct lsf_technique {
                        * better than directions drawn by its radiance */
     bool draws_alone; /* each pixel draws samples of its own whatever interleave.size is, and
                        * finds the environment by its directions */
-    bool traces_pixels; /* most of an iteration's time is spent on the pixels that it traces */
+    float points_per_second; /* that two cores trace, with some of the time left for all else; 0:
+                              * most of an iteration is spent on other things */
     bool maps_scene; /* draws maps that hold all of the scene, for which its empty regions matter */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);

@@ -412,6 +412,26 @@ static float rare_light_left(bool on_pole, int iterations)
     return left;
 }
 
+/* How much stays in the middle of a light that one of the points finds, which are so many pixels
+ * apart, and which is spread over as many. */
+static float point_light_left(uint32_t apart)
+{
+    static rig r;
+    rig_begin(&r, 32, 32, false, &defaults);
+    seen wall = surface_rig_wall(&r.s, 1.0f);
+    see_everywhere(&r, &wall);
+    for (uint32_t i = 0; i < pixels_of(&r); i++)
+        set_light(&r, i, i % 32 / apart == 4 && i / 32 / apart == 4 ? 400.0f : 1.0f, 0.0f);
+    iterate(&r);
+    r.s.iteration.grid.stride = apart;
+    filter(&r);
+    uint32_t middle = (9 * apart / 2) * 33;
+    float left = (r.out[middle][0] * PI_F - 1.0f) / (r.raw[middle][0] * PI_F - 1.0f);
+    print_message("a rare light, points %u pixels apart: %.3f of it stays\n", apart, (double)left);
+    rig_end(&r);
+    return left;
+}
+
 /* Most of it is noise, and goes. */
 static void a_rare_light_goes(void **unused)
 {
@@ -419,6 +439,7 @@ static void a_rare_light_goes(void **unused)
     float at_once = rare_light_left(false, 1), later = rare_light_left(true, 4);
     assert_true(at_once >= 0.0f && at_once <= 0.05f);
     assert_true(later >= 0.0f && later <= 0.1f);
+    assert_true(point_light_left(2) <= 0.1f);
 }
 
 /* Light that repeats with the pattern of interleaving, but for the 1 + 2 pixels beside the

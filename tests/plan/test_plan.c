@@ -319,6 +319,7 @@ static void points_where_they_pay(void **unused)
         {"voxel_path", 0.1, 1024, false, NULL, 8},
         {"voxel_path", 1e-3, 4096, false, NULL, 16},
         {"cone", 1.0, 1024, false, NULL, 2},
+        {"substitute_tree", 1.0, 1024, false, NULL, 4},
         {"voxel_path", 4.0, 1024, false, NULL, 1},
         {"voxel_path", 1.0, 512, false, NULL, 1},
         {"voxel_path", INFINITY, 4096, false, NULL, 1},
@@ -366,6 +367,29 @@ static void replaced_options(void **unused)
     }
 }
 
+static uint64_t shadow_map_bytes(double time_limit, uint32_t width, bool raw, const char *option)
+{
+    lsf_error error = {0};
+    lsf_plan *plan = plan_points("bidirectional", time_limit, width, raw, option, &error);
+    if (!plan)
+        fail_msg("%s", error.message);
+    uint64_t bytes = lsf_plan_find(plan, "shadow_map.cube_depth")->bytes;
+    lsf_plan_destroy(plan);
+    return bytes;
+}
+
+/* Where the time is short for the picture, shadow maps have a quarter of the texels. */
+static void coarse_shadows_where_time_is_short(void **unused)
+{
+    (void)unused;
+    uint64_t fine = shadow_map_bytes(INFINITY, 1024, false, NULL);
+    assert_int_equal(shadow_map_bytes(4.0, 1024, false, NULL), fine);
+    assert_int_equal(shadow_map_bytes(1.0, 1024, true, NULL), fine);
+    assert_int_equal(shadow_map_bytes(1.0, 1024, false, "shadow.texels_per_pixel=16"), fine);
+    uint64_t coarse = shadow_map_bytes(1.0, 1024, false, NULL);
+    assert_true(4 * coarse > fine - fine / 50 && 4 * coarse < fine + fine / 50);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -380,6 +404,7 @@ int main(void)
         cmocka_unit_test(bad_params),
         cmocka_unit_test(only_what_is_planned_is_created),
         cmocka_unit_test(points_where_they_pay),
+        cmocka_unit_test(coarse_shadows_where_time_is_short),
         cmocka_unit_test(replaced_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,132 @@
+#include "techniques/defaults.h"
+
+#include <math.h>
+
+#include "base/base.h"
+
+/* Iterations up to which patterns of 4 and of 3 pixels a side pay in any picture, and one of any
+ * size; beyond, the picture without converges faster. In pictures of so many pixels the maps of 16
+ * samples take less than the pixels do. src/passes/light_filter.md has the measurements. */
+enum { PATTERN_4 = 4, PATTERN_3 = 8, PATTERN_ANY = 128, PATTERN_4_PIXELS = 1 << 17 };
+
+bool lsf_stands_in_the_open(const lsf_setup *setup)
+{
+    const lsf_requirements *r = &setup->scene->requirements;
+    const lsf_state *state = &setup->state;
+    bool outside = false;
+    for (int axis = 0; axis < 3; axis++)
+        outside = outside || state->camera.start[axis] < state->reach_min[axis] ||
+                  state->camera.start[axis] > state->reach_max[axis];
+    return r->environment && state->light_count == 0 && outside;
+}
+
+/* Up to this many triangles, as in Cornell boxes, maps for all samples of a pattern cost little. */
+enum { FEW_TRIANGLES = 1024 };
+
+/* Whether all pixels should take the same samples. In the open little light bounces, directions of
+ * the environment find the rest, a filter would only blur it, and each sample of a pattern draws
+ * all triangles. */
+bool lsf_shares_samples(const lsf_setup *setup)
+{
+    return lsf_stands_in_the_open(setup) && setup->scene->requirements.triangles > FEW_TRIANGLES;
+}
+
+/* The default of interleave.size: the fewer iterations, the more samples in each. */
+static int32_t choose_interleave(const lsf_setup *setup)
+{
+    const lsf_render_params *params = &setup->params;
+    bool limited = isfinite(params->time_limit);
+    if (params->raw || (params->samples > PATTERN_ANY && !limited) || lsf_shares_samples(setup))
+        return 1;
+    bool large = (uint64_t)params->width * params->height >= PATTERN_4_PIXELS && !limited;
+    if (params->samples <= PATTERN_4 || large)
+        return 4;
+    return params->samples <= PATTERN_3 ? 3 : 2;
+}
+
+/* Pixels of which a first iteration fits into the time limit. */
+static double pixels_in_time(const lsf_setup *setup)
+{
+    const lsf_technique *technique = lsf_technique_find(setup->params.technique);
+    double points = technique ? (double)technique->points_per_second : 0.0;
+    return (points > 0.0 ? points : 0x1p18) * setup->params.time_limit;
+}
+
+static bool hurries(const lsf_setup *setup)
+{
+    const lsf_render_params *params = &setup->params;
+    return !params->raw && (double)params->width * params->height > pixels_in_time(setup);
+}
+
+/* The default of sparse.grid: as fine as the first iteration fits into a time limit. */
+static int32_t choose_grid(const lsf_setup *setup)
+{
+    const lsf_technique *technique = lsf_technique_find(setup->params.technique);
+    double points = (double)setup->params.width * setup->params.height;
+    bool sparse = technique && technique->points_per_second > 0.0f && hurries(setup);
+    int32_t logarithm = 0;
+    for (; sparse && logarithm < 4 && points > pixels_in_time(setup); logarithm++)
+        points /= 4.0;
+    return logarithm + 1;
+}
+
+void lsf_default_points(lsf_setup *setup)
+{
+    lsf_pass_params *params = &setup->pass_params;
+    if (params->sparse.grid == 0) {
+        params->sparse.grid = choose_grid(setup);
+        params->sparse.chosen = params->sparse.grid > 1;
+    }
+    if (setup->interleave_chosen)
+        params->sparse.interleave = choose_interleave(setup);
+    if (!hurries(setup))
+        return;
+    if (params->shadow_map.texels_per_pixel == 0.0f)
+        params->shadow_map.texels_per_pixel = LSF_SHADOW_MAP_TEXELS / 4.0f;
+    if (params->sky_light.open < 0 && !lsf_stands_in_the_open(setup))
+        params->sky_light.open = 8;
+}
+
+/* Whether one sample point of a pixel can gather what bounces for all of them. */
+static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *technique)
+{
+    const lsf_pass_params *pass_params = &setup->pass_params;
+    return technique && !setup->params.temporal && !(setup->params.aovs & LSF_AOV_MOTION) &&
+           setup->plan->stride == 1 && !pass_params->sparse.outliers &&
+           !lsf_blur_wanted(&pass_params->blur);
+}
+
+/* Whether edges and textures have most of the noise: after few iterations; and more points cost
+ * little beside light that each pixel traces. */
+static bool edges_matter(const lsf_setup *setup, const lsf_technique *technique)
+{
+    enum { FEW = 2, FEW_TRACED = 8, MOST_PIXELS = 1 << 20 }; /* a pixel takes 0.3 KiB more */
+    const lsf_render_params *params = &setup->params;
+    bool traced = technique->points_per_second > 0.0f;
+    if (!technique->bounces || (uint64_t)params->width * params->height > MOST_PIXELS)
+        return false;
+    return isfinite(params->time_limit) ? traced : params->samples <= (traced ? FEW_TRACED : FEW);
+}
+
+enum { LONGEST_SIDE = 4 };
+
+/* Sample points of a pixel take the noise off edges and textures. They cost little beside maps that
+ * draw twice as many triangles as there are points, and beside light that bounces, which is
+ * gathered at one of them. */
+uint32_t lsf_default_pixel_side(const lsf_setup *setup, const lsf_technique *technique)
+{
+    const lsf_plan *plan = setup->plan;
+    int32_t wanted = setup->pass_params.gbuffer.side;
+    if (!can_share_pixels(setup, technique))
+        return 1;
+    if (wanted > 0)
+        return 1u << (wanted - 1);
+    if (setup->params.raw)
+        return 1;
+    uint64_t drawn = plan->sky_lights * plan->requirements.triangles;
+    uint64_t pixels = (uint64_t)plan->width * plan->height;
+    uint32_t side = edges_matter(setup, technique) ? 2 : 1;
+    while (side < LONGEST_SIDE && 8 * side * side * pixels <= drawn)
+        side *= 2;
+    return side;
+}

@@ -1,0 +1,16 @@
+/* Values of options that are left to the scene, the picture's size and the time. */
+#ifndef LSF_TECHNIQUES_DEFAULTS_H
+#define LSF_TECHNIQUES_DEFAULTS_H
+
+#include "techniques/setup.h"
+
+/* Whether the environment, and no lamp, lights what the camera sees from outside. */
+bool lsf_stands_in_the_open(const lsf_setup *setup);
+/* Whether all pixels should take the same samples. */
+bool lsf_shares_samples(const lsf_setup *setup);
+/* Sets the options of sample points that were left out. */
+void lsf_default_points(lsf_setup *setup);
+/* Sample points along a pixel's side, gbuffer.side or its default. */
+uint32_t lsf_default_pixel_side(const lsf_setup *setup, const lsf_technique *technique);
+
+#endif
