@@ -22,8 +22,8 @@ float variance_of(float own, vec4 window)
     float variance = window.x, even = halves && variance > 0.0 ? min(window.y / variance, 1.0) : 1.0;
     float share = 1.0 / (1.0 + uncertainty);
     /* Variances of light differ by factors, so that their logarithms are mixed; but where one pixel has found a
-     * rare light, most of the mean is its own, and it must keep as much. */
-    float mixed = own > variance ? mix(variance, own, share)
+     * rare light, most of the mean is its own, and what chance does not explain is all its own. */
+    float mixed = own > variance ? max(mix(variance, own, share), own - sqrt(uncertainty) * variance)
                                  : variance * pow(max(own / max(variance, 1e-37), 1e-3), share);
     return pow(even, share) * mixed;
 }

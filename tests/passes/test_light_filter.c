@@ -439,6 +439,10 @@ static void a_rare_light_goes(void **unused)
     float at_once = rare_light_left(false, 1), later = rare_light_left(true, 4);
     assert_true(at_once >= 0.0f && at_once <= 0.05f);
     assert_true(later >= 0.0f && later <= 0.1f);
+    for (int iterations = 2; iterations <= 16; iterations *= 2) {
+        float on_wall = rare_light_left(false, iterations);
+        assert_true(on_wall >= 0.0f && on_wall <= 0.005f);
+    }
     assert_true(point_light_left(2) <= 0.1f);
 }
 
