@@ -136,7 +136,7 @@ static float uncertainty_of(float iterations, float kurtosis)
     return (kurtosis - 1.0f) / (iterations > 1.5f ? iterations - 1.0f : 0.01f);
 }
 
-/* Whether light that bounces is filtered: a few samples find rare lights by chance. */
+/* Whether light that bounces is filtered. */
 static bool bounces(const lsf_plan *plan)
 {
     return lsf_plan_switch_value(plan, "light_mean", "LSF_INDIRECT");
@@ -204,8 +204,8 @@ static float first_tolerance(const lsf_plan *plan, float iterations)
     return 7.0f * (unknown ? 1.0f + sqrtf(uncertainty_of(iterations, KURTOSIS)) : 1.0f);
 }
 
-/* Steps within which the noise is one: light of points that are several pixels apart is spread over
- * these, and has the same noise there. */
+/* Steps that stay among pixels of the same noise: light of points that are several pixels apart is
+ * spread over the pixels between. */
 static int32_t steps_of_points(const lsf_iteration *iteration)
 {
     int32_t steps = 0;

@@ -34,16 +34,17 @@ static const struct {
     {"cascades", CASCADES, "no directional light"},
 };
 
-static double texels_per_pixel(const lsf_shadow_map_params *params)
+static double texels_per_pixel(const lsf_plan *plan, const lsf_shadow_map_params *params)
 {
-    return (double)(params->texels_per_pixel > 0.0f ? params->texels_per_pixel
-                                                    : LSF_SHADOW_MAP_TEXELS);
+    if (params->texels_per_pixel > 0.0f)
+        return (double)params->texels_per_pixel;
+    return plan->hurried ? LSF_SHADOW_MAP_TEXELS_HURRIED : LSF_SHADOW_MAP_TEXELS;
 }
 
 /* `parts`: faces that share the texels of a map. */
 static uint32_t face_side(const lsf_plan *plan, const lsf_shadow_map_params *params, uint32_t parts)
 {
-    double texels = (double)plan->width * plan->height * texels_per_pixel(params);
+    double texels = (double)plan->width * plan->height * texels_per_pixel(plan, params);
     uint32_t side = (uint32_t)ceil(sqrt(texels / parts));
     return side < MIN_SIDE ? MIN_SIDE : side > MAX_SIDE ? MAX_SIDE : side;
 }
@@ -94,7 +95,7 @@ void lsf_shadow_map_plan(lsf_plan *plan, const lsf_shadow_map_params *params,
                         "shadow.filter is none: planes are compared");
     lsf_scene_gpu_mask_switches(plan);
     char why[64];
-    lsf_print(why, sizeof why, "%g texels a pixel", texels_per_pixel(params));
+    lsf_print(why, sizeof why, "%g texels a pixel", texels_per_pixel(plan, params));
     for (int kind = 0; kind < LSF_LIGHT_PROJECTION_KINDS; kind++) {
         char name[64];
         snprintf(name, sizeof name, "shadow_map.%s", kinds[kind].name);

@@ -15,13 +15,15 @@ typedef enum lsf_shadow_filter {
 typedef struct lsf_shadow_map_params {
     int32_t filter;         /* lsf_shadow_filter */
     float texels_per_pixel; /* of the whole map, all faces together, to the picture's pixels; 0:
-                             * LSF_SHADOW_MAP_TEXELS */
+                             * what the plan chooses */
 } lsf_shadow_map_params;
 
 /* A cascade spans about the picture's width at its far end; at the geometric mean of its depths a
  * pixel is sqrt(3) narrower than there, so sqrt(3) width texels a side match it: four cascades of
- * them are 12 width / height texels a pixel, 16 for a picture of 4:3. */
-#define LSF_SHADOW_MAP_TEXELS 16.0f
+ * them are 12 width / height texels a pixel, 16 for a picture of 4:3. In hurried plans a texel is
+ * twice as wide. */
+#define LSF_SHADOW_MAP_TEXELS 16.0
+#define LSF_SHADOW_MAP_TEXELS_HURRIED 4.0
 #define LSF_SHADOW_MAP_PARAMS_DEFAULTS .filter = LSF_SHADOW_FILTER_NONE, .texels_per_pixel = 0.0f
 
 #define LSF_SHADOW_MAP_OPTION_COUNT 2

@@ -52,7 +52,7 @@ static double pixels_in_time(const lsf_setup *setup)
     return (points > 0.0 ? points : 0x1p18) * setup->params.time_limit;
 }
 
-static bool hurries(const lsf_setup *setup)
+bool lsf_hurries(const lsf_setup *setup)
 {
     const lsf_render_params *params = &setup->params;
     return !params->raw && (double)params->width * params->height > pixels_in_time(setup);
@@ -63,7 +63,7 @@ static int32_t choose_grid(const lsf_setup *setup)
 {
     const lsf_technique *technique = lsf_technique_find(setup->params.technique);
     double points = (double)setup->params.width * setup->params.height;
-    bool sparse = technique && technique->points_per_second > 0.0f && hurries(setup);
+    bool sparse = technique && technique->points_per_second > 0.0f && lsf_hurries(setup);
     int32_t logarithm = 0;
     for (; sparse && logarithm < 4 && points > pixels_in_time(setup); logarithm++)
         points /= 4.0;
@@ -79,12 +79,6 @@ void lsf_default_points(lsf_setup *setup)
     }
     if (setup->interleave_chosen)
         params->sparse.interleave = choose_interleave(setup);
-    if (!hurries(setup))
-        return;
-    if (params->shadow_map.texels_per_pixel == 0.0f)
-        params->shadow_map.texels_per_pixel = LSF_SHADOW_MAP_TEXELS / 4.0f;
-    if (params->sky_light.open < 0 && !lsf_stands_in_the_open(setup))
-        params->sky_light.open = 8;
 }
 
 /* Whether one sample point of a pixel can gather what bounces for all of them. */
@@ -96,9 +90,10 @@ static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *techni
            !lsf_blur_wanted(&pass_params->blur);
 }
 
-/* Whether edges and textures have most of the noise: after few iterations; and more points cost
- * little beside light that each pixel traces. */
-static bool edges_matter(const lsf_setup *setup, const lsf_technique *technique)
+/* Whether two points along a pixel's side pay. After few iterations most of the noise is that of
+ * edges and textures, which one point a pixel and iteration shows jagged; and where each pixel
+ * traces light, further points cost little. */
+static bool points_pay(const lsf_setup *setup, const lsf_technique *technique)
 {
     enum { FEW = 2, FEW_TRACED = 8, MOST_PIXELS = 1 << 20 }; /* a pixel takes 0.3 KiB more */
     const lsf_render_params *params = &setup->params;
@@ -125,7 +120,7 @@ uint32_t lsf_default_pixel_side(const lsf_setup *setup, const lsf_technique *tec
         return 1;
     uint64_t drawn = plan->sky_lights * plan->requirements.triangles;
     uint64_t pixels = (uint64_t)plan->width * plan->height;
-    uint32_t side = edges_matter(setup, technique) ? 2 : 1;
+    uint32_t side = points_pay(setup, technique) ? 2 : 1;
     while (side < LONGEST_SIDE && 8 * side * side * pixels <= drawn)
         side *= 2;
     return side;

@@ -3,12 +3,15 @@
 #include "base/base.h"
 
 /* Samples of the environment's light without shadows that a pixel takes of each kind. In the open
- * it counts on nearly all of that light; frames that keep light are to be fast. */
+ * it counts on nearly all of that light; frames that keep light are to be fast, and so are pictures
+ * whose time is short. */
 static uint32_t open_samples(const lsf_plan *plan, const lsf_sky_light_params *params)
 {
     if (params->open >= 0)
         return (uint32_t)params->open;
-    return plan->open && !plan->temporal ? 64 : 32;
+    if (plan->open)
+        return plan->temporal ? 32 : 64;
+    return plan->hurried ? 8 : 32;
 }
 
 static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_params *params,

@@ -113,6 +113,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     if (!plan)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
     lsf_default_points(setup);
+    plan->hurried = lsf_hurries(setup);
     plan->requirements = setup->scene->requirements;
     plan->transmission = plan->requirements.transmissive;
     plan->straight = plan->transmission && technique && !technique->refracts;
