@@ -51,9 +51,17 @@ reflector material_at(ivec3 cell)
     return voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, specular_params, transmission);
 }
 
-/* Adds the radiance of the side that faces the light, with `irradiance` on a plane that faces it. */
-void reflect_light(reflector material, vec3 position, vec3 n, vec3 shading, vec3 to_light, vec3 irradiance,
-                   inout vec3 front, inout vec3 back)
+/* Distance from a point of the voxel, at the offset `inside` from its lower corner, to its border [voxels]. */
+float way_out(vec3 inside, vec3 direction)
+{
+    vec3 ways = abs((vec3(greaterThan(direction, vec3(0.0))) - inside) / (abs(direction) + 1e-6));
+    return min(ways.x, min(ways.y, ways.z));
+}
+
+/* Adds the radiance of the side that faces the light, with `irradiance` on a plane that faces it; `inside`: the
+ * surface's point, as an offset from the voxel's lower corner; `reach`: no more than the distance to the light. */
+void reflect_light(reflector material, vec3 inside, vec3 position, vec3 n, vec3 shading, vec3 to_light,
+                   float reach, vec3 irradiance, inout vec3 front, inout vec3 back)
 {
     bool faces = dot(n, to_light) > 0.0;
     vec3 side = faces ? n : -n;
@@ -63,7 +71,10 @@ void reflect_light(reflector material, vec3 position, vec3 n, vec3 shading, vec3
     if (density > 0.0)
         irradiance *= density / (density + sky_rays * cosine / LSF_PI);
 #endif
-    vec3 lifted = position + LIFT * grid.origin.w * side;
+    /* The back of a wall that is thinner than a voxel stands for the wall's other face, which would shadow it: that
+     * face has the light that enters the voxel. */
+    float way = faces ? 0.0 : min(way_out(inside, to_light) * grid.origin.w, 0.5 * reach);
+    vec3 lifted = position + LIFT * grid.origin.w * side + way * to_light;
     float visibility = shadow_visibility(lifted, side);
 #if LSF_SHADOW_TINT
     irradiance *= shadow_tint(lifted, side, vec3(1.0));
@@ -78,7 +89,8 @@ void reflect_light(reflector material, vec3 position, vec3 n, vec3 shading, vec3
 void reflected(ivec3 cell, vec3 n, vec3 shading, inout vec3 front, inout vec3 back)
 {
     uint point = texelFetch(point_texture, cell, 0).r;
-    vec3 position = voxel_to_position(vec3(cell) + voxel_point_unpack(point));
+    vec3 inside = voxel_point_unpack(point);
+    vec3 position = voxel_to_position(vec3(cell) + inside);
 #if LSF_EMISSION
     if (voxel_unlit(point))
         return;
@@ -87,13 +99,13 @@ void reflected(ivec3 cell, vec3 n, vec3 shading, inout vec3 front, inout vec3 ba
 #if LSF_SHADOW_SKY
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++)
         if (sky_maps[shadow_sky_map].error.y > 0.0)
-            reflect_light(material, position, n, shading, sky_maps[shadow_sky_map].to_sky.xyz,
+            reflect_light(material, inside, position, n, shading, sky_maps[shadow_sky_map].to_sky.xyz, 1.0,
                           sky_maps[shadow_sky_map].irradiance.rgb, front, back);
 #else
     vec3 irradiance;
     float distance2;
     vec3 to_light = light_direction(position, irradiance, distance2);
-    reflect_light(material, position, n, shading, to_light, irradiance, front, back);
+    reflect_light(material, inside, position, n, shading, to_light, sqrt(distance2), irradiance, front, back);
 #endif
 }
 #endif

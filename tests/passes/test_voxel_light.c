@@ -1,6 +1,7 @@
 /* Light of voxels against closed forms. */
 #include <math.h>
 
+#include "base/base.h"
 #include "shared/brdf.h"
 #include "voxel_rig.h"
 
@@ -171,6 +172,38 @@ static void walls_have_two_sides(void **unused)
     destroy_scene(scene);
 }
 
+/* A slab that is much thinner than a voxel: whichever of its faces a voxel has, light falls on the
+ * side above, and on none below. */
+static void thin_walls_are_lit(void **unused)
+{
+    (void)unused;
+    static const lsf_light_type types[] = {LSF_LIGHT_DIRECTIONAL, LSF_LIGHT_POINT};
+    for (size_t type = 0; type < LSF_COUNT(types); type++) {
+        lsf_scene *scene = build_scene();
+        scene->diffuse_only = true;
+        build_material(scene, 0.5f, 0.5f, 0.5f);
+        build_box(scene, lsf_f3(-2.0f, -0.004f, -2.0f), lsf_f3(2.0f, 0.0f, 2.0f), false);
+        build_light(scene, types[type], lsf_f3(0.0f, 1.0f, 0.0f), lsf_f3(0.0f, -1.0f, 0.0f), 1.0f);
+        finish_gl_scene(scene);
+        voxel_rig v;
+        voxel_rig_init(&v, scene, 64, LSF_VOXELIZE_COMPUTE, true, LSF_VOXEL_SIDES_AXES);
+        for (uint32_t iteration = 0; iteration < 16; iteration++) {
+            voxel_rig_run(&v, iteration);
+            float *radiance = voxel_rig_read_radiance(&v);
+            size_t voxel = voxel_rig_voxel_at(&v, lsf_f3(0.02f, -0.0001f, 0.02f));
+            size_t count = voxel_rig_voxel_count(&v);
+            const float *below = radiance + 4 * (2 * count + voxel), *above = below + 4 * count;
+            double expected = 0.5 / (double)LSF_PI;
+            print_message("%g %g of %g\n", (double)above[0], (double)below[0], expected);
+            assert_true(fabs((double)above[0] - expected) < 0.02 * expected);
+            assert_true(below[0] == 0.0f);
+            free(radiance);
+        }
+        voxel_rig_finish(&v);
+        destroy_scene(scene);
+    }
+}
+
 /* An emitter shines to its front; one whose material is double-sided to both sides. Where the grid
  * has moved on, nothing of it stays. */
 static void emitters_and_leftovers(void **unused)
@@ -285,9 +318,9 @@ static void sky_in_closed_form(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(floor_in_closed_form), cmocka_unit_test(lobes_in_closed_form),
-        cmocka_unit_test(walls_have_two_sides), cmocka_unit_test(emitters_and_leftovers),
-        cmocka_unit_test(sky_in_closed_form),
+        cmocka_unit_test(floor_in_closed_form),   cmocka_unit_test(lobes_in_closed_form),
+        cmocka_unit_test(walls_have_two_sides),   cmocka_unit_test(thin_walls_are_lit),
+        cmocka_unit_test(emitters_and_leftovers), cmocka_unit_test(sky_in_closed_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
