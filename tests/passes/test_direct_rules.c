@@ -182,12 +182,9 @@ static lsf_scene *bright_environment(void)
 {
     enum { WIDTH = 64, HEIGHT = 32 };
     lsf_scene *scene = build_scene();
-    float *texels = calloc(WIDTH * HEIGHT * 3, sizeof *texels);
-    assert_non_null(texels);
+    float *texels = build_environment_map(scene, WIDTH, HEIGHT);
     for (uint32_t i = 0; i < WIDTH * HEIGHT * 3; i++)
         texels[i] = i % 5 ? powf(10.0f, (float)(i * 7919u % 1001) / 100.0f - 4.0f) : 0.0f;
-    scene->environment =
-        (lsf_environment){.present = true, .width = WIDTH, .height = HEIGHT, .texels = texels};
     finish_gl_scene(scene);
     return scene;
 }

@@ -1,7 +1,6 @@
 /* The filter of light in pictures: it makes none of them worse. */
 #include "base/base.h"
 #include "render_gl.h"
-#include "scene/environment.h"
 
 static lsf_image *render(const lsf_scene *scene, const char *technique, uint32_t samples, bool raw,
                          int steps)
@@ -80,16 +79,12 @@ static lsf_scene *patches_scene(void)
     build_material(scene, 0.7f, 0.6f, 0.4f);
     build_sphere(scene, 3, false);
     build_quad(scene, lsf_f3(-2, -1, 2), lsf_f3(2, -1, 2), lsf_f3(2, -1, -2), lsf_f3(-2, -1, -2));
-    lsf_environment *sky = &scene->environment;
-    sky->present = true;
-    sky->width = WIDTH;
-    sky->height = HEIGHT;
-    sky->texels = calloc(3 * WIDTH * HEIGHT, sizeof(float));
+    float *texels = build_environment_map(scene, WIDTH, HEIGHT);
     for (int row = 0; row < HEIGHT; row++)
         for (int column = 0; column < WIDTH; column++) {
             bool bright = (row == ROW || row == ROW + 1) && column % 16 < 3;
             for (int c = 0; c < 3; c++)
-                sky->texels[3 * (row * WIDTH + column) + c] = bright ? 30.0f : 0.1f;
+                texels[3 * (row * WIDTH + column) + c] = bright ? 30.0f : 0.1f;
         }
     finish_gl_scene(scene);
     return scene;

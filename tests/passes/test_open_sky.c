@@ -115,11 +115,9 @@ static void mirror_in_the_open(void **unused)
     material->metallic = 1.0f;
     material->roughness = 0.1f;
     build_floor(scene, 0.0f, 4.0f);
-    lsf_environment *sky = &scene->environment;
-    *sky = (lsf_environment){.present = true, .width = WIDTH, .height = HEIGHT};
-    sky->texels = calloc(3 * WIDTH * HEIGHT, sizeof(float));
+    float *texels = build_environment_map(scene, WIDTH, HEIGHT);
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        sky->texels[i] = i / (3 * WIDTH) < HEIGHT / 4 ? 1.0f : 0.1f; /* bright above 45 degrees */
+        texels[i] = i / (3 * WIDTH) < HEIGHT / 4 ? 1.0f : 0.1f; /* bright above 45 degrees */
     finish_gl_scene(scene);
     const double angles[] = {25.0, 65.0}; /* of the view above the horizon, and of its image */
     const double expected[] = {0.1, 1.0};

@@ -13,16 +13,12 @@ enum { WIDTH = 32, HEIGHT = 16, SUN_COLUMN = 20, SUN_ROW = 4 };
 /* A gradient with a sun of one texel, which has most of the light. */
 static void add_sky(lsf_scene *scene, float sun)
 {
-    lsf_environment *sky = &scene->environment;
-    sky->present = true;
-    sky->width = WIDTH;
-    sky->height = HEIGHT;
-    sky->texels = calloc(3 * WIDTH * HEIGHT, sizeof(float));
+    float *texels = build_environment_map(scene, WIDTH, HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         for (int c = 0; c < 3; c++)
-            sky->texels[3 * i + c] = 0.3f + 0.02f * (float)(c * (HEIGHT - i / WIDTH));
+            texels[3 * i + c] = 0.3f + 0.02f * (float)(c * (HEIGHT - i / WIDTH));
     for (int c = 0; c < 3; c++)
-        sky->texels[3 * (SUN_ROW * WIDTH + SUN_COLUMN) + c] = sun;
+        texels[3 * (SUN_ROW * WIDTH + SUN_COLUMN) + c] = sun;
 }
 
 /* Irradiance of a plane by midpoints of 16 x 16 parts of each texel. */
@@ -255,10 +251,9 @@ static void seen_where_it_is(void **unused)
     enum { COLUMNS = 4, ROWS = 512 };
     lsf_scene *scene = build_scene();
     lsf_environment *sky = &scene->environment;
-    *sky = (lsf_environment){.present = true, .width = COLUMNS, .height = ROWS};
-    sky->texels = calloc(3 * COLUMNS * ROWS, sizeof(float));
+    float *texels = build_environment_map(scene, COLUMNS, ROWS);
     for (int i = 0; i < 3 * COLUMNS * ROWS; i++)
-        sky->texels[i] = (float)(i / (3 * COLUMNS) % 2);
+        texels[i] = (float)(i / (3 * COLUMNS) % 2);
     finish_gl_scene(scene);
     for (int i = 0; i < 8; i++) {
         float elevation = 0.37f * (float)i - 1.3f, rgb[3];

@@ -50,14 +50,9 @@ static lsf_scene *rich_scene(void)
                lsf_f3(-1.5f, 1, 0.5f));
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
     texture_all(scene);
-    build_environment(scene, 1.0f);
-    lsf_environment *map = &scene->environment;
-    map->width = 4;
-    map->height = 2;
-    map->texels = calloc(24, sizeof *map->texels);
-    assert_non_null(map->texels);
+    float *sky = build_environment_map(scene, 4, 2);
     for (int i = 0; i < 24; i++)
-        map->texels[i] = i < 12 ? 1.0f : 0.25f;
+        sky[i] = i < 12 ? 1.0f : 0.25f;
     finish_gl_scene(scene);
     return scene;
 }

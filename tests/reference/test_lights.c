@@ -318,10 +318,9 @@ static void many_suns_and_sky(void **unused)
         build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), way, intensity);
         expected += (double)intensity * fmax(0.0, (double)-way.y);
     }
-    scene->environment = (lsf_environment){.present = true, .width = 16, .height = 8};
-    scene->environment.texels = calloc(3 * 16 * 8, sizeof(float));
+    float *texels = build_environment_map(scene, 16, 8);
     for (uint32_t i = 0; i < 3 * 16 * 8; i++)
-        scene->environment.texels[i] = 0.5f;
+        texels[i] = 0.5f;
     finish_scene(scene);
     float rgb[3];
     render_point(scene, lsf_f3(0.1f, 0.5f, 0.3f), lsf_f3(0, 0, 0), 4096, 0, rgb);

@@ -39,11 +39,9 @@ static lsf_scene *rich_scene(float s)
                 0.5f * s * s);
     build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(0.3f, -1, -0.2f), 0.5f);
     enum { WIDTH = 16, HEIGHT = 8 };
-    lsf_environment *sky = &scene->environment;
-    *sky = (lsf_environment){.present = true, .width = WIDTH, .height = HEIGHT};
-    sky->texels = calloc(3 * WIDTH * HEIGHT, sizeof(float));
+    float *texels = build_environment_map(scene, WIDTH, HEIGHT);
     for (uint32_t i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        sky->texels[i] = lsf_random_float(5, i) * (i / 3 == 20 ? 50.0f : 0.5f);
+        texels[i] = lsf_random_float(5, i) * (i / 3 == 20 ? 50.0f : 0.5f);
     finish_scene(scene);
     scene->cameras[0].near_plane *= s;
     return scene;
@@ -290,12 +288,10 @@ static void environment_map_is_drawn_right(void **unused)
     scene->diffuse_only = true;
     build_material(scene, 1.0f, 1.0f, 1.0f);
     build_floor(scene, 0.0f, 1.0f);
-    lsf_environment *sky = &scene->environment;
-    *sky = (lsf_environment){.present = true, .width = WIDTH, .height = HEIGHT};
-    sky->texels = calloc(3 * WIDTH * HEIGHT, sizeof(float));
+    float *texels = build_environment_map(scene, WIDTH, HEIGHT);
     for (int c = 0; c < 3; c++) {
-        sky->texels[3 * (4 * WIDTH + 0) + c] = 100.0f; /* at the seam */
-        sky->texels[3 * (2 * WIDTH + 9) + c] = 3.0f;
+        texels[3 * (4 * WIDTH + 0) + c] = 100.0f; /* at the seam */
+        texels[3 * (2 * WIDTH + 9) + c] = 3.0f;
     }
     finish_scene(scene);
     double expected = 0.0;
@@ -309,7 +305,7 @@ static void environment_map_is_drawn_right(void **unused)
                     int tu = ((int)floor(u) + i + WIDTH) % WIDTH, tv = (int)floor(v) + j;
                     tv = tv < 0 ? 0 : tv >= HEIGHT ? HEIGHT - 1 : tv;
                     l += (i ? tx : 1.0 - tx) * (j ? ty : 1.0 - ty) *
-                         (double)sky->texels[3 * (tv * WIDTH + tu)];
+                         (double)texels[3 * (tv * WIDTH + tu)];
                 }
             }
             expected += l * fmax(0.0, cos(theta)) * sin(theta) / M_PI * 2.0 * M_PI * M_PI /

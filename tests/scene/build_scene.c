@@ -381,6 +381,14 @@ void build_environment(lsf_scene *scene, float radiance)
         scene->environment.radiance[c] = radiance;
 }
 
+float *build_environment_map(lsf_scene *scene, uint32_t width, uint32_t height)
+{
+    float *texels = calloc((size_t)width * height, 3 * sizeof *texels);
+    scene->environment =
+        (lsf_environment){.present = true, .width = width, .height = height, .texels = texels};
+    return texels;
+}
+
 lsf_material *build_glass(lsf_scene *scene, float base, float roughness, float ior)
 {
     lsf_material *material = build_material(scene, base, base, base);

@@ -44,6 +44,8 @@ void build_value(lsf_scene *scene, lsf_kind kind, uint32_t index, const char *na
 
 /* A uniform environment. */
 void build_environment(lsf_scene *scene, float radiance);
+/* A black environment map; returns its texels, three floats each, which the scene owns. */
+float *build_environment_map(lsf_scene *scene, uint32_t width, uint32_t height);
 
 /* A smooth or rough dielectric that lets all light through, of that base colour. `ior` 0: a thin
  * wall. */
