@@ -19,15 +19,19 @@ vec4 window_value(ivec2 at, int part)
 
 #include "lib/light_window.glsl"
 
-/* The part of the change that noise explains, by the pixel's own values and by those of the window. */
-float explained(vec3 change, float gone, vec4 window)
+/* The part of the change that noise explains, by the pixel's own values, by those of the 9 x 9 neighbours, and by
+ * the variance that goes from the 3 x 3 `beside` it. */
+float explained(vec3 change, float gone, vec4 window, float beside)
 {
     /* Both the mean square of the change and the variance have a relative variance of 2 / sum of weights. */
     float noise = window.x * (1.0 + 2.0 * sqrt(4.0 / window.a + uncertainty));
-    /* Where a pattern's samples have missed a rare light, its pixels know too little noise, but their neighbours
-     * know it. */
-    float known = pattern ? max(gone, window.x) : gone;
-    float alone = luminance(change) * luminance(change), most = 9.0 * known * (1.0 + sqrt(uncertainty));
+    /* Samples that have missed a rare light tell too little noise, but the neighbours' know it: those of the other
+     * samples of a pattern; or those beside a pixel that is a little darker than the filtered light. If m samples of a
+     * pixel find the light on average, its mean's square is m times its variance, and e^-m of the pixels miss it. */
+    float alone = luminance(change) * luminance(change);
+    bool missed = luminance(change) > 0.0 && alone <= 1.5 * beside;
+    float known = pattern ? max(gone, window.x) : missed ? max(gone, beside) : gone;
+    float most = 9.0 * known * (1.0 + sqrt(uncertainty));
     return min(window.y > noise ? noise / window.y : 1.0, alone > most ? most / alone : 1.0);
 }
 
@@ -47,7 +51,7 @@ void main()
             continue;
         vec3 change = filtered.rgb - own.rgb;
         if (uncertainty >= 0.0)
-            change *= explained(change, max(own.a - filtered.a, 0.0), windows[part]);
+            change *= explained(change, max(own.a - filtered.a, 0.0), windows[part], window_value(pixel, part).x);
         change_out.rgb += change * texelFetch(factor_textures[part], pixel, 0).rgb;
     }
 }

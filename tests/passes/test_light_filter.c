@@ -439,11 +439,34 @@ static void a_rare_light_goes(void **unused)
     float at_once = rare_light_left(false, 1), later = rare_light_left(true, 4);
     assert_true(at_once >= 0.0f && at_once <= 0.05f);
     assert_true(later >= 0.0f && later <= 0.1f);
-    for (int iterations = 2; iterations <= 16; iterations *= 2) {
-        float on_wall = rare_light_left(false, iterations);
-        assert_true(on_wall >= 0.0f && on_wall <= 0.005f);
-    }
+    for (int iterations = 2; iterations <= 16; iterations *= 2)
+        assert_true(fabsf(rare_light_left(false, iterations)) <= 0.005f);
     assert_true(point_light_left(2) <= 0.1f);
+}
+
+/* Pixels that have missed a light, which one sample in 16 finds, do not stay as dark dots. */
+static void a_missed_light_is_filled_in(void **unused)
+{
+    (void)unused;
+    static rig r;
+    rig_begin(&r, 48, 48, false, &defaults);
+    seen wall = surface_rig_wall(&r.s, 1.0f);
+    see_everywhere(&r, &wall);
+    for (int n = 0; n < 16; n++) {
+        for (uint32_t i = 0; i < pixels_of(&r); i++)
+            set_light(&r, i, random_at(200 + r.iterations, i) < 1.0f / 16.0f ? 16.2f : 0.2f, 0.0f);
+        iterate(&r);
+    }
+    filter(&r);
+    float sum = 0.0f, missed = 0.0f;
+    for (uint32_t i = 0; i < pixels_of(&r); i++)
+        if (r.raw[i][0] * PI_F < 0.3f) {
+            sum += r.out[i][0] * PI_F;
+            missed += 1.0f;
+        }
+    print_message("where a light is missed: %.2f of 1.20\n", (double)(sum / missed));
+    assert_true(sum / missed > 0.8f);
+    rig_end(&r);
 }
 
 /* Light that repeats with the pattern of interleaving, but for the 1 + 2 pixels beside the
@@ -567,6 +590,7 @@ int main(void)
         cmocka_unit_test(a_plane_gets_the_tent),
         cmocka_unit_test(light_converges),
         cmocka_unit_test(a_rare_light_goes),
+        cmocka_unit_test(a_missed_light_is_filled_in),
         cmocka_unit_test(the_pattern_of_interleaving_vanishes),
         cmocka_unit_test(mirrors_stay),
         cmocka_unit_test(light_without_variance_stays),
