@@ -72,7 +72,7 @@ void reflect_light(reflector material, vec3 inside, vec3 position, vec3 n, vec3 
         irradiance *= density / (density + sky_rays * cosine / LSF_PI);
 #endif
     /* The back of a wall that is thinner than a voxel stands for the wall's other face, which would shadow it: that
-     * face has the light that enters the voxel. */
+     * face has the light that enters the voxel. A lamp may be in the voxel, and must not be passed. */
     float way = faces ? 0.0 : min(way_out(inside, to_light) * grid.origin.w, 0.5 * reach);
     vec3 lifted = position + LIFT * grid.origin.w * side + way * to_light;
     float visibility = shadow_visibility(lifted, side);
