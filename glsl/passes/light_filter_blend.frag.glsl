@@ -26,11 +26,13 @@ float explained(vec3 change, float gone, vec4 window, float beside)
     /* Both the mean square of the change and the variance have a relative variance of 2 / sum of weights. */
     float noise = window.x * (1.0 + 2.0 * sqrt(4.0 / window.a + uncertainty));
     /* Samples that have missed a rare light tell too little noise, but the neighbours' know it: those of the other
-     * samples of a pattern; or those beside a pixel that is a little darker than the filtered light. If m samples of a
-     * pixel find the light on average, its mean's square is m times its variance, and e^-m of the pixels miss it. */
+     * samples of a pattern, or all where the pixel's own variance is hardly known; or those beside a pixel that is a
+     * little darker than the filtered light. If m samples of a pixel find the light on average, its mean's square is m
+     * times its variance, and e^-m of the pixels miss it. */
     float alone = luminance(change) * luminance(change);
     bool missed = luminance(change) > 0.0 && alone <= 1.5 * beside;
-    float known = pattern ? max(gone, window.x) : missed ? max(gone, beside) : gone;
+    float share = pattern ? 1.0 : min(uncertainty * uncertainty / 64.0, 1.0);
+    float known = max(gone, max(share * window.x, missed ? beside : 0.0));
     float most = 9.0 * known * (1.0 + sqrt(uncertainty));
     return min(window.y > noise ? noise / window.y : 1.0, alone > most ? most / alone : 1.0);
 }
