@@ -1,11 +1,12 @@
 /* One step of the a-trous filter: 3 x 3 neighbours `stride` pixels apart, weighted 1 : 2 : 1 along both axes, by
  * the probability that they show one surface, and by how little their light differs beyond the noise. The first
- * step also takes out what single samples bring to pixels without such neighbours. */
+ * step also takes out light that stands out. */
 #include "lib/view.glsl"
 
 #include "lib/light_guide.glsl"
 
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
+layout(binding = 4) uniform sampler2D lone_texture; /* of both parts: 1 where the light stands out, else 0 */
 layout(location = 1) uniform int stride;
 layout(location = 2) uniform float tolerance; /* differences of luminance that count as noise [standard deviations] */
 layout(location = 4) uniform float correlation; /* of the noise of neighbours, which earlier steps have mixed */
@@ -13,6 +14,11 @@ layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
 
 /* Weight by which a neighbour counts beside a pixel even where it shows another surface. */
 #define LSF_OTHER 0.05
+
+bvec2 lone_at(ivec2 pixel)
+{
+    return stride == 1 ? notEqual(texelFetch(lone_texture, pixel, 0).xy, vec2(0.0)) : bvec2(false);
+}
 
 struct tally {
     vec3 difference; /* from the pixel's own light: a constant is kept to the bit */
@@ -23,33 +29,25 @@ struct tally {
 
 void add(inout tally t, vec4 own, vec4 light, float w)
 {
+    if (light.a < 0.0)
+        return;
     float noise = tolerance * tolerance * (own.a + light.a);
     float d = luminance(light.rgb) - luminance(own.rgb);
-    bool known = light.a >= 0.0;
-    float beside = known ? w + LSF_OTHER : 0.0;
+    float beside = w + LSF_OTHER;
     t.beside += beside * vec4(light.rgb - own.rgb, 1.0);
     t.beside_squares += beside * d * d;
     w *= d != 0.0 ? exp(-d * d / max(noise, 1e-37)) : 1.0;
-    w = known ? w : 0.0;
     t.difference += w * (light.rgb - own.rgb);
     t.squares += w * w * light.a;
     t.variances += w * light.a;
     t.sum += w;
 }
 
-/* Whether the neighbours are darker and few are on the pixel's surface (their weights may sum to 3), and less than two
- * samples bring its light: if m of n samples bring equal parts, the mean's square is m times its variance. */
-bool is_lone(vec4 own, tally t)
-{
-    float light = luminance(own.rgb);
-    return luminance(t.beside.rgb) < 0.0 && t.beside.a < 2.0 + 8.0 * LSF_OTHER && light * light < 2.0 * own.a;
-}
-
-/* The light of such a pixel, drawn towards the mean of the light beside it by its own share of both variances. */
+/* Light that stands out, drawn towards the mean of the light beside it by its own share of both variances. */
 vec4 lone_light(vec4 own, tally t)
 {
-    vec3 apart = t.beside.rgb / t.beside.a;
-    float d = luminance(apart), differ = max(t.beside_squares / t.beside.a - d * d, 0.0);
+    vec3 apart = t.beside.rgb / max(t.beside.a, LSF_OTHER);
+    float d = luminance(apart), differ = max(t.beside_squares / max(t.beside.a, LSF_OTHER) - d * d, 0.0);
     float share = own.a / (own.a + differ);
     return vec4(own.rgb + share * apart, (1.0 - share) * own.a);
 }
@@ -75,16 +73,14 @@ void main()
                 continue;
             vec2 w = light_guide_weights(g, pixel, at);
             w *= (i == 0 ? 1.0 : 0.5) * (j == 0 ? 1.0 : 0.5);
+            bvec2 lone = lone_at(at);
             for (int part = 0; part <= LSF_LOBE; part++)
-                add(tallies[part], own[part], texelFetch(light_textures[part], at, 0), w[part]);
+                if (!lone[part])
+                    add(tallies[part], own[part], texelFetch(light_textures[part], at, 0), w[part]);
         }
     for (int part = 0; part <= LSF_LOBE; part++) {
         tally t = tallies[part];
-        bool first = stride == 1;
-#if LSF_LOBE
-        first = first && (part == 0 || g.alpha > 0.0); /* a mirror does not share its light */
-#endif
-        if (first && is_lone(own[part], t))
+        if (lone_at(pixel)[part])
             light_out[part] = lone_light(own[part], t);
         else if (own[part].a >= 0.0)
             light_out[part] = vec4(own[part].rgb + t.difference / t.sum,

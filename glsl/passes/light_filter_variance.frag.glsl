@@ -1,5 +1,6 @@
 /* Blends the variance with the average over neighbours on the same surface, more so the fewer iterations there
- * are; after one iteration, it is the variance among them, or how far the pixel's light is from theirs. */
+ * are; after one iteration, it is the variance among them, or how far the pixel's light is from theirs. Marks what
+ * single samples bring to pixels with few such neighbours. */
 #include "lib/view.glsl"
 
 layout(binding = 2) uniform sampler2D window_textures[1 + LSF_LOBE];
@@ -7,6 +8,7 @@ layout(binding = 4) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: varian
 layout(location = 2) uniform float uncertainty; /* relative variance of the pixel's own variance */
 layout(location = 3) uniform bool halves;       /* the mean of the first part of the iterations is known */
 layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
+layout(location = 1 + LSF_LOBE) out vec4 lone_out; /* of both parts: 1 where the light stands out, else 0 */
 
 vec4 window_value(ivec2 at, int part)
 {
@@ -29,21 +31,44 @@ float variance_of(float own, vec4 window)
     return pow(even, share) * mixed;
 }
 
-/* The square of the difference between a pixel's light and the mean of the light beside it, whatever is seen there. */
-float apart_squared(ivec2 pixel, int part)
+/* What the 8 neighbours of a pixel say of a part of its light. */
+struct neighbours {
+    float alike; /* sum of weights of the first step, 3 where all are on the pixel's surface */
+    float count, difference; /* whatever they show: number; difference of luminance, summed */
+};
+
+void look_around(light_guide g, ivec2 pixel, out neighbours around[1 + LSF_LOBE])
 {
     ivec2 size = textureSize(guide_texture, 0);
-    float own = luminance(texelFetch(light_textures[part], pixel, 0).rgb), sum = 0.0, count = 0.0;
+    for (int part = 0; part <= LSF_LOBE; part++)
+        around[part] = neighbours(0.0, 0.0, 0.0);
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++) {
             ivec2 at = pixel + ivec2(i, j);
             if ((i == 0 && j == 0) || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
                 continue;
-            vec4 light = texelFetch(light_textures[part], at, 0);
-            sum += light.a >= 0.0 ? luminance(light.rgb) - own : 0.0; /* 0 to the bit where all are equal */
-            count += light.a >= 0.0 ? 1.0 : 0.0;
+            vec2 w = light_guide_weights(g, pixel, at) * (i == 0 ? 1.0 : 0.5) * (j == 0 ? 1.0 : 0.5);
+            for (int part = 0; part <= LSF_LOBE; part++) {
+                vec4 light = texelFetch(light_textures[part], at, 0);
+                if (light.a < 0.0)
+                    continue;
+                around[part].alike += w[part];
+                around[part].count += 1.0;
+                around[part].difference += luminance(light.rgb) - luminance(light_out[part].rgb);
+            }
         }
-    return count > 0.0 ? sum * sum / (count * count) : 0.0;
+}
+
+/* Whether the neighbours are darker and few are on the pixel's surface, and less than two samples bring its light: if
+ * m of n samples bring equal parts, the mean's square is m times its variance. A mirror does not share its light. */
+bool stands_out(light_guide g, int part, vec4 light, neighbours around)
+{
+#if LSF_LOBE
+    if (part == 1 && g.alpha == 0.0)
+        return false;
+#endif
+    float own = luminance(light.rgb);
+    return around.difference < 0.0 && around.alike < 1.5 && own * own < 2.0 * light.a;
 }
 
 void main()
@@ -51,17 +76,23 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     light_guide g = light_guide_at(pixel);
     vec4 windows[1 + LSF_LOBE];
+    neighbours around[1 + LSF_LOBE];
+    lone_out = vec4(0.0);
     for (int part = 0; part <= LSF_LOBE; part++)
         light_out[part] = texelFetch(light_textures[part], pixel, 0);
     if (g.depth == 0.0)
         return;
     window_gather(g, pixel, 3, windows);
+    look_around(g, pixel, around);
     for (int part = 0; part <= LSF_LOBE; part++) {
         if (light_out[part].a < 0.0)
             continue;
-        light_out[part].a = variance_of(light_out[part].a, windows[part]);
-        /* Where one pixel alone shows a surface, there are no neighbours to vary. */
+        float variance = variance_of(light_out[part].a, windows[part]);
+        /* A pixel that alone shows a surface has no neighbours that could vary. */
+        float apart = around[part].difference / max(around[part].count, 1.0);
         if (window_moments)
-            light_out[part].a = max(light_out[part].a, apart_squared(pixel, part));
+            variance = max(variance, apart * apart);
+        light_out[part].a = variance;
+        lone_out[part] = stands_out(g, part, light_out[part], around[part]) ? 1.0 : 0.0;
     }
 }

@@ -36,6 +36,7 @@ static const lsf_texture_row textures[] = {
      "after a step"},
     {"light_filter.specular_1", GL_RGBA32F, AT(ping_pong[1][1]), LSF_TEXTURE_SPECULAR,
      "after the next one"},
+    {"light_filter.lone", GL_RG8, AT(lone), 0, "where the light of a part stands out"},
     {"light_filter.picture", GL_RGBA32F, AT(picture), 0, "the result"},
 };
 
@@ -58,7 +59,7 @@ static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
         const char *label;
         GLuint *framebuffer, colors[4];
     } rows[] = {
-        {"light_filter.light", &pass->light_framebuffer, {light[0], light[1]}},
+        {"light_filter.light", &pass->light_framebuffer, {light[0], light[1], pass->lone}},
         {"light_filter.ping", &pass->ping_pong_framebuffers[0], {before[0], before[1]}},
         {"light_filter.pong", &pass->ping_pong_framebuffers[1], {after[0], after[1]}},
         {"light_filter.divided",
@@ -230,6 +231,7 @@ static void run_steps(lsf_light_filter *pass, const lsf_iteration *iteration, fl
                     i < 2 + within ? fmaxf(pass->params.tolerance, first) : pass->params.tolerance);
         glUniform1f(4, i < within ? 1.0f : correlation_before(i - within));
         bind_parts(2, light);
+        lsf_bind_texture(4, pass->lone);
         lsf_draw_fullscreen(pass->context);
         light = pass->ping_pong[i % 2];
     }
