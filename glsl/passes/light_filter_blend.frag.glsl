@@ -26,8 +26,8 @@ float explained(vec3 change, float gone, vec4 window, float beside)
     /* Both the mean square of the change and the variance have a relative variance of 2 / sum of weights. */
     float noise = window.x * (1.0 + 2.0 * sqrt(4.0 / window.a + uncertainty));
     /* Samples that have missed a rare light tell too little noise, but the neighbours' know it: those of the other
-     * samples of a pattern, or all where the pixel's own variance is hardly known; or those beside a pixel that is a
-     * little darker than the filtered light. If m samples of a pixel find the light on average, its mean's square is m
+     * samples of a pattern; or all, by 1 / (n - 1)^2 after n iterations, as the pixel's own variance is hardly known
+     * (the uncertainty is 8 / (n - 1)); or those beside a pixel that is a little darker than the filtered light. If m samples of a pixel find the light on average, its mean's square is m
      * times its variance, and e^-m of the pixels miss it. */
     float alone = luminance(change) * luminance(change);
     bool missed = luminance(change) > 0.0 && alone <= 1.5 * beside;

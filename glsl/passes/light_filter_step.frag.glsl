@@ -1,12 +1,12 @@
 /* One step of the a-trous filter: 3 x 3 neighbours `stride` pixels apart, weighted 1 : 2 : 1 along both axes, by
  * the probability that they show one surface, and by how little their light differs beyond the noise. The first
- * step also takes out light that stands out. */
+ * step also takes out what a single sample brings to a lone pixel. */
 #include "lib/view.glsl"
 
 #include "lib/light_guide.glsl"
 
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
-layout(binding = 4) uniform sampler2D lone_texture; /* of both parts: 1 where the light stands out, else 0 */
+layout(binding = 4) uniform sampler2D lone_texture; /* of both parts: 1 where the pixel is lone, else 0 */
 layout(location = 1) uniform int stride;
 layout(location = 2) uniform float tolerance; /* differences of luminance that count as noise [standard deviations] */
 layout(location = 4) uniform float correlation; /* of the noise of neighbours, which earlier steps have mixed */
@@ -43,11 +43,13 @@ void add(inout tally t, vec4 own, vec4 light, float w)
     t.sum += w;
 }
 
-/* Light that stands out, drawn towards the mean of the light beside it by its own share of both variances. */
+/* Light of a lone pixel, drawn towards the mean of the light beside it by its own share of both variances. */
 vec4 lone_light(vec4 own, tally t)
 {
-    vec3 apart = t.beside.rgb / max(t.beside.a, LSF_OTHER);
-    float d = luminance(apart), differ = max(t.beside_squares / max(t.beside.a, LSF_OTHER) - d * d, 0.0);
+    if (t.beside.a == 0.0)
+        return own;
+    vec3 apart = t.beside.rgb / t.beside.a;
+    float d = luminance(apart), differ = max(t.beside_squares / t.beside.a - d * d, 0.0);
     float share = own.a / (own.a + differ);
     return vec4(own.rgb + share * apart, (1.0 - share) * own.a);
 }

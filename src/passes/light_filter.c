@@ -36,7 +36,7 @@ static const lsf_texture_row textures[] = {
      "after a step"},
     {"light_filter.specular_1", GL_RGBA32F, AT(ping_pong[1][1]), LSF_TEXTURE_SPECULAR,
      "after the next one"},
-    {"light_filter.lone", GL_RG8, AT(lone), 0, "where the light of a part stands out"},
+    {"light_filter.lone", GL_RG8, AT(lone), 0, "which pixels are lone, of both parts"},
     {"light_filter.picture", GL_RGBA32F, AT(picture), 0, "the result"},
 };
 

@@ -50,7 +50,7 @@ typedef struct lsf_light_filter {
     /* Outputs, too: without tint, of the diffuse part and, where materials have lobes, of the
      * specular one; A: variance, below 0: it tells nothing. After the steps: */
     GLuint light[2], filtered[2]; /* `filtered` are two of the turns */
-    GLuint lone;                  /* RG8, of both parts: 1 where the light stands out, else 0 */
+    GLuint lone;                  /* RG8, of both parts: 1 where the pixel is lone, else 0 */
     GLuint ping_pong[2][2];       /* what the last step but one, and the last, made of both parts */
     GLuint light_framebuffer, ping_pong_framebuffers[2], divided_framebuffer, picture_framebuffer;
     GLuint divide, window, variance, step, change, blend; /* programs */

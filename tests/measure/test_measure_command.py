@@ -212,8 +212,8 @@ class Measure(CommandTest):
     def test_frames(self):
         """What is kept from frame to frame flickers less; a path that stands still changes nothing."""
         paths = {}
-        words = ("-t", "voxel_path", "--sweep", "voxel.resolution=8", "-D", "light_filter.steps=0", "-s", "1",
-                 "--frames", "0-2", "--json", "a.json")
+        words = ("-t", "voxel_path", "--sweep", "voxel.resolution=8", "-s", "1", "--frames", "0-2",
+                 "--json", "a.json")
         for name, more in (("still", []), ("turn", ["--turntable", "90"]),
                            ("temporal", ["--turntable", "90", "--temporal"])):
             self.measure(*words, *more)
