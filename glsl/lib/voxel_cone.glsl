@@ -58,35 +58,48 @@ vec3 cone_meet(ivec3 cell, vec3 direction)
     return texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0).rgb;
 }
 
-/* Traces a ray from a point of a surface with the unit `normal` [voxels]. The rays of a set that gathers a
- * hemisphere are cosine-distributed over all rotations and elevations, so that the mean is right; voxels beside a
- * ray are hit by other rays and must not count twice. `spread` is used by marching cones. */
-cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
+/* A ray's way: the light of surfaces that it passes, the share of light from behind them, and the voxel in which it
+ * ends, if any. */
+struct cone_way {
+    vec3 radiance, left;
+    bool met;
+    ivec3 cell;
+};
+
+/* Follows a ray from a point of a surface with the unit `normal` [voxels]. */
+cone_way cone_follow(vec3 point, vec3 normal, vec3 direction)
 {
+    cone_way way = cone_way(vec3(0.0), vec3(1.0), false, ivec3(0));
     voxel_ray ray;
-    ivec3 met;
     if (!voxel_ray_begin(point + voxel_lift(normal), direction, ray) || !voxel_leave_start(ray))
-        return cone_light(vec3(0.0), vec3(1.0));
+        return way;
 #if LSF_VOXEL_PASSAGE
     voxel_passage passage = voxel_passage_begin();
-    vec3 radiance = vec3(0.0);
     for (int i = 0; i < VOXEL_PASSAGE_MOST; i++) {
-        if (!voxel_ray_meet(ray, cone_march.z, true, met))
-            return cone_light(radiance, voxel_passed(passage));
+        way.met = voxel_ray_meet(ray, cone_march.z, true, way.cell);
+        way.left = voxel_passed(passage);
         bool sheet;
-        vec3 left = voxel_passed(passage);
-        bool goes_on = voxel_pass(passage, ray, met, sheet);
+        if (!way.met || !voxel_pass(passage, ray, way.cell, sheet))
+            return way;
         if (!sheet)
-            radiance += left * cone_meet(met, direction);
-        if (!goes_on)
-            break;
+            way.radiance += way.left * cone_meet(way.cell, direction);
     }
-    return cone_light(radiance, vec3(0.0));
+    return cone_way(way.radiance, vec3(0.0), false, way.cell);
 #else
-    if (voxel_ray_meet(ray, cone_march.z, true, met))
-        return cone_light(cone_meet(met, direction), vec3(0.0));
-    return cone_light(vec3(0.0), vec3(1.0));
+    way.met = voxel_ray_meet(ray, cone_march.z, true, way.cell);
+    return way;
 #endif
+}
+
+/* Traces a ray. The rays of a set that gathers a hemisphere are cosine-distributed over all rotations and
+ * elevations, so that the mean is right; voxels beside a ray are hit by other rays and must not count twice.
+ * `spread` is used by marching cones. */
+cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
+{
+    cone_way way = cone_follow(point, normal, direction);
+    if (way.met)
+        return cone_light(way.radiance + way.left * cone_meet(way.cell, direction), vec3(0.0));
+    return cone_light(way.radiance, way.left);
 }
 #else
 #if LSF_VOXEL_SIDES > 1

@@ -6,6 +6,9 @@
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
 #include "lib/voxel_cone.glsl"
+#if LSF_VOXEL_MIRRORS
+#include "lib/voxel_surface.glsl"
+#endif
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility, of green light */
 #if LSF_SPECULAR
@@ -23,9 +26,57 @@ vec3 arriving(cone_light light, vec3 direction, float cosine)
     return radiance;
 }
 
+#if LSF_VOXEL_MIRRORS
+layout(location = 1) uniform int most_mirrors; /* that a ray of the specular lobe goes on from */
+
+/* Draws the direction that a mirroring voxel shows to a ray along `direction`, and multiplies its weight into
+ * `through`. False: no light is reflected from there. */
+bool mirror(surface s, int order, inout vec3 direction, inout vec3 through, out float pdf)
+{
+    vec3 view = -direction;
+    brdf_sampler p = brdf_sampler_of(s, view, false);
+    uint iteration = floatBitsToUint(cone_gather.x);
+    direction = brdf_draw(p, hash_unit(hash(uvec3(gl_FragCoord.xy, iteration + uint(order)))));
+    pdf = brdf_pdf(p, direction);
+    float cosine = dot(s.normal, direction);
+    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0)
+        return false;
+    through *= brdf_sum(s, brdf_evaluate(s, view, direction, 0.0)) * (cosine / pdf);
+    return true;
+}
+#endif
+
 #if LSF_SPECULAR && LSF_SEALED
-/* Light of the specular lobe by a ray drawn from it: from voxels, and from the environment, weighted against
- * directions drawn by its radiance. */
+/* Light along a direction drawn from the lobe of a visible point with density `pdf`: from voxels, and from the
+ * environment, weighted against directions drawn by its radiance. What voxels mirror of it is found in no other
+ * way. */
+vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
+{
+    vec3 sum = vec3(0.0), through = vec3(1.0), sky = vec3(0.0);
+#if LSF_ENVIRONMENT
+    sky = sky_left(environment_radiance(direction), pdf);
+#endif
+    cone_way way = cone_follow(point, normal, direction);
+#if LSF_VOXEL_MIRRORS
+    for (int i = 0; i < most_mirrors && way.met; i++) {
+        int side;
+        surface s = voxel_surface_at(way.cell, direction, side);
+        if (!voxel_mirrors(s, pdf))
+            break;
+        sum += through * (way.radiance + way.left * voxel_emission_at(way.cell, side));
+        through *= way.left;
+        point = vec3(way.cell) + voxel_point_unpack(texelFetch(voxel_point, way.cell, 0).r);
+        if (!mirror(s, i, direction, through, pdf))
+            return grid.unit.x * sum;
+        sky = environment_radiance(direction);
+        way = cone_follow(point, s.geometric_normal, direction);
+    }
+#endif
+    vec3 end = way.met ? grid.unit.x * cone_meet(way.cell, direction) : sky;
+    return grid.unit.x * (sum + through * way.radiance) + through * way.left * end;
+}
+
+/* Light of the specular lobe by a ray drawn from it. */
 vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 {
     vec3 number = hash_unit(hash(uvec3(gl_FragCoord.xy, 1u)));
@@ -36,12 +87,8 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
     float cosine = dot(s.normal, direction);
     if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0)
         return vec3(0.0);
-    cone_light light = cone_trace(point, s.geometric_normal, direction, 0.0);
     float pdf = brdf_pdf(p, direction);
-    vec3 radiance = light.radiance * grid.unit.x;
-#if LSF_ENVIRONMENT
-    radiance += light.transmittance * sky_left(environment_radiance(direction), pdf);
-#endif
+    vec3 radiance = lobe_finds(point, s.geometric_normal, direction, pdf);
     float leaves = 1.0;
 #if LSF_SHEEN
     /* The sheen's own reflection is gathered by the diffuse cones. */

@@ -1,36 +1,21 @@
-/* Unidirectional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches LSF_EMISSION
- * (surfaces emit), LSF_EMITTERS (points on them are sampled), LSF_ENVIRONMENT, LSF_SPLIT_DIRECT,
- * LSF_RANDOM_TEXTURE, LSF_SPECULAR_PARAMS, LSF_VOXEL_SPECULAR_PARAMS, LSF_VOXEL_BENT, LSF_TRANSMISSION, LSF_ABSORPTION (there are
- * media) and those of the libraries. */
+/* Unidirectional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches LSF_ENVIRONMENT,
+ * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_SPECULAR_PARAMS, LSF_TRANSMISSION, LSF_ABSORPTION (there are media), LSF_VOXEL_MIRRORS
+ * and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/path_random.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
-#include "lib/voxel_shading.glsl"
-#include "lib/voxel_sight.glsl"
+#include "lib/voxel_surface.glsl"
 #if LSF_ABSORPTION
 #include "lib/scene.glsl"
 #endif
-#if LSF_EMITTERS
-#include "lib/voxel_emitter.glsl"
-#endif
 
-#if LSF_EMISSION && !LSF_EMITTERS
-layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
-#endif
 #if LSF_EMISSION && !LSF_ENVIRONMENT
 layout(binding = LSF_UNIT_VOXEL_SHINING) uniform usampler3D shining_bricks;
 #endif
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance;
-layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
-#if LSF_VOXEL_SPECULAR_PARAMS
-layout(binding = LSF_UNIT_VOXEL_SPECULAR_PARAMS) uniform usampler3D voxel_specular_params;
-#endif
-#if LSF_TRANSMISSION
-layout(binding = LSF_UNIT_VOXEL_TRANSMISSION) uniform usampler3D voxel_transmission_bits;
-#endif
 
 layout(location = 0) uniform ivec4 lengths; /* bounces, segments, least and most samples */
 layout(location = 1) uniform uvec2 iteration;    /* iteration, seed */
@@ -106,46 +91,14 @@ bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
 path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 {
     path_vertex v;
-    uint normal = texelFetch(voxel_normal, cell, 0).r, shading_bits = voxel_shading_bits(cell, normal);
-    vec3 n = voxel_normal_unpack(normal), shading = voxel_normal_unpack(shading_bits);
-    side = dot(n, direction) <= 0.0 ? 0 : 1;
-    uint point = texelFetch(voxel_point, cell, 0).r;
-    v.position = vec3(cell) + voxel_point_unpack(point);
+    v.s = voxel_surface_at(cell, direction, side);
+    v.position = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
     v.view = -direction;
-    v.s.geometric_normal = side == 0 ? n : -n;
-    v.s.normal = side == 0 ? shading : -shading;
-    v.s.base_color = voxel_albedo_unpack(texelFetch(voxel_albedo, cell, 0).r);
-    v.s.unlit = voxel_unlit(point);
-    v.s.metallic = 0.0;
-    v.s.roughness = 1.0;
-    v.s.f0 = 0.04; /* ior 1.5 */
-    lobes_none(v.s);
-    v.s.anisotropy = 0.0;
-    v.s.anisotropy_angle = 0.0;
-#if LSF_VOXEL_SPECULAR_PARAMS
-    vec4 specular_params = unpackUnorm4x8(texelFetch(voxel_specular_params, cell, 0).r);
-    v.s.roughness = specular_params.y;
-    v.s.f0 = specular_params.z * specular_params.z;
-    v.s.metallic = specular_params.w;
-#if LSF_ANISOTROPY
-    /* The inverse of lsf_alpha_along_tangent, and the rotation from the frame of n to that of -n. */
-    float alpha = lsf_alpha_from_roughness(specular_params.y);
-    v.s.anisotropy = sqrt(clamp((specular_params.x * specular_params.x - alpha) / max(1.0 - alpha, 1e-4), 0.0, 1.0));
-    vec3 t, b, own_t, own_b;
-    orthonormal_basis(n, t, b);
-    orthonormal_basis(v.s.normal, own_t, own_b);
-    float angle = 2.0 * LSF_PI * voxel_rotation_unpack(shading_bits);
-    vec3 along = cos(angle) * t + sin(angle) * b;
-    v.s.anisotropy_angle = fract(atan(dot(along, own_b), dot(along, own_t)) / (2.0 * LSF_PI));
-#endif
-#endif
 #if LSF_TRANSMISSION
-    transmission_unpack(texelFetch(voxel_transmission_bits, cell, 0).r, v.s);
-    transmission_set_side(v.s, side == 0);
     /* The path continues from its hit with the plane, not from the voxel's stored point. */
-    float meets = dot(n, direction);
+    float meets = dot(v.s.geometric_normal, direction);
     if (v.s.transmission > 0.0 && meets != 0.0) {
-        vec3 there = origin + direction * (dot(n, v.position - origin) / meets);
+        vec3 there = origin + direction * (dot(v.s.geometric_normal, v.position - origin) / meets);
         v.position = clamp(there, vec3(cell), vec3(cell + 1));
     }
 #endif
@@ -169,16 +122,6 @@ vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)
 vec3 left_after(vec3 absorption, vec3 span)
 {
     return exp(-absorption * (length(span) * grid.origin.w));
-}
-
-/* Emission of one side of the voxel, in the grid's unit. */
-vec3 emission_of(ivec3 cell, int side)
-{
-#if LSF_EMISSION
-    if (side == 0 || voxel_emits_both(texelFetch(voxel_point, cell, 0).r))
-        return voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r);
-#endif
-    return vec3(0.0);
 }
 
 /* Throughput for light from a direction: `through` the path so far, times f cos / density. */
@@ -252,7 +195,7 @@ bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segmen
 #if LSF_ENVIRONMENT
 /* Radiance of the environment along a direction drawn with density `pdf`, weighted against directions drawn by
  * this radiance: at a visible point, which has `count` paths, by its BRDF, at voxels by the cosine, as in
- * voxel_light. Light through a surface is found by no other strategy. */
+ * voxel_light. Light through a surface, and of voxels that mirror, is found by no other strategy. */
 vec3 sky_found(path_vertex v, vec3 direction, float pdf, int segment, float count)
 {
     vec3 radiance = environment_radiance(direction);
@@ -268,6 +211,7 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
 {
     light_parts through = light_parts(vec3(1.0), vec3(1.0));
     vec3 absorption = vec3(0.0); /* the camera is in air */
+    bool mirrors = false;        /* v shows the environment in its lobe */
     for (int segment = 0; segment < lengths.y; segment++) {
         brdf_sampler sampler_of_v = brdf_sampler_of(v.s, v.view, segment == 0);
 #if LSF_EMITTERS
@@ -281,7 +225,7 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
         ivec3 cell;
         if (!trace(v, direction, segment == lengths.x, cell)) {
 #if LSF_ENVIRONMENT
-            add_light(through, sky_found(v, direction, pdf, segment, float(count)), segment == 0);
+            add_light(through, sky_found(v, direction, mirrors ? 0.0 : pdf, segment, float(count)), segment == 0);
 #endif
             return;
         }
@@ -296,10 +240,13 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
         /* The last segment collects emission, with no bounce left to reflect other light; emission at the first
          * hit counts as direct light. */
         vec3 radiance = vec3(0.0);
-        if (segment < lengths.x)
+#if LSF_VOXEL_MIRRORS
+        mirrors = voxel_mirrors(met.s, pdf);
+#endif
+        if (segment < lengths.x && !mirrors)
             radiance = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
 #if LSF_EMISSION
-        vec3 emission = emission_of(cell, side);
+        vec3 emission = voxel_emission_at(cell, side);
         radiance = max(radiance - emission, 0.0);
 #if LSF_EMITTERS
         if (pdf > 0.0)

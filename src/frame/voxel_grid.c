@@ -178,6 +178,12 @@ void lsf_voxel_specular_params_switch(lsf_plan *plan)
                         "roughness or metallic vary between voxels");
 }
 
+bool lsf_voxel_mirrors(const lsf_plan *plan, const lsf_state *state)
+{
+    const lsf_requirements *r = &plan->requirements;
+    return r->environment && r->glossy && state->light_count == 0;
+}
+
 void lsf_voxel_chance_switch(lsf_plan *plan)
 {
     if (plan->voxel_chance)

@@ -84,6 +84,9 @@ void lsf_voxel_bend_switch(lsf_plan *plan);
 /* The same for roughness, metallic and f0. */
 bool lsf_voxel_has_specular_params(const lsf_plan *plan);
 void lsf_voxel_specular_params_switch(lsf_plan *plan);
+/* Whether rays that show detail find the environment that smooth metals mirror: where it alone is
+ * on voxels. Light of lamps is spread by voxels as by diffuse surfaces. */
+bool lsf_voxel_mirrors(const lsf_plan *plan, const lsf_state *state);
 /* Adds the switch of surfaces that transmit and are there by chance, where cones march. */
 void lsf_voxel_chance_switch(lsf_plan *plan);
 /* Whether rays go on through voxels of materials that transmit. */

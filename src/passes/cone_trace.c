@@ -13,8 +13,9 @@
 #define ALBEDO_SIDE 32u
 #define ALBEDO_SAMPLES 128u
 
-/* Uniform of passes/cone_trace.frag.glsl. */
+/* Uniforms of passes/cone_trace.frag.glsl. */
 #define LOCATION_LOBE 0
+#define LOCATION_MOST_MIRRORS 1
 
 /* Diameter of the specular cone by its length, to alpha. Half the normals of a GGX surface that one
  * sees lie within atan(alpha) of its own, so that half the mirrored light comes from within 2 alpha
@@ -31,7 +32,21 @@ static const lsf_texture_row textures[] = {
      "light of the specular lobe"},
 };
 
-void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params)
+/* What rays of the specular lobe read of voxels that mirror, beside what passages read. */
+static void plan_mirrors(lsf_plan *plan, bool mirrors)
+{
+    lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", mirrors, "the environment alone lights metals");
+    if (!mirrors)
+        return;
+    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
+                        "some material emits or is unlit");
+    if (!lsf_voxel_passage(plan)) {
+        lsf_voxel_specular_params_switch(plan);
+        lsf_voxel_bend_switch(plan);
+    }
+}
+
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors)
 {
     uint32_t size[2];
     const lsf_requirements *r = &plan->requirements;
@@ -47,6 +62,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params)
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic && params->sealed,
                         "rays of the lobe are drawn; cones are round");
     lsf_voxel_passage_all_switches(plan);
+    plan_mirrors(plan, mirrors);
     lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
@@ -102,6 +118,7 @@ bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/cone_trace.frag.glsl"};
     *pass = (lsf_cone_trace){.context = context, .params = *params, .grid = *grid};
+    pass->mirrors = lsf_plan_switch_value(plan, "cone_trace", "LSF_VOXEL_MIRRORS");
     const lsf_split_light *out = &pass->light;
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         !lsf_plan_create_texture_if_planned(plan, context, "cone_trace.lobe_albedo",
@@ -136,6 +153,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
         lsf_iteration_bind_sky(iteration);
     if (pass->lobe_albedo)
         glUniform1f(LOCATION_LOBE, LOBE_SPREAD);
+    if (pass->mirrors)
+        glUniform1i(LOCATION_MOST_MIRRORS, (GLint)iteration->plan->bounces - 1);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }

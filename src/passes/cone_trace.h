@@ -21,10 +21,13 @@ typedef struct lsf_cone_trace {
     lsf_split_light light;
     GLuint lobe_albedo; /* RG32F by cosine of the view and roughness */
     GLuint framebuffer, program;
+    bool mirrors;
     lsf_timer *timer;
 } lsf_cone_trace;
 
-void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params);
+/* `mirrors`: rays of specular lobes find what metals mirror; cones are sealed and light bounces
+ * twice. */
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors);
 bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_cone_params *params, const lsf_voxel_grid *grid,
                            lsf_error *error);

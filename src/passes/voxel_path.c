@@ -86,6 +86,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
                         "some material emits or is unlit");
     plan_emitters(plan, params);
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", use->mirrors,
+                        "the environment alone lights metals");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");

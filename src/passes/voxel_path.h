@@ -36,6 +36,7 @@ uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual);
 typedef struct lsf_voxel_path_use {
     uint32_t segments;
     bool split_direct; /* emission that the first segment finds is asked for apart */
+    bool mirrors;      /* metals show the environment in their lobes */
 } lsf_voxel_path_use;
 
 typedef struct lsf_voxel_path_inputs {

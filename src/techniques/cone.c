@@ -82,7 +82,8 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
         lsf_sparse_chain_plan_split(plan, params, 1);
-        lsf_cone_trace_plan(plan, &params->cone);
+        bool mirrors = params->cone.sealed && plan->bounces > 1 && lsf_voxel_mirrors(plan, state);
+        lsf_cone_trace_plan(plan, &params->cone, mirrors);
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);

@@ -38,6 +38,7 @@ static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *
         use.segments = lsf_voxel_path_segments(plan, state->light_count > 0);
     use.split_direct = use.segments > 0 && (r->emissive || r->unlit || r->environment) &&
                        (plan->aovs & layers) && lsf_sparse_chain_is_plain(plan, params, 1);
+    use.mirrors = use.segments > 0 && lsf_voxel_mirrors(plan, state);
     return use;
 }
 
