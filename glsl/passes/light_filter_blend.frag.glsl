@@ -2,6 +2,7 @@
  * light differ by more, the difference is the filter's bias. */
 #include "lib/view.glsl"
 
+#include "lib/light_lone.glsl"
 #include "lib/luminance.glsl"
 
 layout(binding = 2) uniform sampler2D window_textures[1 + LSF_LOBE];
@@ -10,7 +11,9 @@ layout(binding = 6) uniform sampler2D filtered_textures[1 + LSF_LOBE];
 layout(binding = 8) uniform sampler2D factor_textures[1 + LSF_LOBE];
 layout(location = 2) uniform float uncertainty; /* relative variance of the variance; below 0: no limit */
 layout(location = 3) uniform bool pattern;      /* neighbours take different samples */
+layout(binding = 10) uniform sampler2D lone_texture;
 layout(location = 0) out vec4 change_out;
+layout(location = 1) out vec4 lost_out; /* light taken out of lone pixels; A: whether the pixel stands apart */
 
 vec4 window_value(ivec2 at, int part)
 {
@@ -42,7 +45,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     light_guide g = light_guide_at(pixel);
     vec4 windows[1 + LSF_LOBE];
-    change_out = vec4(0.0);
+    change_out = lost_out = vec4(0.0);
     if (g.depth == 0.0)
         return;
     if (uncertainty >= 0.0)
@@ -54,6 +57,12 @@ void main()
         vec3 change = filtered.rgb - own.rgb;
         if (uncertainty >= 0.0)
             change *= explained(change, max(own.a - filtered.a, 0.0), windows[part], window_value(pixel, part).x);
-        change_out.rgb += change * texelFetch(factor_textures[part], pixel, 0).rgb;
+        change *= texelFetch(factor_textures[part], pixel, 0).rgb;
+        change_out.rgb += change;
+        vec2 mark = vec2(texelFetch(lone_texture, pixel, 0)[part]);
+        if (marked(mark, LONE).x)
+            lost_out.rgb += max(-change, 0.0);
+        if (marked(mark, APART).x)
+            lost_out.a = 1.0;
     }
 }

@@ -4,9 +4,10 @@
 #include "lib/view.glsl"
 
 #include "lib/light_guide.glsl"
+#include "lib/light_lone.glsl"
 
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
-layout(binding = 4) uniform sampler2D lone_texture; /* of both parts: 1 where the pixel is lone, else 0 */
+layout(binding = 4) uniform sampler2D lone_texture;
 layout(location = 1) uniform int stride;
 layout(location = 2) uniform float tolerance; /* differences of luminance that count as noise [standard deviations] */
 layout(location = 4) uniform float correlation; /* of the noise of neighbours, which earlier steps have mixed */
@@ -17,7 +18,7 @@ layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
 
 bvec2 lone_at(ivec2 pixel)
 {
-    return stride == 1 ? notEqual(texelFetch(lone_texture, pixel, 0).xy, vec2(0.0)) : bvec2(false);
+    return stride == 1 ? marked(texelFetch(lone_texture, pixel, 0).xy, LONE) : bvec2(false);
 }
 
 struct tally {

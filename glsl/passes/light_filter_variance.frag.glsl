@@ -1,6 +1,7 @@
 /* Blends the variance with the average over neighbours on the same surface, more so the fewer iterations there
  * are; after one iteration, it is the variance among them, or how far the pixel's light is from that of the 8 pixels
  * around it. Marks lone pixels: few such neighbours, and light that a single sample brings. */
+#include "lib/light_lone.glsl"
 #include "lib/view.glsl"
 
 layout(binding = 2) uniform sampler2D window_textures[1 + LSF_LOBE];
@@ -8,7 +9,7 @@ layout(binding = 4) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: varian
 layout(location = 2) uniform float uncertainty; /* relative variance of the pixel's own variance */
 layout(location = 3) uniform bool halves;       /* the mean of the first part of the iterations is known */
 layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
-layout(location = 1 + LSF_LOBE) out vec4 lone_out; /* of both parts: 1 where the pixel is lone, else 0 */
+layout(location = 1 + LSF_LOBE) out vec4 lone_out; /* of both parts: LONE, APART or 0 */
 
 vec4 window_value(ivec2 at, int part)
 {
@@ -59,16 +60,19 @@ void look_around(light_guide g, ivec2 pixel, out neighbours around[1 + LSF_LOBE]
         }
 }
 
-/* Whether the neighbours are darker and few are on the pixel's surface, and less than two samples bring its light: if
- * m of n samples bring equal parts, the mean's square is m times its variance. A mirror does not share its light. */
-bool is_lone(light_guide g, int part, vec4 light, neighbours around)
+/* Whether few neighbours are on the pixel's surface, and whether it is lone: these are darker, and less than two samples
+ * bring its light. If m of n samples bring equal parts, the mean's square is m times its variance. A mirror does not
+ * share its light. */
+float lone_of(light_guide g, int part, vec4 light, neighbours around)
 {
 #if LSF_LOBE
     if (part == 1 && g.alpha == 0.0)
-        return false;
+        return 0.0;
 #endif
     float own = luminance(light.rgb);
-    return around.difference < 0.0 && around.alike < 1.5 && own * own < 2.0 * light.a;
+    if (around.alike >= 1.5)
+        return 0.0;
+    return around.difference < 0.0 && own * own < 2.0 * light.a ? LONE : APART;
 }
 
 void main()
@@ -93,6 +97,6 @@ void main()
         if (window_moments)
             variance = max(variance, apart * apart);
         light_out[part].a = variance;
-        lone_out[part] = is_lone(g, part, light_out[part], around[part]) ? 1.0 : 0.0;
+        lone_out[part] = lone_of(g, part, light_out[part], around[part]);
     }
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "shared/light_filter.h"
 
 const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
     {"light_filter.kind", LSF_OPTION_ENUM, offsetof(lsf_light_filter_params, kind), 0, 0,
@@ -37,8 +38,19 @@ static const lsf_texture_row textures[] = {
     {"light_filter.specular_1", GL_RGBA32F, AT(ping_pong[1][1]), LSF_TEXTURE_SPECULAR,
      "after the next one"},
     {"light_filter.lone", GL_RG8, AT(lone), 0, "which pixels are lone, of both parts"},
+    {"light_filter.lost", GL_RGBA32F, AT(lost), 0, "light taken out of lone pixels"},
     {"light_filter.picture", GL_RGBA32F, AT(picture), 0, "the result"},
 };
+
+static const lsf_texture_row block_textures[] = {
+    {"light_filter.lost_sums", GL_RGBA32F, AT(lost_sums[0]), 0, "the same, summed over blocks"},
+    {"light_filter.lost_squares", GL_R32F, AT(lost_sums[1]), 0, "its squares, summed over blocks"},
+};
+
+static uint32_t blocks_along(uint32_t pixels)
+{
+    return (pixels + LSF_LOST_BLOCK - 1) / LSF_LOST_BLOCK;
+}
 
 void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params)
 {
@@ -50,6 +62,8 @@ void lsf_light_filter_plan(lsf_plan *plan, const lsf_light_filter_params *params
     lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
                         "materials have a specular lobe");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->width, plan->height);
+    lsf_plan_textures_add(plan, block_textures, LSF_COUNT(block_textures), 0,
+                          blocks_along(plan->width), blocks_along(plan->height));
 }
 
 static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
@@ -65,7 +79,9 @@ static bool create_framebuffers(lsf_light_filter *pass, lsf_error *error)
         {"light_filter.divided",
          &pass->divided_framebuffer,
          {before[0], before[1], light[0], light[1]}},
-        {"light_filter.picture", &pass->picture_framebuffer, {pass->picture}},
+        {"light_filter.picture", &pass->picture_framebuffer, {pass->picture, pass->lost}},
+        {"light_filter.lost", &pass->lost_framebuffer, {pass->lost_sums[0], pass->lost_sums[1]}},
+        {"light_filter.spread", &pass->spread_framebuffer, {pass->picture}},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
         lsf_framebuffer_desc desc = {.label = rows[i].label, .color_count = 4, .layer = -1};
@@ -88,6 +104,8 @@ static bool create_programs(lsf_light_filter *pass, const lsf_plan *plan, lsf_er
         {"passes/light_filter_step.frag.glsl", &pass->step},
         {"passes/light_filter_change.frag.glsl", &pass->change},
         {"passes/light_filter_blend.frag.glsl", &pass->blend},
+        {"passes/light_filter_pool.frag.glsl", &pass->pool},
+        {"passes/light_filter_spread.frag.glsl", &pass->spread},
     };
     for (size_t i = 0; i < LSF_COUNT(rows); i++) {
         const char *const files[5] = {"lib/fullscreen.vert.glsl", rows[i].file};
@@ -103,6 +121,8 @@ bool lsf_light_filter_create(lsf_light_filter *pass, lsf_context *context, const
 {
     *pass = (lsf_light_filter){.context = context, .params = *params};
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
+        !lsf_plan_create_textures(plan, context, block_textures, LSF_COUNT(block_textures), pass,
+                                  error) ||
         !create_framebuffers(pass, error) || !create_programs(pass, plan, error))
         return false;
     pass->timer = lsf_timer_create(context, "light_filter", error);
@@ -263,6 +283,21 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
     bind_parts(4, pass->light);
     bind_parts(6, filtered);
     bind_parts(8, (GLuint[]){parts[0].factor, parts[1].factor});
+    lsf_bind_texture(10, pass->lone);
+    lsf_draw_fullscreen(pass->context);
+}
+
+/* Gives what lone pixels have lost to those around them. */
+static void spread(const lsf_light_filter *pass, const lsf_plan *plan)
+{
+    lsf_begin_fullscreen(pass->lost_framebuffer, blocks_along(plan->width),
+                         blocks_along(plan->height), pass->pool);
+    lsf_bind_texture(0, pass->lost);
+    lsf_draw_fullscreen(pass->context);
+    begin(plan, pass->spread_framebuffer, pass->spread);
+    lsf_blend_add(1);
+    lsf_bind_texture(0, pass->lost);
+    bind_parts(1, pass->lost_sums);
     lsf_draw_fullscreen(pass->context);
 }
 
@@ -290,6 +325,9 @@ void lsf_light_filter_finish(lsf_light_filter *pass, const lsf_iteration *iterat
                        0, 0, 0, (GLsizei)plan->width, (GLsizei)plan->height, 1);
     lsf_guide_maps_bind(&inputs->guide);
     blend(pass, plan, (float)iterations, inputs, filtered);
+    /* A network has changed lone pixels in its own way. */
+    if (filtered == pass->filtered)
+        spread(pass, plan);
     lsf_timer_end(pass->timer);
 }
 
@@ -298,6 +336,7 @@ void lsf_light_filter_destroy(lsf_light_filter *pass)
     if (!pass->context)
         return;
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
+    lsf_textures_destroy(pass->context, block_textures, LSF_COUNT(block_textures), pass);
     GLuint *framebuffers[] = {&pass->light_framebuffer, &pass->ping_pong_framebuffers[0],
                               &pass->ping_pong_framebuffers[1], &pass->divided_framebuffer,
                               &pass->picture_framebuffer};

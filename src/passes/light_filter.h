@@ -50,10 +50,12 @@ typedef struct lsf_light_filter {
     /* Outputs, too: without tint, of the diffuse part and, where materials have lobes, of the
      * specular one; A: variance, below 0: it tells nothing. After the steps: */
     GLuint light[2], filtered[2]; /* `filtered` are two of the turns */
-    GLuint lone;                  /* RG8, of both parts: 1 where the pixel is lone, else 0 */
+    GLuint lone;                  /* RG8, of both parts: marks of lib/light_lone.glsl */
+    GLuint lost, lost_sums[2];    /* light taken out of lone pixels; by blocks, and its squares */
     GLuint ping_pong[2][2];       /* what the last step but one, and the last, made of both parts */
     GLuint light_framebuffer, ping_pong_framebuffers[2], divided_framebuffer, picture_framebuffer;
-    GLuint divide, window, variance, step, change, blend; /* programs */
+    GLuint lost_framebuffer, spread_framebuffer;
+    GLuint divide, window, variance, step, change, blend, pool, spread; /* programs */
     lsf_timer *timer;
 } lsf_light_filter;
 
