@@ -98,6 +98,34 @@ static void a_leaf_keeps_its_light(void **unused)
     filter_rig_end(&r);
 }
 
+/* Of a light that one sample in 32 finds on leaves, each pixel tells little, but those around tell
+ * it together: most of it is kept, and spread. */
+static void leaves_share_what_they_lose(void **unused)
+{
+    (void)unused;
+    static filter_rig r;
+    filter_rig_begin(&r, 48, 48, false, &defaults);
+    see_place(&r, ON_LEAF);
+    for (int n = 0; n < 4; n++) {
+        for (uint32_t i = 0; i < pixels_of(&r); i++)
+            set_light(&r, i, random_at(300 + r.iterations, i) < 1.0f / 32.0f ? 32.2f : 0.2f, 0.0f);
+        iterate(&r);
+    }
+    filter(&r);
+    double raw[2] = {0}, out[2] = {0}; /* sums and sums of squares */
+    for (uint32_t i = 0; i < pixels_of(&r); i++) {
+        raw[0] += (double)r.raw[i][0];
+        raw[1] += (double)r.raw[i][0] * (double)r.raw[i][0];
+        out[0] += (double)r.out[i][0];
+        out[1] += (double)r.out[i][0] * (double)r.out[i][0];
+    }
+    print_message("light on leaves: %.3f of its mean, %.3f of its mean square\n", out[0] / raw[0],
+                  out[1] / raw[1]);
+    assert_true(out[0] > 0.85 * raw[0] && out[0] < 1.02 * raw[0]);
+    assert_true(out[1] < 0.5 * raw[1]);
+    filter_rig_end(&r);
+}
+
 /* Pixels that have missed a light, which one sample in 16 finds, do not stay as dark dots. */
 static void a_missed_light_is_filled_in(void **unused)
 {
@@ -128,6 +156,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rare_light_goes),
         cmocka_unit_test(a_leaf_keeps_its_light),
+        cmocka_unit_test(leaves_share_what_they_lose),
         cmocka_unit_test(a_missed_light_is_filled_in),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
