@@ -5,9 +5,10 @@
 #define APART 0.5 /* few neighbours show the pixel's surface */
 #define LONE 1.0  /* and a single sample brings its light */
 
-bvec2 marked(vec2 marks, float mark)
+/* Whether a part's mark is at least `least`. */
+bool lone_marked(float mark, float least)
 {
-    return greaterThan(marks, vec2(mark - 0.25));
+    return mark > least - 0.25;
 }
 
 #endif

@@ -30,8 +30,9 @@ float explained(vec3 change, float gone, vec4 window, float beside)
     float noise = window.x * (1.0 + 2.0 * sqrt(4.0 / window.a + uncertainty));
     /* Samples that have missed a rare light tell too little noise, but the neighbours' know it: those of the other
      * samples of a pattern; or all, by 1 / (n - 1)^2 after n iterations, as the pixel's own variance is hardly known
-     * (the uncertainty is 8 / (n - 1)); or those beside a pixel that is a little darker than the filtered light. If m samples of a pixel find the light on average, its mean's square is m
-     * times its variance, and e^-m of the pixels miss it. */
+     * (the uncertainty is 8 / (n - 1)); or those beside a pixel that is a little darker than the filtered light. If m
+     * samples of a pixel find the light on average, its mean's square is m times its variance, and e^-m of the pixels
+     * miss it. */
     float alone = luminance(change) * luminance(change);
     bool missed = luminance(change) > 0.0 && alone <= 1.5 * beside;
     float share = pattern ? 1.0 : min(uncertainty * uncertainty / 64.0, 1.0);
@@ -59,10 +60,10 @@ void main()
             change *= explained(change, max(own.a - filtered.a, 0.0), windows[part], window_value(pixel, part).x);
         change *= texelFetch(factor_textures[part], pixel, 0).rgb;
         change_out.rgb += change;
-        vec2 mark = vec2(texelFetch(lone_texture, pixel, 0)[part]);
-        if (marked(mark, LONE).x)
+        float mark = texelFetch(lone_texture, pixel, 0)[part];
+        if (lone_marked(mark, LONE))
             lost_out.rgb += max(-change, 0.0);
-        if (marked(mark, APART).x)
+        if (lone_marked(mark, APART))
             lost_out.a = 1.0;
     }
 }

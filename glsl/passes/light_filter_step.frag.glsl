@@ -18,7 +18,8 @@ layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
 
 bvec2 lone_at(ivec2 pixel)
 {
-    return stride == 1 ? marked(texelFetch(lone_texture, pixel, 0).xy, LONE) : bvec2(false);
+    vec2 marks = texelFetch(lone_texture, pixel, 0).xy;
+    return stride == 1 ? bvec2(lone_marked(marks.x, LONE), lone_marked(marks.y, LONE)) : bvec2(false);
 }
 
 struct tally {
