@@ -25,8 +25,8 @@ typedef struct lsf_cone_trace {
     lsf_timer *timer;
 } lsf_cone_trace;
 
-/* `mirrors`: rays of specular lobes find what metals mirror; cones are sealed and light bounces
- * twice. */
+/* `mirrors`: rays of specular lobes find what metals mirror; only where cones are sealed and light
+ * bounces twice or more. */
 void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors);
 bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_cone_params *params, const lsf_voxel_grid *grid,

@@ -337,9 +337,10 @@ void lsf_light_filter_destroy(lsf_light_filter *pass)
         return;
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     lsf_textures_destroy(pass->context, block_textures, LSF_COUNT(block_textures), pass);
-    GLuint *framebuffers[] = {&pass->light_framebuffer, &pass->ping_pong_framebuffers[0],
+    GLuint *framebuffers[] = {&pass->light_framebuffer,         &pass->ping_pong_framebuffers[0],
                               &pass->ping_pong_framebuffers[1], &pass->divided_framebuffer,
-                              &pass->picture_framebuffer};
+                              &pass->picture_framebuffer,       &pass->lost_framebuffer,
+                              &pass->spread_framebuffer};
     for (size_t i = 0; i < LSF_COUNT(framebuffers); i++)
         lsf_framebuffer_destroy(pass->context, framebuffers[i]);
     lsf_timer_destroy(pass->timer);
