@@ -25,5 +25,5 @@ void main()
     }
     float lost = luminance(sum.rgb);
     if (lost > 0.0)
-        change_out.rgb = sum.rgb / sum.a * max(1.0 - squares / (lost * lost), 0.0);
+        change_out.rgb = sum.rgb / sum.a * max(1.0 - squares / lost / lost, 0.0);
 }

@@ -192,6 +192,18 @@ static void set(void **state)
     }
 }
 
+/* Rounding puts no direction on the horizon. Its density would be 0, and 0 / 0 of an environment that
+ * is found in no other way would make pixels that are not a number. */
+static void none_on_the_horizon(void **state)
+{
+    (void)state;
+    for (uint32_t count = 1; count <= LSF_CONE_MAX; count++) {
+        lsf_vec4 cones[LSF_CONE_MAX];
+        lsf_cone_set(count, 0x1.fffffep-1f, cones);
+        assert_true(cones[count - 1].z > 0.0f);
+    }
+}
+
 /* --- closed forms */
 
 static const char *const small_grid[] = {"voxel.resolution=64"};
@@ -427,6 +439,7 @@ int main(void)
         {"isotropic levels", levels, NULL, NULL, &sides[0]},
         {"anisotropic levels", levels, NULL, NULL, &sides[1]},
         cmocka_unit_test(set),
+        cmocka_unit_test(none_on_the_horizon),
         cmocka_unit_test(constant_environment),
         cmocka_unit_test(half_space),
         cmocka_unit_test(same_bits_again),

@@ -126,6 +126,28 @@ static void leaves_share_what_they_lose(void **unused)
     filter_rig_end(&r);
 }
 
+/* Squares of faint light are 0 in a float, and nothing may be divided by them. */
+static void faint_light_stays_finite(void **unused)
+{
+    (void)unused;
+    static filter_rig r;
+    for (float scale = 1e10f; scale > 1e-36f; scale *= 1e-3f) {
+        filter_rig_begin(&r, 32, 32, false, &defaults);
+        see_place(&r, ON_LEAF);
+        for (int n = 0; n < 4; n++) {
+            for (uint32_t i = 0; i < pixels_of(&r); i++)
+                set_light(&r, i, scale * (random_at(400 + r.iterations, i) < 0.03f ? 32.2f : 0.2f),
+                          0.0f);
+            iterate(&r);
+        }
+        filter(&r);
+        for (uint32_t i = 0; i < pixels_of(&r); i++)
+            if (!isfinite(r.out[i][0]))
+                fail_msg("light of %g: pixel %u is %g", (double)scale, i, (double)r.out[i][0]);
+        filter_rig_end(&r);
+    }
+}
+
 /* Pixels that have missed a light, which one sample in 16 finds, do not stay as dark dots. */
 static void a_missed_light_is_filled_in(void **unused)
 {
@@ -157,6 +179,7 @@ int main(void)
         cmocka_unit_test(a_rare_light_goes),
         cmocka_unit_test(a_leaf_keeps_its_light),
         cmocka_unit_test(leaves_share_what_they_lose),
+        cmocka_unit_test(faint_light_stays_finite),
         cmocka_unit_test(a_missed_light_is_filled_in),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
