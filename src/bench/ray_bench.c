@@ -63,7 +63,7 @@ lsf_ray_bench *lsf_ray_bench_create(lsf_context *context, const lsf_scene *scene
     bench->params = *params;
     bench->params.aovs = 0;
     bench->embree = lsf_reference_load_rays(error);
-    if (bench->embree && lsf_setup_begin(&bench->setup, scene, &bench->params, error))
+    if (bench->embree && lsf_setup_begin(&bench->setup, scene, &bench->params, true, error))
         bench->tracer = bench->embree->create(bench->setup.scene, &bench->setup.state, error);
     if (!bench->tracer) {
         lsf_ray_bench_destroy(bench);
@@ -106,7 +106,7 @@ static bool plan_run(run *r, lsf_ray_bench *bench, uint32_t bundle, int32_t fewe
                      const lsf_ray_bundle_use *use, lsf_error *error)
 {
     lsf_setup *setup = &r->setup;
-    if (!lsf_setup_begin(setup, bench->scene, &bench->params, error))
+    if (!lsf_setup_begin(setup, bench->scene, &bench->params, true, error))
         return false;
     lsf_ray_bundle_params *params = &setup->pass_params.ray_bundle;
     params->resolution = (int32_t)bundle;

@@ -14,8 +14,10 @@
 #define BLOCK 16
 
 const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT] = {
-    {"voxel.resolution", LSF_OPTION_INT, offsetof(lsf_voxel_grid_params, resolution), 1, 512, NULL,
-     "voxels", "voxels along the scene's longest side"},
+    {"voxel.resolution", LSF_OPTION_INT, offsetof(lsf_voxel_grid_params, resolution), 0, 512, NULL,
+     "voxels",
+     "voxels along the scene's longest side; 0: 128, or fewer in software OpenGL with a time limit "
+     "below 5.7 s: 64 for 1 s, 112 for 4 s"},
     {"voxel.memory", LSF_OPTION_FLOAT, offsetof(lsf_voxel_grid_params, memory), 1.0, 1048576.0,
      NULL, "MiB", "memory limit of the grid's textures; the resolution is halved until they fit"},
     {"voxel.jitter", LSF_OPTION_BOOL, offsetof(lsf_voxel_grid_params, jitter), 0, 0, NULL, "",
@@ -80,7 +82,8 @@ lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf
                                   const lsf_voxel_grid_use *use)
 {
     lsf_voxel_grid grid = {.jitter = params->jitter, .unit = 1.0f};
-    fit(&grid, state, (uint32_t)params->resolution);
+    grid.wanted = params->resolution > 0 ? (uint32_t)params->resolution : use->voxels;
+    fit(&grid, state, grid.wanted);
     while (!fits(&grid, params, use) && grid.resolution > 1)
         fit(&grid, state, grid.resolution / 2);
     return grid;
@@ -94,12 +97,17 @@ void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
         "a voxel is %.3g scene units wide: a grid over the whole scene blurs indirect light by as "
         "much, and misses smaller rooms",
         (double)grid->side / plan->requirements.scale);
-    if (grid->resolution != (uint32_t)params->resolution)
+    if (params->resolution == 0 && grid->wanted < LSF_VOXEL_RESOLUTION)
+        lsf_plan_remark(plan,
+                        "a grid of %u voxels along the scene's longest side: with more, too few "
+                        "iterations fit into the time limit (voxel.resolution)",
+                        grid->wanted);
+    if (grid->resolution != grid->wanted)
         lsf_plan_remark(
             plan,
-            "a grid of %u voxels instead of %d along the scene's longest side: a finer one exceeds "
+            "a grid of %u voxels instead of %u along the scene's longest side: a finer one exceeds "
             "voxel.memory=%g, or the maximum texture depth of %d",
-            grid->resolution, params->resolution, (double)params->memory, MAX_TEXTURE_DEPTH);
+            grid->resolution, grid->wanted, (double)params->memory, MAX_TEXTURE_DEPTH);
 }
 
 struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,

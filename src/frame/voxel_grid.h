@@ -7,37 +7,41 @@
 #include "shared/voxel_data.h"
 
 typedef struct lsf_voxel_grid_params {
-    int32_t resolution; /* voxels along the scene's longest side */
+    int32_t resolution; /* voxels along the scene's longest side; 0: as the plan says */
     float memory;       /* MiB that the grid's textures may take; a coarser grid is taken instead */
     bool jitter;        /* the grid is shifted at random within a voxel each iteration */
 } lsf_voxel_grid_params;
 
-#define LSF_VOXEL_GRID_PARAMS_DEFAULTS .resolution = 128, .memory = 2048.0f, .jitter = true
+#define LSF_VOXEL_GRID_PARAMS_DEFAULTS .memory = 2048.0f, .jitter = true
 
 #define LSF_VOXEL_GRID_OPTION_COUNT 3
 extern const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT];
 
 /* Voxels are cubes. `size` is that of textures: whole blocks of occupancy. */
 typedef struct lsf_voxel_grid {
-    uint32_t resolution; /* that was taken */
-    uint32_t size[3];    /* voxels along x, y, z, multiples of 16 */
-    float side;          /* of a voxel [normalised units] */
-    float origin[3];     /* least corner without jitter */
-    float unit;          /* scale of stored radiance, a power of two: usual values are near 1 */
+    uint32_t wanted, resolution; /* asked for, and taken */
+    uint32_t size[3];            /* voxels along x, y, z, multiples of 16 */
+    float side;                  /* of a voxel [normalised units] */
+    float origin[3];             /* least corner without jitter */
+    float unit; /* scale of stored radiance, a power of two: usual values are near 1 */
     bool jitter;
 } lsf_voxel_grid;
 
-/* The memory of textures over the grid. */
+/* Voxels along the scene's longest side where nothing says otherwise. */
+#define LSF_VOXEL_RESOLUTION 128
+
+/* What a grid is for: the memory of textures over it. */
 typedef struct lsf_voxel_grid_use {
-    uint32_t bytes; /* bytes of a voxel in all of them */
-    uint32_t sides; /* slices along z, the most of any texture */
+    uint32_t voxels; /* along the scene's longest side, where voxel.resolution is 0 */
+    uint32_t bytes;  /* bytes of a voxel in all of them */
+    uint32_t sides;  /* slices along z, the most of any texture */
 } lsf_voxel_grid_use;
 
 /* The finest grid, up to the resolution asked for, whose textures fit the memory and any device,
  * for a scene that is not empty. Its unit is not set. */
 lsf_voxel_grid lsf_voxel_grid_fit(const lsf_voxel_grid_params *params, const lsf_state *state,
                                   const lsf_voxel_grid_use *use);
-/* Notes in the plan that a coarser grid was taken, where it was. */
+/* Notes in the plan how large a voxel is, and why there are few. */
 void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
                            const lsf_voxel_grid *grid);
 void lsf_voxel_grid_set_unit(lsf_voxel_grid *grid, const lsf_scene *scene, const lsf_state *state);

@@ -59,8 +59,9 @@ struct lsf_plan {
     uint32_t pixel_side; /* sample points along a pixel's side in an iteration, a power of two */
     uint32_t seen_width, seen_height; /* of the picture of all sample points, which passes see; the
                                        * means have one value a pixel */
-    bool open;    /* the environment, and no lamp, lights what the camera sees from outside */
-    bool hurried; /* the picture has more pixels than one iteration can do in the time limit */
+    bool open;       /* the environment, and no lamp, lights what the camera sees from outside */
+    bool hurried;    /* the picture has more pixels than one iteration can do in the time limit */
+    uint32_t voxels; /* along the scene's longest side, where voxel.resolution is 0 */
     uint32_t sky_lights; /* directions in each iteration from which the environment lights */
     lsf_islands islands; /* for techniques that draw maps over the whole scene; else none */
     lsf_plan_grain grain;

@@ -36,6 +36,7 @@ lsf_voxel_grid lsf_sandbox_grid(const lsf_sandbox_setup *setup)
     bool light = needs(setup, LSF_NEED_RADIANCE);
     uint32_t radiance = light ? 8 * LSF_VOXEL_SIDES_AXES : 0;
     const lsf_voxel_grid_use use = {
+        .voxels = LSF_VOXEL_RESOLUTION,
         .bytes = lsf_voxelize_bytes(setup->plan, params->voxel_grid.jitter) + radiance * 8 / 7 + 1,
         .sides = light ? LSF_VOXEL_SIDES_AXES : 1};
     return lsf_voxel_grid_fit(&params->voxel_grid, &setup->setup.state, &use);
@@ -290,7 +291,7 @@ static bool begin_plan(lsf_sandbox_setup *setup, const lsf_sandbox_text *text, l
         params.temporal = false;
         params.raw = true;
         params.aovs = needs(setup, LSF_NEED_MOTION) ? LSF_AOV_MOTION : 0;
-        if (!lsf_setup_begin(&setup->setup, setup->scene, &params, error))
+        if (!lsf_setup_begin(&setup->setup, setup->scene, &params, false, error))
             return false;
         setup->plan = setup->setup.plan;
     } else {

@@ -44,9 +44,11 @@ static int32_t choose_interleave(const lsf_setup *setup)
     return params->samples <= PATTERN_3 ? 3 : 2;
 }
 
-/* Pixels of which a first iteration fits into the time limit. */
+/* Pixels of which a first iteration fits into the time limit. On a GPU all of them do. */
 static double pixels_in_time(const lsf_setup *setup)
 {
+    if (!setup->software)
+        return INFINITY;
     const lsf_technique *technique = lsf_technique_find(setup->params.technique);
     double points = technique ? (double)technique->points_per_second : 0.0;
     return (points > 0.0 ? points : 0x1p18) * setup->params.time_limit;
@@ -56,6 +58,19 @@ bool lsf_hurries(const lsf_setup *setup)
 {
     const lsf_render_params *params = &setup->params;
     return !params->raw && (double)params->width * params->height > pixels_in_time(setup);
+}
+
+/* The finer the grid, the smaller its bias, the fewer iterations fit into the time, and the more
+ * noise they leave. The best of measured grids grows with the time to this power (docs/voxels.md
+ * has the measurements). */
+uint32_t lsf_default_voxels(const lsf_setup *setup)
+{
+    enum { STEP = 16, FEWEST = 32, IN_A_SECOND = 64 };
+    const lsf_render_params *params = &setup->params;
+    if (params->raw || !setup->software || !isfinite(params->time_limit))
+        return LSF_VOXEL_RESOLUTION;
+    double wanted = IN_A_SECOND * pow(params->time_limit, 0.4);
+    return STEP * (uint32_t)round(fmin(fmax(wanted, FEWEST), LSF_VOXEL_RESOLUTION) / STEP);
 }
 
 /* The default of sparse.grid: as fine as the first iteration fits into a time limit. */

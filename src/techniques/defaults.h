@@ -10,6 +10,8 @@ bool lsf_stands_in_the_open(const lsf_setup *setup);
 bool lsf_shares_samples(const lsf_setup *setup);
 /* Whether the picture has more pixels than one iteration can do in the time limit. */
 bool lsf_hurries(const lsf_setup *setup);
+/* Voxels along the scene's longest side, where voxel.resolution leaves them to the time limit. */
+uint32_t lsf_default_voxels(const lsf_setup *setup);
 /* Sets the options of sample points that were left out. */
 void lsf_default_points(lsf_setup *setup);
 /* Sample points along a pixel's side, gbuffer.side or its default. */

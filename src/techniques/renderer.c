@@ -114,7 +114,8 @@ lsf_renderer *lsf_renderer_create(lsf_context *context, const lsf_scene *scene,
     }
     renderer->context = context;
     LSF_LEAVE lsf_context *entered = NULL;
-    if (!lsf_setup_init(&renderer->setup, scene, params, error) ||
+    bool software = lsf_context_get_info(context).software;
+    if (!lsf_setup_init(&renderer->setup, scene, params, software, error) ||
         !(entered = lsf_context_enter(context, error)) || !create_resources(renderer, error)) {
         lsf_renderer_destroy(renderer);
         return NULL;

@@ -30,7 +30,7 @@ static bool change_plan(lsf_renderer *renderer, const lsf_render_params *params,
 {
     lsf_setup next;
     double start = lsf_now();
-    if (!lsf_setup_init(&next, renderer->setup.source, params, error)) {
+    if (!lsf_setup_init(&next, renderer->setup.source, params, renderer->setup.software, error)) {
         lsf_setup_finish(&next);
         return false;
     }

@@ -114,6 +114,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
     lsf_default_points(setup);
     plan->hurried = lsf_hurries(setup);
+    plan->voxels = lsf_default_voxels(setup);
     plan->requirements = setup->scene->requirements;
     plan->transmission = plan->requirements.transmissive;
     plan->straight = plan->transmission && technique && !technique->refracts;
@@ -225,9 +226,10 @@ static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *
 }
 
 bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
-                     lsf_error *error)
+                     bool software, lsf_error *error)
 {
-    *setup = (lsf_setup){.pass_params = {LSF_PASS_PARAMS_DEFAULTS}, .source = scene};
+    *setup = (lsf_setup){
+        .pass_params = {LSF_PASS_PARAMS_DEFAULTS}, .source = scene, .software = software};
     if (!lsf_scene_given(scene, error) || !lsf_given(params, "params", error) ||
         !lsf_given(params->technique, "lsf_render_params.technique", error) ||
         !check_params(params, error) || !read_options(&setup->pass_params, params, error) ||
@@ -313,9 +315,9 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
 }
 
 bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
-                    lsf_error *error)
+                    bool software, lsf_error *error)
 {
-    if (!lsf_setup_begin(setup, scene, params, error))
+    if (!lsf_setup_begin(setup, scene, params, software, error))
         return false;
     setup->technique = lsf_technique_find(params->technique);
     if (!setup->technique)
@@ -473,7 +475,7 @@ lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *param
 {
     lsf_setup setup;
     lsf_plan *plan = NULL;
-    if (lsf_setup_init(&setup, scene, params, error)) {
+    if (lsf_setup_init(&setup, scene, params, true, error)) {
         plan = setup.plan;
         setup.plan = NULL;
     }

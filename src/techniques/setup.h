@@ -25,6 +25,7 @@ typedef struct lsf_setup {
     lsf_render_params params; /* the camera and the strings that it points to are owned */
     float camera_position[3], camera_target[3];
     lsf_pass_params pass_params;
+    bool software;           /* OpenGL is software: time limits are short */
     bool interleave_chosen;  /* interleave.size is left to each plan */
     const lsf_scene *source; /* the caller's */
     const lsf_scene *scene;  /* the scene that is drawn: the caller's, or `tessellated` */
@@ -44,10 +45,10 @@ typedef struct lsf_setup {
 /* Options, scene, state, and a plan that lists what the scene takes, without a technique.
  * LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case, before `scene`. */
 bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
-                     lsf_error *error);
+                     bool software, lsf_error *error);
 /* The same with the technique's whole plan. */
 bool lsf_setup_init(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
-                    lsf_error *error);
+                    bool software, lsf_error *error);
 /* Whether the plan would be the same with `params`. */
 bool lsf_setup_plans_alike(const lsf_setup *setup, const lsf_render_params *params, bool *alike,
                            lsf_error *error);

@@ -29,7 +29,8 @@ bool lsf_voxel_chain_has_voxels(const lsf_plan *plan)
 lsf_voxel_grid lsf_voxel_chain_grid(const lsf_plan *plan, const lsf_pass_params *params,
                                     const lsf_state *state, const lsf_voxel_chain_use *use)
 {
-    const lsf_voxel_grid_use grid = {.bytes = bytes_per_voxel(plan, params, use),
+    const lsf_voxel_grid_use grid = {.voxels = plan->voxels,
+                                     .bytes = bytes_per_voxel(plan, params, use),
                                      .sides = use->sides > 0 ? use->sides : 1};
     return lsf_voxel_grid_fit(&params->voxel_grid, state, &grid);
 }

@@ -27,7 +27,7 @@ void bundle_rig_run(bundle_rig *rig, const lsf_scene *scene, const lsf_render_pa
     const lsf_ray_bundle_use use = {
         .count = 1, .slots = 1, .interleave = 1, .distances_only = distances_only};
     const lsf_gbuffer_params gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS};
-    if (!lsf_setup_begin(&rig->setup, scene, params, &error))
+    if (!lsf_setup_begin(&rig->setup, scene, params, true, &error))
         fail_msg("%s", error.message);
     lsf_plan *plan = rig->setup.plan;
     lsf_gbuffer_plan(plan);

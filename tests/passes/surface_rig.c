@@ -43,7 +43,7 @@ void surface_rig_begin(surface_rig *r, uint32_t width, uint32_t height, bool ort
     params.height = height;
     params.camera_position = eye;
     params.camera_target = target;
-    if (!lsf_setup_begin(&r->setup, r->scene, &params, &error))
+    if (!lsf_setup_begin(&r->setup, r->scene, &params, true, &error))
         fail_msg("%s", error.message);
     lsf_gbuffer_plan(r->setup.plan);
     uint32_t pixels = width * height;

@@ -42,7 +42,7 @@ static void rig_begin(rig *r, uint32_t count, bool covariance)
     r->scene = build_scene();
     build_corner(r->scene);
     finish_gl_scene(r->scene);
-    if (!lsf_setup_begin(&r->setup, r->scene, &params, &error))
+    if (!lsf_setup_begin(&r->setup, r->scene, &params, true, &error))
         fail_msg("%s", error.message);
     lsf_light_tree_plan(r->setup.plan, &tree, count, "cloud");
     r->iteration.state = &r->setup.state;

@@ -82,7 +82,7 @@ static bool has_pass(const lsf_scene *scene, uint32_t bounces, const char *const
     lsf_error error = {0};
     lsf_setup setup;
     lsf_render_params params = corner_params(params_of(1, bounces), 16);
-    if (!lsf_setup_init(&setup, scene, &params, &error))
+    if (!lsf_setup_init(&setup, scene, &params, true, &error))
         fail_msg("%s", error.message);
     uint32_t found = 0, asked = 0;
     for (; passes[asked]; asked++)

@@ -59,7 +59,7 @@ static void init(cloud_rig *rig, const lsf_scene *scene)
     render.technique = "bidirectional";
     render.width = render.height = 16;
     *rig = (cloud_rig){.context = gl_test_context(LSF_BACKEND_OSMESA, NULL)};
-    require(lsf_setup_begin(&rig->setup, scene, &render, &error), &error);
+    require(lsf_setup_begin(&rig->setup, scene, &render, true, &error), &error);
     lsf_plan *plan = rig->setup.plan;
     const lsf_state *state = &rig->setup.state;
     rig->use = (lsf_vpl_cloud_use){.lights = state->light_count > 0 || plan->sky_lights > 0,

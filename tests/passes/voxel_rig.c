@@ -45,7 +45,7 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
     params.width = params.height = 64;
     *rig = (voxel_rig){.sides = sides};
     rig->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
-    if (!lsf_setup_begin(&rig->setup, scene, &params, &error))
+    if (!lsf_setup_begin(&rig->setup, scene, &params, true, &error))
         fail_msg("%s", error.message);
     lsf_plan *plan = rig->setup.plan;
     const lsf_voxel_grid_use use = {.bytes = lsf_voxelize_bytes(plan, jitter), .sides = 1};

@@ -13,6 +13,7 @@
 #include "../scene/build_scene.h"
 #include "base/base.h"
 #include "frame/resources.h"
+#include "techniques/setup.h"
 
 enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
 
@@ -315,13 +316,13 @@ static void points_where_they_pay(void **unused)
         const char *option;
         uint32_t stride;
     } cases[] = {
-        {"voxel_path", 1.0, 1024, false, NULL, 2},
-        {"voxel_path", 0.1, 1024, false, NULL, 8},
+        {"voxel_path", 1.0, 1024, false, NULL, 4},
+        {"voxel_path", 0.1, 1024, false, NULL, 16},
         {"voxel_path", 1e-3, 4096, false, NULL, 16},
         {"cone", 1.0, 1024, false, NULL, 2},
         {"substitute_tree", 1.0, 1024, false, NULL, 4},
-        {"voxel_path", 4.0, 1024, false, NULL, 1},
-        {"voxel_path", 1.0, 512, false, NULL, 1},
+        {"voxel_path", 8.0, 1024, false, NULL, 1},
+        {"voxel_path", 1.0, 256, false, NULL, 1},
         {"voxel_path", INFINITY, 4096, false, NULL, 1},
         {"voxel_path", 1.0, 1024, true, NULL, 1},
         {"voxel_path", 1.0, 1024, false, "sparse.grid=1", 1},
@@ -390,6 +391,41 @@ static void coarse_shadows_where_time_is_short(void **unused)
     assert_true(4 * coarse > fine - fine / 50 && 4 * coarse < fine + fine / 50);
 }
 
+/* Few voxels where the time is short; a GPU has time for all. */
+static void voxels_by_time(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double time_limit;
+        bool raw, software;
+        uint32_t voxels;
+    } cases[] = {{1e-3, false, true, 32},     {1.0, false, true, 64}, {4.0, false, true, 112},
+                 {60.0, false, true, 128},    {1.0, true, true, 128}, {1.0, false, false, 128},
+                 {INFINITY, false, true, 128}};
+    lsf_scene *scene = build_scene();
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 2, 0), lsf_f3(0, -1, 0), 1.0f);
+    build_material(scene, 0.5f, 0.5f, 0.5f);
+    build_floor(scene, 0.0f, 1.0f);
+    finish_scene(scene);
+    lsf_scene_compute_requirements(scene);
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
+    params.technique = "cone";
+    params.width = params.height = 1024;
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        lsf_setup setup;
+        lsf_error error = {0};
+        params.time_limit = cases[i].time_limit;
+        params.raw = cases[i].raw;
+        if (!lsf_setup_init(&setup, scene, &params, cases[i].software, &error))
+            fail_msg("%s", error.message);
+        uint64_t width = lsf_plan_find(setup.plan, "voxelize.albedo")->texture.width;
+        assert_int_equal(width, cases[i].voxels);
+        assert_true(!setup.plan->hurried || cases[i].software);
+        lsf_setup_finish(&setup);
+    }
+    destroy_scene(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -405,6 +441,7 @@ int main(void)
         cmocka_unit_test(only_what_is_planned_is_created),
         cmocka_unit_test(points_where_they_pay),
         cmocka_unit_test(coarse_shadows_where_time_is_short),
+        cmocka_unit_test(voxels_by_time),
         cmocka_unit_test(replaced_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

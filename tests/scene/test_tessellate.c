@@ -273,7 +273,7 @@ static void setup_with(lsf_setup *setup, const lsf_scene *scene, const char *opt
     lsf_error error = {0};
     params.options = &option;
     params.option_count = 1;
-    if (!lsf_setup_init(setup, scene, &params, &error))
+    if (!lsf_setup_init(setup, scene, &params, true, &error))
         fail_msg("%s", error.message);
 }
 
