@@ -16,8 +16,8 @@
 const lsf_option_row lsf_voxel_grid_options[LSF_VOXEL_GRID_OPTION_COUNT] = {
     {"voxel.resolution", LSF_OPTION_INT, offsetof(lsf_voxel_grid_params, resolution), 0, 512, NULL,
      "voxels",
-     "voxels along the scene's longest side; 0: 128, or fewer in software OpenGL with a time limit "
-     "below 5.7 s: 64 for 1 s, 112 for 4 s"},
+     "voxels along the scene's longest side; 0: 128, or with cone or voxel_path and a time limit "
+     "fewer in software OpenGL: 64 for 1 s, 112 for 4 s"},
     {"voxel.memory", LSF_OPTION_FLOAT, offsetof(lsf_voxel_grid_params, memory), 1.0, 1048576.0,
      NULL, "MiB", "memory limit of the grid's textures; the resolution is halved until they fit"},
     {"voxel.jitter", LSF_OPTION_BOOL, offsetof(lsf_voxel_grid_params, jitter), 0, 0, NULL, "",

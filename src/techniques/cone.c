@@ -244,6 +244,7 @@ const lsf_technique lsf_technique_cone = {
     .bounces = true,
     .draws_lobes = true,
     .points_per_second = 0x1p18f,
+    .voxels_in_a_second = 64,
     .plan = plan_cone,
     .create = create_cone,
     .update = update_cone,

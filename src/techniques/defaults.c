@@ -65,11 +65,13 @@ bool lsf_hurries(const lsf_setup *setup)
  * has the measurements). */
 uint32_t lsf_default_voxels(const lsf_setup *setup)
 {
-    enum { STEP = 16, FEWEST = 32, IN_A_SECOND = 64 };
+    enum { STEP = 16, FEWEST = 32 };
     const lsf_render_params *params = &setup->params;
-    if (params->raw || !setup->software || !isfinite(params->time_limit))
+    const lsf_technique *technique = lsf_technique_find(params->technique);
+    bool limited = setup->software && isfinite(params->time_limit) && !params->raw;
+    if (!limited || !technique || technique->voxels_in_a_second == 0)
         return LSF_VOXEL_RESOLUTION;
-    double wanted = IN_A_SECOND * pow(params->time_limit, 0.4);
+    double wanted = technique->voxels_in_a_second * pow(params->time_limit, 0.4);
     return STEP * (uint32_t)round(fmin(fmax(wanted, FEWEST), LSF_VOXEL_RESOLUTION) / STEP);
 }
 
