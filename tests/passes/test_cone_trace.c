@@ -192,8 +192,8 @@ static void set(void **state)
     }
 }
 
-/* Rounding puts no direction on the horizon. Its density would be 0, and 0 / 0 of an environment that
- * is found in no other way would make pixels that are not a number. */
+/* Rounding puts no direction on the horizon. Its density would be 0, and 0 / 0 of an environment
+ * that is found in no other way would make pixels that are not a number. */
 static void none_on_the_horizon(void **state)
 {
     (void)state;

@@ -176,10 +176,8 @@ static void a_missed_light_is_filled_in(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rare_light_goes),
-        cmocka_unit_test(a_leaf_keeps_its_light),
-        cmocka_unit_test(leaves_share_what_they_lose),
-        cmocka_unit_test(faint_light_stays_finite),
+        cmocka_unit_test(a_rare_light_goes),           cmocka_unit_test(a_leaf_keeps_its_light),
+        cmocka_unit_test(leaves_share_what_they_lose), cmocka_unit_test(faint_light_stays_finite),
         cmocka_unit_test(a_missed_light_is_filled_in),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
