@@ -25,7 +25,7 @@ typedef struct lsf_setup {
     lsf_render_params params; /* the camera and the strings that it points to are owned */
     float camera_position[3], camera_target[3];
     lsf_pass_params pass_params;
-    bool software;           /* OpenGL is software: time limits are short */
+    bool software;           /* OpenGL runs on the processor */
     bool interleave_chosen;  /* interleave.size is left to each plan */
     const lsf_scene *source; /* the caller's */
     const lsf_scene *scene;  /* the scene that is drawn: the caller's, or `tessellated` */
@@ -43,7 +43,8 @@ typedef struct lsf_setup {
 } lsf_setup;
 
 /* Options, scene, state, and a plan that lists what the scene takes, without a technique.
- * LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case, before `scene`. */
+ * LSF_ERROR_USAGE names what is wrong with `params`. Finish it in either case, before `scene`.
+ * `software`: OpenGL runs on the processor, where a time limit leaves room for less. */
 bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,
                      bool software, lsf_error *error);
 /* The same with the technique's whole plan. */
