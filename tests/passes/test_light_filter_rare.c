@@ -126,7 +126,8 @@ static void leaves_share_what_they_lose(void **unused)
     filter_rig_end(&r);
 }
 
-/* Squares of faint light are 0 in a float, and nothing may be divided by them. */
+/* The variance of faint light is 0 in a float. Differences relative to it, in the steps, must not
+ * make pixels that are not a number. */
 static void faint_light_stays_finite(void **unused)
 {
     (void)unused;

@@ -280,18 +280,24 @@ static void only_what_is_planned_is_created(void **state)
     lsf_plan_destroy(plan);
 }
 
-/* What is planned for a picture of indirect light seen at one point of each pixel; NULL with an
- * error. */
-static lsf_plan *plan_points(const char *technique, double time_limit, uint32_t width, bool raw,
-                             const char *option, lsf_error *error)
+static lsf_scene *lit_floor(void)
 {
-    const char *const options[] = {"gbuffer.side=1", option};
     lsf_scene *scene = build_scene();
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 2, 0), lsf_f3(0, -1, 0), 1.0f);
     build_material(scene, 0.5f, 0.5f, 0.5f);
     build_floor(scene, 0.0f, 1.0f);
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
+    return scene;
+}
+
+/* What is planned for a picture of indirect light seen at one point of each pixel; NULL with an
+ * error. */
+static lsf_plan *plan_points(const char *technique, double time_limit, uint32_t width, bool raw,
+                             const char *option, lsf_error *error)
+{
+    const char *const options[] = {"gbuffer.side=1", option};
+    lsf_scene *scene = lit_floor();
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
     params.technique = technique;
     params.time_limit = time_limit;
@@ -402,12 +408,7 @@ static void voxels_by_time(void **unused)
     } cases[] = {{1e-3, false, true, 32},     {1.0, false, true, 64}, {4.0, false, true, 112},
                  {60.0, false, true, 128},    {1.0, true, true, 128}, {1.0, false, false, 128},
                  {INFINITY, false, true, 128}};
-    lsf_scene *scene = build_scene();
-    build_light(scene, LSF_LIGHT_POINT, lsf_f3(0, 2, 0), lsf_f3(0, -1, 0), 1.0f);
-    build_material(scene, 0.5f, 0.5f, 0.5f);
-    build_floor(scene, 0.0f, 1.0f);
-    finish_scene(scene);
-    lsf_scene_compute_requirements(scene);
+    lsf_scene *scene = lit_floor();
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
     params.technique = "cone";
     params.width = params.height = 1024;
