@@ -135,7 +135,8 @@ const char *lsf_option_replaced(const char *key);
 bool lsf_technique_takes(const char *technique, const char *key);
 
 /* The frame plan: the passes in order, each resource with its bytes, each shader's switches, and
- * why each is there or was left out. Needs no GL. */
+ * why each is there or was left out. Needs no GL, and takes OpenGL to be software: where a time
+ * limit is short, a renderer on a GPU samples more points and voxels. */
 typedef struct lsf_plan lsf_plan;
 
 lsf_plan *lsf_plan_create(const lsf_scene *scene, const lsf_render_params *params,

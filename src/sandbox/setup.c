@@ -291,7 +291,7 @@ static bool begin_plan(lsf_sandbox_setup *setup, const lsf_sandbox_text *text, l
         params.temporal = false;
         params.raw = true;
         params.aovs = needs(setup, LSF_NEED_MOTION) ? LSF_AOV_MOTION : 0;
-        if (!lsf_setup_begin(&setup->setup, setup->scene, &params, false, error))
+        if (!lsf_setup_begin(&setup->setup, setup->scene, &params, true, error))
             return false;
         setup->plan = setup->setup.plan;
     } else {

@@ -117,8 +117,8 @@ typedef struct lsf_technique {
                        * finds the environment by its directions */
     float points_per_second; /* that two cores trace, with some of the time left for all else; 0:
                               * most of an iteration is spent on other things */
-    uint32_t voxels_in_a_second; /* along the scene's longest side, where voxel.resolution is 0 and
-                                  * software has a second; 0: as many as without a limit */
+    uint32_t voxels_in_a_second; /* along the scene's longest side, in software with a time limit of
+                                  * 1 s and voxel.resolution=0; 0: a time limit changes nothing */
     bool maps_scene; /* draws maps that hold all of the scene, for which its empty regions matter */
     /* Lists passes and resources, and what is left out. */
     void (*plan)(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state);
