@@ -11,7 +11,8 @@ const lsf_option_row lsf_light_filter_options[LSF_LIGHT_FILTER_OPTION_COUNT] = {
      "atrous|network", "",
      "filter that removes noise; network: atrous, and then a trained network"},
     {"light_filter.steps", LSF_OPTION_INT, offsetof(lsf_light_filter_params, steps), 0, 8, NULL, "",
-     "steps of the filter, each twice as wide as the one before; 0: no filter"},
+     "steps of the filter, each twice as wide as the one before, at most as many as fit into the "
+     "picture; 0: no filter"},
     {"light_filter.tolerance", LSF_OPTION_FLOAT, offsetof(lsf_light_filter_params, tolerance), 1e-3,
      1e3, NULL, "standard deviations", "differences between neighbours that count as noise"},
     {"light_filter.depth_weight", LSF_OPTION_FLOAT, offsetof(lsf_light_filter_params, depth_weight),

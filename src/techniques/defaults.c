@@ -98,6 +98,19 @@ void lsf_default_points(lsf_setup *setup)
         params->sparse.interleave = choose_interleave(setup);
 }
 
+void lsf_default_filter_steps(lsf_setup *setup)
+{
+    enum { PERIOD_4 = 2, NEIGHBOURS_ACROSS = 16 };
+    const lsf_render_params *params = &setup->params;
+    int32_t *most = &setup->pass_params.light_filter.steps, grid = setup->pass_params.sparse.grid;
+    int32_t steps = grid > PERIOD_4 ? grid : PERIOD_4;
+    uint32_t side = params->width < params->height ? params->width : params->height;
+    while (steps < *most && side >> steps >= NEIGHBOURS_ACROSS)
+        steps++;
+    if (steps < *most)
+        *most = steps;
+}
+
 /* Whether one sample point of a pixel can gather what bounces for all of them. */
 static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *technique)
 {

@@ -14,6 +14,10 @@ bool lsf_hurries(const lsf_setup *setup);
 uint32_t lsf_default_voxels(const lsf_setup *setup);
 /* Sets the options of sample points that were left out. */
 void lsf_default_points(lsf_setup *setup);
+/* Leaves light_filter.steps those that fit into the picture: their neighbours are at most a
+ * sixteenth of it apart. Two remove what repeats every 4 pixels, and points of a grid of 2^n pixels
+ * need n + 1. */
+void lsf_default_filter_steps(lsf_setup *setup);
 /* Sample points along a pixel's side, gbuffer.side or its default. */
 uint32_t lsf_default_pixel_side(const lsf_setup *setup, const lsf_technique *technique);
 
