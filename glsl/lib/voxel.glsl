@@ -2,7 +2,7 @@
  *
  * voxelize.albedo R32UI    square roots of R and G in 11 bits each, of B in 10
  * voxelize.normal R32UI    unit normal of the triangle's plane, octahedral, 2 x 12 bits | bits about the
- *                          neighbours, VOXEL_BESIDE, << 24
+ *                          neighbours, VOXEL_BESIDE and VOXEL_EDGE, << 24
  * voxelize.shading R32UI   the shading normal, likewise | rotation of the tangent about the plane's normal << 24
  * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30 |
  *                          unlit << 31
@@ -69,12 +69,23 @@ ivec3 voxel_brick_unpack(uint bits)
 #define VOXEL_EDGE 0.7
 
 /* Bits about the six neighbours of a voxel, along -x, x, -y, y, -z and z: one for each whose surface is not in the
- * voxel's plane, and whether some form an edge with it, on its front and on its back. */
+ * voxel's plane, but whose plane passes through the voxel. Above them VOXEL_EDGE_.., whether some of these form an
+ * edge with it, and on which side of their planes the voxel's own surface lies: in front, behind, or on both (also
+ * where it differs between them, or is not known). */
 #define VOXEL_NORMAL_BITS 0xffffffu
 #define VOXEL_BESIDE_SHIFT 24u
 #define VOXEL_BESIDE_ANY 63u
-#define VOXEL_BESIDE_EDGE_FRONT 64u
-#define VOXEL_BESIDE_EDGE_BACK 128u
+#define VOXEL_EDGE_SHIFT 30u
+#define VOXEL_EDGE_NONE 0u
+#define VOXEL_EDGE_BOTH 1u
+#define VOXEL_EDGE_FRONT 2u
+#define VOXEL_EDGE_BACK 3u
+
+/* VOXEL_EDGE_.. of a texel of voxelize.normal. */
+uint voxel_edge(uint bits)
+{
+    return bits >> VOXEL_EDGE_SHIFT;
+}
 
 ivec3 voxel_beside(ivec3 cell, int side)
 {

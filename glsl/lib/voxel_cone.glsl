@@ -71,7 +71,7 @@ cone_way cone_follow(vec3 point, vec3 normal, vec3 direction)
 {
     cone_way way = cone_way(vec3(0.0), vec3(1.0), false, ivec3(0));
     voxel_ray ray;
-    if (!voxel_ray_begin(point + voxel_lift(normal), direction, ray) || !voxel_leave_start(ray))
+    if (!voxel_ray_begin(voxel_start(point, normal, direction), direction, ray) || !voxel_leave_start(ray))
         return way;
 #if LSF_VOXEL_PASSAGE
     voxel_passage passage = voxel_passage_begin();

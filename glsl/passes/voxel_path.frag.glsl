@@ -60,18 +60,15 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
 /* The voxel that a path from v hits. The last segment is traced only if there may be emission on it. */
 bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
 {
-    vec3 lift = voxel_lift(v.s.geometric_normal);
-    vec3 start = v.position + lift;
 #if LSF_TRANSMISSION
     /* A ray through the surface starts where it leaves the voxels of the plane. */
-    float sinks = -dot(v.s.geometric_normal, direction);
-    bool inside = v.s.volume && v.s.front == (sinks > 0.0);
-    if (inside) {
-        start = v.position;
-    } else if (sinks > 0.0) {
-        float travel = length(lift) * min(1.0 / sinks, 2.0);
-        start = v.position + travel * direction - lift + travel * sinks * v.s.geometric_normal;
-    }
+    vec3 n = v.s.geometric_normal;
+    bool sinks = dot(n, direction) < 0.0, inside = v.s.volume && v.s.front == sinks;
+    vec3 start = inside  ? v.position
+                 : sinks ? voxel_start_along(v.position, -n, direction)
+                         : voxel_start(v.position, n, direction);
+#else
+    vec3 start = voxel_start(v.position, v.s.geometric_normal, direction);
 #endif
     voxel_ray ray;
     if (!voxel_ray_begin(start, direction, ray))

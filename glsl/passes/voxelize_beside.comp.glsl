@@ -1,5 +1,5 @@
-/* Precomputed bits that save rays work: those of each voxel about its neighbours, VOXEL_BESIDE in lib/voxel.glsl,
- * and those of bricks that hold emitting voxels. Switch LSF_EMISSION. */
+/* Precomputed bits that save rays work: those of each voxel about its neighbours, VOXEL_BESIDE and VOXEL_EDGE in
+ * lib/voxel.glsl, and those of bricks that hold emitting voxels. Switch LSF_EMISSION. */
 #include "lib/voxel_brick.glsl"
 #include "lib/voxel_trace.glsl"
 
@@ -18,27 +18,51 @@ vec3 point_in(ivec3 cell)
     return vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
 }
 
+/* VOXEL_EDGE_.. of the surface at the point q: `edges`, neighbours that form an edge with it, `same`, those that
+ * continue its plane. */
+uint edge_of(ivec3 cell, vec3 q, uint edges, uint same)
+{
+    uint edge = VOXEL_EDGE_NONE;
+    for (; edges != 0u; edges &= edges - 1u) {
+        ivec3 beside = voxel_beside(cell, findLSB(edges));
+        vec3 beside_n = voxel_normal_unpack(imageLoad(normal_image, beside).r), beside_q = point_in(beside);
+        float low = dot(beside_n, q - beside_q), high = low;
+        for (uint left = same; left != 0u; left &= left - 1u) {
+            float there = dot(beside_n, point_in(voxel_beside(cell, findLSB(left))) - beside_q);
+            low = min(low, there);
+            high = max(high, there);
+        }
+        bool front = high > 2.0 * VOXEL_PLANE, back = low < -2.0 * VOXEL_PLANE;
+        uint lies = front == back ? VOXEL_EDGE_BOTH : front ? VOXEL_EDGE_FRONT : VOXEL_EDGE_BACK;
+        edge = edge == VOXEL_EDGE_NONE || edge == lies ? lies : VOXEL_EDGE_BOTH;
+    }
+    return edge;
+}
+
+/* The bits above the normal. */
 uint look_beside(ivec3 cell, uint normal)
 {
     vec3 n = voxel_normal_unpack(normal), q = point_in(cell);
-    uint seen = 0u;
+    uint seen = 0u, same = 0u, edges = 0u;
     for (int side = 0; side < 6; side++) {
         ivec3 beside = voxel_beside(cell, side);
         if (!voxel_inside(beside) || !voxel_occupied(beside))
             continue;
         uint other = imageLoad(normal_image, beside).r;
         vec3 beside_n = voxel_normal_unpack(other), beside_q = point_in(beside);
-        float height = dot(n, beside_q - q);
-        bool same = ((normal ^ other) & VOXEL_NORMAL_BITS) == 0u && abs(height) < SAME_PLANE;
+        if (((normal ^ other) & VOXEL_NORMAL_BITS) == 0u && abs(dot(n, beside_q - q)) < SAME_PLANE) {
+            same |= 1u << side;
+            continue;
+        }
         /* Whether the neighbour's plane passes through the cell, so that a ray may cross it there. */
         float reach = 0.5 * (abs(beside_n.x) + abs(beside_n.y) + abs(beside_n.z)) + 2.0 * VOXEL_PLANE;
-        if (!same && abs(dot(beside_n, vec3(cell) + 0.5 - beside_q)) < reach)
-            seen |= 1u << side;
+        if (abs(dot(beside_n, vec3(cell) + 0.5 - beside_q)) >= reach)
+            continue;
+        seen |= 1u << side;
         if (abs(dot(n, beside_n)) < VOXEL_EDGE)
-            seen |= (height > -VOXEL_PLANE ? VOXEL_BESIDE_EDGE_FRONT : 0u) |
-                    (height < VOXEL_PLANE ? VOXEL_BESIDE_EDGE_BACK : 0u);
+            edges |= 1u << side;
     }
-    return seen;
+    return seen << VOXEL_BESIDE_SHIFT | edge_of(cell, q, edges, same) << VOXEL_EDGE_SHIFT;
 }
 
 void main()
@@ -53,7 +77,7 @@ void main()
         ivec3 cell = voxel_brick_cell(brick, n);
         /* Other invocations may read the word meanwhile, but only the bits of the normal, which do not change. */
         uint normal = imageLoad(normal_image, cell).r & VOXEL_NORMAL_BITS;
-        imageStore(normal_image, cell, uvec4(normal | look_beside(cell, normal) << VOXEL_BESIDE_SHIFT));
+        imageStore(normal_image, cell, uvec4(normal | look_beside(cell, normal)));
 #if LSF_EMISSION
         shines = shines || voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r) != vec3(0.0);
 #endif

@@ -132,7 +132,7 @@ void main()
         voxel_ray ray;
         ivec3 cell;
         vec3 left;
-        if (!voxel_ray_begin(voxel_from_position(v.position) + voxel_lift(n), direction, ray) ||
+        if (!voxel_ray_begin(voxel_start(voxel_from_position(v.position), n, direction), direction, ray) ||
             !voxel_leave_start(ray) || !meet(ray, path, vertex, cell, left))
             return;
         float carried = largest_of(v.intensity);
