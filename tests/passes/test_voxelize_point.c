@@ -270,10 +270,10 @@ static void edge_of_two_planes(void **unused)
                 double off = fmax(fabs(x + 0.5 - corners[0].x), fabs(y + 0.5 - corners[0].y));
                 if (!set[i])
                     continue;
-                /* On the front in any case: what ends at a height of 0 is on the back as well. */
-                assert_true((normals[i] >> 30 & 3u) != 2u);
+                /* Each lies in front of the other (2), never behind it (3). */
+                assert_true(normals[i] >> 30 != 3u);
                 assert_true(off < 2.0 || normals[i] >> 24 == 0);
-                edges += normals[i] >> 30 & 1u;
+                edges += normals[i] >> 30 == 2u;
             }
     print_message("%u voxels along the edge\n", edges);
     assert_in_range(edges, 30, 90);
