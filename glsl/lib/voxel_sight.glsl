@@ -171,8 +171,9 @@ bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
         float leave = min(ray.distance, end);
         own = voxel_plane_of(cell, ray);
         float own_at = voxel_crossing(own, entry, leave), ahead = voxel_height_at(own, entry);
-        float own_side = voxel_edge_side(own.bits), first = VOXEL_FAR;
-        bool closed = false;
+        float own_side = voxel_edge_side(own.bits);
+        float first = VOXEL_FAR; /* at which a neighbour's surface is crossed */
+        bool closed = false;     /* the ray is within the angle of an edge */
         across = vec3(0.0);
         met = cell;
         uint beside = (own.bits >> VOXEL_BESIDE_SHIFT) & VOXEL_BESIDE_ANY;
@@ -182,6 +183,7 @@ bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
             ivec3 there = voxel_beside(cell, findLSB(beside));
             voxel_plane other = voxel_plane_of(there, ray);
             float at = voxel_crossing(other, entry, leave), apart = dot(own.normal, other.point - own.point);
+            /* On which side of the own plane the neighbour's surface lies. */
             float side = abs(apart) > 2.0 * VOXEL_PLANE ? sign(apart) : 0.0;
             bool edge = abs(dot(own.normal, other.normal)) < VOXEL_EDGE;
             if (edge && side == 0.0)
@@ -197,6 +199,7 @@ bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
                     own_at = VOXEL_FAR;
                 if (corners && !counts && side * ahead > -VOXEL_PLANE && own_side * before > -VOXEL_PLANE) {
                     closed = true;
+                    /* Of surfaces that are not crossed, one that the ray approaches is seen from its side. */
                     if (first == VOXEL_FAR && ahead * own.height.y >= 0.0 && before * other.height.y < 0.0)
                         met = there;
                 }
