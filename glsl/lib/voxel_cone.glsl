@@ -10,6 +10,12 @@
 #if LSF_SEALED
 #include "lib/voxel_passage.glsl"
 #endif
+#if LSF_VOXEL_DRAW
+#include "lib/voxel_draw.glsl"
+
+/* Number of sides of voxels that are drawn by their radiance for each point. */
+layout(location = LSF_LOCATION_VOXEL_DRAW) uniform int cone_draws;
+#endif
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
 
@@ -47,14 +53,21 @@ struct cone_light {
 };
 
 #if LSF_SEALED
+/* The slice of a voxel's side that is seen along `direction`. */
+int cone_slice(ivec3 cell, vec3 direction)
+{
+#if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_SURFACE
+    vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
+    return dot(n, direction) <= 0.0 ? 0 : 1;
+#else
+    return 0;
+#endif
+}
+
 /* Radiance of a voxel, seen along `direction`. */
 vec3 cone_meet(ivec3 cell, vec3 direction)
 {
-    int slice = 0;
-#if LSF_VOXEL_SIDES == LSF_VOXEL_SIDES_SURFACE
-    vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
-    slice = dot(n, direction) <= 0.0 ? 0 : 1;
-#endif
+    int slice = cone_slice(cell, direction);
     return texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0).rgb;
 }
 
@@ -92,25 +105,45 @@ cone_way cone_follow(vec3 point, vec3 normal, vec3 direction)
 }
 
 /* Traces a ray. The rays of a set that gathers a hemisphere are cosine-distributed over all rotations and
- * elevations, so that the mean is right; voxels beside a ray are hit by other rays and must not count twice.
- * `spread` is used by marching cones. */
-cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
+ * elevations, so that the mean is right; voxels beside a ray are hit by other rays and must not count twice. `chance`:
+ * density of the set's directions there [1/sr]; light of voxels is weighted by it against draws (balance heuristic,
+ * Veach and Guibas 1995). `spread` is used by marching cones. */
+cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float chance, float spread)
 {
     cone_way way = cone_follow(point, normal, direction);
-    if (way.met)
-        return cone_light(way.radiance + way.left * cone_meet(way.cell, direction), vec3(0.0));
-    return cone_light(way.radiance, way.left);
+    if (!way.met)
+        return cone_light(way.radiance, way.left);
+    vec3 radiance = cone_meet(way.cell, direction);
+#if LSF_VOXEL_DRAW
+    radiance *= chance / (chance + float(cone_draws) * voxel_draw_density(point, direction, way.cell, voxel_draw_plane(way.cell), radiance));
+#endif
+    return cone_light(way.radiance + way.left * radiance, vec3(0.0));
 }
+
+#if LSF_VOXEL_DRAW
+/* Light of a drawn side of a voxel over the density of its direction by draws and cones, in the grid's unit; 0 where
+ * the ray meets something else. `cones`: number of cosine-distributed cones, `cosine`: to the shading normal. */
+vec3 cone_draw(voxel_drawn drawn, vec3 point, vec3 normal, float cosine, float cones)
+{
+    cone_way way = cone_follow(point, normal, drawn.direction);
+    if (!way.met || way.cell != drawn.cell || cone_slice(way.cell, drawn.direction) != drawn.slice)
+        return vec3(0.0);
+    vec3 radiance = cone_meet(way.cell, drawn.direction);
+    float density = voxel_draw_density(point, drawn.direction, way.cell, voxel_draw_plane(way.cell), radiance);
+    return way.left * radiance / (cones * cosine / LSF_PI + float(cone_draws) * density);
+}
+#endif
 #else
 #if LSF_VOXEL_SIDES > 1
-vec4 cone_slice(vec2 coordinates, float z, float slice, float level)
+vec4 cone_texel(vec2 coordinates, float z, float slice, float level)
 {
     return textureLod(radiance_texture, vec3(coordinates, (z + slice) * (1.0 / float(LSF_VOXEL_SIDES))), level);
 }
 #endif
 
-/* Marches from a point of a surface with the unit `normal` [voxels]. `spread`: diameter per unit length. */
-cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
+/* Marches from a point of a surface with the unit `normal` [voxels]. `spread`: diameter per unit length; `chance` is
+ * used by sealed cones. */
+cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float chance, float spread)
 {
     float offset = cone_march.y;
     vec3 start = point + offset * normal;
@@ -146,9 +179,9 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float spread)
 #else
         float z = clamp(p.z, 0.5 * texel, size.z - 0.5 * texel) / size.z;
         vec2 coordinates = p.xy / size.xy;
-        vec4 x = cone_slice(coordinates, z, slice.x, level);
-        vec4 y = cone_slice(coordinates, z, slice.y, level);
-        vec4 w = cone_slice(coordinates, z, slice.z, level);
+        vec4 x = cone_texel(coordinates, z, slice.x, level);
+        vec4 y = cone_texel(coordinates, z, slice.y, level);
+        vec4 w = cone_texel(coordinates, z, slice.z, level);
         vec3 opacity = vec3(x.a, y.a, w.a);
         vec3 clearness = max(1.0 - cone_march.w * opacity, vec3(CONE_CLEAR_MIN));
         float clear = exp2(cone_march.x * dot(rate, log2(clearness)));

@@ -15,15 +15,32 @@ layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility, of g
 layout(location = 1) out vec4 specular_out;
 #endif
 
-/* Light of a diffuse cone, weighted against directions drawn by the environment's radiance. */
-vec3 arriving(cone_light light, vec3 direction, float cosine)
+/* Light of a diffuse cone, weighted against directions drawn by the environment's radiance. `chance`: density of the
+ * directions of all cones. */
+vec3 arriving(cone_light light, vec3 direction, float chance)
 {
     vec3 radiance = light.radiance * grid.unit.x;
 #if LSF_ENVIRONMENT
-    radiance += light.transmittance *
-                sky_left(environment_radiance(direction), cone_gather.z * cosine / LSF_PI);
+    radiance += light.transmittance * sky_left(environment_radiance(direction), chance);
 #endif
     return radiance;
+}
+
+/* Adds what a visible point reflects of a diffuse cone's light of that irradiance; `cosine`: of its direction. */
+void reflect_light(surface s, vec3 to_viewer, vec3 direction, float cosine, vec3 irradiance)
+{
+    float reflected = 1.0;
+#if LSF_SPECULAR
+    vec3 h = normalize(to_viewer + direction);
+    reflected -= surface_dielectric_fresnel(s, clamp(dot(to_viewer, h), 0.0, 1.0));
+    float nv = max(dot(s.normal, to_viewer), LSF_COSINE_MIN), passes = coat_passes(s, to_viewer, direction);
+    reflected *= sheen_leaves(s, nv, cosine) * passes;
+#if LSF_SHEEN
+    if (s.sheen.rgb != vec3(0.0))
+        specular_out.rgb += passes * sheen_reflects(s, lift_to_horizon(to_viewer, s.normal), direction) * irradiance;
+#endif
+#endif
+    irradiance_out.rgb += reflected * irradiance;
 }
 
 #if LSF_VOXEL_MIRRORS
@@ -112,7 +129,7 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
     if (dot(mirrored, s.geometric_normal) <= 0.0)
         return vec3(0.0);
     float spread = min(lobe_spread * lsf_alpha_from_roughness(s.roughness), CONE_WIDEST);
-    cone_light light = cone_trace(point, s.geometric_normal, mirrored, spread);
+    cone_light light = cone_trace(point, s.geometric_normal, mirrored, 0.0, spread);
     vec2 coordinates = vec2(dot(s.normal, view_direction), s.roughness);
     vec2 albedo = textureLod(albedo_texture, coordinates, 0.0).rg;
     vec3 reflected = surface_specular_f0(s) * albedo.x + surface_specular_f90(s) * albedo.y;
@@ -125,15 +142,37 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 }
 #endif
 
-/* Pixels of a tile of 4 x 4 have the rotations 0 to 15 of 16, with neighbours far from each other. Tiles differ at
- * random in rotation and ring: where only few directions are shared, no edge repeats. */
+/* The pixel's number among those of its tile of 4 x 4, in an order in which neighbours are far from each other. */
+float tile_order()
+{
+    uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
+    uint x = p.x ^ p.y;
+    return float(((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1));
+}
+
+/* A number for each tile, from 0 to 1. */
+vec3 tile_number(uint purpose)
+{
+    return hash_unit(hash(uvec3(uvec2(gl_FragCoord.xy) >> 2, purpose)));
+}
+
+/* Pixels of a tile have the rotations 0 to 15 of 16. Tiles differ at random in rotation and ring: where only few
+ * directions are shared, no edge repeats. */
 vec2 pixel_shift()
 {
-    uvec2 pixel = uvec2(gl_FragCoord.xy), p = pixel & 3u;
-    uint x = p.x ^ p.y;
-    uint order = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
-    return vec2(float(order) / 16.0, 0.0) + hash_unit(hash(uvec3(pixel >> 2, 0u))).xy;
+    return vec2(tile_order() / 16.0, 0.0) + tile_number(0u).xy;
 }
+
+#if LSF_VOXEL_DRAW
+/* Numbers of the point's i-th draw. Each draw of a tile has its own part of the list, and its place on the side is of a
+ * lattice with the powers of the plastic number (M. Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
+ * Sequences"). Iterations move all as they move cones. */
+vec3 draw_number(int i)
+{
+    vec3 steps = vec3(0.7548776662, 0.5698402910, 1.0 / (16.0 * float(cone_draws)));
+    return fract(tile_number(1u) + (tile_order() + 16.0 * float(i)) * steps + cone_gather.xwx);
+}
+#endif
 
 void main()
 {
@@ -164,22 +203,22 @@ void main()
         vec3 direction = local.x * tangent + local.y * bitangent + local.z * s.normal;
         if (dot(direction, s.geometric_normal) <= 0.0)
             continue;
-        cone_light light = cone_trace(point, s.geometric_normal, direction, cone_set[i].w);
-        float reflected = 1.0;
-#if LSF_SPECULAR
-        vec3 h = normalize(to_viewer + direction);
-        reflected -= surface_dielectric_fresnel(s, clamp(dot(to_viewer, h), 0.0, 1.0));
-        float nv = max(dot(s.normal, to_viewer), LSF_COSINE_MIN), passes = coat_passes(s, to_viewer, direction);
-        reflected *= sheen_leaves(s, nv, local.z) * passes;
-#if LSF_SHEEN
-        if (s.sheen.rgb != vec3(0.0))
-            specular_out.rgb += share * LSF_PI * passes * sheen_reflects(s, lift_to_horizon(to_viewer, s.normal), direction) *
-                                arriving(light, direction, local.z);
-#endif
-#endif
-        irradiance_out += share * vec4(LSF_PI * reflected * arriving(light, direction, local.z),
-                                       light.transmittance.g);
+        float chance = cone_gather.z * local.z / LSF_PI;
+        cone_light light = cone_trace(point, s.geometric_normal, direction, chance, cone_set[i].w);
+        reflect_light(s, to_viewer, direction, local.z, share * LSF_PI * arriving(light, direction, chance));
+        irradiance_out.a += share * light.transmittance.g;
     }
+#if LSF_VOXEL_DRAW
+    for (int i = 0; i < cone_draws; i++) {
+        voxel_drawn drawn;
+        bool faces = voxel_draw(draw_number(i), point, drawn);
+        float cosine = dot(s.normal, drawn.direction);
+        if (!faces || cosine <= 0.0 || dot(drawn.direction, s.geometric_normal) <= 0.0)
+            continue;
+        vec3 light = cone_draw(drawn, point, s.geometric_normal, cosine, cone_gather.z);
+        reflect_light(s, to_viewer, drawn.direction, cosine, cosine * grid.unit.x * light);
+    }
+#endif
 #if LSF_SPECULAR
     specular_out.rgb += lobe_light(s, point, to_viewer);
 #endif

@@ -1,5 +1,6 @@
 /* Light from other voxels and from the environment that voxels reflect, on each side of their surface. */
 #include "lib/environment.glsl"
+#include "lib/hash.glsl"
 #include "lib/sky.glsl"
 #include "lib/voxel_reflect.glsl"
 #include "lib/voxel_shading.glsl"
@@ -21,34 +22,48 @@ layout(location = 0) uniform bvec3 sum_of; /* terms of the output: its previous 
 layout(location = 1) uniform float sky_rays; /* number by which the environment's light is shared with its
                                               * directions, whatever the number of cones here */
 
-/* Rotation of the cone set, from a pattern of 4 x 4 x 4 voxels. */
-float cell_rotation(ivec3 cell)
+/* Rotation of a voxel's cones and their position in the ring: a lattice over the voxels, so that neighbours together
+ * find light from all directions. */
+vec2 cell_shift(ivec3 cell)
 {
-    uvec3 c = uvec3(cell) & 3u;
-    return float((c.x * 5u + c.y * 9u + c.z * 3u) & 15u) / 16.0;
+    vec3 at = vec3(cell);
+    return fract(vec2(dot(at, vec3(0.8191725, 0.6710436, 0.5497005)), dot(at, vec3(0.5698403, 0.7548777, 0.3819660))));
 }
 
 /* Mean radiance at a side, weighted by the cosine to its shading normal and by its reflectance. */
-vec3 gather(reflector material, vec3 position, vec3 n, vec3 shading, float rotation)
+vec3 gather(reflector material, ivec3 cell, vec3 position, vec3 n, vec3 shading)
 {
     vec3 tangent, bitangent;
     orthonormal_basis(shading, tangent, bitangent);
     vec3 sum = vec3(0.0);
+    vec2 shift = cell_shift(cell);
     int count = int(cone_gather.z);
     for (int i = 0; i < count; i++) {
-        vec3 local = cone_direction(i, vec2(rotation, 0.0));
+        vec3 local = cone_direction(i, shift);
         vec3 direction = local.x * tangent + local.y * bitangent + local.z * shading;
         if (dot(direction, n) <= 0.0)
             continue;
-        cone_light light = cone_trace(position, n, direction, cone_set[i].w);
+        float chance = cone_gather.z * local.z / LSF_PI;
+        cone_light light = cone_trace(position, n, direction, chance, cone_set[i].w);
         vec3 seen = light.radiance;
 #if LSF_ENVIRONMENT
         seen += light.transmittance * grid.unit.y *
                 sky_left(environment_radiance(direction), sky_rays * local.z / LSF_PI);
 #endif
-        sum += reflectance(material, local.z) * seen;
+        sum += reflectance(material, local.z) / cone_gather.z * seen;
     }
-    return sum / cone_gather.z;
+#if LSF_VOXEL_DRAW
+    for (int i = 0; i < cone_draws; i++) {
+        vec3 number = hash_unit(hash(uvec3(cell) ^ hash(uvec3(floatBitsToUint(cone_gather.x), i, 0))));
+        voxel_drawn drawn;
+        bool faces = voxel_draw(number, position, drawn);
+        float cosine = dot(shading, drawn.direction);
+        if (!faces || cosine <= 0.0 || dot(drawn.direction, n) <= 0.0)
+            continue;
+        sum += reflectance(material, cosine) * cosine / LSF_PI * cone_draw(drawn, position, n, cosine, cone_gather.z);
+    }
+#endif
+    return sum;
 }
 
 void write(ivec3 cell, int slice, float share, vec3 reflected)
@@ -82,8 +97,7 @@ void light_side(ivec3 cell, bool back)
         reflector material =
             voxel_material_unpack(texelFetch(albedo_texture, cell, 0).r, specular_params, transmission);
         if (!voxel_unlit(point))
-            reflected = gather(material, vec3(cell) + voxel_point_unpack(point), n, shading,
-                               cell_rotation(cell));
+            reflected = gather(material, cell, vec3(cell) + voxel_point_unpack(point), n, shading);
     }
 #if LSF_VOXEL_SIDES != LSF_VOXEL_SIDES_AXES
     write(cell, back ? 1 : 0, 1.0, reflected);
@@ -100,7 +114,8 @@ void main()
     if (!voxel_brick_listed(at))
         return;
     lsf_voxel_brick_data brick = bricks[at];
-    int count = faces * voxel_brick_voxels(brick);
-    for (int n = voxel_brick_lane(); n < count; n += VOXEL_BRICK_LANES)
-        light_side(voxel_brick_cell(brick, n / faces), n % faces != 0);
+    int voxels = voxel_brick_voxels(brick);
+    /* Fronts first: the backs of a room's walls, whose rays end soon, are then beside each other. */
+    for (int n = voxel_brick_lane(); n < faces * voxels; n += VOXEL_BRICK_LANES)
+        light_side(voxel_brick_cell(brick, n < voxels ? n : n - voxels), n >= voxels);
 }

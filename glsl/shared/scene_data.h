@@ -120,6 +120,9 @@ struct lsf_lobe_data {
 /* Location of the solid angle over which glossy lobes are spread; see lib/straight.glsl. */
 #define LSF_LOCATION_LOBE_ANGLE (LSF_LOCATION_SKY_CHANCE + 1)
 
+/* Location of the draws of voxels; see lib/voxel_cone.glsl. */
+#define LSF_LOCATION_VOXEL_DRAW (LSF_LOCATION_LOBE_ANGLE + 1)
+
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0
 #define LSF_BINDING_LIGHT 1 /* the current light, or the current VPL as a light with a map */

@@ -7,6 +7,7 @@
 #include "shared/brdf.h"
 #include "shared/cone.h"
 #include "shared/scene_data.h"
+#include "shared/voxel_draw_data.h"
 
 const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
     {"cone.count", LSF_OPTION_INT, offsetof(lsf_cone_params, count), 1, LSF_CONE_MAX, NULL, "",
@@ -21,6 +22,8 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
      "factor of the voxels' opacity for cones that march; above 1 thin walls leak less"},
     {"cone.distance", LSF_OPTION_FLOAT, offsetof(lsf_cone_params, distance), 0.0, 4.0, NULL,
      "half extents of the scene", "maximum length of cones"},
+    {"cone.draws", LSF_OPTION_INT, offsetof(lsf_cone_params, draws), 0, LSF_CONE_MAX, NULL, "",
+     "sealed cones: further rays per point, towards voxels drawn by their radiance"},
     {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
      "varies the elevation of cones in each iteration, so that the mean covers all directions"},
     {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
@@ -33,6 +36,11 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
 uint32_t lsf_cone_levels(const lsf_cone_params *params)
 {
     return params->sealed ? 1 : LSF_VOXEL_LEVELS;
+}
+
+bool lsf_cone_draws(const lsf_cone_params *params)
+{
+    return params->sealed && params->draws > 0;
 }
 
 uint32_t lsf_cone_slices(const lsf_cone_params *params)
@@ -70,7 +78,7 @@ static int32_t most_steps(const lsf_cone_params *params, const lsf_voxel_grid *g
 }
 
 void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
-                   const lsf_iteration *iteration, GLuint radiance)
+                   const lsf_iteration *iteration, GLuint radiance, GLuint draws)
 {
     glTextureParameteri(radiance, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTextureParameteri(radiance, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -88,4 +96,8 @@ void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
     glUniform4f(LSF_LOCATION_CONE, params->step, params->offset, params->distance / grid->side,
                 params->opacity);
     glUniform1i(LSF_LOCATION_CONE_STEPS, most_steps(params, grid));
+    if (draws) {
+        glUniform1i(LSF_LOCATION_VOXEL_DRAW, params->draws);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VOXEL_DRAWS, draws);
+    }
 }

@@ -19,6 +19,7 @@ typedef struct lsf_cone_params {
     float step;     /* texels of the level that is read */
     float opacity;  /* factor on the opacity of texels, whose product is at most 1 */
     float distance; /* reach of cones [half extents of the scene] */
+    int32_t draws;  /* sides of voxels drawn by their radiance for each point, where sealed */
     bool jitter;    /* elevations vary from iteration to iteration, each within its share */
     bool sealed;    /* cones are rays along their axis, which end where it meets a voxel */
     bool rotate;    /* the set is rotated from pixel to pixel */
@@ -26,14 +27,16 @@ typedef struct lsf_cone_params {
 
 #define LSF_CONE_PARAMS_DEFAULTS                                                                   \
     .count = 6, .sides = LSF_CONE_ANISOTROPIC, .offset = 1.5f, .step = 1.0f, .opacity = 1.0f,      \
-    .distance = 4.0f, .jitter = true, .sealed = true, .rotate = true
+    .distance = 4.0f, .draws = 2, .jitter = true, .sealed = true, .rotate = true
 
-#define LSF_CONE_OPTION_COUNT 9
+#define LSF_CONE_OPTION_COUNT 10
 extern const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT];
 
 /* Levels of radiance that cones read: one where they are sealed, as nothing marches then. */
 uint32_t lsf_cone_levels(const lsf_cone_params *params);
 
+/* Whether sides of voxels are drawn by their radiance. */
+bool lsf_cone_draws(const lsf_cone_params *params);
 /* Slices of radiance along z. Sealed cones distinguish the surface that they meet, and its side. */
 uint32_t lsf_cone_slices(const lsf_cone_params *params);
 
@@ -43,8 +46,8 @@ uint32_t lsf_cone_slices(const lsf_cone_params *params);
 void lsf_cone_set(uint32_t count, float elevation, lsf_vec4 *cones);
 
 /* Sets the uniforms of lib/voxel_cone.glsl and of a set for the program in use, and binds the
- * pyramid. */
+ * pyramid and, unless it is 0, the list of voxel_draw. */
 void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
-                   const lsf_iteration *iteration, GLuint radiance);
+                   const lsf_iteration *iteration, GLuint radiance, GLuint draws);
 
 #endif

@@ -53,7 +53,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mir
     bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     lsf_plan_pass_add(plan, "cone_trace", "%d diffuse cones of each visible point%s", params->count,
                       r->specular ? ", and a specular one" : "");
-    lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_bounce|voxel_light");
+    lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_bounce|voxel_light voxel_draw");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)lsf_cone_slices(params), "cone.sides");
@@ -65,6 +65,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mir
     plan_mirrors(plan, mirrors);
     lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_DRAW", lsf_cone_draws(params), "cone.draws");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     lsf_sparse_grid_texture_size(plan, size);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, size[0], size[1]);
@@ -146,7 +147,7 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_surface_maps_bind(inputs->seen);
     lsf_bind_texture(3, pass->lobe_albedo);
     lsf_voxels_bind(inputs->voxels);
-    lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance);
+    lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, inputs->draws);
     lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (iteration->plan->requirements.environment)

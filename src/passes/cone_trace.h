@@ -10,6 +10,7 @@ typedef struct lsf_cone_trace_inputs {
     const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
     GLuint radiance; /* the pyramid over them; voxel_light.h, voxel_mip.h */
+    GLuint draws;    /* by it, voxel_draw.h; 0 without cone.draws */
 } lsf_cone_trace_inputs;
 
 typedef struct lsf_cone_trace {

@@ -19,9 +19,10 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
 {
     uint32_t slices = lsf_cone_slices(params), levels = lsf_cone_levels(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
-    lsf_plan_reads(plan, "voxelize voxel_light");
+    lsf_plan_reads(plan, "voxelize voxel_light voxel_draw");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_DRAW", lsf_cone_draws(params), "cone.draws");
     lsf_voxel_bend_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
                         "materials have a specular lobe");
@@ -93,14 +94,25 @@ void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxels *voxels)
     lsf_timer_end(pass->timer);
 }
 
-/* Light that is reflected again before it is seen counts less, and many voxels average its noise:
- * fewer rays find it. All are needed of marching cones, which fill the hemisphere, and where
- * directions do not change from iteration to iteration. */
-static int32_t cone_count(const lsf_cone_params *params, uint32_t later)
+static int32_t part_of(int32_t count, int32_t parts)
 {
-    int32_t share = 1 + (int32_t)later;
-    bool fewer = params->sealed && params->jitter;
-    return fewer ? (params->count + share - 1) / share : params->count;
+    return (count + parts - 1) / parts;
+}
+
+/* Cones and draws of a voxel. A third of a visible point's cones will do: visible points gather the
+ * light of many voxels, whose directions differ. Light that is reflected again before it is seen
+ * counts less, so that even fewer rays find it. All are needed of marching cones, which fill the
+ * hemisphere, and where directions do not change from iteration to iteration. */
+static lsf_cone_params voxel_cones(const lsf_cone_params *seen, uint32_t later)
+{
+    enum { SEEN = 3 };
+    int32_t parts = 1 + (int32_t)later;
+    lsf_cone_params cones = *seen;
+    if (seen->sealed && seen->jitter) {
+        cones.count = part_of(seen->count, SEEN * parts);
+        cones.draws = part_of(seen->draws, parts);
+    }
+    return cones;
 }
 
 GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iteration,
@@ -115,9 +127,8 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     lsf_bind_texture(UNIT_BASE, sum->base);
     lsf_voxels_bind(voxels);
     if (sum->source) {
-        lsf_cone_params cones = pass->params;
-        cones.count = cone_count(&pass->params, sum->later);
-        lsf_cone_bind(&cones, &pass->grid, iteration, sum->source);
+        lsf_cone_params cones = voxel_cones(&pass->params, sum->later);
+        lsf_cone_bind(&cones, &pass->grid, iteration, sum->source, sum->draws);
     }
     lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);

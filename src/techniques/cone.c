@@ -7,6 +7,7 @@
 #include "passes/compose.h"
 #include "passes/cone_trace.h"
 #include "passes/voxel_bounce.h"
+#include "passes/voxel_draw.h"
 #include "passes/voxel_mip.h"
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
@@ -15,6 +16,7 @@
 typedef struct variant {
     bool traced;      /* light comes to visible points in other ways than directly from punctual
                        * lights */
+    bool draws;       /* sides of voxels by their radiance */
     bool shines;      /* surfaces or an environment emit */
     uint32_t levels;  /* of radiance */
     uint32_t bounces; /* from voxel to voxel */
@@ -27,6 +29,7 @@ static variant choose_variant(const lsf_plan *plan, const lsf_pass_params *param
     const lsf_requirements *r = &plan->requirements;
     variant w = {.levels = lsf_cone_levels(&params->cone),
                  .shines = r->emissive || r->unlit || r->environment};
+    w.draws = lsf_cone_draws(&params->cone);
     w.traced = lsf_voxel_chain_has_voxels(plan) && (plan->bounces > 0 || w.shines);
     if (w.traced && plan->bounces > 0)
         w.bounces = plan->bounces - (w.shines ? 0 : 1);
@@ -37,6 +40,7 @@ typedef struct cone {
     variant variant;
     lsf_voxel_chain chain;
     lsf_voxel_mip mip;
+    lsf_voxel_draw draw;
     lsf_voxel_bounce bounce;
     lsf_cone_trace trace;
     lsf_sparse_chain sparse;
@@ -81,6 +85,8 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
             lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
+        if (w.draws)
+            lsf_voxel_draw_plan(plan, &grid, use.sides);
         lsf_sparse_chain_plan_split(plan, params, 1);
         bool mirrors = params->cone.sealed && plan->bounces > 1 && lsf_voxel_mirrors(plan, state);
         lsf_cone_trace_plan(plan, &params->cone, mirrors);
@@ -103,6 +109,7 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
     return lsf_voxel_chain_create(&c->chain, context, plan, params, scene, state, &use, error) &&
            (c->variant.levels == 1 ||
             lsf_voxel_mip_create(&c->mip, context, plan, grid, use.sides, error)) &&
+           (!c->variant.draws || lsf_voxel_draw_create(&c->draw, context, plan, error)) &&
            (c->variant.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
@@ -133,10 +140,13 @@ static lsf_update update_cone(void *self, const lsf_pass_params *params,
     return update;
 }
 
-static void build_pyramid(cone *c, GLuint radiance)
+/* What cones and rays need to find the light of voxels. */
+static void prepare(cone *c, const lsf_iteration *iteration, GLuint radiance)
 {
     if (c->variant.levels > 1)
         lsf_voxel_mip_run(&c->mip, c->chain.voxels, radiance);
+    if (c->variant.draws)
+        lsf_voxel_draw_run(&c->draw, iteration, c->chain.voxels, radiance);
 }
 
 /* Light on voxels, with as many bounces between them as there are to be; returns its pyramid. With
@@ -147,13 +157,15 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     const lsf_voxels *voxels = c->chain.voxels;
     GLuint base = c->chain.light.radiance, light = base;
     uint32_t done = 0;
+    lsf_voxel_draw_begin(&c->draw);
     if (c->variant.bounces > 0)
         lsf_voxel_bounce_begin(&c->bounce, voxels);
     if (c->variant.bounces > 0 && c->variant.shines) {
-        const lsf_voxel_bounce_sum reflected = {.source = base, .later = c->variant.bounces - 1};
+        const lsf_voxel_bounce_sum reflected = {
+            .source = base, .draws = c->draw.list, .later = c->variant.bounces - 1};
         const lsf_voxel_bounce_sum all = {.base = base, .keep = true};
         lsf_voxel_chain_emit(&c->chain);
-        build_pyramid(c, base);
+        prepare(c, iteration, base);
         lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &reflected);
         lsf_voxel_chain_lights(&c->chain, iteration, true);
         light = lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &all);
@@ -161,12 +173,14 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     } else {
         lsf_voxel_chain_lights(&c->chain, iteration, iteration->plan->bounces > 0);
     }
-    build_pyramid(c, light);
+    prepare(c, iteration, light);
     for (; done < c->variant.bounces; done++) {
-        const lsf_voxel_bounce_sum sum = {
-            .base = base, .source = light, .later = c->variant.bounces - 1 - done};
+        const lsf_voxel_bounce_sum sum = {.base = base,
+                                          .source = light,
+                                          .draws = c->draw.list,
+                                          .later = c->variant.bounces - 1 - done};
         light = lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &sum);
-        build_pyramid(c, light);
+        prepare(c, iteration, light);
     }
     return light;
 }
@@ -179,7 +193,8 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
     const lsf_cone_trace_inputs inputs = {.seen =
                                               lsf_sparse_chain_split(&c->sparse, iteration, seen),
                                           .voxels = c->chain.voxels,
-                                          .radiance = light_voxels(c, iteration)};
+                                          .radiance = light_voxels(c, iteration),
+                                          .draws = c->draw.list};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
     return lsf_sparse_chain_finish(&c->sparse, iteration, seen, &c->trace.light);
 }
@@ -213,6 +228,7 @@ static void destroy_cone(void *self)
     lsf_sparse_chain_destroy(&c->sparse);
     lsf_cone_trace_destroy(&c->trace);
     lsf_voxel_bounce_destroy(&c->bounce);
+    lsf_voxel_draw_destroy(&c->draw);
     lsf_voxel_mip_destroy(&c->mip);
     lsf_voxel_chain_destroy(&c->chain);
     free(c);
@@ -227,6 +243,8 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
             reports[count++] = (lsf_pass_report){.timer = c->bounce.timer};
         if (c->variant.levels > 1)
             reports[count++] = (lsf_pass_report){.timer = c->mip.timer};
+        if (c->variant.draws)
+            reports[count++] = (lsf_pass_report){.timer = c->draw.timer};
         count += lsf_sparse_chain_report_split(&c->sparse, reports + count);
         reports[count++] = (lsf_pass_report){.timer = c->trace.timer};
         count += lsf_sparse_chain_report_finish(&c->sparse, reports + count);
