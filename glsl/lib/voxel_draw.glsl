@@ -11,7 +11,7 @@
 layout(std430, binding = LSF_BINDING_VOXEL_DRAWS) readonly buffer lsf_voxel_draw_list
 {
     float voxel_draw_total, voxel_draw_unused[LSF_VOXEL_DRAWS_HEADER - 1];
-    uint voxel_draws[];
+    uvec2 voxel_draws[];
 };
 
 /* The plane of a voxel's surface, with a point of it [voxels]. */
@@ -53,16 +53,17 @@ struct voxel_drawn {
     vec3 direction;
 };
 
-/* Takes the side at number.z of the list, and the point at number.xy of it. False: it does not face the point from
- * which it is to be seen, or nothing shines. */
-bool voxel_draw(vec3 number, vec3 from, out voxel_drawn drawn)
+/* Takes the side at number.x of the list, and a point of it by number.y. False: it does not face the point from which
+ * it is to be seen, or nothing shines. */
+bool voxel_draw(vec2 number, vec3 from, out voxel_drawn drawn)
 {
-    uint bits = voxel_draws[min(uint(number.z * float(LSF_VOXEL_DRAWS)), LSF_VOXEL_DRAWS - 1u)];
-    drawn.cell = voxel_brick_unpack(bits);
-    drawn.slice = int(bits >> LSF_VOXEL_DRAW_SLICE_SHIFT);
+    uvec2 record = voxel_draws[min(uint(number.x * float(LSF_VOXEL_DRAWS)), LSF_VOXEL_DRAWS - 1u)];
+    drawn.cell = voxel_brick_unpack(record.x);
+    drawn.slice = int(record.x >> LSF_VOXEL_DRAW_SLICE_SHIFT);
     voxel_surface_plane p = voxel_draw_plane(drawn.cell);
     vec3 axis = voxel_draw_axis(p.normal);
-    vec3 on_face = axis.x > 0.0 ? number.zxy : axis.y > 0.0 ? number.yzx : number;
+    vec2 point = vec2(uintBitsToFloat(record.y), number.y);
+    vec3 on_face = axis.x > 0.0 ? point.xxy : point.xyy;
     vec3 beside = (vec3(drawn.cell) + on_face - p.point) * (1.0 - axis);
     vec3 to = p.point + beside - axis * (dot(p.normal, beside) / dot(p.normal, axis)) - from;
     float distance = length(to), facing = dot(p.normal, to);

@@ -164,13 +164,12 @@ vec2 pixel_shift()
 }
 
 #if LSF_VOXEL_DRAW
-/* Numbers of the point's i-th draw. Each draw of a tile has its own part of the list, and its place on the side is of a
- * lattice with the powers of the plastic number (M. Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
- * Sequences"). Iterations move all as they move cones. */
-vec3 draw_number(int i)
+/* Numbers of the point's i-th draw. Each draw of a tile has its own part of the list; the second number goes on by the
+ * golden ratio. Iterations move both as they move cones. */
+vec2 draw_number(int i)
 {
-    vec3 steps = vec3(0.7548776662, 0.5698402910, 1.0 / (16.0 * float(cone_draws)));
-    return fract(tile_number(1u) + (tile_order() + 16.0 * float(i)) * steps + cone_gather.xwx);
+    vec2 steps = vec2(1.0 / (16.0 * float(cone_draws)), 0.6180339887);
+    return fract(tile_number(1u).xy + (tile_order() + 16.0 * float(i)) * steps + cone_gather.xw);
 }
 #endif
 

@@ -54,7 +54,7 @@ vec3 gather(reflector material, ivec3 cell, vec3 position, vec3 n, vec3 shading)
     }
 #if LSF_VOXEL_DRAW
     for (int i = 0; i < cone_draws; i++) {
-        vec3 number = hash_unit(hash(uvec3(cell) ^ hash(uvec3(floatBitsToUint(cone_gather.x), i, 0))));
+        vec2 number = hash_unit(hash(uvec3(cell) ^ hash(uvec3(floatBitsToUint(cone_gather.x), i, 0)))).xy;
         voxel_drawn drawn;
         bool faces = voxel_draw(number, position, drawn);
         float cosine = dot(shading, drawn.direction);

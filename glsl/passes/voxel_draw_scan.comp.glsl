@@ -1,6 +1,6 @@
 /* Replaces each brick's sum by that of the bricks before it. One work group, in which each invocation has a part of
  * the bricks. */
-#include "passes/voxel_draw.glsl"
+#include "passes/voxel_draw_list.glsl"
 
 #define INVOCATIONS 256
 
@@ -11,8 +11,7 @@ shared float parts[INVOCATIONS];
 void main()
 {
     uint own = gl_LocalInvocationID.x;
-    ivec3 counts = brick_counts();
-    uint all = uint(counts.x * counts.y * counts.z), each = (all + INVOCATIONS - 1u) / INVOCATIONS;
+    uint all = 1u << (3 * LSF_VOXEL_DRAW_BITS), each = (all + INVOCATIONS - 1u) / INVOCATIONS;
     uint first = own * each, last = min(first + each, all);
     float sum = 0.0;
     for (uint i = first; i < last; i++)

@@ -1,6 +1,6 @@
 /* Sums what the sides of each occupied brick's voxels shine. */
 #include "lib/voxel_brick.glsl"
-#include "passes/voxel_draw.glsl"
+#include "passes/voxel_draw_list.glsl"
 
 shared float sums[VOXEL_BRICK_LANES * LSF_VOXEL_GROUP_BRICKS];
 

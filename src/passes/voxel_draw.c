@@ -18,20 +18,29 @@
 
 _Static_assert(LSF_VOXEL_DRAWS % PICK_GROUP == 0, "whole work groups");
 
+/* Bits of a brick's place along the grid's longest axis. */
+static int brick_bits(const lsf_voxel_grid *grid)
+{
+    int bits = 0;
+    for (int axis = 0; axis < 3; axis++)
+        while ((1u << bits) < grid->size[axis] / LSF_VOXEL_BRICK)
+            bits++;
+    return bits;
+}
+
 void lsf_voxel_draw_plan(lsf_plan *plan, const lsf_voxel_grid *grid, uint32_t sides)
 {
-    uint64_t bricks = 1;
-    for (int axis = 0; axis < 3; axis++)
-        bricks *= grid->size[axis] / LSF_VOXEL_BRICK;
+    int bits = brick_bits(grid);
     lsf_plan_pass_add(plan, "voxel_draw", "%d sides of voxels, drawn by their radiance",
                       LSF_VOXEL_DRAWS);
     lsf_plan_reads(plan, "voxelize voxel_light voxel_bounce");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)sides, "sides that radiance is kept for");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_DRAW_BITS", bits, "2 to this power bricks fill the grid");
     lsf_plan_buffer_add(plan, "voxel_draw.list",
-                        (LSF_VOXEL_DRAWS_HEADER + LSF_VOXEL_DRAWS) * sizeof(uint32_t),
+                        (LSF_VOXEL_DRAWS_HEADER + 2 * LSF_VOXEL_DRAWS) * sizeof(uint32_t),
                         "the drawn sides");
-    lsf_plan_buffer_add(plan, "voxel_draw.bricks", bricks * sizeof(float),
+    lsf_plan_buffer_add(plan, "voxel_draw.bricks", ((uint64_t)1 << (3 * bits)) * sizeof(float),
                         "sums of radiance over bricks");
 }
 

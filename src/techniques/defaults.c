@@ -98,12 +98,19 @@ void lsf_default_points(lsf_setup *setup)
         params->sparse.interleave = choose_interleave(setup);
 }
 
+/* Whether each pixel traces light of its own, so that there is no pattern of samples to remove. */
+static bool traces_pixels(const lsf_setup *setup)
+{
+    const lsf_technique *technique = lsf_technique_find(setup->params.technique);
+    return technique && technique->points_per_second > 0.0f;
+}
+
 void lsf_default_filter_steps(lsf_setup *setup)
 {
     enum { PERIOD_4 = 2, NEIGHBOURS_ACROSS = 16 };
     const lsf_render_params *params = &setup->params;
     int32_t *most = &setup->pass_params.light_filter.steps, grid = setup->pass_params.sparse.grid;
-    int32_t steps = grid > PERIOD_4 ? grid : PERIOD_4;
+    int32_t steps = traces_pixels(setup) || grid > PERIOD_4 ? grid : PERIOD_4;
     uint32_t side = params->width < params->height ? params->width : params->height;
     while (steps < *most && side >> steps >= NEIGHBOURS_ACROSS)
         steps++;

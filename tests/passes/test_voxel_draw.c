@@ -91,13 +91,13 @@ static void check(const rig *r, uint32_t sides)
 {
     struct {
         float total, unused[LSF_VOXEL_DRAWS_HEADER - 1];
-        uint32_t draws[LSF_VOXEL_DRAWS];
+        uint32_t draws[LSF_VOXEL_DRAWS][2];
     } list;
     static uint32_t counts[SIDES][DEPTH][HEIGHT][WIDTH];
     memset(counts, 0, sizeof counts);
     glGetNamedBufferSubData(r->draw.list, 0, sizeof list, &list);
     for (uint32_t i = 0; i < LSF_VOXEL_DRAWS; i++) {
-        uint32_t bits = list.draws[i];
+        uint32_t bits = list.draws[i][0];
         counts[bits >> LSF_VOXEL_DRAW_SLICE_SHIFT][bits >> 20 & 1023][bits >> 10 & 1023]
               [bits & 1023]++;
     }

@@ -13,19 +13,24 @@ layout(std430, binding = LSF_BINDING_VOXEL_DRAW_BRICKS) buffer lsf_voxel_draw_br
 layout(std430, binding = LSF_BINDING_VOXEL_DRAWS) buffer lsf_voxel_draw_list
 {
     float voxel_draw_total, voxel_draw_unused[LSF_VOXEL_DRAWS_HEADER - 1];
-    uint voxel_draws[];
+    uvec2 voxel_draws[];
 };
 
-/* Number of the grid's bricks along each axis. */
-ivec3 brick_counts()
-{
-    return ivec3(grid.size.xyz) / LSF_VOXEL_BRICK;
-}
-
+/* Bricks are in Morton order, so that bricks that follow each other are close to each other. */
 uint brick_index(ivec3 brick)
 {
-    ivec3 counts = brick_counts();
-    return uint(brick.x + counts.x * (brick.y + counts.y * brick.z));
+    uvec3 bits = uvec3(brick), index = uvec3(0u);
+    for (int i = 0; i < LSF_VOXEL_DRAW_BITS; i++)
+        index |= (bits & (1u << i)) << (2 * i);
+    return index.x | (index.y << 1) | (index.z << 2);
+}
+
+ivec3 brick_of(uint index)
+{
+    uvec3 bits = uvec3(index, index >> 1, index >> 2), brick = uvec3(0u);
+    for (int i = 0; i < LSF_VOXEL_DRAW_BITS; i++)
+        brick |= (bits >> (2 * i)) & (1u << i);
+    return ivec3(brick);
 }
 
 /* By which the side of a voxel is drawn. */
