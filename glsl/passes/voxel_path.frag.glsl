@@ -8,6 +8,9 @@
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
 #include "lib/voxel_surface.glsl"
+#if LSF_VOXEL_DRAW
+#include "lib/voxel_draw.glsl"
+#endif
 #if LSF_ABSORPTION
 #include "lib/scene.glsl"
 #endif
@@ -19,6 +22,9 @@ layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance;
 
 layout(location = 0) uniform ivec4 lengths; /* bounces, segments, least and most samples */
 layout(location = 1) uniform uvec2 iteration;    /* iteration, seed */
+#if LSF_VOXEL_DRAW
+layout(location = LSF_LOCATION_VOXEL_DRAW) uniform int draws; /* sides of voxels that are drawn at a vertex */
+#endif
 
 layout(location = 0) out vec4 irradiance_out;
 #if LSF_SPLIT_DIRECT
@@ -55,6 +61,16 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
 #endif
     indirect.irradiance += through.irradiance * radiance;
     indirect.specular += through.specular * radiance;
+}
+
+/* Whether a voxel that was hit along a direction of that density shows the environment in its lobe. */
+bool voxel_mirrors_light(surface s, float pdf)
+{
+#if LSF_VOXEL_MIRRORS
+    return voxel_mirrors(s, pdf);
+#else
+    return false;
+#endif
 }
 
 /* The voxel that a path from v hits. The last segment is traced only if there may be emission on it. */
@@ -165,6 +181,53 @@ float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_verte
 }
 #endif
 
+/* What a side of a voxel shines without its emission; `held`: with it. */
+vec3 reflected_of(ivec3 cell, int side, out vec3 held)
+{
+    held = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
+#if LSF_EMISSION
+    return max(held - voxel_emission_at(cell, side), 0.0);
+#else
+    return held;
+#endif
+}
+
+#if LSF_VOXEL_DRAW
+/* Density of draws at v that find the side of a voxel along a direction. */
+float draw_density(path_vertex v, vec3 direction, ivec3 cell, vec3 held)
+{
+    return float(draws) * voxel_draw_density(v.position, direction, cell, voxel_draw_plane(cell), held);
+}
+
+/* Adds light that drawn sides of voxels reflect, weighted against segments from v that hit them. */
+void add_draws(light_parts through, path_vertex v, brdf_sampler sampler_of_v, vec3 absorption, path_random_key key,
+               uint index, int segment)
+{
+    for (int i = 0; i < draws; i++) {
+        vec3 u = path_random(key, index * uint(draws) + uint(i), 0x10000u + uint(segment));
+        voxel_drawn drawn;
+        bool faces = voxel_draw(u.xy, v.position, drawn);
+        float cosine = dot(v.s.normal, drawn.direction);
+        ivec3 cell;
+        if (!faces || cosine <= 0.0 || dot(v.s.geometric_normal, drawn.direction) <= 0.0 ||
+            !trace(v, drawn.direction, false, cell) || cell != drawn.cell)
+            continue;
+        int side;
+        path_vertex met = vertex_at(cell, v.position, drawn.direction, side);
+        float pdf = brdf_pdf(sampler_of_v, drawn.direction);
+        if (side != drawn.slice || voxel_mirrors_light(met.s, pdf))
+            continue;
+        vec3 held, radiance = reflected_of(cell, side, held);
+        float weight = cosine / (pdf + draw_density(v, drawn.direction, cell, held));
+        brdf_value f = brdf_evaluate(v.s, v.view, drawn.direction, 0.0);
+#if LSF_ABSORPTION
+        radiance *= left_after(absorption_along(v, drawn.direction, absorption), met.position - v.position);
+#endif
+        add_light(reflect_by(through, v, f, weight, segment), grid.unit.x * radiance, false);
+    }
+}
+#endif
+
 /* Draws the next direction from v with density `pdf` and multiplies its weight into `through`. False: no light is
  * reflected from there. A direction through the surface gets density 0, because no other strategy finds its hits. */
 bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segment,
@@ -214,6 +277,10 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
 #if LSF_EMITTERS
         add_emitters(through, v, sampler_of_v, absorption, key, index, segment);
 #endif
+#if LSF_VOXEL_DRAW
+        if (segment < lengths.x)
+            add_draws(through, v, sampler_of_v, absorption, key, index, segment);
+#endif
         vec3 direction;
         float pdf;
         if (!draw_direction(v, sampler_of_v, path_random(key, index, uint(segment)), segment, through,
@@ -236,22 +303,23 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
 #endif
         /* The last segment collects emission, with no bounce left to reflect other light; emission at the first
          * hit counts as direct light. */
-        vec3 radiance = vec3(0.0);
-#if LSF_VOXEL_MIRRORS
-        mirrors = voxel_mirrors(met.s, pdf);
+        mirrors = voxel_mirrors_light(met.s, pdf);
+        if (segment < lengths.x && !mirrors) {
+            vec3 held, radiance = reflected_of(cell, side, held);
+#if LSF_VOXEL_DRAW
+            if (pdf > 0.0)
+                radiance *= pdf / (pdf + draw_density(v, direction, cell, held));
 #endif
-        if (segment < lengths.x && !mirrors)
-            radiance = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
+            add_light(through, grid.unit.x * radiance, false);
+        }
 #if LSF_EMISSION
         vec3 emission = voxel_emission_at(cell, side);
-        radiance = max(radiance - emission, 0.0);
 #if LSF_EMITTERS
         if (pdf > 0.0)
             emission *= met_share(v, direction, pdf, cell, met, emission);
 #endif
         add_light(through, grid.unit.x * emission, segment == 0);
 #endif
-        add_light(through, grid.unit.x * radiance, false);
         if (met.s.unlit)
             return;
         v = met;

@@ -7,6 +7,7 @@
 #include "base/base.h"
 #include "math/sampling.h"
 #include "shared/scene_data.h"
+#include "shared/voxel_draw_data.h"
 
 /* Side of the texture of random numbers, a power of two; as in the paper. */
 #define RANDOM_SIZE 512
@@ -19,6 +20,8 @@ const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
     {"voxel_path.emitters", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, emitters), 0, 16, NULL,
      "points",
      "points sampled on emissive surfaces at each vertex of a path; 0: paths find these by chance"},
+    {"voxel_path.draws", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, draws), 0, 16, NULL,
+     "rays", "rays at each vertex of a path towards voxels drawn by their radiance"},
     {"voxel_path.sequence", LSF_OPTION_ENUM, offsetof(lsf_voxel_path_params, sequence), 0, 0,
      "sobol|texture", "", "random numbers: low-discrepancy, or from a texture as in the paper"},
 };
@@ -68,7 +71,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     uint32_t size[2];
     lsf_plan_pass_add(plan, "voxel_path", "paths of %u segment%s through the voxels", use->segments,
                       lsf_plural(use->segments));
-    lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_light");
+    lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_light voxel_draw");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
@@ -85,6 +88,10 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
     plan_emitters(plan, params);
+    lsf_plan_switch_add(plan, "LSF_VOXEL_DRAW", use->draws,
+                        "light bounces, and voxel_path.draws is not 0");
+    if (use->draws)
+        lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", LSF_VOXEL_SIDES_SURFACE, "always");
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
     lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", use->mirrors,
                         "the environment alone lights metals");
@@ -178,6 +185,10 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
         bool drawn = lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
         glUniform2f(2, lsf_emitters_weight(&pass->emitters.list),
                     drawn ? (float)p->emitters : 0.0f);
+    }
+    if (inputs->draws) {
+        glUniform1i(LSF_LOCATION_VOXEL_DRAW, p->draws);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VOXEL_DRAWS, inputs->draws);
     }
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);

@@ -16,6 +16,7 @@ typedef enum lsf_voxel_path_sequence {
 typedef struct lsf_voxel_path_params {
     int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1 */
     int32_t emitters; /* points on emissive surfaces that each vertex is joined to; 0: none */
+    int32_t draws;    /* sides of voxels drawn by their radiance at each vertex; 0: none */
     int32_t sequence; /* lsf_voxel_path_sequence */
 } lsf_voxel_path_params;
 
@@ -24,9 +25,9 @@ typedef struct lsf_voxel_path_params {
 #define LSF_VOXEL_PATH_MOST 64
 
 #define LSF_VOXEL_PATH_PARAMS_DEFAULTS                                                             \
-    .min_samples = 1, .max_samples = 6, .emitters = 1, .sequence = LSF_VOXEL_PATH_SOBOL
+    .min_samples = 1, .max_samples = 4, .emitters = 1, .draws = 1, .sequence = LSF_VOXEL_PATH_SOBOL
 
-#define LSF_VOXEL_PATH_OPTION_COUNT 4
+#define LSF_VOXEL_PATH_OPTION_COUNT 5
 extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];
 
 /* Lengths of a path that the plan's bounces and light take; 0: nothing to find by paths. What
@@ -36,6 +37,7 @@ uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual);
 typedef struct lsf_voxel_path_use {
     uint32_t segments;
     bool split_direct; /* emission that the first segment finds is asked for apart */
+    bool draws;        /* voxels are drawn by what they reflect */
     bool mirrors;      /* metals show the environment in their lobes */
 } lsf_voxel_path_use;
 
@@ -43,6 +45,7 @@ typedef struct lsf_voxel_path_inputs {
     const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
     GLuint radiance; /* of voxels, two sides */
+    GLuint draws;    /* by it, voxel_draw.h; 0 unless `draws` */
 } lsf_voxel_path_inputs;
 
 /* At the points' places. */

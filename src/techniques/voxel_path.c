@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "passes/compose.h"
+#include "passes/voxel_draw.h"
 #include "passes/voxel_path.h"
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
@@ -21,6 +22,7 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params)
 
 typedef struct voxel_path {
     lsf_voxel_chain chain;
+    lsf_voxel_draw draw;
     lsf_voxel_path path;
     lsf_sparse_chain sparse;
     lsf_compose compose;
@@ -38,6 +40,7 @@ static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *
         use.segments = lsf_voxel_path_segments(plan, state->light_count > 0);
     use.split_direct = use.segments > 0 && (r->emissive || r->unlit || r->environment) &&
                        (plan->aovs & layers) && lsf_sparse_chain_is_plain(plan, params, 1);
+    use.draws = use.segments > 0 && plan->bounces > 0 && params->voxel_path.draws > 0;
     use.mirrors = use.segments > 0 && lsf_voxel_mirrors(plan, state);
     return use;
 }
@@ -60,6 +63,9 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
     lsf_voxel_chain_use chain = chain_use(params);
     lsf_voxel_chain_plan(plan, params, state, &chain);
     if (use.segments > 0) {
+        lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &chain);
+        if (use.draws)
+            lsf_voxel_draw_plan(plan, &grid, chain.sides);
         lsf_sparse_chain_plan_split(plan, params, 1);
         lsf_voxel_path_plan(plan, &params->voxel_path, &use);
         lsf_sparse_chain_plan_finish(plan, params, 1);
@@ -79,7 +85,8 @@ static bool create_paths(voxel_path *v, lsf_context *context, const lsf_plan *pl
                          const lsf_scene *scene, const lsf_state *state, lsf_error *error)
 {
     v->traced = true;
-    return lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, scene, state,
+    return (!use->draws || lsf_voxel_draw_create(&v->draw, context, plan, error)) &&
+           lsf_voxel_path_create(&v->path, context, plan, &params->voxel_path, use, scene, state,
                                  error) &&
            lsf_sparse_chain_create(&v->sparse, context, plan, params, error);
 }
@@ -117,7 +124,12 @@ static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_light_p
     const lsf_voxel_path_inputs inputs = {.seen =
                                               lsf_sparse_chain_split(&v->sparse, iteration, seen),
                                           .voxels = v->chain.voxels,
-                                          .radiance = v->chain.light.radiance};
+                                          .radiance = v->chain.light.radiance,
+                                          .draws = v->draw.list};
+    if (v->draw.list) {
+        lsf_voxel_draw_begin(&v->draw);
+        lsf_voxel_draw_run(&v->draw, iteration, v->chain.voxels, v->chain.light.radiance);
+    }
     lsf_voxel_path_run(&v->path, iteration, &inputs);
     parts->indirect = lsf_sparse_chain_finish(&v->sparse, iteration, seen, &v->path.outputs.light);
     parts->split_direct = v->path.outputs.direct;
@@ -145,6 +157,7 @@ static void destroy_voxel_path(void *self)
     lsf_compose_destroy(&v->compose);
     lsf_sparse_chain_destroy(&v->sparse);
     lsf_voxel_path_destroy(&v->path);
+    lsf_voxel_draw_destroy(&v->draw);
     lsf_voxel_chain_destroy(&v->chain);
     free(v);
 }
@@ -155,6 +168,8 @@ static uint32_t report_voxel_path(void *self, lsf_pass_report reports[LSF_TECHNI
     uint32_t count = lsf_voxel_chain_report(&v->chain, reports);
     if (v->traced) {
         count += lsf_sparse_chain_report_split(&v->sparse, reports + count);
+        if (v->draw.timer)
+            reports[count++] = (lsf_pass_report){.timer = v->draw.timer};
         reports[count++] = (lsf_pass_report){.timer = v->path.timer};
         count += lsf_sparse_chain_report_finish(&v->sparse, reports + count);
     }

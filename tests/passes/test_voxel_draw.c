@@ -162,12 +162,17 @@ static lsf_scene *room(void)
 
 enum { SIDE = 24 };
 
-static lsf_image *render_room(const lsf_scene *scene, const char *draws, uint32_t samples,
-                              uint32_t seed)
+typedef struct technique {
+    const char *name, *without, *with, *many;
+    uint32_t samples; /* of pictures whose means are compared */
+} technique;
+
+static lsf_image *render_room(const lsf_scene *scene, const technique *t, const char *draws,
+                              uint32_t samples, uint32_t seed)
 {
     const char *const options[] = {"voxel.resolution=32", draws};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
-    params.technique = "cone";
+    params.technique = t->name;
     params.samples = samples;
     params.seed = seed;
     params.bounces = 2;
@@ -190,28 +195,28 @@ static double squared_difference(const lsf_image *a, const lsf_image *b)
 
 static void same_light_with_less_noise(void **state)
 {
-    (void)state;
+    const technique *t = *state;
     lsf_scene *scene = room();
-    lsf_image *cones = render_room(scene, "cone.draws=0", 512, 1);
-    lsf_image *drawn = render_room(scene, "cone.draws=4", 512, 2);
+    lsf_image *chance = render_room(scene, t, t->without, t->samples, 1);
+    lsf_image *drawn = render_room(scene, t, t->many, t->samples, 2);
     double without[3], with[3], noise[2] = {0.0, 0.0};
-    mean_rgb(cones, 0, without);
+    mean_rgb(chance, 0, without);
     mean_rgb(drawn, 0, with);
     for (int c = 0; c < 3; c++) {
-        print_message("channel %d: %.5f by cones, %.5f with draws\n", c, without[c], with[c]);
+        print_message("channel %d: %.5f by chance, %.5f with draws\n", c, without[c], with[c]);
         assert_true(fabs(with[c] / without[c] - 1.0) < 0.005);
     }
     for (uint32_t seed = 3; seed < 7; seed++) {
-        lsf_image *few[2] = {render_room(scene, "cone.draws=0", 4, seed),
-                             render_room(scene, "cone.draws=2", 4, seed)};
+        lsf_image *few[2] = {render_room(scene, t, t->without, 4, seed),
+                             render_room(scene, t, t->with, 4, seed)};
         for (int i = 0; i < 2; i++) {
             noise[i] += squared_difference(few[i], drawn);
             lsf_image_destroy(few[i]);
         }
     }
-    print_message("squared error: %.4f by cones, %.4f with draws\n", noise[0], noise[1]);
+    print_message("squared error: %.4f by chance, %.4f with draws\n", noise[0], noise[1]);
     assert_true(noise[1] < 0.5 * noise[0]);
-    lsf_image_destroy(cones);
+    lsf_image_destroy(chance);
     lsf_image_destroy(drawn);
     destroy_scene(scene);
 }
@@ -219,10 +224,15 @@ static void same_light_with_less_noise(void **state)
 int main(void)
 {
     static uint32_t sides[] = {1, SIDES};
+    static technique techniques[] = {
+        {"cone", "cone.draws=0", "cone.draws=2", "cone.draws=4", 512},
+        {"voxel_path", "voxel_path.draws=0", "voxel_path.draws=1", "voxel_path.draws=2", 512},
+    };
     const struct CMUnitTest tests[] = {
         {"one side drawn by luminance", drawn_by_luminance, NULL, NULL, &sides[0]},
         {"two sides drawn by luminance", drawn_by_luminance, NULL, NULL, &sides[1]},
-        cmocka_unit_test(same_light_with_less_noise),
+        {"cones find the same light", same_light_with_less_noise, NULL, NULL, &techniques[0]},
+        {"paths find the same light", same_light_with_less_noise, NULL, NULL, &techniques[1]},
     };
     return cmocka_run_group_tests_name("drawn voxels", tests, NULL, NULL);
 }
