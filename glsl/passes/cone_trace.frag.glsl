@@ -1,8 +1,8 @@
 /* Light that cones gather at visible points from voxels and from the environment. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
-#include "lib/hash.glsl"
 #include "lib/gbuffer_textures.glsl"
+#include "lib/pixel_tile.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
 #include "lib/voxel_cone.glsl"
@@ -141,20 +141,6 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
     return reflected * sheen_leaves(s, nv, nv) * coat_passes(s, to_viewer, mirrored) * radiance;
 }
 #endif
-
-/* The pixel's number among those of its tile of 4 x 4, in an order in which neighbours are far from each other. */
-float tile_order()
-{
-    uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
-    uint x = p.x ^ p.y;
-    return float(((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1));
-}
-
-/* A number for each tile, from 0 to 1. */
-vec3 tile_number(uint purpose)
-{
-    return hash_unit(hash(uvec3(uvec2(gl_FragCoord.xy) >> 2, purpose)));
-}
 
 /* Pixels of a tile have the rotations 0 to 15 of 16. Tiles differ at random in rotation and ring: where only few
  * directions are shared, no edge repeats. */

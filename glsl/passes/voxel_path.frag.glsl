@@ -5,6 +5,7 @@
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/path_random.glsl"
+#include "lib/pixel_tile.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
 #include "lib/voxel_surface.glsl"
@@ -206,7 +207,9 @@ void add_draws(light_parts through, path_vertex v, brdf_sampler sampler_of_v, ve
     for (int i = 0; i < draws; i++) {
         vec3 u = path_random(key, index * uint(draws) + uint(i), 0x10000u + uint(segment));
         voxel_drawn drawn;
-        bool faces = voxel_draw(u.xy, v.position, drawn);
+        /* Pixels of a tile take different parts of the list, others in each iteration. */
+        float place = fract((tile_order() + u.x) / 16.0 + tile_number(iteration.y).x + 0.6180339887 * float(iteration.x));
+        bool faces = voxel_draw(vec2(place, u.y), v.position, drawn);
         float cosine = dot(v.s.normal, drawn.direction);
         ivec3 cell;
         if (!faces || cosine <= 0.0 || dot(v.s.geometric_normal, drawn.direction) <= 0.0 ||

@@ -40,7 +40,8 @@ static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *
         use.segments = lsf_voxel_path_segments(plan, state->light_count > 0);
     use.split_direct = use.segments > 0 && (r->emissive || r->unlit || r->environment) &&
                        (plan->aovs & layers) && lsf_sparse_chain_is_plain(plan, params, 1);
-    use.draws = use.segments > 0 && plan->bounces > 0 && params->voxel_path.draws > 0;
+    use.draws = use.segments > 0 && plan->bounces > 0 && params->voxel_path.draws > 0 &&
+                (state->light_count > 0 || r->environment);
     use.mirrors = use.segments > 0 && lsf_voxel_mirrors(plan, state);
     return use;
 }

@@ -42,7 +42,7 @@ static void energy_in_a_furnace(void **unused)
     };
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
         lsf_scene *scene = furnace_scene(cases[i].albedo);
-        lsf_image *image = render_gl_from(scene, params_of(4, cases[i].bounces, cases[i].options),
+        lsf_image *image = render_gl_from(scene, params_of(16, cases[i].bounces, cases[i].options),
                                           12, lsf_f3(0.2f, 0.1f, 0.7f), lsf_f3(-0.3f, -0.2f, -1));
         assert_mean(cases[i].name, image, furnace_radiance(cases[i].albedo, cases[i].bounces),
                     0.002);
