@@ -210,21 +210,25 @@ class Measure(CommandTest):
         self.assertEqual(resumed["points"][0]["seeds"], report["points"][0]["seeds"])
 
     def test_frames(self):
-        """What is kept from frame to frame flickers less; a path that stands still changes nothing."""
+        """What is kept from frame to frame flickers less; a path that stands still changes nothing.
+
+        With one point a pixel: single frames take four by default, frames with history one, and
+        in a picture of 192 pixels most of the flicker is that of edges. The first frame has no
+        history: of eight, seven changes are compared."""
         paths = {}
-        words = ("-t", "voxel_path", "--sweep", "voxel.resolution=8", "-s", "1", "--frames", "0-2",
-                 "--json", "a.json")
+        words = ("-t", "voxel_path", "--sweep", "voxel.resolution=8", "-D", "gbuffer.side=1",
+                 "-s", "1", "--frames", "0-7", "--json", "a.json")
         for name, more in (("still", []), ("turn", ["--turntable", "90"]),
                            ("temporal", ["--turntable", "90", "--temporal"])):
             self.measure(*words, *more)
             point = self.read_json("a.json")["points"][0]
             paths[name] = point["path"]
             self.assertEqual((paths[name]["frames"], paths[name]["temporal"]),
-                             (3, name == "temporal"))
+                             (8, name == "temporal"))
         self.assertEqual(paths["still"]["motion"], 0)
         self.assertGreater(paths["turn"]["motion"], 0.01)
         self.assertLess(paths["temporal"]["flicker"]["value"],
-                        0.7 * paths["turn"]["flicker"]["value"])
+                        0.5 * paths["turn"]["flicker"]["value"])
         self.assertLess(paths["temporal"]["difference"]["value"],
                         paths["turn"]["difference"]["value"])
         self.measure(*words, "--turntable", "90", "--temporal", "--resume")
