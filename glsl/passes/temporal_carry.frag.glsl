@@ -1,12 +1,12 @@
 /* Reprojects the history of the previous frame: of the four texels around a point's previous position, those that
  * show the same instance, plane and side, by their bilinear weights. Switches LSF_LOBE: there is specular light;
- * LSF_DENOISED: denoised light has a history, too. */
+ * LSF_DENOISED: denoised light has a history, too; LSF_PIXEL_SIDE. */
 #include "lib/view.glsl"
 #include "shared/brdf.h"
 
 #include "lib/light_guide.glsl"
+#include "passes/temporal_motion.glsl"
 
-layout(binding = 2) uniform sampler2D motion_texture; /* motion [pixels], previous depth, instance */
 layout(binding = 4) uniform usampler2D old_guide_texture;
 layout(binding = 5) uniform sampler2D old_diffuse_texture;
 layout(binding = 6) uniform sampler2D old_diffuse_count_texture;
@@ -42,11 +42,16 @@ bool finite(vec4 v)
     return !any(isnan(v)) && !any(isinf(v));
 }
 
-/* Whether the history holds the pixel's surface there or in a neighbouring texel: pixels on edges show it in some
- * iterations only. */
-bool seen_before(light_guide g, vec4 motion, ivec2 corner)
+/* What the history held around a pixel's surface. */
+struct former {
+    bool seen;  /* the surface, there or in a neighbouring texel: pixels on edges show it in some iterations only */
+    bool alone; /* nothing else, so that nothing else is mixed into the texels around the position */
+};
+
+former former_at(light_guide g, vec4 motion, ivec2 corner)
 {
     ivec2 size = textureSize(guide_texture, 0);
+    former f = former(false, true);
     for (int j = -1; j <= 2; j++)
         for (int i = -1; i <= 2; i++) {
             ivec2 at = corner + ivec2(i, j);
@@ -54,10 +59,11 @@ bool seen_before(light_guide g, vec4 motion, ivec2 corner)
                 continue;
             uvec4 old = texelFetch(old_guide_texture, at, 0);
             float off = abs(uintBitsToFloat(old.y) - motion.z) * g.scale;
-            if (old.w == uint(motion.w) && off < 2.0 * OFF_PLANE * (1.0 + length(g.slope) * g.scale))
-                return true;
+            bool same = old.w == uint(motion.w) && off < 2.0 * OFF_PLANE * (1.0 + length(g.slope) * g.scale);
+            f.seen = f.seen || same;
+            f.alone = f.alone && same;
         }
-    return false;
+    return f;
 }
 
 /* Lanczos window of three texels to each side, a compromise between blur and ringing. */
@@ -98,34 +104,38 @@ vec4 old_picture(vec2 from)
 vec4 carried_picture(ivec2 pixel, light_guide g)
 {
     ivec2 size = textureSize(guide_texture, 0);
-    vec4 nearest = vec4(0.0);
+    vec4 own = motion_at(pixel), nearest = vec4(0.0);
     vec2 low = vec2(1e9), high = vec2(-1e9);
     float depth = 0.0;
-    bool all_surface = true;
+    bool all_surface = true, edge = false;
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++) {
             ivec2 at = clamp(pixel + ivec2(i, j), ivec2(0), size - 1);
-            vec4 motion = texelFetch(motion_texture, at, 0);
+            vec4 motion = motion_at(at);
             float d = texelFetch(guide_texture, at, 0).z;
             low = min(low, motion.xy);
             high = max(high, motion.xy);
             all_surface = all_surface && d > 0.0;
+            edge = edge || motion.w != own.w || abs(d - g.depth - dot(g.slope, vec2(i, j))) * g.scale > OFF_PLANE;
             if (d > depth) {
                 depth = d;
                 nearest = motion;
             }
         }
-    vec4 own = texelFetch(motion_texture, pixel, 0);
     vec2 from = vec2(pixel) - nearest.xy;
     if (depth == 0.0 || !finite(nearest) || any(lessThan(from, vec2(-0.5))) || any(greaterThan(from, vec2(size) - 0.5)))
         return vec4(0.0);
-    if (g.depth > 0.0 && !(own.z > 0.0 && seen_before(g, own, ivec2(floor(vec2(pixel) - own.xy)))))
+    former before = former(false, false);
+    if (own.z > 0.0)
+        before = former_at(g, own, ivec2(floor(vec2(pixel) - own.xy)));
+    if (g.depth > 0.0 && !before.seen)
         return vec4(0.0);
     vec4 picture = old_picture(from);
     if (!finite(picture))
         return vec4(0.0);
     bool rigid = all_surface && all(lessThan(high - low, vec2(PARALLAX)));
-    return rigid && !changed ? picture : vec4(picture.rgb, -picture.a);
+    /* What was an edge, and is none, holds a share of what has uncovered it. */
+    return rigid && (before.alone || edge) && !changed ? picture : vec4(picture.rgb, -picture.a);
 }
 
 #if LSF_LOBE
@@ -154,7 +164,7 @@ void main()
         denoised_out[part] = vec4(0.0);
 #endif
     light_guide g = light_guide_at(pixel);
-    vec4 motion = texelFetch(motion_texture, pixel, 0);
+    vec4 motion = motion_at(pixel);
     if (kept)
         picture_out = carried_picture(pixel, g);
     if (!kept || g.depth == 0.0 || motion.z <= 0.0 || !finite(motion))

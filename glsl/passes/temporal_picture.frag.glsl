@@ -1,10 +1,10 @@
 /* The picture with the history's change of its light, and the values of the frame to which points of the next one
- * are compared. Switch LSF_LOBE: there is specular light. */
+ * are compared. Switches LSF_LOBE: there is specular light; LSF_PIXEL_SIDE. */
 #include "lib/view.glsl"
 
 #include "lib/light_guide.glsl"
+#include "passes/temporal_motion.glsl"
 
-layout(binding = 2) uniform sampler2D motion_texture;
 layout(binding = 4) uniform sampler2D picture_texture;
 layout(binding = 5) uniform sampler2D diffuse_texture;
 layout(binding = 6) uniform sampler2D blended_diffuse_texture;
@@ -29,7 +29,7 @@ void main()
 #endif
     light_guide g = light_guide_at(pixel);
     guide_out = uvec4(0u);
-    uint instance = uint(texelFetch(motion_texture, pixel, 0).w);
+    uint instance = uint(motion_at(pixel).w);
     if (g.depth != 0.0 && g.spread * g.scale <= ONE_SURFACE)
         guide_out.xyz = uvec3(octahedral_encode(g.normal), floatBitsToUint(g.depth), instance);
     guide_out.yw = uvec2(floatBitsToUint(g.depth), instance);

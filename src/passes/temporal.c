@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "frame/sparse_grid.h"
 
 const lsf_option_row lsf_temporal_options[LSF_TEMPORAL_OPTION_COUNT] = {
     {"temporal.frames", LSF_OPTION_INT, offsetof(lsf_temporal_params, frames), 1, 65536, NULL,
@@ -62,6 +63,7 @@ void lsf_temporal_plan(lsf_plan *plan, const lsf_temporal_params *params, bool d
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_LOBE", plan->requirements.specular,
                         "materials have a specular lobe");
+    lsf_sparse_grid_pixel_switch(plan);
     lsf_plan_switch_add(plan, "LSF_DENOISED", denoised, "a network denoises light");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), denoised ? DENOISED : 0, plan->width,
                           plan->height);

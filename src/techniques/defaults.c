@@ -122,9 +122,8 @@ void lsf_default_filter_steps(lsf_setup *setup)
 static bool can_share_pixels(const lsf_setup *setup, const lsf_technique *technique)
 {
     const lsf_pass_params *pass_params = &setup->pass_params;
-    return technique && !setup->params.temporal && !(setup->params.aovs & LSF_AOV_MOTION) &&
-           setup->plan->stride == 1 && !pass_params->sparse.outliers &&
-           !lsf_blur_wanted(&pass_params->blur);
+    return technique && !(setup->params.aovs & LSF_AOV_MOTION) && setup->plan->stride == 1 &&
+           !pass_params->sparse.outliers && !lsf_blur_wanted(&pass_params->blur);
 }
 
 /* Whether two points along a pixel's side pay. After few iterations most of the noise is that of
@@ -136,6 +135,8 @@ static bool points_pay(const lsf_setup *setup, const lsf_technique *technique)
     const lsf_render_params *params = &setup->params;
     bool traced = technique->points_per_second > 0.0f;
     if (!technique->bounces || (uint64_t)params->width * params->height > MOST_PIXELS)
+        return false;
+    if (params->present && params->temporal) /* frames of a window are to be fast */
         return false;
     return isfinite(params->time_limit) ? traced : params->samples <= (traced ? FEW_TRACED : FEW);
 }
