@@ -136,8 +136,6 @@ static bool points_pay(const lsf_setup *setup, const lsf_technique *technique)
     bool traced = technique->points_per_second > 0.0f;
     if (!technique->bounces || (uint64_t)params->width * params->height > MOST_PIXELS)
         return false;
-    if (params->present && params->temporal) /* frames of a window are to be fast */
-        return false;
     return isfinite(params->time_limit) ? traced : params->samples <= (traced ? FEW_TRACED : FEW);
 }
 
@@ -154,7 +152,8 @@ uint32_t lsf_default_pixel_side(const lsf_setup *setup, const lsf_technique *tec
         return 1;
     if (wanted > 0)
         return 1u << (wanted - 1);
-    if (setup->params.raw)
+    bool moves = setup->params.present && setup->params.temporal; /* frames of a window */
+    if (setup->params.raw || moves)
         return 1;
     uint64_t drawn = plan->sky_lights * plan->requirements.triangles;
     uint64_t pixels = (uint64_t)plan->width * plan->height;

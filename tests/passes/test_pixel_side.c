@@ -167,24 +167,26 @@ static void by_paths(void **unused)
 }
 
 /* More of them where the environment's maps draw more triangles than there are points, after few
- * iterations, and where pixels trace light in a limited time; elsewhere, and where the mean alone
- * is asked for, one. */
+ * iterations, and where pixels trace light in a limited time; elsewhere, in a window's moving
+ * frames, and where the mean alone is asked for, one. */
 static void where_they_pay(void **unused)
 {
     (void)unused;
     static const struct {
         const char *technique;
         uint32_t width, samples, side;
-        bool environment, raw, temporal, limited;
+        bool environment, raw, temporal, moves, limited;
     } cases[] = {{"bidirectional", 16, 16, 4, .environment = true},
                  {"bidirectional", 32, 16, 2, .environment = true},
                  {"bidirectional", 64, 16, 1, .environment = true},
                  {"bidirectional", 16, 16, 1, .environment = true, .raw = true},
-                 {"bidirectional", 16, 16, 1, .environment = true, .temporal = true},
+                 {"bidirectional", 16, 16, 4, .environment = true, .temporal = true},
+                 {"bidirectional", 16, 16, 1, .environment = true, .moves = true},
                  {"bidirectional", 16, 16, 1, .environment = false},
                  {"bidirectional", 16, 2, 2, .environment = false},
                  {"bidirectional", 16, 2, 1, .raw = true},
-                 {"bidirectional", 16, 2, 1, .temporal = true},
+                 {"bidirectional", 16, 2, 2, .temporal = true},
+                 {"bidirectional", 16, 2, 1, .moves = true},
                  {"bidirectional", 1025, 2, 1, .environment = false},
                  {"direct", 16, 2, 1, .environment = false},
                  {"cone", 16, 8, 2, .environment = false},
@@ -202,7 +204,8 @@ static void where_they_pay(void **unused)
             build_environment(scene, 1.0f);
         finish_gl_scene(scene);
         lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = cases[i].raw,
-                                    .temporal = cases[i].temporal};
+                                    .temporal = cases[i].temporal || cases[i].moves,
+                                    .present = cases[i].moves};
         params.technique = cases[i].technique;
         params.samples = cases[i].samples;
         if (cases[i].limited)
