@@ -3,7 +3,7 @@
 BUILD ?= build
 MESON_OPTIONS ?=
 PREFIX ?= /usr/local
-RENDER_OPTIONS ?= --technique cone --resolution 1200,750 --samples 4 --environment 0.9,1.1,1.4
+RENDER_OPTIONS ?= --technique cone --resolution 1200,750 --samples 3 --environment 0.9,1.1,1.4
 JOBS := $(shell nproc)
 
 .PHONY: all
