@@ -212,9 +212,9 @@ class Measure(CommandTest):
     def test_frames(self):
         """What is kept from frame to frame flickers less; a path that stands still changes nothing.
 
-        With one point a pixel: single frames take four by default, frames with history one, and
-        in a picture of 192 pixels most of the flicker is that of edges. The first frame has no
-        history: of eight, seven changes are compared."""
+        With one point a pixel, so that both have the same noise at edges whatever the defaults
+        are: it is most of the flicker of 192 pixels. Of seven changes between eight frames only
+        the first is from a frame without history."""
         paths = {}
         words = ("-t", "voxel_path", "--sweep", "voxel.resolution=8", "-D", "gbuffer.side=1",
                  "-s", "1", "--frames", "0-7", "--json", "a.json")
