@@ -160,7 +160,7 @@ file_content file_read(const std::string &path, const memory_budget &budget);
 /* Counts of repairs, so that a file gives one note for each kind. */
 struct gltf_repairs {
     lsf_frame_repairs frames = {};
-    uint64_t rotations_scaled = 0;
+    uint64_t rotations_scaled = 0, scene_children = 0;
     uint64_t trailing_indices = 0, no_position = 0;
     uint64_t weights_scaled = 0, joints_missing = 0, weights_animated = 0;
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;

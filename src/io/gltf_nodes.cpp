@@ -40,44 +40,55 @@ static std::vector<uint32_t> walk(const tinygltf::Model &model, const std::vecto
     return order;
 }
 
-/* With at most one parent each, nodes that no root reaches are in a loop or below one. */
-static void check_loops(const tinygltf::Model &model, const std::vector<uint32_t> &parents)
+static std::vector<uint32_t> forest_roots(const std::vector<uint32_t> &parents)
 {
     std::vector<uint32_t> roots;
     for (size_t i = 0; i < parents.size(); i++)
         if (parents[i] == LSF_NONE)
             roots.push_back((uint32_t)i);
+    return roots;
+}
+
+/* All nodes, parents before children. With at most one parent each, nodes that no root reaches are
+ * in a loop or below one. */
+static std::vector<uint32_t> walk_forest(const tinygltf::Model &model,
+                                         const std::vector<uint32_t> &parents)
+{
+    std::vector<uint32_t> order = walk(model, forest_roots(parents));
     std::vector<bool> reached(parents.size());
-    for (uint32_t node : walk(model, roots))
+    for (uint32_t node : order)
         reached[node] = true;
     for (size_t i = 0; i < parents.size(); i++)
         if (!reached[i])
             fail("NODE_LOOP", location_of("nodes", i),
                  "the node is its own ancestor, or below one that is");
+    return order;
 }
 
-/* The nodes of the chosen scene; all nodes of a file without scenes. */
-static std::vector<uint32_t> scene_roots(const tinygltf::Model &model, size_t scene,
-                                         const std::vector<uint32_t> &parents)
+/* The topmost nodes of the chosen scene; of a file without scenes, all roots. A scene may only list
+ * nodes without a parent (glTF 2.0, 3.5.1), but some exporters (UniGLTF 1.27) list children. These
+ * are drawn where their parent puts them if an ancestor is listed, too, else as roots without the
+ * parent's transform, as in other renderers. */
+static std::vector<uint32_t> scene_roots(gltf_import &import, const std::vector<uint32_t> &parents)
 {
-    std::vector<uint32_t> roots;
-    if (model.scenes.empty()) {
-        for (size_t i = 0; i < parents.size(); i++)
-            if (parents[i] == LSF_NONE)
-                roots.push_back((uint32_t)i);
-        return roots;
-    }
-    std::vector<bool> listed(parents.size());
-    for (int node : model.scenes[scene].nodes) {
-        if (parents[(size_t)node] != LSF_NONE)
-            fail("SCENE_NON_ROOT_NODE", location_of("scenes", scene) + "/nodes",
-                 "node %d is a child of node %u", node, parents[(size_t)node]);
+    const tinygltf::Model &model = import.model;
+    std::vector<uint32_t> order = walk_forest(model, parents), roots;
+    if (model.scenes.empty())
+        return forest_roots(parents);
+    const std::vector<int> &nodes = model.scenes[import.chosen_scene].nodes;
+    std::vector<bool> listed(parents.size()), below(parents.size()); /* a listed node */
+    for (int node : nodes) {
         if (listed[(size_t)node])
-            fail("DUPLICATE_ELEMENTS", location_of("scenes", scene) + "/nodes",
+            fail("DUPLICATE_ELEMENTS", location_of("scenes", import.chosen_scene) + "/nodes",
                  "node %d is listed twice", node);
         listed[(size_t)node] = true;
-        roots.push_back((uint32_t)node);
+        import.repairs.scene_children += parents[(size_t)node] != LSF_NONE;
     }
+    for (uint32_t node : order)
+        below[node] = parents[node] != LSF_NONE && (listed[parents[node]] || below[parents[node]]);
+    for (int node : nodes)
+        if (!below[(size_t)node])
+            roots.push_back((uint32_t)node);
     return roots;
 }
 
@@ -135,8 +146,7 @@ void gltf_nodes_import(gltf_import &import)
     const tinygltf::Model &model = import.model;
     lsf_scene *scene = import.scene;
     std::vector<uint32_t> parents = find_parents(model);
-    check_loops(model, parents);
-    std::vector<uint32_t> order = walk(model, scene_roots(model, import.chosen_scene, parents));
+    std::vector<uint32_t> order = walk(model, scene_roots(import, parents));
 
     import.node_of.assign(model.nodes.size(), LSF_NONE);
     import.source_of = order;

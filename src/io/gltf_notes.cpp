@@ -40,6 +40,9 @@ void gltf_notes_add(gltf_import &import)
     const gltf_repairs &repairs = import.repairs;
     note_extensions(import);
 
+    lsf_scene_add_count_note(import.scene, repairs.scene_children, "node",
+                             " of the scene with a parent: without an ancestor in the scene it is "
+                             "placed by its own transform alone");
     lsf_scene_add_count_note(import.scene, repairs.joints_missing, "primitive",
                              " without joints, of a node with a skin: placed by the node");
     lsf_scene_add_count_note(import.scene, repairs.weights_scaled, "vertex weight sum",

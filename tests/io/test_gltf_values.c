@@ -214,6 +214,21 @@ static void test_instances_are_stored_once(void **state)
     lsf_scene_destroy(scene);
 }
 
+static void test_children_in_scenes(void **state)
+{
+    (void)state;
+    lsf_scene *scene = load("scene_child.gltf");
+    assert_int_equal(scene->node_count, 1);
+    assert_true(scene->requirements.bounds_max[0] == 1.0);
+    lsf_scene_destroy(scene);
+
+    scene = load("scene_family.gltf");
+    assert_int_equal(scene->node_count, 2);
+    assert_int_equal(scene->instance_count, 1);
+    assert_true(scene->requirements.bounds_max[0] == 6.0);
+    lsf_scene_destroy(scene);
+}
+
 static void test_materials(void **state)
 {
     (void)state;
@@ -328,6 +343,7 @@ int main(void)
         cmocka_unit_test(test_tangents_against_file),
         cmocka_unit_test(test_animations),
         cmocka_unit_test(test_instances_are_stored_once),
+        cmocka_unit_test(test_children_in_scenes),
         cmocka_unit_test(test_materials),
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_names_do_not_steer_a_terminal),
