@@ -116,7 +116,7 @@ vec4 carried_picture(ivec2 pixel, light_guide g)
             low = min(low, motion.xy);
             high = max(high, motion.xy);
             all_surface = all_surface && d > 0.0;
-            edge = edge || motion.w != own.w || abs(d - g.depth - dot(g.slope, vec2(i, j))) * g.scale > OFF_PLANE;
+            edge = edge || motion.w != own.w || abs(d - g.depth - dot(g.slope, vec2(at - pixel))) * g.scale > OFF_PLANE;
             if (d > depth) {
                 depth = d;
                 nearest = motion;
