@@ -229,11 +229,14 @@ void lsf_destination_expose(lsf_destination *destination, const lsf_image *image
                     destination->path, (double)destination->exposure);
 }
 
-void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64_t seen,
-                                      uint64_t pixels)
+void lsf_destination_warn(const lsf_destination *destination, const lsf_brightness *b)
 {
     bool exposed = destination->format == LSF_IMAGE_FORMAT_PNG;
-    if (100 * seen < pixels)
+    if (exposed && 2 * b->white > b->seen)
+        lsf_log(LSF_LOG_WARNING,
+                "%s: overexposed: %.0f %% of what is not black is white; use --exposure auto",
+                destination->path, 100.0 * (double)b->white / (double)b->seen);
+    if (100 * b->seen < b->pixels)
         lsf_log(LSF_LOG_WARNING,
                 "%s: nearly black: less than 1 in 100 pixels shows more than 1 %% of white%s; "
                 "%s--default-light always adds light",
@@ -241,23 +244,28 @@ void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64
                 exposed ? "use --exposure auto for a dimly lit scene; " : "");
 }
 
-/* Counts pixels that surfaces cover, and those of them that show more than 1 % of white. */
-static void look_for_darkness(const lsf_destination *destination, const lsf_image *image)
+/* Radiance of all channels from which a pixel looks white: tone curves show 0.97 of white or more.
+ */
+#define WHITE 8.0f
+
+static void look_at_brightness(const lsf_destination *destination, const lsf_image *image)
 {
     int rgb[3] = {lsf_image_channel(image, "R"), lsf_image_channel(image, "G"),
                   lsf_image_channel(image, "B")};
     int alpha = lsf_image_channel(image, "A");
     bool exposed = destination->format == LSF_IMAGE_FORMAT_PNG;
-    float least = 0.01f * exp2f(exposed ? -destination->exposure : 0.0f);
-    uint64_t covered = 0, seen = 0;
+    float unit = exp2f(exposed ? -destination->exposure : 0.0f), least = 0.01f * unit;
+    lsf_brightness b = {0};
     for (uint64_t i = 0; i < (uint64_t)image->width * image->height; i++) {
         const float *pixel = image->pixels + i * image->channel_count;
         if (alpha >= 0 && !(pixel[alpha] > 0.0f))
             continue;
-        covered++;
-        seen += pixel[rgb[0]] > least || pixel[rgb[1]] > least || pixel[rgb[2]] > least;
+        float red = pixel[rgb[0]], green = pixel[rgb[1]], blue = pixel[rgb[2]];
+        b.pixels++;
+        b.seen += red > least || green > least || blue > least;
+        b.white += fminf(red, fminf(green, blue)) >= WHITE * unit;
     }
-    lsf_destination_warn_of_darkness(destination, seen, covered);
+    lsf_destination_warn(destination, &b);
 }
 
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
@@ -273,6 +281,6 @@ bool lsf_destination_save(const lsf_destination *destination, int half, const ls
                         &params, error))
         return false;
     if (half < 0)
-        look_for_darkness(destination, image);
+        look_at_brightness(destination, image);
     return true;
 }

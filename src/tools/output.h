@@ -27,12 +27,18 @@ void lsf_destinations_destroy(lsf_destination *destinations, uint32_t count); /*
  */
 void lsf_destination_expose(lsf_destination *destination, const lsf_image *image);
 
-/* Warns when fewer than one in a hundred `pixels` are `seen` to show more than 1 % of white:
- * such a picture looks as if something had gone wrong. */
-void lsf_destination_warn_of_darkness(const lsf_destination *destination, uint64_t seen,
-                                      uint64_t pixels);
+/* Numbers of pixels in which surfaces are visible. */
+typedef struct lsf_brightness {
+    uint64_t pixels;
+    uint64_t seen;  /* of these, with more than 1 % of white in a channel */
+    uint64_t white; /* of these, with so much light in all channels that they look white */
+} lsf_brightness;
 
-/* `half` -1: the picture itself, which it looks at for darkness; 0 and 1: its halves. */
+/* Warns of pictures that look as if something had gone wrong: fewer than one in a hundred pixels
+ * are seen, or more than half of these are white, which an exposure mends. */
+void lsf_destination_warn(const lsf_destination *destination, const lsf_brightness *brightness);
+
+/* `half` -1: the picture itself, of whose brightness it may warn; 0 and 1: its halves. */
 bool lsf_destination_save(const lsf_destination *destination, int half, const lsf_image *image,
                           const lsf_imprint *imprint, lsf_error *error);
 

@@ -79,13 +79,16 @@ static bool save_float(render_job *job, const lsf_imprint *imprint, lsf_error *e
     return good;
 }
 
-/* Code value 25 is 1 % of white. */
-static uint64_t count_seen(const uint8_t *rgb, uint64_t pixels)
+/* Code value 25 is 1 % of white. A background that is given is no overexposed surface. */
+static lsf_brightness brightness_of(const render_job *job, const uint8_t *rgb, uint64_t pixels)
 {
-    uint64_t seen = 0;
-    for (const uint8_t *p = rgb; p < rgb + 3 * pixels; p += 3)
-        seen += p[0] > 25 || p[1] > 25 || p[2] > 25;
-    return seen;
+    bool background = job->settings->background.kind != LSF_BACKGROUND_AUTO;
+    lsf_brightness b = {.pixels = pixels};
+    for (const uint8_t *p = rgb; p < rgb + 3 * pixels; p += 3) {
+        b.seen += p[0] > 25 || p[1] > 25 || p[2] > 25;
+        b.white += !background && p[0] >= 254 && p[1] >= 254 && p[2] >= 254;
+    }
+    return b;
 }
 
 /* The picture is tone-mapped on the GPU: only the bytes of the file are read back. */
@@ -102,9 +105,10 @@ static bool save_rgb8(render_job *job, const lsf_imprint *imprint, lsf_error *er
            lsf_renderer_read_rgb8(job->renderer, job->destination->exposure,
                                   job->destination->curve, rgb, error) &&
            lsf_image_save_rgb8(rgb, width, height, job->destination->path, &params, error);
-    if (good)
-        lsf_destination_warn_of_darkness(
-            job->destination, count_seen(rgb, (uint64_t)width * height), (uint64_t)width * height);
+    if (good) {
+        lsf_brightness b = brightness_of(job, rgb, (uint64_t)width * height);
+        lsf_destination_warn(job->destination, &b);
+    }
     if (good && job->stats.lost_pixels > 0) /* lsf_image_save says so by itself */
         lsf_log(LSF_LOG_WARNING, "%s: %llu of %llu pixels are not finite", job->destination->path,
                 (unsigned long long)job->stats.lost_pixels, (unsigned long long)width * height);

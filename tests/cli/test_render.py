@@ -107,6 +107,16 @@ class Pictures(CommandTest):
                 text = self.run_command(*words, "-o", name, "--default-light", when, *further).text
                 self.assertEqual(f"{name}: nearly black" in text, when == "never", text)
 
+    def test_white_picture_warns(self):
+        words = ("render", self.scene(), "-t", "direct", *SMALL[:4], "-o", "a.png")
+        transparent = ("--background", "transparent")
+        for further in ((), transparent):
+            self.assertNotIn("overexposed", self.run_command(*words, *further).text)
+            self.assertIn("a.png: overexposed",
+                          self.run_command(*words, *further, "--exposure", "20").text)
+        self.assertNotIn("overexposed", self.run_command(*words, "--exposure", "auto").text)
+        self.assertNotIn("overexposed", self.run_command(*words, "-o", "a.exr").text)
+
     def test_tone_curves(self):
         scene = self.scene()
         words = ("render", scene, "-t", "direct", *SMALL)
