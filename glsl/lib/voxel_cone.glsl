@@ -1,14 +1,18 @@
 /* Cone tracing through voxels. Switches LSF_SEALED: a cone is replaced by the ray along its axis, which ends at
  * the surface that it hits; else it marches through the pyramid of radiance; LSF_VOXEL_SIDES, as in voxel_mip, or
  * when sealed LSF_VOXEL_SIDES_SURFACE; LSF_VOXEL_PASSAGE: sealed rays continue through transmitting surfaces,
- * tinted. */
+ * tinted; LSF_VOXEL_DRAW: sealed cones share light with draws of voxels; LSF_EMITTERS: and emission with points drawn
+ * on emitters. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
 
-#include "lib/voxel.glsl"
+#include "lib/voxel_emission.glsl"
 #include "shared/cone.h"
 #if LSF_SEALED
 #include "lib/voxel_passage.glsl"
+#endif
+#if LSF_EMITTERS
+#include "lib/voxel_emitter.glsl"
 #endif
 #if LSF_VOXEL_DRAW
 #include "lib/voxel_draw.glsl"
@@ -71,6 +75,31 @@ vec3 cone_meet(ivec3 cell, vec3 direction)
     return texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0).rgb;
 }
 
+/* Light of the voxel's side in which a ray ends, in the grid's unit: what points on emitters find as well, weighted
+ * against them, and the rest. */
+struct cone_end {
+    vec3 emission, rest;
+};
+
+/* `density`: of one ray that finds this direction from the point by chance [1/sr]. However many cones there are, one
+ * is weighted against the points: to cones an emitter looks up to a voxel larger. */
+cone_end cone_end_at(vec3 point, vec3 direction, ivec3 cell, float density)
+{
+    cone_end end = cone_end(vec3(0.0), cone_meet(cell, direction));
+#if LSF_EMITTERS
+    uint bits = texelFetch(voxel_point, cell, 0).r;
+    vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
+    end.emission = voxel_emission_drawn(cell, cone_slice(cell, direction));
+    end.rest = max(end.rest - end.emission, 0.0);
+    if (end.emission != vec3(0.0)) {
+        float drawn = emitter_density_met(point, direction, vec3(cell) + voxel_point_unpack(bits),
+                                          faceforward(n, direction, n), bits, grid.unit.x * end.emission);
+        end.emission *= emitter_share(density, emitters.y * drawn);
+    }
+#endif
+    return end;
+}
+
 /* A ray's way: the light of surfaces that it passes, the share of light from behind them, and the voxel in which it
  * ends, if any. */
 struct cone_way {
@@ -107,17 +136,18 @@ cone_way cone_follow(vec3 point, vec3 normal, vec3 direction)
 /* Traces a ray. The rays of a set that gathers a hemisphere are cosine-distributed over all rotations and
  * elevations, so that the mean is right; voxels beside a ray are hit by other rays and must not count twice. `chance`:
  * density of the set's directions there [1/sr]; light of voxels is weighted by it against draws (balance heuristic,
- * Veach and Guibas 1995). `spread` is used by marching cones. */
+ * Veach and Guibas 1995) and points on emitters. `spread` is used by marching cones. */
 cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float chance, float spread)
 {
     cone_way way = cone_follow(point, normal, direction);
     if (!way.met)
         return cone_light(way.radiance, way.left);
-    vec3 radiance = cone_meet(way.cell, direction);
+    cone_end end = cone_end_at(point, direction, way.cell, chance / cone_gather.z);
 #if LSF_VOXEL_DRAW
-    radiance *= chance / (chance + float(cone_draws) * voxel_draw_density(point, direction, way.cell, voxel_draw_plane(way.cell), radiance));
+    float drawn = voxel_draw_density(point, direction, way.cell, voxel_draw_plane(way.cell), end.rest);
+    end.rest *= chance / (chance + float(cone_draws) * drawn);
 #endif
-    return cone_light(way.radiance + way.left * radiance, vec3(0.0));
+    return cone_light(way.radiance + way.left * (end.emission + end.rest), vec3(0.0));
 }
 
 #if LSF_VOXEL_DRAW
@@ -128,9 +158,26 @@ vec3 cone_draw(voxel_drawn drawn, vec3 point, vec3 normal, float cosine, float c
     cone_way way = cone_follow(point, normal, drawn.direction);
     if (!way.met || way.cell != drawn.cell || cone_slice(way.cell, drawn.direction) != drawn.slice)
         return vec3(0.0);
-    vec3 radiance = cone_meet(way.cell, drawn.direction);
-    float density = voxel_draw_density(point, drawn.direction, way.cell, voxel_draw_plane(way.cell), radiance);
-    return way.left * radiance / (cones * cosine / LSF_PI + float(cone_draws) * density);
+    float chance = cones * cosine / LSF_PI;
+    vec3 rest = cone_end_at(point, drawn.direction, way.cell, cosine / LSF_PI).rest;
+    float density = voxel_draw_density(point, drawn.direction, way.cell, voxel_draw_plane(way.cell), rest);
+    return way.left * rest / (chance + float(cone_draws) * density);
+}
+#endif
+
+#if LSF_EMITTERS
+/* Draws a point on an emitter for a point of a surface with these unit normals [voxels]. False: no light comes from
+ * there. */
+bool cone_emitter(vec2 number, vec3 point, vec3 normal, vec3 shading_normal, out emitter_view e)
+{
+    if (!emitter_view_from(point, normal, number, e) || dot(shading_normal, e.direction) <= 0.0)
+        return false;
+#if LSF_VOXEL_PASSAGE
+    e.radiance *= voxel_seen(point, normal, e.position, e.normal);
+    return e.radiance != vec3(0.0);
+#else
+    return voxel_sees(point, normal, e.position, e.normal);
+#endif
 }
 #endif
 #else

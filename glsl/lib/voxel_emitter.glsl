@@ -9,12 +9,10 @@
 #define LSF_LIB_VOXEL_EMITTER
 
 #include "lib/emitter.glsl"
-#include "lib/voxel_sight.glsl"
+#include "lib/voxel_emission.glsl"
 
-layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
-
-/* x: density by area of a point of luminance 1; y: number of points drawn at a vertex. */
-layout(location = 2) uniform vec2 emitters;
+/* x: density by area of a point of luminance 1; y: number of points drawn for each vertex. */
+layout(location = LSF_LOCATION_EMITTERS) uniform vec2 emitters;
 
 /* Weight of a sample with the density `own` under its strategy and `other` under the other one. It is computed
  * from their ratio, whose square may overflow to a weight of 0. */

@@ -7,10 +7,9 @@
 #include "lib/gbuffer.glsl"
 #include "lib/voxel_shading.glsl"
 #include "lib/voxel_sight.glsl"
+#include "lib/voxel_emission.glsl"
 #if LSF_EMITTERS
 #include "lib/voxel_emitter.glsl"
-#elif LSF_EMISSION
-layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
 #endif
 
 layout(binding = LSF_UNIT_VOXEL_ALBEDO) uniform usampler3D voxel_albedo;
@@ -60,16 +59,6 @@ surface voxel_surface_at(ivec3 cell, vec3 direction, out int side)
     transmission_set_side(s, side == 0);
 #endif
     return s;
-}
-
-/* Emission of one side of the voxel, in the grid's unit. */
-vec3 voxel_emission_at(ivec3 cell, int side)
-{
-#if LSF_EMISSION
-    if (side == 0 || voxel_emits_both(texelFetch(voxel_point, cell, 0).r))
-        return voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r);
-#endif
-    return vec3(0.0);
 }
 
 #if LSF_VOXEL_MIRRORS

@@ -64,12 +64,16 @@ bool mirror(surface s, int order, inout vec3 direction, inout vec3 through, out 
 #endif
 
 #if LSF_SPECULAR && LSF_SEALED
-/* Light along a direction drawn from the lobe of a visible point with density `pdf`: from voxels, and from the
- * environment, weighted against directions drawn by its radiance. What voxels mirror of it is found in no other
- * way. */
+/* Density of rays that find light which no other strategy finds: their weight is 1. */
+#define ONLY_WAY 1e30
+
+/* Light along a direction drawn from the lobe of a visible point with density `pdf`: from voxels, weighted against
+ * points drawn on emitters, and from the environment, weighted against directions drawn by its radiance. What voxels
+ * mirror of them is found in no other way. */
 vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
 {
     vec3 sum = vec3(0.0), through = vec3(1.0), sky = vec3(0.0);
+    float density = pdf;
 #if LSF_ENVIRONMENT
     sky = sky_left(environment_radiance(direction), pdf);
 #endif
@@ -80,17 +84,43 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
         surface s = voxel_surface_at(way.cell, direction, side);
         if (!voxel_mirrors(s, pdf))
             break;
-        sum += through * (way.radiance + way.left * voxel_emission_at(way.cell, side));
+        vec3 emission = voxel_emission_at(way.cell, side) - voxel_emission_drawn(way.cell, side);
+        emission += cone_end_at(point, direction, way.cell, density).emission;
+        sum += through * (way.radiance + way.left * emission);
         through *= way.left;
         point = vec3(way.cell) + voxel_point_unpack(texelFetch(voxel_point, way.cell, 0).r);
         if (!mirror(s, i, direction, through, pdf))
             return grid.unit.x * sum;
+        density = ONLY_WAY;
         sky = environment_radiance(direction);
         way = cone_follow(point, s.geometric_normal, direction);
     }
 #endif
-    vec3 end = way.met ? grid.unit.x * cone_meet(way.cell, direction) : sky;
+    vec3 end = sky;
+    if (way.met) {
+        cone_end met = cone_end_at(point, direction, way.cell, density);
+        end = grid.unit.x * (met.emission + met.rest);
+    }
     return grid.unit.x * (sum + through * way.radiance) + through * way.left * end;
+}
+
+brdf_sampler lobe_sampler(surface s, vec3 to_viewer)
+{
+    brdf_sampler p = brdf_sampler_of(s, to_viewer, true);
+    p.specular = 1.0;
+    return p;
+}
+
+/* What the specular lobe reflects of light from a direction, times the cosine. */
+vec3 lobe_reflects(surface s, vec3 to_viewer, vec3 direction, float cosine)
+{
+    float leaves = 1.0;
+#if LSF_SHEEN
+    /* The sheen's own reflection is gathered with diffuse light. */
+    leaves = sheen_leaves(s, max(dot(s.normal, to_viewer), LSF_COSINE_MIN), cosine);
+    s.sheen = vec4(0.0);
+#endif
+    return brdf_evaluate(s, to_viewer, direction, 0.0).specular * (leaves * cosine);
 }
 
 /* Light of the specular lobe by a ray drawn from it. */
@@ -98,21 +128,14 @@ vec3 lobe_light(surface s, vec3 point, vec3 to_viewer)
 {
     vec3 number = hash_unit(hash(uvec3(gl_FragCoord.xy, 1u)));
     vec2 u = fract(cone_gather.xw + number.xy);
-    brdf_sampler p = brdf_sampler_of(s, to_viewer, true);
-    p.specular = 1.0;
+    brdf_sampler p = lobe_sampler(s, to_viewer);
     vec3 direction = brdf_draw(p, vec3(u, fract(cone_gather.x + number.z)));
     float cosine = dot(s.normal, direction);
     if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0)
         return vec3(0.0);
     float pdf = brdf_pdf(p, direction);
     vec3 radiance = lobe_finds(point, s.geometric_normal, direction, pdf);
-    float leaves = 1.0;
-#if LSF_SHEEN
-    /* The sheen's own reflection is gathered by the diffuse cones. */
-    leaves = sheen_leaves(s, max(dot(s.normal, to_viewer), LSF_COSINE_MIN), cosine);
-    s.sheen = vec4(0.0);
-#endif
-    return brdf_evaluate(s, to_viewer, direction, 0.0).specular * radiance * (leaves * cosine / pdf);
+    return lobe_reflects(s, to_viewer, direction, cosine) * radiance / pdf;
 }
 #elif LSF_SPECULAR
 layout(binding = 3) uniform sampler2D albedo_texture; /* albedo of the specular lobe */
@@ -156,6 +179,37 @@ vec2 draw_number(int i)
 {
     vec2 steps = vec2(1.0 / (16.0 * float(cone_draws)), 0.6180339887);
     return fract(tile_number(1u).xy + (tile_order() + 16.0 * float(i)) * steps + cone_gather.xw);
+}
+#endif
+
+#if LSF_EMITTERS
+/* Number of the point's i-th point on emitters. Those of a tile lie in the 16 cells of a square of 4 x 4; iterations
+ * move them as they move cones. */
+vec2 emitter_number(int i)
+{
+    uint order = uint(tile_order());
+    vec2 cell = vec2(order & 3u, order >> 2) / 4.0;
+    return fract(cell + tile_number(2u).xy + cone_gather.xw + float(i) * vec2(0.7548776662, 0.5698402910));
+}
+
+/* Adds light of points drawn on emitters, weighted against cones and the ray of the specular lobe, which find it by
+ * chance. */
+void add_emitters(surface s, vec3 point, vec3 to_viewer)
+{
+    int count = int(emitters.y);
+    for (int i = 0; i < count; i++) {
+        emitter_view e;
+        if (!cone_emitter(emitter_number(i), point, s.geometric_normal, s.normal, e))
+            continue;
+        float cosine = dot(s.normal, e.direction), density = emitters.y * e.density;
+        float share = emitter_share(density, cosine / LSF_PI);
+        reflect_light(s, to_viewer, e.direction, cosine, cosine / density * share * e.radiance);
+#if LSF_SPECULAR
+        float pdf = brdf_pdf(lobe_sampler(s, to_viewer), e.direction);
+        specular_out.rgb += lobe_reflects(s, to_viewer, e.direction, cosine) * e.radiance *
+                            (emitter_share(density, pdf) / density);
+#endif
+    }
 }
 #endif
 
@@ -203,6 +257,9 @@ void main()
         vec3 light = cone_draw(drawn, point, s.geometric_normal, cosine, cone_gather.z);
         reflect_light(s, to_viewer, drawn.direction, cosine, cosine * grid.unit.x * light);
     }
+#endif
+#if LSF_EMITTERS
+    add_emitters(s, point, to_viewer);
 #endif
 #if LSF_SPECULAR
     specular_out.rgb += lobe_light(s, point, to_viewer);

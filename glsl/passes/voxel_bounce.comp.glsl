@@ -63,6 +63,18 @@ vec3 gather(reflector material, ivec3 cell, vec3 position, vec3 n, vec3 shading)
         sum += reflectance(material, cosine) * cosine / LSF_PI * cone_draw(drawn, position, n, cosine, cone_gather.z);
     }
 #endif
+#if LSF_EMITTERS
+    int points = int(emitters.y);
+    for (int i = 0; i < points; i++) {
+        vec2 number = hash_unit(hash(uvec3(cell) ^ hash(uvec3(floatBitsToUint(cone_gather.x), i, 1)))).xy;
+        emitter_view e;
+        if (!cone_emitter(number, position, n, shading, e))
+            continue;
+        float cosine = dot(shading, e.direction), density = emitters.y * e.density;
+        float share = emitter_share(density, cosine / LSF_PI);
+        sum += reflectance(material, cosine) * (cosine / LSF_PI * share / density) * (grid.unit.y * e.radiance);
+    }
+#endif
     return sum;
 }
 

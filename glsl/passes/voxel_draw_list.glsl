@@ -1,6 +1,7 @@
-/* What the shaders of voxel_draw share. Switch LSF_VOXEL_SIDES: slices of radiance, 1 or 2. */
+/* What the shaders of voxel_draw share. Switches LSF_VOXEL_SIDES: slices of radiance, 1 or 2; LSF_EMITTERS: points are
+ * drawn on emitters. */
 #include "lib/luminance.glsl"
-#include "lib/voxel.glsl"
+#include "lib/voxel_emission.glsl"
 #include "shared/voxel_draw_data.h"
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
@@ -33,8 +34,9 @@ ivec3 brick_of(uint index)
     return ivec3(brick);
 }
 
-/* By which the side of a voxel is drawn. */
+/* By which the side of a voxel is drawn: its radiance without what points on emitters find. */
 float side_weight(ivec3 cell, int slice)
 {
-    return luminance(texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0).rgb);
+    vec3 radiance = texelFetch(radiance_texture, cell + ivec3(0, 0, slice * int(grid.size.z)), 0).rgb;
+    return luminance(max(radiance - voxel_emission_drawn(cell, slice), 0.0));
 }

@@ -182,22 +182,19 @@ float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_verte
 }
 #endif
 
-/* What a side of a voxel shines without its emission; `held`: with it. */
-vec3 reflected_of(ivec3 cell, int side, out vec3 held)
+/* What a side of a voxel shines without its emission; `drawn`: the radiance by which the side is drawn. */
+vec3 reflected_of(ivec3 cell, int side, out vec3 drawn)
 {
-    held = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
-#if LSF_EMISSION
+    vec3 held = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
+    drawn = max(held - voxel_emission_drawn(cell, side), 0.0);
     return max(held - voxel_emission_at(cell, side), 0.0);
-#else
-    return held;
-#endif
 }
 
 #if LSF_VOXEL_DRAW
 /* Density of draws at v that find the side of a voxel along a direction. */
-float draw_density(path_vertex v, vec3 direction, ivec3 cell, vec3 held)
+float draw_density(path_vertex v, vec3 direction, ivec3 cell, vec3 drawn)
 {
-    return float(draws) * voxel_draw_density(v.position, direction, cell, voxel_draw_plane(cell), held);
+    return float(draws) * voxel_draw_density(v.position, direction, cell, voxel_draw_plane(cell), drawn);
 }
 
 /* Adds light that drawn sides of voxels reflect, weighted against segments from v that hit them. */
@@ -220,8 +217,8 @@ void add_draws(light_parts through, path_vertex v, brdf_sampler sampler_of_v, ve
         float pdf = brdf_pdf(sampler_of_v, drawn.direction);
         if (side != drawn.slice || voxel_mirrors_light(met.s, pdf))
             continue;
-        vec3 held, radiance = reflected_of(cell, side, held);
-        float weight = cosine / (pdf + draw_density(v, drawn.direction, cell, held));
+        vec3 by, radiance = reflected_of(cell, side, by);
+        float weight = cosine / (pdf + draw_density(v, drawn.direction, cell, by));
         brdf_value f = brdf_evaluate(v.s, v.view, drawn.direction, 0.0);
 #if LSF_ABSORPTION
         radiance *= left_after(absorption_along(v, drawn.direction, absorption), met.position - v.position);
@@ -308,10 +305,10 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
          * hit counts as direct light. */
         mirrors = voxel_mirrors_light(met.s, pdf);
         if (segment < lengths.x && !mirrors) {
-            vec3 held, radiance = reflected_of(cell, side, held);
+            vec3 by, radiance = reflected_of(cell, side, by);
 #if LSF_VOXEL_DRAW
             if (pdf > 0.0)
-                radiance *= pdf / (pdf + draw_density(v, direction, cell, held));
+                radiance *= pdf / (pdf + draw_density(v, direction, cell, by));
 #endif
             add_light(through, grid.unit.x * radiance, false);
         }

@@ -122,6 +122,8 @@ struct lsf_lobe_data {
 
 /* Location of the draws of voxels; see lib/voxel_cone.glsl. */
 #define LSF_LOCATION_VOXEL_DRAW (LSF_LOCATION_LOBE_ANGLE + 1)
+/* Location of the points drawn on emitters; see lib/voxel_emitter.glsl. */
+#define LSF_LOCATION_EMITTERS (LSF_LOCATION_VOXEL_DRAW + 1)
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

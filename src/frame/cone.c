@@ -24,6 +24,8 @@ const lsf_option_row lsf_cone_options[LSF_CONE_OPTION_COUNT] = {
      "half extents of the scene", "maximum length of cones"},
     {"cone.draws", LSF_OPTION_INT, offsetof(lsf_cone_params, draws), 0, LSF_CONE_MAX, NULL, "",
      "sealed cones: further rays per point, towards voxels drawn by their radiance"},
+    {"cone.emitters", LSF_OPTION_INT, offsetof(lsf_cone_params, emitters), 0, 16, NULL, "points",
+     "sealed cones: points sampled on emissive surfaces per point; 0: cones find these by chance"},
     {"cone.jitter", LSF_OPTION_BOOL, offsetof(lsf_cone_params, jitter), 0, 0, NULL, "",
      "varies the elevation of cones in each iteration, so that the mean covers all directions"},
     {"cone.sealed", LSF_OPTION_BOOL, offsetof(lsf_cone_params, sealed), 0, 0, NULL, "",
@@ -41,6 +43,19 @@ uint32_t lsf_cone_levels(const lsf_cone_params *params)
 bool lsf_cone_draws(const lsf_cone_params *params)
 {
     return params->sealed && params->draws > 0;
+}
+
+bool lsf_cone_emitters(const lsf_cone_params *params, const lsf_plan *plan)
+{
+    return params->sealed && params->emitters > 0 && plan->requirements.emissive;
+}
+
+void lsf_cone_emission_switches(lsf_plan *plan, const lsf_cone_params *params)
+{
+    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
+                        "some material emits or is unlit");
+    lsf_plan_switch_add(plan, "LSF_EMITTERS", lsf_cone_emitters(params, plan),
+                        "some material emits, and cone.emitters is not 0");
 }
 
 uint32_t lsf_cone_slices(const lsf_cone_params *params)

@@ -5,6 +5,7 @@
 
 #include "base/base.h"
 #include "math/sampling.h"
+#include "shared/scene_data.h"
 
 #define CELL_BITS 6
 _Static_assert(LSF_EMITTER_CELLS == 1 << CELL_BITS, "a point's cell is its leading bits");
@@ -54,7 +55,20 @@ bool lsf_emitter_points_draw(lsf_emitter_points *points, const lsf_iteration *it
     glNamedBufferSubData(points->buffer, 0, LSF_EMITTER_POINTS * sizeof *points->points,
                          points->points);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_EMITTERS, points->buffer);
-    return list->power.sum > 0.0;
+    points->drawn = list->power.sum > 0.0;
+    return points->drawn;
+}
+
+bool lsf_emitter_points_follow(lsf_emitter_points *points, bool materials_edited)
+{
+    return !points->buffer || lsf_emitters_update(&points->list, materials_edited);
+}
+
+void lsf_emitter_points_bind(const lsf_emitter_points *points, int32_t count)
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_EMITTERS, points->buffer);
+    glUniform2f(LSF_LOCATION_EMITTERS, lsf_emitters_weight(&points->list),
+                points->drawn ? (float)count : 0.0f);
 }
 
 void lsf_emitter_points_destroy(lsf_emitter_points *points, lsf_context *context)

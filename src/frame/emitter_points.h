@@ -14,6 +14,7 @@ typedef struct lsf_emitter_points {
     lsf_emitters list;
     struct lsf_emitter_point_data *points;
     GLuint buffer; /* 0: there are none */
+    bool drawn;    /* false: the emitters have no area */
 } lsf_emitter_points;
 
 /* Lists their buffer, under a name of the pass. */
@@ -21,6 +22,11 @@ void lsf_emitter_points_plan(lsf_plan *plan, const char *name);
 bool lsf_emitter_points_create(lsf_emitter_points *points, lsf_context *context,
                                const lsf_plan *plan, const char *name, const lsf_scene *scene,
                                const lsf_state *state, lsf_error *error);
+/* Updates the emitters to the current state. False without memory. */
+bool lsf_emitter_points_follow(lsf_emitter_points *points, bool materials_edited);
+/* Binds the points, and sets the uniform of lib/voxel_emitter.glsl for the program in use; `count`:
+ * points for each vertex. */
+void lsf_emitter_points_bind(const lsf_emitter_points *points, int32_t count);
 /* Draws the iteration's points, by a sequence of `purpose`, and binds them. False: the emitters
  * have no area, and nothing is drawn. */
 bool lsf_emitter_points_draw(lsf_emitter_points *points, const lsf_iteration *iteration,

@@ -36,11 +36,7 @@ static const lsf_texture_row textures[] = {
 static void plan_mirrors(lsf_plan *plan, bool mirrors)
 {
     lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", mirrors, "the environment alone lights metals");
-    if (!mirrors)
-        return;
-    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
-                        "some material emits or is unlit");
-    if (!lsf_voxel_passage(plan)) {
+    if (mirrors && !lsf_voxel_passage(plan)) {
         lsf_voxel_specular_params_switch(plan);
         lsf_voxel_bend_switch(plan);
     }
@@ -63,6 +59,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mir
                         "rays of the lobe are drawn; cones are round");
     lsf_voxel_passage_all_switches(plan);
     plan_mirrors(plan, mirrors);
+    lsf_cone_emission_switches(plan, params);
     lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_plan_switch_add(plan, "LSF_VOXEL_DRAW", lsf_cone_draws(params), "cone.draws");
@@ -148,6 +145,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_bind_texture(3, pass->lobe_albedo);
     lsf_voxels_bind(inputs->voxels);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, inputs->draws);
+    if (inputs->emitters)
+        lsf_emitter_points_bind(inputs->emitters, pass->params.emitters);
     lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (iteration->plan->requirements.environment)

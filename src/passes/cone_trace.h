@@ -3,14 +3,16 @@
 #define LSF_PASSES_CONE_TRACE_H
 
 #include "frame/cone.h"
+#include "frame/emitter_points.h"
 #include "frame/iteration.h"
 #include "frame/maps.h"
 
 typedef struct lsf_cone_trace_inputs {
     const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
-    GLuint radiance; /* the pyramid over them; voxel_light.h, voxel_mip.h */
-    GLuint draws;    /* by it, voxel_draw.h; 0 without cone.draws */
+    GLuint radiance;                    /* the pyramid over them; voxel_light.h, voxel_mip.h */
+    GLuint draws;                       /* by it, voxel_draw.h; 0 without cone.draws */
+    const lsf_emitter_points *emitters; /* of the iteration; NULL unless lsf_cone_emitters */
 } lsf_cone_trace_inputs;
 
 typedef struct lsf_cone_trace {

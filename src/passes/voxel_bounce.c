@@ -5,7 +5,7 @@
 #include "shared/scene_data.h"
 
 /* Storage buffer. */
-#define BINDING_BRICKS 1
+#define BINDING_BRICKS 2
 /* Texture unit and uniform of passes/voxel_bounce.comp.glsl. */
 #define UNIT_BASE 1
 #define LOCATION_SUM_OF 0
@@ -23,6 +23,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)slices, "cone.sides");
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
     lsf_plan_switch_add(plan, "LSF_VOXEL_DRAW", lsf_cone_draws(params), "cone.draws");
+    lsf_cone_emission_switches(plan, params);
     lsf_voxel_bend_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
                         "materials have a specular lobe");
@@ -99,10 +100,11 @@ static int32_t part_of(int32_t count, int32_t parts)
     return (count + parts - 1) / parts;
 }
 
-/* Cones and draws of a voxel. A third of a visible point's cones will do: visible points gather the
- * light of many voxels, whose directions differ. Light that is reflected again before it is seen
- * counts less, so that even fewer rays find it. All are needed of marching cones, which fill the
- * hemisphere, and where directions do not change from iteration to iteration. */
+/* Cones, draws and points on emitters of a voxel. A third of a visible point's cones will do:
+ * visible points gather the light of many voxels, whose directions differ. Light that is reflected
+ * again before it is seen counts less, so that even fewer rays find it. All are needed of marching
+ * cones, which fill the hemisphere, and where directions do not change from iteration to iteration.
+ */
 static lsf_cone_params voxel_cones(const lsf_cone_params *seen, uint32_t later)
 {
     enum { SEEN = 3 };
@@ -111,6 +113,7 @@ static lsf_cone_params voxel_cones(const lsf_cone_params *seen, uint32_t later)
     if (seen->sealed && seen->jitter) {
         cones.count = part_of(seen->count, SEEN * parts);
         cones.draws = part_of(seen->draws, parts);
+        cones.emitters = part_of(seen->emitters, parts);
     }
     return cones;
 }
@@ -129,6 +132,8 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     if (sum->source) {
         lsf_cone_params cones = voxel_cones(&pass->params, sum->later);
         lsf_cone_bind(&cones, &pass->grid, iteration, sum->source, sum->draws);
+        if (sum->emitters)
+            lsf_emitter_points_bind(sum->emitters, cones.emitters);
     }
     lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);

@@ -4,12 +4,14 @@
 #define LSF_PASSES_VOXEL_BOUNCE_H
 
 #include "frame/cone.h"
+#include "frame/emitter_points.h"
 
 /* The terms of the sum; pyramids as of voxel_light.h. */
 typedef struct lsf_voxel_bounce_sum {
-    GLuint base;    /* added unchanged; 0: nothing */
-    GLuint source;  /* added after reflection; 0: nothing. It may be the output of the last run */
-    GLuint draws;   /* by the source, voxel_draw.h; 0 without cone.draws */
+    GLuint base;   /* added unchanged; 0: nothing */
+    GLuint source; /* added after reflection; 0: nothing. It may be the output of the last run */
+    GLuint draws;  /* by the source, voxel_draw.h; 0 without cone.draws */
+    const lsf_emitter_points *emitters; /* of the iteration; NULL unless lsf_cone_emitters */
     uint32_t later; /* number of times that voxels reflect the sum's light after this */
     bool keep;      /* the output of the last run is a part of the sum; not with a source */
 } lsf_voxel_bounce_sum;

@@ -28,13 +28,15 @@ static int brick_bits(const lsf_voxel_grid *grid)
     return bits;
 }
 
-void lsf_voxel_draw_plan(lsf_plan *plan, const lsf_voxel_grid *grid, uint32_t sides)
+void lsf_voxel_draw_plan(lsf_plan *plan, const lsf_voxel_grid *grid, uint32_t sides, bool emitters)
 {
     int bits = brick_bits(grid);
     lsf_plan_pass_add(plan, "voxel_draw", "%d sides of voxels, drawn by their radiance",
                       LSF_VOXEL_DRAWS);
     lsf_plan_reads(plan, "voxelize voxel_light voxel_bounce");
     lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", (int)sides, "sides that radiance is kept for");
+    lsf_plan_switch_add(plan, "LSF_EMITTERS", emitters, "points on emitters find emission");
+    lsf_plan_switch_add(plan, "LSF_EMISSION", emitters, "some material emits");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     lsf_plan_switch_add(plan, "LSF_VOXEL_DRAW_BITS", bits, "2 to this power bricks fill the grid");
     lsf_plan_buffer_add(plan, "voxel_draw.list",

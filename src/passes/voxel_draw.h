@@ -14,8 +14,9 @@ typedef struct lsf_voxel_draw {
     lsf_timer *timer;
 } lsf_voxel_draw;
 
-/* `sides`: slices of the radiance along z, 1 or LSF_VOXEL_SIDES_SURFACE. */
-void lsf_voxel_draw_plan(lsf_plan *plan, const lsf_voxel_grid *grid, uint32_t sides);
+/* `sides`: slices of the radiance along z, 1 or LSF_VOXEL_SIDES_SURFACE; `emitters`: emission is
+ * found by points drawn on emitters, and does not count. */
+void lsf_voxel_draw_plan(lsf_plan *plan, const lsf_voxel_grid *grid, uint32_t sides, bool emitters);
 bool lsf_voxel_draw_create(lsf_voxel_draw *pass, lsf_context *context, const lsf_plan *plan,
                            lsf_error *error);
 /* To be called once an iteration: runs differ in what they draw. */

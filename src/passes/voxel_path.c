@@ -52,10 +52,15 @@ uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual)
     return punctual ? plan->bounces : 0;
 }
 
+bool lsf_voxel_path_emitters(const lsf_plan *plan, const lsf_voxel_path_params *params)
+{
+    return plan->requirements.emissive && params->emitters > 0;
+}
+
 /* Points on emissive surfaces that vertices of paths are joined to. */
 static void plan_emitters(lsf_plan *plan, const lsf_voxel_path_params *params)
 {
-    bool wanted = plan->requirements.emissive && params->emitters > 0;
+    bool wanted = lsf_voxel_path_emitters(plan, params);
     lsf_plan_switch_add(plan, "LSF_EMITTERS", wanted,
                         "some material emits, and voxel_path.emitters is not 0");
     if (wanted)
@@ -153,7 +158,7 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
 
 bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited)
 {
-    return !pass->emitters.buffer || lsf_emitters_update(&pass->emitters.list, materials_edited);
+    return lsf_emitter_points_follow(&pass->emitters, materials_edited);
 }
 
 static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iteration,
@@ -182,9 +187,8 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
                 p->max_samples);
     glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_PATH));
     if (pass->emitters.buffer) {
-        bool drawn = lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
-        glUniform2f(2, lsf_emitters_weight(&pass->emitters.list),
-                    drawn ? (float)p->emitters : 0.0f);
+        lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
+        lsf_emitter_points_bind(&pass->emitters, p->emitters);
     }
     if (inputs->draws) {
         glUniform1i(LSF_LOCATION_VOXEL_DRAW, p->draws);

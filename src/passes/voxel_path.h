@@ -34,6 +34,9 @@ extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];
  * emits, environments included, takes one more than punctual lights, whose light voxels hold. */
 uint32_t lsf_voxel_path_segments(const lsf_plan *plan, bool punctual);
 
+/* Whether vertices are joined to points on emissive surfaces. */
+bool lsf_voxel_path_emitters(const lsf_plan *plan, const lsf_voxel_path_params *params);
+
 typedef struct lsf_voxel_path_use {
     uint32_t segments;
     bool split_direct; /* emission that the first segment finds is asked for apart */

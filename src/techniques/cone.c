@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "base/base.h"
+#include "frame/emitter_points.h"
+#include "frame/purpose.h"
 #include "passes/compose.h"
 #include "passes/cone_trace.h"
 #include "passes/voxel_bounce.h"
@@ -17,6 +19,7 @@ typedef struct variant {
     bool traced;      /* light comes to visible points in other ways than directly from punctual
                        * lights */
     bool draws;       /* sides of voxels by their radiance */
+    bool emitters;    /* points on emissive surfaces are drawn */
     bool shines;      /* surfaces or an environment emit */
     uint32_t levels;  /* of radiance */
     uint32_t bounces; /* from voxel to voxel */
@@ -31,16 +34,25 @@ static variant choose_variant(const lsf_plan *plan, const lsf_pass_params *param
                  .shines = r->emissive || r->unlit || r->environment};
     w.draws = lsf_cone_draws(&params->cone);
     w.traced = lsf_voxel_chain_has_voxels(plan) && (plan->bounces > 0 || w.shines);
+    w.emitters = w.traced && lsf_cone_emitters(&params->cone, plan);
     if (w.traced && plan->bounces > 0)
         w.bounces = plan->bounces - (w.shines ? 0 : 1);
     return w;
 }
 
+/* Points on emitters are drawn before the first pass that reads them. */
+static const char *emitter_name(const variant *w)
+{
+    return w->bounces > 0 ? "voxel_bounce.emitters" : "cone_trace.emitters";
+}
+
 typedef struct cone {
+    lsf_context *context;
     variant variant;
     lsf_voxel_chain chain;
     lsf_voxel_mip mip;
     lsf_voxel_draw draw;
+    lsf_emitter_points emitters;
     lsf_voxel_bounce bounce;
     lsf_cone_trace trace;
     lsf_sparse_chain sparse;
@@ -85,11 +97,15 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
             lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
+        if (w.emitters && w.bounces > 0)
+            lsf_emitter_points_plan(plan, emitter_name(&w));
         if (w.draws)
-            lsf_voxel_draw_plan(plan, &grid, use.sides);
+            lsf_voxel_draw_plan(plan, &grid, use.sides, w.emitters);
         lsf_sparse_chain_plan_split(plan, params, 1);
         bool mirrors = params->cone.sealed && plan->bounces > 1 && lsf_voxel_mirrors(plan, state);
         lsf_cone_trace_plan(plan, &params->cone, mirrors);
+        if (w.emitters && w.bounces == 0)
+            lsf_emitter_points_plan(plan, emitter_name(&w));
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
@@ -110,6 +126,9 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
            (c->variant.levels == 1 ||
             lsf_voxel_mip_create(&c->mip, context, plan, grid, use.sides, error)) &&
            (!c->variant.draws || lsf_voxel_draw_create(&c->draw, context, plan, error)) &&
+           (!c->variant.emitters ||
+            lsf_emitter_points_create(&c->emitters, context, plan, emitter_name(&c->variant),
+                                      scene->scene, state, error)) &&
            (c->variant.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
@@ -123,6 +142,7 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
     cone *c = *self = lsf_alloc(1, sizeof *c);
     if (!c)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
+    c->context = context;
     c->variant = choose_variant(plan, params);
     return (c->variant.traced ? create_traced(c, context, plan, params, scene, state, error)
                               : lsf_direct_chain_create(&c->chain.direct, context, plan, params,
@@ -135,6 +155,9 @@ static lsf_update update_cone(void *self, const lsf_pass_params *params,
 {
     cone *c = self;
     lsf_voxel_chain_use use = chain_use(params, &c->variant);
+    if ((changes->moved || changes->materials) &&
+        !lsf_emitter_points_follow(&c->emitters, changes->materials))
+        return LSF_UPDATE_FAILED;
     lsf_update update = lsf_voxel_chain_update(&c->chain, params, iteration, &use, changes);
     c->mip.grid = c->bounce.grid = c->trace.grid = c->chain.grid;
     return update;
@@ -156,13 +179,18 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
 {
     const lsf_voxels *voxels = c->chain.voxels;
     GLuint base = c->chain.light.radiance, light = base;
+    const lsf_emitter_points *emitters = c->variant.emitters ? &c->emitters : NULL;
     uint32_t done = 0;
     lsf_voxel_draw_begin(&c->draw);
+    if (emitters)
+        lsf_emitter_points_draw(&c->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
     if (c->variant.bounces > 0)
         lsf_voxel_bounce_begin(&c->bounce, voxels);
     if (c->variant.bounces > 0 && c->variant.shines) {
-        const lsf_voxel_bounce_sum reflected = {
-            .source = base, .draws = c->draw.list, .later = c->variant.bounces - 1};
+        const lsf_voxel_bounce_sum reflected = {.source = base,
+                                                .draws = c->draw.list,
+                                                .emitters = emitters,
+                                                .later = c->variant.bounces - 1};
         const lsf_voxel_bounce_sum all = {.base = base, .keep = true};
         lsf_voxel_chain_emit(&c->chain);
         prepare(c, iteration, base);
@@ -178,6 +206,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
         const lsf_voxel_bounce_sum sum = {.base = base,
                                           .source = light,
                                           .draws = c->draw.list,
+                                          .emitters = emitters,
                                           .later = c->variant.bounces - 1 - done};
         light = lsf_voxel_bounce_run(&c->bounce, iteration, voxels, &sum);
         prepare(c, iteration, light);
@@ -194,7 +223,8 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
                                               lsf_sparse_chain_split(&c->sparse, iteration, seen),
                                           .voxels = c->chain.voxels,
                                           .radiance = light_voxels(c, iteration),
-                                          .draws = c->draw.list};
+                                          .draws = c->draw.list,
+                                          .emitters = c->variant.emitters ? &c->emitters : NULL};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
     return lsf_sparse_chain_finish(&c->sparse, iteration, seen, &c->trace.light);
 }
@@ -226,6 +256,7 @@ static void destroy_cone(void *self)
         return;
     lsf_compose_destroy(&c->compose);
     lsf_sparse_chain_destroy(&c->sparse);
+    lsf_emitter_points_destroy(&c->emitters, c->context);
     lsf_cone_trace_destroy(&c->trace);
     lsf_voxel_bounce_destroy(&c->bounce);
     lsf_voxel_draw_destroy(&c->draw);

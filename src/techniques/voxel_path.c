@@ -66,7 +66,8 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
     if (use.segments > 0) {
         lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &chain);
         if (use.draws)
-            lsf_voxel_draw_plan(plan, &grid, chain.sides);
+            lsf_voxel_draw_plan(plan, &grid, chain.sides,
+                                lsf_voxel_path_emitters(plan, &params->voxel_path));
         lsf_sparse_chain_plan_split(plan, params, 1);
         lsf_voxel_path_plan(plan, &params->voxel_path, &use);
         lsf_sparse_chain_plan_finish(plan, params, 1);

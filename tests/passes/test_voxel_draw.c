@@ -35,7 +35,7 @@ static void create_textures(rig *r, uint32_t sides)
                                    .depth = DEPTH / 4,
                                    .levels = 1,
                                    .label = "occupancy"};
-    lsf_voxel_draw_plan(r->plan, &grid, sides);
+    lsf_voxel_draw_plan(r->plan, &grid, sides, false);
     lsf_voxel_texture_plan(r->plan, &grid, "radiance", GL_RGBA16F, sides, 1, "test");
     lsf_plan_buffer_add(r->plan, "grid", sizeof data, "test");
     lsf_plan_buffer_add(r->plan, "bricks", 4 * sizeof(uint32_t) + sizeof r->list, "test");

@@ -1,5 +1,5 @@
-/* Light of emissive surfaces by voxel paths: closed forms, and that points drawn on them, paths
- * that meet them by chance, and both together bring the same light. */
+/* Light of emissive surfaces by voxel paths and by cones: closed forms, and that points drawn on
+ * them, rays that meet them by chance, and both together bring the same light. */
 #include <math.h>
 
 #include "base/base.h"
@@ -8,12 +8,12 @@
 
 enum { MAX_OPTIONS = 3 };
 
-static lsf_image *render(const lsf_scene *scene, uint32_t size, uint32_t samples, uint32_t bounces,
-                         lsf_float3 eye, lsf_float3 target, float fov_y,
-                         const char *const options[MAX_OPTIONS])
+static lsf_image *render(const lsf_scene *scene, const char *technique, uint32_t size,
+                         uint32_t samples, uint32_t bounces, lsf_float3 eye, lsf_float3 target,
+                         float fov_y, const char *const options[MAX_OPTIONS])
 {
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
-    params.technique = "voxel_path";
+    params.technique = technique;
     params.samples = samples;
     params.bounces = bounces;
     params.fov_y = fov_y;
@@ -50,8 +50,7 @@ static double polygon_irradiance(const lsf_float3 *corners, int count, lsf_float
     return 0.5 * fabs(sum);
 }
 
-/* A floor of albedo 1/2, and a quad of radiance 1 over it, about `center`, with these half sides.
- */
+/* A quad about `center` with these half sides. */
 static void lamp_corners(lsf_float3 center, lsf_float3 u, lsf_float3 v, lsf_float3 corners[4])
 {
     for (int i = 0; i < 4; i++)
@@ -59,11 +58,16 @@ static void lamp_corners(lsf_float3 center, lsf_float3 u, lsf_float3 v, lsf_floa
                                 i < 2 ? -1.0f : 1.0f);
 }
 
-static lsf_scene *floor_and_lamp(const lsf_float3 corners[4], bool both)
+/* A floor of albedo 1/2, and a quad of radiance 1 over it; a black ceiling, unless at 0. */
+static lsf_scene *floor_and_lamp(const lsf_float3 corners[4], bool both, float ceiling)
 {
     lsf_scene *scene = build_scene();
     build_material(scene, 0.5f, 0.5f, 0.5f);
     build_floor(scene, 0.0f, 2.0f);
+    if (ceiling > 0.0f) {
+        build_material(scene, 0.0f, 0.0f, 0.0f);
+        build_floor(scene, ceiling, 2.0f);
+    }
     lsf_material *lamp = build_material(scene, 0.0f, 0.0f, 0.0f);
     lamp->double_sided = both;
     for (int c = 0; c < 3; c++)
@@ -75,31 +79,33 @@ static lsf_scene *floor_and_lamp(const lsf_float3 corners[4], bool both)
 }
 
 /* Light of a quad at a point of the floor, with one side that shines and with both. A voxel is 1/16
- * wide. Of a large lamp, paths that meet it by chance find a part: it looks a voxel larger and
- * nearer to them. */
-static void quads_over_a_plane(void **unused)
+ * wide. Of a large lamp, rays that meet it by chance find a part: it looks a voxel larger and
+ * nearer to them. A ceiling takes some of the voxels that a lamp shares with it. */
+static void quads_over_a_plane(void **state)
 {
-    (void)unused;
+    const char *technique = *state;
     static const char *const options[MAX_OPTIONS] = {"voxel.resolution=66"};
     const struct {
         const char *name;
         lsf_float3 center, u, v;
         double allowed;
+        float ceiling;
     } cases[] = {
-        {"overhead", {0.3f, 1, 0}, {0.2f, 0, 0}, {0, 0, 0.3f}, 0.005},
-        {"large", {0.1f, 0.7f, 0.2f}, {0.5f, 0, 0}, {0, 0, 0.5f}, 0.03},
-        {"tilted", {-0.5f, 0.8f, 0.1f}, {0.15f, 0.1f, 0}, {0, 0, 0.2f}, 0.005},
-        {"upright", {-0.2f, 0.2f, 0}, {0, 0.19f, 0}, {0, 0, 0.3f}, 0.01},
-        {"a fifth of a voxel", {0.2f, 0.6f, 0.1f}, {0.0032f, 0, 0}, {0, 0, 0.0032f}, 0.003},
+        {"overhead", {0.3f, 1, 0}, {0.2f, 0, 0}, {0, 0, 0.3f}, 0.005, 0},
+        {"below a ceiling", {0.3f, 1, 0}, {0.2f, 0, 0}, {0, 0, 0.3f}, 0.005, 1.005f},
+        {"large", {0.1f, 0.7f, 0.2f}, {0.5f, 0, 0}, {0, 0, 0.5f}, 0.03, 0},
+        {"tilted", {-0.5f, 0.8f, 0.1f}, {0.15f, 0.1f, 0}, {0, 0, 0.2f}, 0.005, 0},
+        {"upright", {-0.2f, 0.2f, 0}, {0, 0.19f, 0}, {0, 0, 0.3f}, 0.01, 0},
+        {"a fifth of a voxel", {0.2f, 0.6f, 0.1f}, {0.0032f, 0, 0}, {0, 0, 0.0032f}, 0.003, 0},
     };
     const lsf_float3 point = lsf_f3(0, 0, 0), up = lsf_f3(0, 1, 0);
     for (size_t i = 0; i < LSF_COUNT(cases); i++)
         for (int both = i == 0 ? 0 : 1; both < 2; both++) {
             lsf_float3 corners[4];
             lamp_corners(cases[i].center, cases[i].u, cases[i].v, corners);
-            lsf_scene *scene = floor_and_lamp(corners, both);
+            lsf_scene *scene = floor_and_lamp(corners, both, cases[i].ceiling);
             lsf_image *image =
-                render(scene, 16, 16, 0, lsf_f3(1.5f, 0.3f, 1.2f), point, 0.2f, options);
+                render(scene, technique, 16, 16, 0, lsf_f3(1.5f, 0.3f, 1.2f), point, 0.2f, options);
             lsf_float3 normal = lsf_f3_cross(lsf_f3_sub(corners[1], corners[0]),
                                              lsf_f3_sub(corners[3], corners[0]));
             bool faces = both || lsf_f3_dot(normal, lsf_f3_sub(point, corners[0])) > 0.0f;
@@ -148,11 +154,16 @@ static lsf_scene *room(int kind)
     return scene;
 }
 
+typedef struct strategies {
+    char *technique;
+    const char *points[3];
+} strategies;
+
 /* A voxel is 0.065 wide; met by chance, a lamp that hangs in the air looks a voxel longer and
  * wider, 20 % larger. A large one does not depend on that as much. */
-static void strategies_agree(void **unused)
+static void strategies_agree(void **state)
 {
-    (void)unused;
+    const strategies *s = *state;
     static const struct {
         const char *name;
         int kind;
@@ -163,17 +174,16 @@ static void strategies_agree(void **unused)
         {"textured", TEXTURED, 1, 0.25, 0.02},       {"large", LARGE, 1, 0.06, 0.01},
         {"unlit", UNLIT | LARGE, 1, 0.005, 0.005},
     };
-    static const char *const points[] = {"voxel_path.emitters=0", "voxel_path.emitters=1",
-                                         "voxel_path.emitters=4"};
     uint32_t more = getenv("LSF_TEST_QUICK") ? 1 : 2;
     for (size_t k = 0; k < LSF_COUNT(cases); k++) {
         lsf_scene *scene = room(cases[k].kind);
         double light[3];
         for (int i = 0; i < 3; i++) {
-            const char *const options[MAX_OPTIONS] = {"voxel.resolution=64", points[i]};
+            const char *const options[MAX_OPTIONS] = {"voxel.resolution=64", s->points[i]};
             uint32_t samples = more * (i == 0 && !(cases[k].kind & LARGE) ? 128 : 16);
-            lsf_image *image = render(scene, 16, samples, cases[k].bounces, lsf_f3(2.5f, 2, 3.5f),
-                                      lsf_f3(-0.5f, 0.8f, -0.5f), 35.0f, options);
+            lsf_image *image =
+                render(scene, s->technique, 16, samples, cases[k].bounces, lsf_f3(2.5f, 2, 3.5f),
+                       lsf_f3(-0.5f, 0.8f, -0.5f), 35.0f, options);
             light[i] = mean_of(image, 1);
             lsf_image_destroy(image);
         }
@@ -188,9 +198,14 @@ static void strategies_agree(void **unused)
 
 int main(void)
 {
+    static strategies techniques[] = {
+        {"voxel_path", {"voxel_path.emitters=0", "voxel_path.emitters=1", "voxel_path.emitters=4"}},
+        {"cone", {"cone.emitters=0", "cone.emitters=1", "cone.emitters=4"}}};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quads_over_a_plane),
-        cmocka_unit_test(strategies_agree),
+        {"quads over a plane, paths", quads_over_a_plane, NULL, NULL, techniques[0].technique},
+        {"quads over a plane, cones", quads_over_a_plane, NULL, NULL, techniques[1].technique},
+        {"strategies agree, paths", strategies_agree, NULL, NULL, &techniques[0]},
+        {"strategies agree, cones", strategies_agree, NULL, NULL, &techniques[1]},
     };
     return cmocka_run_group_tests_name("voxel emitters", tests, NULL, NULL);
 }
