@@ -234,7 +234,8 @@ void lsf_destination_warn(const lsf_destination *destination, const lsf_brightne
     bool exposed = destination->format == LSF_IMAGE_FORMAT_PNG;
     if (exposed && 2 * b->white > b->seen)
         lsf_log(LSF_LOG_WARNING,
-                "%s: overexposed: %.0f %% of what is not black is white; use --exposure auto",
+                "%s: overexposed: %.0f %% of what is not black is white; use --exposure auto or a "
+                "lower EV",
                 destination->path, 100.0 * (double)b->white / (double)b->seen);
     if (100 * b->seen < b->pixels)
         lsf_log(LSF_LOG_WARNING,
@@ -244,9 +245,9 @@ void lsf_destination_warn(const lsf_destination *destination, const lsf_brightne
                 exposed ? "use --exposure auto for a dimly lit scene; " : "");
 }
 
-/* Radiance of all channels from which a pixel looks white: tone curves show 0.97 of white or more.
- */
-#define WHITE 8.0f
+/* Least radiance of the channels from which a pixel looks white: `neutral` shows a grey of 1.25 as
+ * code value 245. */
+#define WHITE 1.25f
 
 static void look_at_brightness(const lsf_destination *destination, const lsf_image *image)
 {

@@ -79,14 +79,15 @@ static bool save_float(render_job *job, const lsf_imprint *imprint, lsf_error *e
     return good;
 }
 
-/* Code value 25 is 1 % of white. A background that is given is no overexposed surface. */
+/* Code value 25 is 1 % of white, 245 looks white. A background that is given is no overexposed
+ * surface. */
 static lsf_brightness brightness_of(const render_job *job, const uint8_t *rgb, uint64_t pixels)
 {
     bool background = job->settings->background.kind != LSF_BACKGROUND_AUTO;
     lsf_brightness b = {.pixels = pixels};
     for (const uint8_t *p = rgb; p < rgb + 3 * pixels; p += 3) {
         b.seen += p[0] > 25 || p[1] > 25 || p[2] > 25;
-        b.white += !background && p[0] >= 254 && p[1] >= 254 && p[2] >= 254;
+        b.white += !background && p[0] >= 245 && p[1] >= 245 && p[2] >= 245;
     }
     return b;
 }
