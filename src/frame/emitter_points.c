@@ -55,8 +55,7 @@ bool lsf_emitter_points_draw(lsf_emitter_points *points, const lsf_iteration *it
     glNamedBufferSubData(points->buffer, 0, LSF_EMITTER_POINTS * sizeof *points->points,
                          points->points);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_EMITTERS, points->buffer);
-    points->drawn = list->power.sum > 0.0;
-    return points->drawn;
+    return list->power.sum > 0.0;
 }
 
 bool lsf_emitter_points_follow(lsf_emitter_points *points, bool materials_edited)
@@ -68,7 +67,7 @@ void lsf_emitter_points_bind(const lsf_emitter_points *points, int32_t count)
 {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_EMITTERS, points->buffer);
     glUniform2f(LSF_LOCATION_EMITTERS, lsf_emitters_weight(&points->list),
-                points->drawn ? (float)count : 0.0f);
+                points->list.power.sum > 0.0 ? (float)count : 0.0f);
 }
 
 void lsf_emitter_points_destroy(lsf_emitter_points *points, lsf_context *context)

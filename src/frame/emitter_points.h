@@ -14,7 +14,6 @@ typedef struct lsf_emitter_points {
     lsf_emitters list;
     struct lsf_emitter_point_data *points;
     GLuint buffer; /* 0: there are none */
-    bool drawn;    /* false: the emitters have no area */
 } lsf_emitter_points;
 
 /* Lists their buffer, under a name of the pass. */
