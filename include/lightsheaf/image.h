@@ -77,8 +77,9 @@ typedef struct lsf_image_save_params {
 
 /* The exposure [EV] that brings the log-average luminance of R, G and B to middle grey, 0.18
  * (Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002). Pixels are
- * weighted by their channel A, if there is one. Luminance that would be displayed as black if
- * the arithmetic mean were middle grey counts as the darkest that is not. 0 for a black picture. */
+ * weighted by their channel A, if there is one. Black pixels, which no exposure changes, do not
+ * count. Luminance that would be displayed as black if the others' arithmetic mean were middle grey
+ * counts as the darkest that is not. 0 for a black picture. */
 float lsf_image_auto_exposure(const lsf_image *image);
 
 /* Writes to a temporary file and renames it, so that a failure or an interrupt neither leaves a

@@ -114,6 +114,8 @@ class Pictures(CommandTest):
             self.assertNotIn("overexposed", self.run_command(*words, *further).text)
             self.assertIn("a.png: overexposed",
                           self.run_command(*words, *further, "--exposure", "20").text)
+            self.assertNotIn("overexposed",
+                             self.run_command(*words, *further, "--exposure", "auto").text)
         self.assertNotIn("overexposed", self.run_command(*words, "-o", "a.exr").text)
 
     def test_tone_curves(self):

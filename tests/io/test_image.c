@@ -432,10 +432,12 @@ static void test_auto_exposure(void **state)
      */
     const float half[3][4] = {{0.18f, 0.18f, 0.18f, 0.5f}, {0, 0, 0, 0}, {NAN, 1, 1, 1}};
     assert_true(fabsf(exposure_of(half, 3, true) + 1) < 1e-5f);
-    /* Black beside 0.36 counts as code value 1 at the mean's exposure, 0. */
-    const float black[2][4] = {{0, 0, 0, 1}, {0.36f, 0.36f, 0.36f, 1}};
+    /* A little beside 0.36 counts as code value 1 at the mean's exposure, 0, and black not at all.
+     */
+    const float dark[4][4] = {
+        {1e-9f, 1e-9f, 1e-9f, 1}, {0.36f, 0.36f, 0.36f, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}};
     float expected = log2f(0.18f) - 0.5f * log2f(0.36f * lsf_srgb_decode(1.0f / 255));
-    assert_true(fabsf(exposure_of(black, 2, false) - expected) < 1e-4f);
+    assert_true(fabsf(exposure_of(dark, 4, false) - expected) < 1e-4f);
     assert_true(exposure_of((const float[1][4]){{0, 0, 0, 0}}, 1, false) == 0.0f);
     assert_true(exposure_of((const float[1][4]){{-1, -1, -1, 1}}, 1, false) == 0.0f);
 }
