@@ -15,8 +15,9 @@
 const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT] = {
     {"bundle.count", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, count), 1, 4096, NULL, "",
      "ray-bundles per iteration"},
-    {"bundle.resolution", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, resolution), 16, 4096,
-     NULL, "texels", "width and height of a bundle's map"},
+    {"bundle.resolution", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, resolution), 0, 4096,
+     NULL, "texels",
+     "width and height of a bundle's map; 0: 256, and more beyond 32 iterations, up to 768"},
     {"bundle.window", LSF_OPTION_ENUM, offsetof(lsf_ray_bundle_params, window), 0, 0,
      "auto|visible|scene", "",
      "what a bundle covers; visible: the visible points; scene: the whole scene; auto: scene if "

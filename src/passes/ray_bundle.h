@@ -32,7 +32,7 @@ typedef struct lsf_ray_bundle_params {
 } lsf_ray_bundle_params;
 
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
-    .count = 1, .resolution = 256, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 15,             \
+    .count = 1, .resolution = 0, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 15,               \
     .capacity = 1.0f, .raster = LSF_RAY_BUNDLE_RASTER_COMPUTE, .environment_offset = 1.0f
 
 #define LSF_RAY_BUNDLE_OPTION_COUNT 7

@@ -12,6 +12,8 @@ bool lsf_shares_samples(const lsf_setup *setup);
 bool lsf_hurries(const lsf_setup *setup);
 /* Voxels along the scene's longest side, where voxel.resolution leaves them to the time limit. */
 uint32_t lsf_default_voxels(const lsf_setup *setup);
+/* Sets the option bundle.resolution, if it was left out, from the number of iterations. */
+void lsf_default_bundles(lsf_setup *setup);
 /* Sets the options of sample points that were left out. */
 void lsf_default_points(lsf_setup *setup);
 /* Leaves light_filter.steps those that fit into the picture: their neighbours are at most a

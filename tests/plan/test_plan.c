@@ -427,6 +427,38 @@ static void voxels_by_time(void **unused)
     destroy_scene(scene);
 }
 
+/* Texels of bundles that narrow as iterations take the noise away; not where their number is open.
+ */
+static void bundles_by_iterations(void **unused)
+{
+    (void)unused;
+    static const struct {
+        uint32_t samples;
+        double time_limit;
+        const char *option;
+        int64_t side;
+    } cases[] = {{32, INFINITY, NULL, 256},       {512, INFINITY, NULL, 512},
+                 {1u << 20, INFINITY, NULL, 768}, {UINT32_MAX, INFINITY, NULL, 256},
+                 {UINT32_MAX, 16.0, NULL, 256},   {UINT32_MAX, 256.0, NULL, 512},
+                 {512, 1.0, NULL, 256},           {512, INFINITY, "bundle.resolution=96", 96}};
+    lsf_scene *scene = lit_floor();
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        lsf_error error = {0};
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
+        params.samples = cases[i].samples;
+        params.time_limit = cases[i].time_limit;
+        params.options = &cases[i].option;
+        params.option_count = cases[i].option ? 1 : 0;
+        lsf_plan *plan = lsf_plan_create(scene, &params, &error);
+        if (!plan)
+            fail_msg("%s", error.message);
+        assert_int_equal(lsf_plan_switch_value(plan, "bidirectional_shade_hit", "LSF_BUNDLE_SIDE"),
+                         cases[i].side);
+        lsf_plan_destroy(plan);
+    }
+    destroy_scene(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -443,6 +475,7 @@ int main(void)
         cmocka_unit_test(points_where_they_pay),
         cmocka_unit_test(coarse_shadows_where_time_is_short),
         cmocka_unit_test(voxels_by_time),
+        cmocka_unit_test(bundles_by_iterations),
         cmocka_unit_test(replaced_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
