@@ -74,8 +74,9 @@ typedef struct lsf_render_params {
     const char *technique;  /* see lsf_technique_name */
     uint32_t width, height; /* pixels */
     uint32_t samples;       /* iterations; UINT32_MAX: as many as the time limit allows */
-    double time_limit;      /* seconds of rendering; iterations that exceed it are dropped, or
-                             * not begun if they would, except the first; infinity: none */
+    double time_limit;      /* seconds of rendering, without those in which software OpenGL
+                             * compiles shaders; iterations that exceed it are dropped, or not
+                             * begun if they would, except the first; infinity: none */
     uint32_t bounces;       /* indirect bounces; 0: direct light only; at most LSF_BOUNCES_MAX,
                              * or LSF_BOUNCES_AUTO */
     uint64_t seed;

@@ -51,9 +51,19 @@ char *lsf_format(const char *format, ...)
     return text;
 }
 
-double lsf_now(void)
+static double seconds_of(clockid_t clock)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(clock, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+double lsf_now(void)
+{
+    return seconds_of(CLOCK_MONOTONIC);
+}
+
+double lsf_thread_seconds(void)
+{
+    return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }

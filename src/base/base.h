@@ -62,6 +62,8 @@ void lsf_string_add_json_number(lsf_string *string, double value);
 
 /* Seconds from a monotonic clock. */
 double lsf_now(void);
+/* Seconds for which the calling thread has had a processor. */
+double lsf_thread_seconds(void);
 
 /* Reads a regular file of at most `limit` bytes; a NUL follows the content. Refuses FIFOs,
  * devices and directories without blocking. LSF_ERROR_FILE on failure; the caller frees. */

@@ -515,13 +515,33 @@ static bool goes_further(void *user)
     return !renderer->stopped;
 }
 
-/* Whether another iteration is likely to end in time: one that does not is dropped, and would only
- * make the user wait. Half of the last one's time is asked for, which may hold the driver's
- * compilation. */
-static bool leaves_time(const lsf_renderer *renderer, double last_start)
+/* 0 as long as only one iteration has run. */
+static double compiled_seconds(const lsf_first_uses *uses)
 {
-    double now = lsf_now();
-    return now + 0.5 * (now - last_start) < renderer->deadline;
+    return uses->sum - uses->iterations * uses->least;
+}
+
+/* The time limit is one of rendering: it is put off while the driver compiles. `seconds`: of the
+ * calling thread in the last iteration. */
+static void allow_compilation(lsf_renderer *renderer, double seconds)
+{
+    enum { FIRST_ITERATIONS = 4 };
+    lsf_first_uses *uses = &renderer->first_uses;
+    if (!renderer->setup.software || uses->iterations == FIRST_ITERATIONS)
+        return;
+    uses->least = uses->iterations == 0 ? seconds : fmin(uses->least, seconds);
+    uses->sum += seconds;
+    uses->iterations++;
+    double allowed = uses->iterations == 1 ? uses->sum : compiled_seconds(uses);
+    renderer->deadline += allowed - uses->allowed;
+    uses->allowed = allowed;
+}
+
+/* Whether another iteration is likely to end in time: one that does not is dropped, and would only
+ * make the user wait. Half of the last one's time is asked for: the first takes longer. */
+static bool leaves_time(const lsf_renderer *renderer, double last_seconds)
+{
+    return lsf_now() + 0.5 * last_seconds < renderer->deadline;
 }
 
 static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
@@ -529,7 +549,7 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
     const lsf_render_params *params = &renderer->setup.params;
     bool limited = isfinite(params->time_limit);
     while (renderer->samples - renderer->kept < params->samples) {
-        double start = lsf_now();
+        double start = lsf_now(), computed = lsf_thread_seconds();
         renderer->next_question = start + QUESTION_EVERY;
         if (!lsf_renderer_iterate(renderer, error))
             return false;
@@ -539,7 +559,10 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
          * commands issued. */
         if (limited)
             wait_for_gpu(renderer);
-        if (!leaves_time(renderer, start))
+        double deadline = renderer->deadline;
+        allow_compilation(renderer, lsf_thread_seconds() - computed);
+        double compiled = fmax(renderer->deadline - deadline, 0.0);
+        if (!leaves_time(renderer, lsf_now() - start - compiled))
             break;
         lsf_context_pause(renderer->context);
     }
@@ -559,9 +582,13 @@ bool lsf_renderer_run(lsf_renderer *renderer, lsf_error *error)
     if (!entered)
         return false;
     renderer->deadline = lsf_now() + renderer->setup.params.time_limit;
+    renderer->first_uses = (lsf_first_uses){0};
     renderer->iteration.question = goes_further;
     renderer->iteration.question_user = renderer;
     bool good = run_until_stopped(renderer, error);
+    double compiled = compiled_seconds(&renderer->first_uses);
+    renderer->compile_seconds += compiled;
+    renderer->render_seconds -= compiled;
     renderer->iteration.question = NULL;
     if (good && !renderer->grain_checked && renderer->samples > 0) {
         lsf_grain_check(&renderer->iteration, renderer->outputs.parts.gbuffer->seen.depth);

@@ -8,6 +8,16 @@
 
 #define LSF_RENDERER_MAX_PASSES (LSF_TECHNIQUE_MAX_PASSES + 7)
 
+/* Compilation at the first uses of shaders, which drivers put off when they link. Software OpenGL
+ * compiles on the thread that calls it, and draws on others. So what the calling thread computes in
+ * the first iterations of a run beyond the least of them is compilation; after one, it is all that
+ * it has computed, at most. */
+typedef struct lsf_first_uses {
+    uint32_t iterations;
+    double sum, least; /* processor seconds of the calling thread in these iterations */
+    double allowed;    /* seconds by which the deadline was put off for it */
+} lsf_first_uses;
+
 struct lsf_renderer {
     lsf_context *context;
     lsf_setup setup;
@@ -33,6 +43,7 @@ struct lsf_renderer {
     uint64_t iterations;            /* asked for in all frames, since the passes were made */
     double deadline, next_question; /* in seconds as lsf_now counts them */
     bool stopped;                   /* the iteration in progress is to be dropped */
+    lsf_first_uses first_uses;      /* in the run in progress */
     double compile_seconds, upload_seconds, render_seconds;
     lsf_pass_stats pass_stats[LSF_RENDERER_MAX_PASSES];
     lsf_pass_time pass_times[LSF_RENDERER_MAX_PASSES];

@@ -11,14 +11,21 @@ static const char *const options[] = {"voxel.resolution=32", "rsm.resolution=32"
                                       "vpl.shadow_resolution=32", "bundle.resolution=32",
                                       "cloud.count=8192"};
 
-/* Every look at the clock takes a second: all is slow. */
-static double now;
+/* By default every look at the clock takes a second: all is slow. */
+static double now, look = 1.0;
+static double computed; /* by this thread */
 
 double __wrap_lsf_now(void);
+double __wrap_lsf_thread_seconds(void);
 
 double __wrap_lsf_now(void)
 {
-    return now += 1.0;
+    return now += look;
+}
+
+double __wrap_lsf_thread_seconds(void)
+{
+    return computed;
 }
 
 static lsf_scene *lit_scene(void)
@@ -125,8 +132,59 @@ static void stops_within_an_iteration(void **unused)
     }
 }
 
+/* Seconds that the first iteration and each of the others take, in all and of this thread. */
+typedef struct course {
+    double first, first_computed, other, other_computed;
+    uint32_t samples; /* iterations within a second of rendering */
+} course;
+
+static bool pass_time(uint32_t done, uint32_t total, void *user)
+{
+    const course *c = user;
+    (void)total;
+    now += done == 1 ? c->first : c->other;
+    computed += done == 1 ? c->first_computed : c->other_computed;
+    return true;
+}
+
+/* The limit is one of rendering: time in which the driver compiles shaders is not part of it. */
+static void compilation_is_not_rendering(void **unused)
+{
+    (void)unused;
+    static const course courses[] = {
+        {3.0, 2.9, 0.2, 0.02, 5}, /* compiles for 2.88 s */
+        {3.0, 0.1, 0.2, 0.02, 1}, /* renders for long */
+        {3.0, 3.0, 3.0, 3.0, 2},  /* the thread itself renders: the second iteration shows it */
+        {0.2, 0.02, 0.2, 0.02, 5},
+    };
+    lsf_scene *scene = lit_scene();
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    look = 0.0;
+    for (size_t i = 0; i < LSF_COUNT(courses); i++) {
+        course c = courses[i];
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 0};
+        params.technique = "direct";
+        params.samples = UINT32_MAX;
+        params.time_limit = 1.0;
+        params.progress = pass_time;
+        params.progress_user = &c;
+        params = corner_params(params, SIZE);
+        lsf_error error = {0};
+        lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
+        assert_non_null(renderer);
+        run(renderer);
+        lsf_image_destroy(read_picture(renderer, c.samples));
+        lsf_renderer_destroy(renderer);
+    }
+    look = 1.0;
+    gl_test_check(context);
+    lsf_context_destroy(context);
+    destroy_scene(scene);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(stops_within_an_iteration)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(stops_within_an_iteration),
+                                       cmocka_unit_test(compilation_is_not_rendering)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
