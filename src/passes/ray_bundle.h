@@ -31,6 +31,9 @@ typedef struct lsf_ray_bundle_params {
     float environment_offset; /* L_u, relative to the mean luminance of the environment */
 } lsf_ray_bundle_params;
 
+/* Fewest texels along a side of a map. */
+#define LSF_RAY_BUNDLE_LEAST 16
+
 #define LSF_RAY_BUNDLE_PARAMS_DEFAULTS                                                             \
     .count = 1, .resolution = 0, .window = LSF_RAY_BUNDLE_WINDOW_AUTO, .slices = 15,               \
     .capacity = 1.0f, .raster = LSF_RAY_BUNDLE_RASTER_COMPUTE, .environment_offset = 1.0f

@@ -215,6 +215,16 @@ static bool update_previous(lsf_setup *setup, double time, const lsf_view *view,
            lsf_state_update(&setup->previous, setup->scene, &params, error);
 }
 
+/* A range that has a gap: options have a least and a largest value. */
+static bool check_bundles(const lsf_ray_bundle_params *params, lsf_error *error)
+{
+    return params->resolution == 0 || params->resolution >= LSF_RAY_BUNDLE_LEAST ||
+           lsf_error_set(error, LSF_ERROR_USAGE,
+                         "-D bundle.resolution=%d: at least %d texels, or 0 to choose by the "
+                         "number of iterations",
+                         params->resolution, LSF_RAY_BUNDLE_LEAST);
+}
+
 static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *params,
                          lsf_error *error)
 {
@@ -224,7 +234,7 @@ static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *
             !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count, pass_params,
                             params->options[i], error))
             return false;
-    return true;
+    return check_bundles(&pass_params->ray_bundle, error);
 }
 
 bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,

@@ -223,10 +223,11 @@ static void bad_params(void **unused)
     lsf_scene *scene = build_scene();
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
-    static const char *const bad[] = {"shadow.filter",      "shadow.filter=soft",
-                                      "shadow.nothing=1",   "shadow.texels_per_pixel=1e9",
-                                      "shadow.filter=pcf ", "shadow.texels_per_pixel=nan"};
-    for (int i = 0; i < 6; i++) {
+    static const char *const bad[] = {"shadow.filter",       "shadow.filter=soft",
+                                      "shadow.nothing=1",    "shadow.texels_per_pixel=1e9",
+                                      "shadow.filter=pcf ",  "shadow.texels_per_pixel=nan",
+                                      "bundle.resolution=15"};
+    for (size_t i = 0; i < LSF_COUNT(bad); i++) {
         lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
         params.technique = "direct";
         lsf_error error = {0};
@@ -427,8 +428,7 @@ static void voxels_by_time(void **unused)
     destroy_scene(scene);
 }
 
-/* Texels of bundles that narrow as iterations take the noise away; not where their number is open.
- */
+/* Texels of bundles narrow as iterations take the noise away, if their number is known. */
 static void bundles_by_iterations(void **unused)
 {
     (void)unused;
