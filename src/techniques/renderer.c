@@ -521,24 +521,27 @@ static double compiled_seconds(const lsf_first_uses *uses)
     return uses->sum - uses->iterations * uses->least;
 }
 
-/* The time limit is one of rendering: it is put off while the driver compiles. `seconds`: of the
- * calling thread in the last iteration. */
-static void allow_compilation(lsf_renderer *renderer, double seconds)
+/* The time limit is one of rendering: it is put off while the driver compiles, by the seconds that
+ * are returned; they are below 0 where too much was allowed before. `seconds`: of the calling
+ * thread in the last iteration. */
+static double allow_compilation(lsf_renderer *renderer, double seconds)
 {
     enum { FIRST_ITERATIONS = 4 };
     lsf_first_uses *uses = &renderer->first_uses;
     if (!renderer->setup.software || uses->iterations == FIRST_ITERATIONS)
-        return;
+        return 0.0;
     uses->least = uses->iterations == 0 ? seconds : fmin(uses->least, seconds);
     uses->sum += seconds;
     uses->iterations++;
-    double allowed = uses->iterations == 1 ? uses->sum : compiled_seconds(uses);
-    renderer->deadline += allowed - uses->allowed;
-    uses->allowed = allowed;
+    double before = uses->allowed;
+    uses->allowed = uses->iterations == 1 ? uses->sum : compiled_seconds(uses);
+    renderer->deadline += uses->allowed - before;
+    return uses->allowed - before;
 }
 
 /* Whether another iteration is likely to end in time: one that does not is dropped, and would only
- * make the user wait. Half of the last one's time is asked for: the first takes longer. */
+ * make the user wait. Half of the last one's time is asked for, because the first takes longer than
+ * the others. */
 static bool leaves_time(const lsf_renderer *renderer, double last_seconds)
 {
     return lsf_now() + 0.5 * last_seconds < renderer->deadline;
@@ -559,10 +562,8 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
          * commands issued. */
         if (limited)
             wait_for_gpu(renderer);
-        double deadline = renderer->deadline;
-        allow_compilation(renderer, lsf_thread_seconds() - computed);
-        double compiled = fmax(renderer->deadline - deadline, 0.0);
-        if (!leaves_time(renderer, lsf_now() - start - compiled))
+        double compiled = allow_compilation(renderer, lsf_thread_seconds() - computed);
+        if (!leaves_time(renderer, lsf_now() - start - fmax(compiled, 0.0)))
             break;
         lsf_context_pause(renderer->context);
     }
