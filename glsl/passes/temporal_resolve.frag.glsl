@@ -1,6 +1,9 @@
 /* Blends the picture with those of the previous frames, so that edges, textures and shadows have the samples of
- * all of them. Where neighbours move apart or lighting has changed, the history is clamped to the pixel's current
- * neighbourhood. */
+ * all of them, as far as the frame's own noise explains its difference from the history. Where neighbours move apart
+ * or lighting has changed, the history is clamped to the pixel's current neighbourhood. Switch LSF_PIXEL_SIDE. */
+#include "lib/luminance.glsl"
+#include "lib/pixel_side.glsl"
+
 layout(binding = 0) uniform sampler2D picture_texture;
 layout(binding = 1) uniform sampler2D carried_texture; /* A: samples; below 0: to be clamped */
 layout(location = 1) uniform float iterations;
@@ -12,20 +15,42 @@ bool finite(vec3 v)
     return !any(isnan(v)) && !any(isinf(v));
 }
 
-/* Clamps to within a standard deviation of the neighbours' mean (Salvi 2016, "An Excursion in Temporal
- * Supersampling"). */
-vec3 held(ivec2 pixel, vec3 before)
+/* The 3 x 3 pixels around one. */
+struct neighbourhood {
+    vec3 mean, deviation; /* of the frame's picture */
+    float off;            /* mean square difference of luminance between the picture and its history */
+};
+
+neighbourhood neighbourhood_of(ivec2 pixel, vec3 own)
 {
     ivec2 size = textureSize(picture_texture, 0);
-    vec3 own = texelFetch(picture_texture, pixel, 0).rgb, first = vec3(0.0), second = vec3(0.0);
+    vec3 first = vec3(0.0), second = vec3(0.0);
+    vec2 off = vec2(0.0); /* sum of squares, number */
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++) {
-            vec3 d = texelFetch(picture_texture, clamp(pixel + ivec2(i, j), ivec2(0), size - 1), 0).rgb - own;
+            ivec2 at = clamp(pixel + ivec2(i, j), ivec2(0), size - 1);
+            vec3 value = texelFetch(picture_texture, at, 0).rgb, d = value - own;
+            vec4 past = texelFetch(carried_texture, at, 0);
             first += d / 9.0;
             second += d * d / 9.0;
+            float change = luminance(past.rgb) - luminance(value);
+            if (past.a != 0.0 && !isnan(change) && !isinf(change))
+                off += vec2(change * change, 1.0);
         }
-    vec3 deviation = sqrt(max(second - first * first, 0.0));
-    return clamp(before, own + first - deviation, own + first + deviation);
+    return neighbourhood(own + first, sqrt(max(second - first * first, 0.0)), off.y > 0.0 ? off.x / off.y : 0.0);
+}
+
+/* Largest number of samples that the history may count for. Detail within a pixel varies at most like its
+ * neighbourhood, so the mean of the frame's samples has at most that variance divided by their number. What is beyond
+ * it is the history's own error: blur, and what has moved or shines otherwise. */
+float trusted(float samples, neighbourhood around)
+{
+    float deviation = luminance(around.deviation);
+    float noise = deviation * deviation / (iterations * float(LSF_PIXEL_SIDE * LSF_PIXEL_SIDE));
+    float error = max(around.off - noise * (1.0 + iterations / samples), 0.0);
+    if (error == 0.0)
+        return samples;
+    return noise > 0.0 ? 1.0 / (1.0 / samples + error / (iterations * noise)) : 0.0;
 }
 
 void main()
@@ -39,7 +64,11 @@ void main()
         picture_out.a = 0.0;
     if (before == 0.0 || !finite(own))
         return;
-    vec3 past = carried.a < 0.0 ? held(pixel, carried.rgb) : carried.rgb;
+    neighbourhood around = neighbourhood_of(pixel, own);
+    vec3 past = carried.rgb;
+    if (carried.a < 0.0) /* Salvi 2016, "An Excursion in Temporal Supersampling" */
+        past = clamp(past, around.mean - around.deviation, around.mean + around.deviation);
+    before = trusted(before, around);
     if (finite(past))
         picture_out = vec4(own + (past - own) * (before / (before + iterations)), before + iterations);
 }
