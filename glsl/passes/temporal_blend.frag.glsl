@@ -32,13 +32,15 @@ float within_lobe(vec4 reach, int part)
 
 /* Statistics of a window of neighbours on the same surface. */
 struct window {
-    float scatter;              /* variance of the frame's light among 3 x 3 of them */
+    float noise;                /* variance of the frame's light: mean of that among iterations, or that of a single
+                                 * one among 3 x 3 of them */
     float difference, variance; /* mean of the frame's light less the history, and the variance of that mean */
+    float apart, count;         /* mean square of that difference; number of neighbours */
 };
 
-/* Sums of weights: of differences, and of scatters. */
+/* Sums of weights: of differences, and of noise. */
 struct tally {
-    float sum, first, second, scatter, known;
+    float sum, first, second, noise, known;
 };
 
 void add(inout tally t, vec4 texel, float origin, float w)
@@ -48,16 +50,17 @@ void add(inout tally t, vec4 texel, float origin, float w)
     t.sum += w;
     t.first += w * d;
     t.second += w * (texel.y + d * d);
-    t.scatter += known * texel.z;
+    t.noise += known * texel.z;
     t.known += known;
 }
 
 window window_of(tally t, float origin)
 {
-    window around = window(t.known > 0.0 ? t.scatter / t.known : 0.0, 0.0, 0.0);
+    window around = window(t.known > 0.0 ? t.noise / t.known : 0.0, 0.0, 0.0, 0.0, t.sum);
     if (t.sum > 0.0) {
         float mean = t.first / t.sum;
         around.difference = origin + mean;
+        around.apart = t.second / t.sum + origin * (origin + 2.0 * mean);
         around.variance = max(t.second / t.sum - mean * mean, 0.0) / clamp(t.sum, 1.0, independent);
     }
     return around;
@@ -87,15 +90,25 @@ void look_around(light_guide g, ivec2 pixel, out window windows[1 + LSF_LOBE])
         windows[part] = window_of(tallies[part], own[part].x);
 }
 
+/* The weight of least squared error for a history of so many samples with a bias. */
+float weighted(float samples, float bias2, float noise)
+{
+    if (bias2 <= 0.0)
+        return samples;
+    return noise > 0.0 ? 1.0 / (1.0 / samples + bias2 / (iterations * noise)) : 0.0;
+}
+
 /* Largest number of samples that the history may count for: its mean square error is its variance plus the square
- * of its bias. */
+ * of its bias, which is that of blur in each pixel, and of changes among neighbours. */
 float trusted(float samples, window around)
 {
-    float off = max(around.difference * around.difference - around.variance, 0.0);
-    if (!changed || off == 0.0)
-        return samples;
-    float noise = around.variance * samples / (samples + iterations); /* of the frame alone */
-    return noise > 0.0 ? 1.0 / (1.0 / samples + off / (iterations * noise)) : 0.0;
+    float chance = 1.0 + 2.0 * sqrt((2.0 + 8.0 / (iterations - 1.0)) / clamp(around.count, 1.0, independent));
+    float blur2 = around.apart - chance * around.noise * (1.0 + iterations / samples);
+    float trust = iterations > 1.0 ? weighted(samples, blur2, around.noise) : samples;
+    if (!changed)
+        return trust;
+    float change2 = around.difference * around.difference - around.variance;
+    return min(trust, weighted(samples, change2, around.variance * samples / (samples + iterations)));
 }
 
 void blend(ivec2 pixel, int part, window around)
@@ -122,7 +135,7 @@ void blend(ivec2 pixel, int part, window around)
     count_out[part] = total;
     float variance = total > 1.0 ? deviations / (total * (total - 1.0)) : 0.0;
     if (iterations == 1.0 && total < ENOUGH)
-        variance = max(variance, around.scatter / total);
+        variance = max(variance, around.noise / total);
     /* The sum of squared deviations that a mean of as many iterations would have, at least 2. */
     float n = max(iterations, 2.0), tint = luminance(factor);
     light_out[part] = vec4(light_out[part].rgb + factor * change, variance * n * (n - 1.0) * tint * tint);

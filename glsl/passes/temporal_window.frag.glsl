@@ -6,6 +6,7 @@
 #include "passes/temporal_none.glsl"
 
 layout(binding = 2) uniform sampler2D compared_texture;
+layout(location = 1) uniform float iterations;
 layout(location = 0) out vec4 window_out[1 + LSF_LOBE]; /* mean and variance of the difference from the history;
                                                          * variance of the light, below 0: unknown; weight of the
                                                          * first two, 0: unknown */
@@ -60,6 +61,7 @@ void main()
         if (a.sum > 0.0)
             window_out[part].xyw = vec3(origin[2 * part + 1] + a.first / a.sum, variance_of(a), a.sum);
         if (light[part].sum > 0.0)
-            window_out[part].z = variance_of(light[part]);
+            window_out[part].z = iterations > 1.0 ? origin[2 * part] + light[part].first / light[part].sum
+                                                  : variance_of(light[part]);
     }
 }

@@ -273,11 +273,13 @@ static void blend_light(const lsf_temporal *pass, const lsf_plan *plan, uint32_t
                         const lsf_temporal_inputs *inputs)
 {
     begin(plan, pass->compare_framebuffer, pass->compare_program, inputs);
+    glUniform1f(1, (float)iterations);
     bind_light(pass, inputs);
     lsf_draw_fullscreen(pass->context);
 
     begin(plan, pass->window_framebuffer, pass->window_program, inputs);
     set_guide();
+    glUniform1f(1, (float)iterations);
     lsf_bind_texture(2, pass->compared);
     lsf_draw_fullscreen(pass->context);
 
