@@ -40,13 +40,14 @@ neighbourhood neighbourhood_of(ivec2 pixel, vec3 own)
     return neighbourhood(own + first, sqrt(max(second - first * first, 0.0)), off.y > 0.0 ? off.x / off.y : 0.0);
 }
 
-/* Largest number of samples that the history may count for. Detail within a pixel varies at most like its
- * neighbourhood, so the mean of the frame's samples has at most that variance divided by their number. What is beyond
- * it is the history's own error: blur, and what has moved or shines otherwise. */
+/* Largest number of samples that the history may count for. What a pixel shows varies at most like its neighbourhood.
+ * An edge crosses about sqrt(m) of m strata of a pixel, so the mean of as many samples has m^-1.5 of that variance
+ * (Mitchell 1996, "Consequences of Stratified Sampling in Graphics"). What is beyond it is the history's own error:
+ * blur, and what has moved or reflects something else. */
 float trusted(float samples, neighbourhood around)
 {
-    float deviation = luminance(around.deviation);
-    float noise = deviation * deviation / (iterations * float(LSF_PIXEL_SIDE * LSF_PIXEL_SIDE));
+    float deviation = luminance(around.deviation), points = iterations * float(LSF_PIXEL_SIDE * LSF_PIXEL_SIDE);
+    float noise = deviation * deviation * pow(points, -1.5);
     float error = max(around.off - noise * (1.0 + iterations / samples), 0.0);
     if (error == 0.0)
         return samples;

@@ -186,6 +186,45 @@ static void pan_is_clean(void **unused)
     }
 }
 
+/* An eye that goes around the box, by so many degrees. */
+static lsf_view view_around(double degrees)
+{
+    double turn = degrees * M_PI / 180.0, x = sin(turn), z = cos(turn);
+    return (lsf_view){.position = {(float)(-0.1 + 2.4 * x), 1.4f, (float)(0.4 + 2.4 * z)},
+                      .forward = {(float)-x, -0.45f, (float)-z},
+                      .up = {0, 1, 0},
+                      .fov_y = 40.0f};
+}
+
+/* Outlines that move, and faces that are seen from another side, belong to the frame alone. */
+static void an_orbit_does_not_blur(void **unused)
+{
+    (void)unused;
+    enum { LAST = 7 };
+    float truth[VALUES], single[VALUES], kept[VALUES];
+    lsf_render_params params = keeping("voxel_path");
+    params.samples = 4;
+    lsf_render_params still = params;
+    still.temporal = false;
+    world w = begin_world(params), fresh = begin_world(still);
+    still.samples = 96;
+    world converged = begin_world(still);
+    for (int k = 0; k <= LAST; k++) {
+        lsf_view view = view_around(20.0 + 5.0 * k);
+        frame_of(&w, (lsf_frame){.view = &view}, kept);
+        if (k == LAST) {
+            frame_of(&fresh, (lsf_frame){.view = &view}, single);
+            frame_of(&converged, (lsf_frame){.view = &view, .first_sample = 1000}, truth);
+        }
+    }
+    end_world(&w);
+    end_world(&fresh);
+    end_world(&converged);
+    double with = relative_error(kept, truth), without = relative_error(single, truth);
+    print_message("an orbit: relMSE %.4f, of a single frame %.4f\n", with, without);
+    assert_true(with < without);
+}
+
 /* --- what stays */
 
 static void set_lamp(const world *w, float intensity)
@@ -406,9 +445,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_frames_are_one),   cmocka_unit_test(pan_is_clean),
-        cmocka_unit_test(lamp_is_forgotten),      cmocka_unit_test(box_leaves_no_ghost),
-        cmocka_unit_test(denoised_light_is_kept), cmocka_unit_test(cut_resets_the_history),
-        cmocka_unit_test(unread_frames_count),    cmocka_unit_test(plan_has_it_on_request),
+        cmocka_unit_test(an_orbit_does_not_blur), cmocka_unit_test(lamp_is_forgotten),
+        cmocka_unit_test(box_leaves_no_ghost),    cmocka_unit_test(denoised_light_is_kept),
+        cmocka_unit_test(cut_resets_the_history), cmocka_unit_test(unread_frames_count),
+        cmocka_unit_test(plan_has_it_on_request),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
