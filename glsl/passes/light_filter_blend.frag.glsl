@@ -1,4 +1,4 @@
-/* Adds the filter's change to the picture. Only the part that noise explains is taken: where light and filtered
+/* Adds the filter's change to the picture, and sets the variance that is left. Only the part that noise explains is taken: where light and filtered
  * light differ by more, the difference is the filter's bias. */
 #include "lib/view.glsl"
 
@@ -12,7 +12,7 @@ layout(binding = 8) uniform sampler2D factor_textures[1 + LSF_LOBE];
 layout(location = 2) uniform float uncertainty; /* relative variance of the variance; below 0: no limit */
 layout(location = 3) uniform bool pattern;      /* neighbours take different samples */
 layout(binding = 10) uniform sampler2D lone_texture;
-layout(location = 0) out vec4 change_out;
+layout(location = 0) out vec4 change_out; /* A: variance of the picture's luminance that is left */
 layout(location = 1) out vec4 lost_out; /* light taken out of lone pixels; A: whether the pixel stands apart */
 
 vec4 window_value(ivec2 at, int part)
@@ -55,10 +55,12 @@ void main()
         vec4 own = texelFetch(light_textures[part], pixel, 0), filtered = texelFetch(filtered_textures[part], pixel, 0);
         if (own.a < 0.0)
             continue;
-        vec3 change = filtered.rgb - own.rgb;
+        vec3 change = filtered.rgb - own.rgb, factor = texelFetch(factor_textures[part], pixel, 0).rgb;
+        float taken = 1.0, tint = luminance(factor);
         if (uncertainty >= 0.0)
-            change *= explained(change, max(own.a - filtered.a, 0.0), windows[part], window_value(pixel, part).x);
-        change *= texelFetch(factor_textures[part], pixel, 0).rgb;
+            taken = explained(change, max(own.a - filtered.a, 0.0), windows[part], window_value(pixel, part).x);
+        change *= taken * factor;
+        change_out.a += mix(own.a, max(filtered.a, 0.0), taken) * tint * tint;
         change_out.rgb += change;
         float mark = texelFetch(lone_texture, pixel, 0)[part];
         if (lone_marked(mark, LONE))

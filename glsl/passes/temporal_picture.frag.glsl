@@ -12,8 +12,16 @@ layout(binding = 6) uniform sampler2D blended_diffuse_texture;
 layout(binding = 7) uniform sampler2D specular_texture;
 layout(binding = 8) uniform sampler2D blended_specular_texture;
 #endif
-layout(location = 0) out vec4 picture_out;
+layout(location = 1) uniform float iterations;
+layout(location = 0) out vec4 picture_out; /* A: variance of its luminance */
 layout(location = 1) out uvec4 guide_out;
+
+/* As lsf_light_mean_part has it; temporal_blend sets it for at least two iterations. */
+float variance_of(vec4 light)
+{
+    float n = max(iterations, 2.0);
+    return light.a / (n * (n - 1.0));
+}
 
 /* Deviation of depth within a pixel [pixels] above which it shows an edge, whose light belongs to no single
  * surface. */
@@ -23,9 +31,13 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     picture_out = texelFetch(picture_texture, pixel, 0);
-    picture_out.rgb += texelFetch(blended_diffuse_texture, pixel, 0).rgb - texelFetch(diffuse_texture, pixel, 0).rgb;
+    vec4 blended = texelFetch(blended_diffuse_texture, pixel, 0);
+    picture_out.rgb += blended.rgb - texelFetch(diffuse_texture, pixel, 0).rgb;
+    picture_out.a = variance_of(blended);
 #if LSF_LOBE
-    picture_out.rgb += texelFetch(blended_specular_texture, pixel, 0).rgb - texelFetch(specular_texture, pixel, 0).rgb;
+    blended = texelFetch(blended_specular_texture, pixel, 0);
+    picture_out.rgb += blended.rgb - texelFetch(specular_texture, pixel, 0).rgb;
+    picture_out.a += variance_of(blended);
 #endif
     light_guide g = light_guide_at(pixel);
     guide_out = uvec4(0u);

@@ -4,7 +4,7 @@
 #include "lib/luminance.glsl"
 #include "lib/pixel_side.glsl"
 
-layout(binding = 0) uniform sampler2D picture_texture;
+layout(binding = 0) uniform sampler2D picture_texture; /* A: variance of its luminance by light */
 layout(binding = 1) uniform sampler2D carried_texture; /* A: samples; below 0: to be clamped */
 layout(location = 1) uniform float iterations;
 layout(location = 2) uniform float limit; /* samples of the history per sample of the frame */
@@ -40,14 +40,14 @@ neighbourhood neighbourhood_of(ivec2 pixel, vec3 own)
     return neighbourhood(own + first, sqrt(max(second - first * first, 0.0)), off.y > 0.0 ? off.x / off.y : 0.0);
 }
 
-/* Largest number of samples that the history may count for. What a pixel shows varies at most like its neighbourhood.
- * An edge crosses about sqrt(m) of m strata of a pixel, so the mean of as many samples has m^-1.5 of that variance
- * (Mitchell 1996, "Consequences of Stratified Sampling in Graphics"). What is beyond it is the history's own error:
- * blur, and what has moved or reflects something else. */
-float trusted(float samples, neighbourhood around)
+/* Largest number of samples that the history may count for, where light has so much variance. What a pixel shows
+ * varies at most like its neighbourhood, and an edge crosses about sqrt(m) of m strata of a pixel, so that the mean of
+ * as many samples has m^-1.5 of the neighbourhood's variance (Mitchell 1996, "Consequences of Stratified Sampling in
+ * Graphics"). What is beyond both is the history's own error: blur, and what has moved or reflects something else. */
+float trusted(float samples, neighbourhood around, float light)
 {
     float deviation = luminance(around.deviation), points = iterations * float(LSF_PIXEL_SIDE * LSF_PIXEL_SIDE);
-    float noise = deviation * deviation * pow(points, -1.5);
+    float noise = deviation * deviation * pow(points, -1.5) + max(light, 0.0);
     float error = max(around.off - noise * (1.0 + iterations / samples), 0.0);
     if (error == 0.0)
         return samples;
@@ -57,7 +57,8 @@ float trusted(float samples, neighbourhood around)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 own = texelFetch(picture_texture, pixel, 0).rgb;
+    vec4 own_texel = texelFetch(picture_texture, pixel, 0);
+    vec3 own = own_texel.rgb;
     vec4 carried = texelFetch(carried_texture, pixel, 0);
     float before = min(abs(carried.a), limit * iterations);
     picture_out = vec4(own, iterations);
@@ -69,7 +70,7 @@ void main()
     vec3 past = carried.rgb;
     if (carried.a < 0.0) /* Salvi 2016, "An Excursion in Temporal Supersampling" */
         past = clamp(past, around.mean - around.deviation, around.mean + around.deviation);
-    before = trusted(before, around);
+    before = trusted(before, around, own_texel.a);
     if (finite(past))
         picture_out = vec4(own + (past - own) * (before / (before + iterations)), before + iterations);
 }

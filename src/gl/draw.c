@@ -63,6 +63,13 @@ void lsf_blend_add(uint32_t attachments)
     glBlendFunc(GL_ONE, GL_ONE);
 }
 
+void lsf_blend_add_color(void)
+{
+    glEnablei(GL_BLEND, 0);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ZERO);
+}
+
 void lsf_blend_multiply(uint32_t attachment)
 {
     glEnablei(GL_BLEND, attachment);

@@ -147,6 +147,8 @@ void lsf_cull_back(bool culled, bool mirrored);
 
 /* What the program writes is added to the first `attachments` attachments. */
 void lsf_blend_add(uint32_t attachments);
+/* Color that the program writes is added to the first attachment, and alpha replaces its alpha. */
+void lsf_blend_add_color(void);
 /* One attachment is multiplied by what the program writes. */
 void lsf_blend_multiply(uint32_t attachment);
 

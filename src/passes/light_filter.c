@@ -274,7 +274,7 @@ static void blend(const lsf_light_filter *pass, const lsf_plan *plan, float iter
         lsf_draw_fullscreen(pass->context);
     }
     begin(plan, pass->picture_framebuffer, pass->blend);
-    lsf_blend_add(1);
+    lsf_blend_add_color();
     set_guide(pass);
     glUniform1i(1, false);
     float kurtosis = shares_samples(plan) ? KURTOSIS_RARE : KURTOSIS;

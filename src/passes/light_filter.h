@@ -46,7 +46,7 @@ typedef struct lsf_light_filter_inputs {
 typedef struct lsf_light_filter {
     lsf_context *context;
     lsf_light_filter_params params;
-    GLuint picture; /* output: RGBA32F */
+    GLuint picture; /* output: RGBA32F; A: variance of luminance that is left, 0: none is known */
     /* Outputs, too: without tint, of the diffuse part and, where materials have lobes, of the
      * specular one; A: variance, below 0: it tells nothing. After the steps: */
     GLuint light[2], filtered[2]; /* `filtered` are two of the turns */

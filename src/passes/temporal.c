@@ -302,6 +302,7 @@ void lsf_temporal_blend(lsf_temporal *pass, const lsf_iteration *iteration, uint
     lsf_iteration_bind_view(iteration);
     blend_light(pass, plan, iterations, inputs);
     begin(plan, pass->picture_framebuffer, pass->picture_program, inputs);
+    glUniform1f(1, (float)iterations);
     lsf_bind_texture(4, inputs->picture);
     lsf_bind_texture(5, inputs->parts[0].light);
     lsf_bind_texture(6, pass->parts[0].light);

@@ -84,6 +84,36 @@ static void nothing_crosses_an_edge(void **unused)
     }
 }
 
+/* Channel A is the variance that is left: on a plane that of the filtered pixels themselves, and
+ * that of the mean without steps. */
+static void what_is_left_is_told(void **unused)
+{
+    (void)unused;
+    static filter_rig r;
+    for (int steps = 0; steps < 3; steps += 2) {
+        lsf_light_filter_params params = defaults;
+        params.steps = steps;
+        filter_rig_begin(&r, 96, 64, false, &params);
+        seen wall = surface_rig_wall(&r.s, 1.0f);
+        see_everywhere(&r, &wall);
+        for (int n = 0; n < 16; n++) {
+            for (uint32_t i = 0; i < pixels_of(&r); i++)
+                noisy_light(&r, i, 1.0f);
+            iterate(&r);
+        }
+        filter(&r);
+        double told = 0.0, left = 0.0, count = pixels_of(&r);
+        for (uint32_t i = 0; i < pixels_of(&r); i++) {
+            double d = (double)r.out[i][0] - 1.0 / M_PI;
+            told += (double)r.out[i][3] / count;
+            left += d * d / count;
+        }
+        print_message("%d steps: a variance of %.6f, told as %.6f\n", steps, left, told);
+        assert_true(told < 1.5 * left && left < 1.5 * told);
+        filter_rig_end(&r);
+    }
+}
+
 /* Colours as different as a texture's: light without them is filtered as on a white wall. */
 static void textures_stay(void **unused)
 {
@@ -363,6 +393,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_constant_stays_to_the_bit),
         cmocka_unit_test(nothing_crosses_an_edge),
+        cmocka_unit_test(what_is_left_is_told),
         cmocka_unit_test(textures_stay),
         cmocka_unit_test(what_reflects_nothing_tells_nothing),
         cmocka_unit_test(a_plane_gets_the_tent),
