@@ -49,6 +49,17 @@ float surface_widest_roughness(surface s)
 #endif
 }
 
+/* Number of paths that begin at a visible surface: `range.x` at roughness 0, `range.y` at roughness 1 and where all
+ * light passes, because such paths go on from surface to surface and choose at each between passing and reflecting. */
+float surface_path_count(surface s, vec2 range)
+{
+    float spread = surface_widest_roughness(s);
+#if LSF_TRANSMISSION
+    spread = max(spread, s.transmission);
+#endif
+    return floor(mix(range.x, range.y, spread) + 0.5);
+}
+
 /* Schlick's Fresnel term for the side from which the surface is seen. */
 float surface_fresnel(surface s, float f0, float f90, float vh)
 {

@@ -10,13 +10,13 @@
 #define LSF_SKY_CHANCE_PATHS 1
 #define LSF_SKY_CHANCE_LOBES 2
 
-/* Number of paths, or rays, of a pixel at roughness 0 and 1. */
+/* Range of the number of paths, or rays, of a pixel. */
 layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec2 sky_paths;
 
 /* Weights light of the environment from a direction that is drawn with `density`. */
 void share_sky(surface s, vec3 view_direction, vec3 direction, float density, inout brdf_value f)
 {
-    float count = floor(mix(sky_paths.x, sky_paths.y, surface_widest_roughness(s)) + 0.5);
+    float count = surface_path_count(s, sky_paths);
     brdf_sampler p = brdf_sampler_of(s, view_direction, true);
 #if LSF_SKY_CHANCE == LSF_SKY_CHANCE_PATHS
     float left = density / (density + count * brdf_pdf(p, direction));

@@ -343,9 +343,7 @@ void main()
 #if LSF_SPECULAR_PARAMS
         specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
 #endif
-        /* The number of samples grows with the larger of the surface's roughnesses. */
-        float roughness = surface_widest_roughness(v.s);
-        int count = int(mix(float(lengths.z), float(lengths.w), roughness) + 0.5);
+        int count = int(surface_path_count(v.s, vec2(lengths.zw)));
         path_random_key key;
         key.pixel = uint(texel.x) | (uint(texel.y) << 16);
         key.seed = iteration.y;
