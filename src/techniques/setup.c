@@ -247,6 +247,7 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
         !check_params(params, error) || !read_options(&setup->pass_params, params, error) ||
         !keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
+    setup->asked = setup->pass_params;
     setup->interleave_chosen = setup->pass_params.sparse.interleave == 0;
     lsf_view_params view = view_of(setup, params->time, NULL);
     return lsf_state_update(&setup->state, setup->scene, &view, error) &&
@@ -350,13 +351,14 @@ bool lsf_setup_plans_alike(const lsf_setup *setup, const lsf_render_params *para
         return false;
     *alike = strcmp(own->technique, params->technique) == 0 && own->width == params->width &&
              own->height == params->height && own->samples == params->samples &&
+             !(own->time_limit < params->time_limit) && !(own->time_limit > params->time_limit) &&
              own->bounces == params->bounces && own->seed == params->seed &&
              own->raw == params->raw && own->temporal == params->temporal &&
              own->rgb8 == params->rgb8 && own->present == params->present &&
              own->aovs == params->aovs && own->background == params->background &&
              memcmp(own->background_radiance, params->background_radiance,
                     sizeof own->background_radiance) == 0 &&
-             memcmp(&setup->pass_params, &other.pass_params, sizeof other.pass_params) == 0;
+             memcmp(&setup->asked, &other.pass_params, sizeof other.pass_params) == 0;
     return true;
 }
 

@@ -24,12 +24,13 @@ typedef struct lsf_setup {
     const lsf_technique *technique;
     lsf_render_params params; /* the camera and the strings that it points to are owned */
     float camera_position[3], camera_target[3];
-    lsf_pass_params pass_params;
-    bool software;           /* OpenGL runs on the processor */
-    bool interleave_chosen;  /* interleave.size is left to each plan */
-    const lsf_scene *source; /* the caller's */
-    const lsf_scene *scene;  /* the scene that is drawn: the caller's, or `tessellated` */
-    lsf_scene *tessellated;  /* NULL unless tessellation.factor is above 1 */
+    lsf_pass_params asked;       /* as given by `params` */
+    lsf_pass_params pass_params; /* the same, with what was chosen for the rest */
+    bool software;               /* OpenGL runs on the processor */
+    bool interleave_chosen;      /* interleave.size is left to each plan */
+    const lsf_scene *source;     /* the caller's */
+    const lsf_scene *scene;      /* the scene that is drawn: the caller's, or `tessellated` */
+    lsf_scene *tessellated;      /* NULL unless tessellation.factor is above 1 */
     lsf_state state;
     lsf_state previous;  /* the state of the frame before, from which motion is measured */
     lsf_changes changes; /* from that one */

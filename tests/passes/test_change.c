@@ -76,6 +76,35 @@ static void each_step(void **user)
     lsf_scene_destroy(scene);
 }
 
+/* Other eyes change no plan, whatever the options that are left to it. */
+static void eyes_keep_the_plan(void **user)
+{
+    (void)user;
+    static const char *const techniques[] = {"bidirectional", "cone"};
+    lsf_error error = {0};
+    lsf_scene *scene = rig_scene(5.0f);
+    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
+        lsf_render_params params = rig_params(techniques[t]);
+        params.option_count = 0;
+        params.camera_position = eyes[0];
+        params.camera_target = target;
+        params.time_limit = 10.0;
+        lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
+        assert_non_null(renderer);
+        const lsf_plan *plan = lsf_renderer_plan(renderer);
+        params.camera_position = eyes[1];
+        assert_true(lsf_renderer_change(renderer, &params, &error));
+        assert_ptr_equal(lsf_renderer_plan(renderer), plan);
+        params.time_limit = 1.0; /* leaves room for less */
+        assert_true(lsf_renderer_change(renderer, &params, &error));
+        assert_ptr_not_equal(lsf_renderer_plan(renderer), plan);
+        lsf_renderer_destroy(renderer);
+    }
+    lsf_context_destroy(context);
+    lsf_scene_destroy(scene);
+}
+
 /* What is refused leaves the picture, and what it is of, as they are. */
 static void refused(void **user)
 {
@@ -120,6 +149,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_step),
+        cmocka_unit_test(eyes_keep_the_plan),
         cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
