@@ -10,7 +10,7 @@
 #define LSF_SKY_CHANCE_PATHS 1
 #define LSF_SKY_CHANCE_LOBES 2
 
-/* Range of the number of paths, or rays, of a pixel. */
+/* Range of the number of paths, or rays, of a pixel, as in surface_path_count. */
 layout(location = LSF_LOCATION_SKY_CHANCE) uniform vec2 sky_paths;
 
 /* Weights light of the environment from a direction that is drawn with `density`. */

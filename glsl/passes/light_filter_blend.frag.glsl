@@ -1,5 +1,5 @@
-/* Adds the filter's change to the picture, and sets the variance that is left. Only the part that noise explains is taken: where light and filtered
- * light differ by more, the difference is the filter's bias. */
+/* Adds the filter's change to the picture, and sets the variance that is left. Only the part that noise explains is
+ * taken: where light and filtered light differ by more, the difference is the filter's bias. */
 #include "lib/view.glsl"
 
 #include "lib/light_lone.glsl"

@@ -4,6 +4,7 @@
 
 #include "lib/light_clear.glsl"
 #include "lib/light_guide.glsl"
+#include "passes/temporal_weight.glsl"
 
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* of lsf_light_mean_part */
 layout(binding = 4) uniform sampler2D factor_textures[1 + LSF_LOBE];
@@ -90,25 +91,23 @@ void look_around(light_guide g, ivec2 pixel, out window windows[1 + LSF_LOBE])
         windows[part] = window_of(tallies[part], own[part].x);
 }
 
-/* The weight of least squared error for a history of so many samples with a bias. */
-float weighted(float samples, float bias2, float noise)
-{
-    if (bias2 <= 0.0)
-        return samples;
-    return noise > 0.0 ? 1.0 / (1.0 / samples + bias2 / (iterations * noise)) : 0.0;
-}
-
 /* Largest number of samples that the history may count for: its mean square error is its variance plus the square
- * of its bias, which is that of blur in each pixel, and of changes among neighbours. */
+ * of its bias, which is that of blur in each pixel, and of changes among neighbours. A single iteration cannot tell
+ * blur from noise. */
 float trusted(float samples, window around)
 {
-    float chance = 1.0 + 2.0 * sqrt((2.0 + 8.0 / (iterations - 1.0)) / clamp(around.count, 1.0, independent));
-    float blur2 = around.apart - chance * around.noise * (1.0 + iterations / samples);
-    float trust = iterations > 1.0 ? weighted(samples, blur2, around.noise) : samples;
-    if (!changed)
-        return trust;
-    float change2 = around.difference * around.difference - around.variance;
-    return min(trust, weighted(samples, change2, around.variance * samples / (samples + iterations)));
+    float trust = samples;
+    if (iterations > 1.0) {
+        float chance = 1.0 + 2.0 * sqrt((2.0 + 8.0 / (iterations - 1.0)) / clamp(around.count, 1.0, independent));
+        float blur2 = around.apart - chance * around.noise * (1.0 + iterations / samples);
+        trust = history_weight(samples, iterations, blur2, around.noise);
+    }
+    if (changed) {
+        float change2 = around.difference * around.difference - around.variance;
+        float noise = around.variance * samples / (samples + iterations); /* of the frame alone */
+        trust = min(trust, history_weight(samples, iterations, change2, noise));
+    }
+    return trust;
 }
 
 void blend(ivec2 pixel, int part, window around)

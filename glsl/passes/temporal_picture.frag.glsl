@@ -16,7 +16,8 @@ layout(location = 1) uniform float iterations;
 layout(location = 0) out vec4 picture_out; /* A: variance of its luminance */
 layout(location = 1) out uvec4 guide_out;
 
-/* As lsf_light_mean_part has it; temporal_blend sets it for at least two iterations. */
+/* Variance of a mean's luminance. A of `light`: the sum of squared deviations, which temporal_blend sets for at least
+ * two iterations. */
 float variance_of(vec4 light)
 {
     float n = max(iterations, 2.0);

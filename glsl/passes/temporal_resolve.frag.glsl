@@ -3,6 +3,7 @@
  * or lighting has changed, the history is clamped to the pixel's current neighbourhood. Switch LSF_PIXEL_SIDE. */
 #include "lib/luminance.glsl"
 #include "lib/pixel_side.glsl"
+#include "passes/temporal_weight.glsl"
 
 layout(binding = 0) uniform sampler2D picture_texture; /* A: variance of its luminance by light */
 layout(binding = 1) uniform sampler2D carried_texture; /* A: samples; below 0: to be clamped */
@@ -40,7 +41,7 @@ neighbourhood neighbourhood_of(ivec2 pixel, vec3 own)
     return neighbourhood(own + first, sqrt(max(second - first * first, 0.0)), off.y > 0.0 ? off.x / off.y : 0.0);
 }
 
-/* Largest number of samples that the history may count for, where light has so much variance. What a pixel shows
+/* Largest number of samples that the history may count for. `light`: variance by noisy light. What a pixel shows
  * varies at most like its neighbourhood, and an edge crosses about sqrt(m) of m strata of a pixel, so that the mean of
  * as many samples has m^-1.5 of the neighbourhood's variance (Mitchell 1996, "Consequences of Stratified Sampling in
  * Graphics"). What is beyond both is the history's own error: blur, and what has moved or reflects something else. */
@@ -48,10 +49,7 @@ float trusted(float samples, neighbourhood around, float light)
 {
     float deviation = luminance(around.deviation), points = iterations * float(LSF_PIXEL_SIDE * LSF_PIXEL_SIDE);
     float noise = deviation * deviation * pow(points, -1.5) + max(light, 0.0);
-    float error = max(around.off - noise * (1.0 + iterations / samples), 0.0);
-    if (error == 0.0)
-        return samples;
-    return noise > 0.0 ? 1.0 / (1.0 / samples + error / (iterations * noise)) : 0.0;
+    return history_weight(samples, iterations, around.off - noise * (1.0 + iterations / samples), noise);
 }
 
 void main()

@@ -18,8 +18,7 @@ const lsf_option_row lsf_ray_bundle_options[LSF_RAY_BUNDLE_OPTION_COUNT] = {
     {"bundle.resolution", LSF_OPTION_INT, offsetof(lsf_ray_bundle_params, resolution), 0, 4096,
      NULL, "texels",
      "width and height of a bundle's map, at least 16; 0: 256, and more beyond 32 iterations, up "
-     "to "
-     "768"},
+     "to 768"},
     {"bundle.window", LSF_OPTION_ENUM, offsetof(lsf_ray_bundle_params, window), 0, 0,
      "auto|visible|scene", "",
      "what a bundle covers; visible: the visible points; scene: the whole scene; auto: scene if "

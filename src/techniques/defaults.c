@@ -112,7 +112,7 @@ void lsf_default_points(lsf_setup *setup)
         params->sparse.grid = choose_grid(setup);
         params->sparse.chosen = params->sparse.grid > 1;
     }
-    if (setup->interleave_chosen)
+    if (setup->asked.sparse.interleave == 0) /* left to each plan */
         params->sparse.interleave = choose_interleave(setup);
 }
 

@@ -248,7 +248,6 @@ bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_
         !keep_params(setup, params, error) || !tessellate(setup, scene, error))
         return false;
     setup->asked = setup->pass_params;
-    setup->interleave_chosen = setup->pass_params.sparse.interleave == 0;
     lsf_view_params view = view_of(setup, params->time, NULL);
     return lsf_state_update(&setup->state, setup->scene, &view, error) &&
            update_previous(setup, params->time, NULL, error) && begin_plan(setup, error);

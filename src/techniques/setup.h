@@ -27,7 +27,6 @@ typedef struct lsf_setup {
     lsf_pass_params asked;       /* as given by `params` */
     lsf_pass_params pass_params; /* the same, with what was chosen for the rest */
     bool software;               /* OpenGL runs on the processor */
-    bool interleave_chosen;      /* interleave.size is left to each plan */
     const lsf_scene *source;     /* the caller's */
     const lsf_scene *scene;      /* the scene that is drawn: the caller's, or `tessellated` */
     lsf_scene *tessellated;      /* NULL unless tessellation.factor is above 1 */

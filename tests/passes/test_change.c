@@ -101,6 +101,7 @@ static void eyes_keep_the_plan(void **user)
         assert_ptr_not_equal(lsf_renderer_plan(renderer), plan);
         lsf_renderer_destroy(renderer);
     }
+    gl_test_check(context);
     lsf_context_destroy(context);
     lsf_scene_destroy(scene);
 }
