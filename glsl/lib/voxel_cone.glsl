@@ -2,7 +2,7 @@
  * the surface that it hits; else it marches through the pyramid of radiance; LSF_VOXEL_SIDES, as in voxel_mip, or
  * when sealed LSF_VOXEL_SIDES_SURFACE; LSF_VOXEL_PASSAGE: sealed rays continue through transmitting surfaces,
  * tinted; LSF_VOXEL_DRAW: sealed cones share light with draws of voxels; LSF_EMITTERS: and emission with points drawn
- * on emitters. */
+ * on emitters; LSF_VOXEL_LAMPS: smooth metals mirror lamps to sealed cones. */
 #ifndef LSF_LIB_VOXEL_CONE
 #define LSF_LIB_VOXEL_CONE
 
@@ -19,6 +19,9 @@
 
 /* Number of sides of voxels that are drawn by their radiance for each point. */
 layout(location = LSF_LOCATION_VOXEL_DRAW) uniform int cone_draws;
+#endif
+#if LSF_VOXEL_LAMPS || LSF_VOXEL_MIRRORS
+#include "lib/voxel_surface.glsl"
 #endif
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D radiance_texture;
@@ -133,6 +136,20 @@ cone_way cone_follow(vec3 point, vec3 normal, vec3 direction)
 #endif
 }
 
+/* What the side of a voxel in which a ray ends reflects of lamps and of other light, where it is `spread` if all of it
+ * is reflected as by a diffuse surface. `density`: of all rays that find this direction from the point [1/sr]. */
+vec3 cone_reflected(vec3 spread, vec3 point, vec3 direction, ivec3 cell, float density)
+{
+#if LSF_VOXEL_LAMPS
+    if (voxel_is_smooth_metal(texelFetch(voxel_specular_params, cell, 0).r)) {
+        int side;
+        surface s = voxel_surface_at(cell, direction, side);
+        return voxel_reflects(spread, s, cell, side, point, direction, density);
+    }
+#endif
+    return spread;
+}
+
 /* Traces a ray. The rays of a set that gathers a hemisphere are cosine-distributed over all rotations and
  * elevations, so that the mean is right; voxels beside a ray are hit by other rays and must not count twice. `chance`:
  * density of the set's directions there [1/sr]; light of voxels is weighted by it against draws (balance heuristic,
@@ -143,10 +160,12 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float chance, flo
     if (!way.met)
         return cone_light(way.radiance, way.left);
     cone_end end = cone_end_at(point, direction, way.cell, chance / cone_gather.z);
+    float density = chance;
 #if LSF_VOXEL_DRAW
-    float drawn = voxel_draw_density(point, direction, way.cell, voxel_draw_plane(way.cell), end.rest);
-    end.rest *= chance / (chance + float(cone_draws) * drawn);
+    density += float(cone_draws) *
+               voxel_draw_density(point, direction, way.cell, voxel_draw_plane(way.cell), end.rest);
 #endif
+    end.rest = cone_reflected(end.rest, point, direction, way.cell, density) * (chance / density);
     return cone_light(way.radiance + way.left * (end.emission + end.rest), vec3(0.0));
 }
 
@@ -160,8 +179,9 @@ vec3 cone_draw(voxel_drawn drawn, vec3 point, vec3 normal, float cosine, float c
         return vec3(0.0);
     float chance = cones * cosine / LSF_PI;
     vec3 rest = cone_end_at(point, drawn.direction, way.cell, cosine / LSF_PI).rest;
-    float density = voxel_draw_density(point, drawn.direction, way.cell, voxel_draw_plane(way.cell), rest);
-    return way.left * rest / (chance + float(cone_draws) * density);
+    float density = chance + float(cone_draws) * voxel_draw_density(point, drawn.direction, way.cell,
+                                                                    voxel_draw_plane(way.cell), rest);
+    return way.left * cone_reflected(rest, point, drawn.direction, way.cell, density) / density;
 }
 #endif
 

@@ -1,6 +1,6 @@
 /* Surfaces of voxels as a ray sees them, with the BRDF of their material. Switches LSF_VOXEL_SPECULAR_PARAMS,
  * LSF_VOXEL_BENT, LSF_ANISOTROPY, LSF_TRANSMISSION, LSF_EMISSION (surfaces emit), LSF_EMITTERS (points on them are
- * sampled), LSF_VOXEL_MIRRORS (the environment alone lights metals). */
+ * sampled), LSF_VOXEL_MIRRORS (rays of lobes go on from smooth metals), LSF_VOXEL_LAMPS. */
 #ifndef LSF_LIB_VOXEL_SURFACE
 #define LSF_LIB_VOXEL_SURFACE
 
@@ -8,6 +8,10 @@
 #include "lib/voxel_shading.glsl"
 #include "lib/voxel_sight.glsl"
 #include "lib/voxel_emission.glsl"
+#include "lib/voxel_lamp.glsl"
+#if LSF_VOXEL_LAMPS
+#include "lib/brdf.glsl"
+#endif
 #if LSF_EMITTERS
 #include "lib/voxel_emitter.glsl"
 #endif
@@ -62,17 +66,48 @@ surface voxel_surface_at(ivec3 cell, vec3 direction, out int side)
 }
 
 #if LSF_VOXEL_MIRRORS
-/* The largest density of directions that are drawn by the cosine [1/sr]. */
-#define COSINE_DENSITY (1.0 / LSF_PI)
-
-/* Whether a metal shows the environment in its lobe: where the lobe, and the one from which the ray was drawn with
- * this density, are denser than diffuse ones. 0: the ray passes a surface. To others metals spread the light, which
- * is less noisy. The peak of a lobe, seen along the normal, is 1 / (4 pi alpha^2). */
+/* Whether a voxel shows what is around it in its lobe to a ray that was drawn with this density: where such rays are
+ * denser than diffuse ones, too. 0: the ray passes a surface. To others metals spread light, which is less noisy. */
 bool voxel_mirrors(surface s, float density)
 {
-    float alpha = lsf_alpha_from_roughness(s.roughness);
-    return !s.unlit && s.metallic >= 0.5 && 4.0 * LSF_PI * COSINE_DENSITY * alpha * alpha < 1.0 &&
-           (density <= 0.0 || density > COSINE_DENSITY);
+    return !s.unlit && is_smooth_metal(s.metallic, s.roughness) && (density <= 0.0 || density > COSINE_DENSITY);
+}
+#endif
+
+#if LSF_VOXEL_LAMPS
+layout(binding = LSF_UNIT_VOXEL_LAMP) uniform usampler3D voxel_lamps;
+/* x: m' over the iterations that the picture will have, below 0: the light of voxels is without that of lamps;
+ * y: the least kernel of a lobe, because voxels show no finer detail. */
+layout(location = LSF_LOCATION_VOXEL_LAMP) uniform vec2 lamp_kernel;
+
+/* What the side of a voxel that faces a ray reflects of its lamp towards the ray's start `from`, in the grid's unit.
+ * `density`: of all rays that find the direction [1/sr]; the lobe is spread over as many of them as `lamp_kernel`
+ * says (brdf_evaluate). As the point moves over the surface, so does its direction to the lamp: both kernels add up
+ * (Tokuyoshi and Ogaki 2012, equation 13). */
+vec3 lamp_mirrored(surface s, voxel_lamp lamp, ivec3 cell, vec3 from, vec3 direction, float density)
+{
+    vec3 span = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r) - from;
+    float meets = max(abs(dot(s.geometric_normal, direction)), LSF_COSINE_MIN);
+    float turn = abs(dot(s.geometric_normal, lamp.to_lamp)) / meets * dot(span, span) * lamp.nearness;
+    float kernel = density > 0.0 ? lamp_kernel.x / density * (1.0 + turn) : 0.0;
+    return brdf_sum(s, brdf_evaluate(s, -direction, lamp.to_lamp, max(kernel, lamp_kernel.y))) * lamp.irradiance;
+}
+
+/* The lamp that a side of a voxel keeps. False: none. */
+bool voxel_lamp_at(surface s, ivec3 cell, int side, out voxel_lamp lamp)
+{
+    lamp = voxel_lamp_unpack(texelFetch(voxel_lamps, cell + ivec3(0, 0, side * int(grid.size.z)), 0));
+    return lamp_kernel.x >= 0.0 && !s.unlit && is_smooth_metal(s.metallic, s.roughness) && lamp.irradiance != vec3(0.0);
+}
+
+/* Radiance of a voxel's side towards the start of a ray, where it is `spread` if all light is reflected as by a diffuse
+ * surface. */
+vec3 voxel_reflects(vec3 spread, surface s, ivec3 cell, int side, vec3 from, vec3 direction, float density)
+{
+    voxel_lamp lamp;
+    if (!voxel_lamp_at(s, cell, side, lamp))
+        return spread;
+    return max(spread - lamp.spread, 0.0) + lamp_mirrored(s, lamp, cell, from, direction, density);
 }
 #endif
 

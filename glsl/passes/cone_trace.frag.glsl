@@ -6,9 +6,6 @@
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
 #include "lib/voxel_cone.glsl"
-#if LSF_VOXEL_MIRRORS
-#include "lib/voxel_surface.glsl"
-#endif
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility, of green light */
 #if LSF_SPECULAR
@@ -86,6 +83,11 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
             break;
         vec3 emission = voxel_emission_at(way.cell, side) - voxel_emission_drawn(way.cell, side);
         emission += cone_end_at(point, direction, way.cell, density).emission;
+#if LSF_VOXEL_LAMPS
+        voxel_lamp lamp;
+        if (voxel_lamp_at(s, way.cell, side, lamp))
+            emission += lamp_mirrored(s, lamp, way.cell, point, direction, pdf);
+#endif
         sum += through * (way.radiance + way.left * emission);
         through *= way.left;
         point = vec3(way.cell) + voxel_point_unpack(texelFetch(voxel_point, way.cell, 0).r);
@@ -99,7 +101,7 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
     vec3 end = sky;
     if (way.met) {
         cone_end met = cone_end_at(point, direction, way.cell, density);
-        end = grid.unit.x * (met.emission + met.rest);
+        end = grid.unit.x * (met.emission + cone_reflected(met.rest, point, direction, way.cell, pdf));
     }
     return grid.unit.x * (sum + through * way.radiance) + through * way.left * end;
 }

@@ -182,12 +182,34 @@ float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_verte
 }
 #endif
 
-/* What a side of a voxel shines without its emission; `drawn`: the radiance by which the side is drawn. */
-vec3 reflected_of(ivec3 cell, int side, out vec3 drawn)
+/* What a side of a voxel shines without its emission, if it spreads light as a diffuse surface; `drawn`: the radiance
+ * by which the side is drawn. */
+vec3 spread_of(ivec3 cell, int side, out vec3 drawn)
 {
     vec3 held = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
     drawn = max(held - voxel_emission_drawn(cell, side), 0.0);
     return max(held - voxel_emission_at(cell, side), 0.0);
+}
+
+/* The same towards v along the ray that has met it, one of `density` [1/sr] with those of all paths. */
+vec3 reflected_of(vec3 spread, path_vertex met, ivec3 cell, int side, path_vertex v, vec3 direction, float density)
+{
+#if LSF_VOXEL_LAMPS
+    return voxel_reflects(spread, met.s, cell, side, v.position, direction, density);
+#else
+    return spread;
+#endif
+}
+
+/* What a voxel that mirrors shows of lamps. */
+vec3 lamps_of(path_vertex met, ivec3 cell, int side, path_vertex v, vec3 direction, float density)
+{
+#if LSF_VOXEL_LAMPS
+    voxel_lamp lamp;
+    if (voxel_lamp_at(met.s, cell, side, lamp))
+        return lamp_mirrored(met.s, lamp, cell, v.position, direction, density);
+#endif
+    return vec3(0.0);
 }
 
 #if LSF_VOXEL_DRAW
@@ -199,7 +221,7 @@ float draw_density(path_vertex v, vec3 direction, ivec3 cell, vec3 drawn)
 
 /* Adds light that drawn sides of voxels reflect, weighted against segments from v that hit them. */
 void add_draws(light_parts through, path_vertex v, brdf_sampler sampler_of_v, vec3 absorption, path_random_key key,
-               uint index, int segment)
+               uint index, int segment, float count)
 {
     for (int i = 0; i < draws; i++) {
         vec3 u = path_random(key, index * uint(draws) + uint(i), 0x10000u + uint(segment));
@@ -217,8 +239,9 @@ void add_draws(light_parts through, path_vertex v, brdf_sampler sampler_of_v, ve
         float pdf = brdf_pdf(sampler_of_v, drawn.direction);
         if (side != drawn.slice || voxel_mirrors_light(met.s, pdf))
             continue;
-        vec3 by, radiance = reflected_of(cell, side, by);
-        float weight = cosine / (pdf + draw_density(v, drawn.direction, cell, by));
+        vec3 by, spread = spread_of(cell, side, by);
+        float density = pdf + draw_density(v, drawn.direction, cell, by), weight = cosine / density;
+        vec3 radiance = reflected_of(spread, met, cell, side, v, drawn.direction, count * density);
         brdf_value f = brdf_evaluate(v.s, v.view, drawn.direction, 0.0);
 #if LSF_ABSORPTION
         radiance *= left_after(absorption_along(v, drawn.direction, absorption), met.position - v.position);
@@ -279,7 +302,7 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
 #endif
 #if LSF_VOXEL_DRAW
         if (segment < lengths.x)
-            add_draws(through, v, sampler_of_v, absorption, key, index, segment);
+            add_draws(through, v, sampler_of_v, absorption, key, index, segment, float(count));
 #endif
         vec3 direction;
         float pdf;
@@ -304,13 +327,17 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
         /* The last segment collects emission, with no bounce left to reflect other light; emission at the first
          * hit counts as direct light. */
         mirrors = voxel_mirrors_light(met.s, pdf);
-        if (segment < lengths.x && !mirrors) {
-            vec3 by, radiance = reflected_of(cell, side, by);
+        if (segment < lengths.x && mirrors) {
+            add_light(through, grid.unit.x * lamps_of(met, cell, side, v, direction, float(count) * pdf), false);
+        } else if (segment < lengths.x) {
+            vec3 by, spread = spread_of(cell, side, by);
+            float density = pdf;
 #if LSF_VOXEL_DRAW
             if (pdf > 0.0)
-                radiance *= pdf / (pdf + draw_density(v, direction, cell, by));
+                density += draw_density(v, direction, cell, by);
 #endif
-            add_light(through, grid.unit.x * radiance, false);
+            vec3 radiance = reflected_of(spread, met, cell, side, v, direction, float(count) * density);
+            add_light(through, grid.unit.x * (pdf > 0.0 ? pdf / density : 1.0) * radiance, false);
         }
 #if LSF_EMISSION
         vec3 emission = voxel_emission_at(cell, side);

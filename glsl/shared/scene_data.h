@@ -124,6 +124,8 @@ struct lsf_lobe_data {
 #define LSF_LOCATION_VOXEL_DRAW (LSF_LOCATION_LOBE_ANGLE + 1)
 /* Location of the points drawn on emitters; see lib/voxel_emitter.glsl. */
 #define LSF_LOCATION_EMITTERS (LSF_LOCATION_VOXEL_DRAW + 1)
+/* Location of the spread of lamps that voxels mirror; see lib/voxel_surface.glsl. */
+#define LSF_LOCATION_VOXEL_LAMP (LSF_LOCATION_EMITTERS + 1)
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

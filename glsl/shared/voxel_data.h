@@ -39,6 +39,7 @@ struct lsf_voxel_grid_data {
 #define LSF_UNIT_VOXEL_SPECULAR_PARAMS 15
 #define LSF_UNIT_VOXEL_SHINING 12
 #define LSF_UNIT_VOXEL_SHADING 16
+#define LSF_UNIT_VOXEL_LAMP 18
 #define LSF_UNIT_PATH_RANDOM 7
 
 /* Lists, storage buffers: the work groups of a dispatch, as rows of LSF_VOXEL_LIST_ROW entries

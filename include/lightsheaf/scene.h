@@ -88,6 +88,7 @@ typedef struct lsf_requirements {
     bool unlit;           /* some visible material is KHR_materials_unlit */
     bool specular;        /* materials have a specular lobe at all (not diffuse_only) */
     bool glossy;          /* some roughness < 1 or metallic > 0, by factor or texture */
+    bool smooth_metal;    /* some metallic >= 1/2 at a roughness below 0.71, likewise */
     bool anisotropic;     /* KHR_materials_anisotropy with strength > 0 */
     bool transmissive;    /* KHR_materials_transmission with factor > 0 */
     bool refractive;      /* ... on the surface of a medium: KHR_materials_volume */

@@ -197,8 +197,13 @@ static void draw_sky_lights(lsf_iteration *iteration)
         lsf_sky_share *share = &iteration->shares[first + i];
         lsf_sky_light_draw(&iteration->lights[first + i], share, &iteration->sky, u, count);
         if (share->density > 0.0f)
-            share->kernel = KERNEL_SAMPLES / (lsf_iteration_expected(iteration) * share->density);
+            share->kernel = lsf_iteration_kernel(iteration) / share->density;
     }
+}
+
+float lsf_iteration_kernel(const lsf_iteration *iteration)
+{
+    return KERNEL_SAMPLES / lsf_iteration_expected(iteration);
 }
 
 float lsf_iteration_sky_angle(const lsf_iteration *iteration)

@@ -79,6 +79,9 @@ void lsf_iteration_bind_view(const lsf_iteration *iteration);
 /* Iterations that the picture's light will have, with those of earlier frames that are kept;
  * where the number is open, the iterations so far. */
 float lsf_iteration_expected(const lsf_iteration *iteration);
+/* m' over that number: samples of one direction that a glossy lobe is to be spread over
+ * (brdf_evaluate). */
+float lsf_iteration_kernel(const lsf_iteration *iteration);
 
 /* Solid angle by which each direction of the environment widens a lobe, as if directions were
  * uniform over the sphere [sr]; 0: there are none. */

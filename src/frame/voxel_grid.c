@@ -5,6 +5,7 @@
 
 #include "math/sampling.h"
 #include "scene/sky.h"
+#include "shared/brdf.h"
 #include "shared/scene_data.h"
 
 /* The largest 3D texture that every device has (GL 4.5, table 23.53). */
@@ -189,7 +190,28 @@ void lsf_voxel_specular_params_switch(lsf_plan *plan)
 bool lsf_voxel_mirrors(const lsf_plan *plan, const lsf_state *state)
 {
     const lsf_requirements *r = &plan->requirements;
-    return r->environment && r->glossy && state->light_count == 0;
+    return r->smooth_metal && (r->environment || state->light_count > 0);
+}
+
+bool lsf_voxel_lamps(const lsf_plan *plan, const lsf_state *state)
+{
+    return plan->requirements.smooth_metal && state->light_count > 0;
+}
+
+void lsf_voxel_lamps_switch(lsf_plan *plan, bool lamps)
+{
+    lsf_plan_switch_add(plan, "LSF_VOXEL_LAMPS", lamps, "voxels of smooth metal mirror lamps");
+}
+
+/* A kernel k widens lobes to alpha^2 = k / (4 pi) where all light is reflected; here to the angle
+ * of a voxel seen over half the scene's extent. */
+void lsf_voxel_lamps_bind(const lsf_iteration *iteration, const lsf_voxel_grid *grid, GLuint lamps,
+                          bool lit)
+{
+    float angle = 2.0f / (float)grid->resolution;
+    lsf_bind_texture(LSF_UNIT_VOXEL_LAMP, lamps);
+    glUniform2f(LSF_LOCATION_VOXEL_LAMP, lit ? lsf_iteration_kernel(iteration) : -1.0f,
+                4.0f * LSF_PI * angle * angle);
 }
 
 void lsf_voxel_chance_switch(lsf_plan *plan)

@@ -88,9 +88,17 @@ void lsf_voxel_bend_switch(lsf_plan *plan);
 /* The same for roughness, metallic and f0. */
 bool lsf_voxel_has_specular_params(const lsf_plan *plan);
 void lsf_voxel_specular_params_switch(lsf_plan *plan);
-/* Whether rays that show detail find the environment that smooth metals mirror: where it alone is
- * on voxels. Light of lamps is spread by voxels as by diffuse surfaces. */
+/* Whether rays that show detail go on from smooth metals by their lobe, which mirrors the
+ * environment and other voxels. */
 bool lsf_voxel_mirrors(const lsf_plan *plan, const lsf_state *state);
+/* Whether smooth metals mirror punctual lights, of which each voxel keeps one; adds the switch to
+ * the current pass. */
+bool lsf_voxel_lamps(const lsf_plan *plan, const lsf_state *state);
+void lsf_voxel_lamps_switch(lsf_plan *plan, bool lamps);
+/* Binds the lamps that voxels keep, and sets the uniform of lib/voxel_surface.glsl. `lit`: the
+ * light that is read contains that of lamps. */
+void lsf_voxel_lamps_bind(const lsf_iteration *iteration, const lsf_voxel_grid *grid, GLuint lamps,
+                          bool lit);
 /* Adds the switch of surfaces that transmit and are there by chance, where cones march. */
 void lsf_voxel_chance_switch(lsf_plan *plan);
 /* Whether rays go on through voxels of materials that transmit. */

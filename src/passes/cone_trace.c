@@ -32,17 +32,19 @@ static const lsf_texture_row textures[] = {
      "light of the specular lobe"},
 };
 
-/* What rays of the specular lobe read of voxels that mirror, beside what passages read. */
-static void plan_mirrors(lsf_plan *plan, bool mirrors)
+/* What rays read of voxels that mirror, beside what passages read. */
+static void plan_mirrors(lsf_plan *plan, bool mirrors, bool lamps)
 {
-    lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", mirrors, "the environment alone lights metals");
-    if (mirrors && !lsf_voxel_passage(plan)) {
+    lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", mirrors,
+                        "smooth metals mirror what is around them");
+    lsf_voxel_lamps_switch(plan, lamps);
+    if ((mirrors || lamps) && !lsf_voxel_passage(plan)) {
         lsf_voxel_specular_params_switch(plan);
         lsf_voxel_bend_switch(plan);
     }
 }
 
-void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors)
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors, bool lamps)
 {
     uint32_t size[2];
     const lsf_requirements *r = &plan->requirements;
@@ -58,7 +60,7 @@ void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mir
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic && params->sealed,
                         "rays of the lobe are drawn; cones are round");
     lsf_voxel_passage_all_switches(plan);
-    plan_mirrors(plan, mirrors);
+    plan_mirrors(plan, mirrors, lamps);
     lsf_cone_emission_switches(plan, params);
     lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_SEALED", params->sealed, "cone.sealed");
@@ -145,6 +147,8 @@ void lsf_cone_trace_run(lsf_cone_trace *pass, const lsf_iteration *iteration,
     lsf_bind_texture(3, pass->lobe_albedo);
     lsf_voxels_bind(inputs->voxels);
     lsf_cone_bind(&pass->params, &pass->grid, iteration, inputs->radiance, inputs->draws);
+    if (inputs->lamps)
+        lsf_voxel_lamps_bind(iteration, &pass->grid, inputs->lamps, true);
     if (inputs->emitters)
         lsf_emitter_points_bind(inputs->emitters, pass->params.emitters);
     lsf_voxel_passage_bind(iteration);

@@ -11,6 +11,7 @@ typedef struct lsf_cone_trace_inputs {
     const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
     GLuint radiance;                    /* the pyramid over them; voxel_light.h, voxel_mip.h */
+    GLuint lamps;                       /* that smooth metals mirror, voxel_light.h; 0: none */
     GLuint draws;                       /* by it, voxel_draw.h; 0 without cone.draws */
     const lsf_emitter_points *emitters; /* of the iteration; NULL unless lsf_cone_emitters */
 } lsf_cone_trace_inputs;
@@ -30,7 +31,7 @@ typedef struct lsf_cone_trace {
 
 /* `mirrors`: rays of specular lobes find what metals mirror; only where cones are sealed and light
  * bounces twice or more. */
-void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors);
+void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors, bool lamps);
 bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_cone_params *params, const lsf_voxel_grid *grid,
                            lsf_error *error);

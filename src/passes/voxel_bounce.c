@@ -15,7 +15,7 @@ static const char *const radiance_names[2] = {"voxel_bounce.radiance",
                                               "voxel_bounce.other_radiance"};
 
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
-                           const lsf_voxel_grid *grid, bool of_own)
+                           const lsf_voxel_grid *grid, bool of_own, bool lamps)
 {
     uint32_t slices = lsf_cone_slices(params), levels = lsf_cone_levels(params);
     lsf_plan_pass_add(plan, "voxel_bounce", "what voxels reflect of each other's light");
@@ -28,6 +28,7 @@ void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
     lsf_plan_switch_add(plan, "LSF_SPECULAR", plan->requirements.specular,
                         "materials have a specular lobe");
     lsf_voxel_specular_params_switch(plan);
+    lsf_voxel_lamps_switch(plan, lamps);
     if (plan->transmission)
         lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "light passes materials that transmit");
     lsf_voxel_passage_switches(plan);
@@ -132,6 +133,8 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     if (sum->source) {
         lsf_cone_params cones = voxel_cones(&pass->params, sum->later);
         lsf_cone_bind(&cones, &pass->grid, iteration, sum->source, sum->draws);
+        if (sum->lamps)
+            lsf_voxel_lamps_bind(iteration, &pass->grid, sum->lamps, sum->lit);
         if (sum->emitters)
             lsf_emitter_points_bind(sum->emitters, cones.emitters);
     }

@@ -10,6 +10,8 @@
 typedef struct lsf_voxel_bounce_sum {
     GLuint base;   /* added unchanged; 0: nothing */
     GLuint source; /* added after reflection; 0: nothing. It may be the output of the last run */
+    GLuint lamps;  /* that smooth metals mirror, voxel_light.h; 0: none */
+    bool lit;      /* the source contains the light of lamps */
     GLuint draws;  /* by the source, voxel_draw.h; 0 without cone.draws */
     const lsf_emitter_points *emitters; /* of the iteration; NULL unless lsf_cone_emitters */
     uint32_t later; /* number of times that voxels reflect the sum's light after this */
@@ -28,9 +30,9 @@ typedef struct lsf_voxel_bounce {
     lsf_timer *timer;
 } lsf_voxel_bounce;
 
-/* `of_own`: some source will be an output of the pass. */
+/* `of_own`: some source will be an output of the pass; `lamps`: there are voxels that keep one. */
 void lsf_voxel_bounce_plan(lsf_plan *plan, const lsf_cone_params *params,
-                           const lsf_voxel_grid *grid, bool of_own);
+                           const lsf_voxel_grid *grid, bool of_own, bool lamps);
 bool lsf_voxel_bounce_create(lsf_voxel_bounce *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_cone_params *params, const lsf_voxel_grid *grid,
                              lsf_error *error);

@@ -4,10 +4,13 @@
 
 #include "base/base.h"
 #include "frame/light_walls.h"
+#include "frame/purpose.h"
 #include "shared/scene_data.h"
 
 /* Storage buffer. */
 #define BINDING_BRICKS 1
+/* Uniform of passes/voxel_light.comp.glsl, of programs that add a punctual light. */
+#define LOCATION_LAMP_SEED 0
 
 /* Programs of one shader. */
 typedef struct variant {
@@ -61,6 +64,8 @@ static void plan_variant(lsf_plan *plan, const variant *v, const lsf_voxel_light
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf ? 2 : 0,
                         "shadow.filter; texels are small beside voxels");
     lsf_plan_switch_add(plan, "LSF_SHADOW_SKY", v->sky, "directions of the environment");
+    if (!v->sky)
+        lsf_voxel_lamps_switch(plan, use->lamps);
     if (v->reflect && !v->sky)
         lsf_light_switches(plan);
 }
@@ -76,6 +81,9 @@ void lsf_voxel_light_plan(lsf_plan *plan, const lsf_voxel_grid *grid,
             plan_variant(plan, &variants[i], use);
     lsf_voxel_texture_plan(plan, grid, "voxel_light.radiance", GL_RGBA16F, use->sides, use->levels,
                            "radiance of each side of a voxel's surface");
+    if (use->lamps)
+        lsf_voxel_texture_plan(plan, grid, "voxel_light.lamps", GL_RGBA32UI, use->sides, 1,
+                               "a light that each side mirrors, of smooth metal");
 }
 
 bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const lsf_plan *plan,
@@ -84,7 +92,9 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
     static const char *const files[5] = {"passes/voxel_light.comp.glsl"};
     static const char *const clear_files[5] = {"lib/voxel_sides_clear.comp.glsl"};
     *pass = (lsf_voxel_light){.context = context, .use = *use};
-    if (!lsf_plan_create_texture(plan, context, "voxel_light.radiance", &pass->radiance, error))
+    if (!lsf_plan_create_texture(plan, context, "voxel_light.radiance", &pass->radiance, error) ||
+        !lsf_plan_create_texture_if_planned(plan, context, "voxel_light.lamps", &pass->lamps,
+                                            error))
         return false;
     for (uint32_t level = 0; level < use->levels; level++)
         glClearTexImage(pass->radiance, (GLint)level, GL_RGBA, GL_FLOAT, NULL);
@@ -102,6 +112,7 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
 static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list)
 {
     glBindImageTexture(0, pass->radiance, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
+    glBindImageTexture(1, pass->lamps, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32UI);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, list);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list);
     glUseProgram(program);
@@ -145,12 +156,18 @@ void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels)
     pass->written = true;
 }
 
-void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxels *voxels, const lsf_shadow *shadow)
+void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_iteration *iteration,
+                         const lsf_voxels *voxels, uint32_t light, const lsf_shadow *shadow)
 {
+    GLuint program = pass->written ? pass->add_program : pass->first_program;
     lsf_timer_begin(pass->timer);
     bind_voxels(voxels);
     lsf_shadow_bind(shadow);
-    dispatch(pass, pass->written ? pass->add_program : pass->first_program, voxels->bricks);
+    if (pass->lamps)
+        glProgramUniform1ui(program, LOCATION_LAMP_SEED,
+                            lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_LAMP) +
+                                iteration->index * iteration->light_count + light);
+    dispatch(pass, program, voxels->bricks);
     lsf_timer_end(pass->timer);
     pass->written = true;
 }
@@ -173,6 +190,7 @@ void lsf_voxel_light_destroy(lsf_voxel_light *pass)
     if (!pass->context)
         return;
     lsf_texture_destroy(pass->context, &pass->radiance);
+    lsf_texture_destroy(pass->context, &pass->lamps);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

@@ -18,6 +18,7 @@ typedef struct lsf_voxel_light_use {
     uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and
                       * texels of empty voxels mean nothing */
     bool lights;     /* there are punctual lights */
+    bool lamps;      /* smooth metals keep one of them; with LSF_VOXEL_SIDES_SURFACE only */
     bool pcf;        /* maps have no gradients */
     float sky_rays;  /* number of rays that find the environment from a voxel by chance, drawn by
                       * the cosine */
@@ -27,6 +28,8 @@ typedef struct lsf_voxel_light {
     lsf_context *context;
     GLuint radiance; /* RGBA16F in the grid's unit; slices along z are the sides; alpha: how much of
                       * a surface faces that way */
+    GLuint lamps; /* RGBA32UI, slices as of radiance: the light that a side of smooth metal keeps,
+                   * as packed by lib/voxel_lamp.glsl; 0 unless `use.lamps` */
     lsf_voxel_light_use use;
     bool written; /* since it began */
     GLuint clear_program, emit_program;
@@ -43,8 +46,9 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxels *voxels);
 /* Writes the voxels' emission where no light was added; does nothing after lights. */
 void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels);
-/* Adds the reflected light of a punctual light, by its shadow map, to the voxels' emission. */
-void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_voxels *voxels, const lsf_shadow *shadow);
+/* Adds the reflected light of the iteration's `light`, which is punctual, by its shadow map. */
+void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_iteration *iteration,
+                         const lsf_voxels *voxels, uint32_t light, const lsf_shadow *shadow);
 /* The same of directions of the environment, by those of `maps` that hold the whole scene. */
 void lsf_voxel_light_add_sky(lsf_voxel_light *pass, const lsf_voxels *voxels,
                              const lsf_shadow *maps, uint32_t count);

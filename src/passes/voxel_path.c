@@ -99,7 +99,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
         lsf_plan_switch_add(plan, "LSF_VOXEL_SIDES", LSF_VOXEL_SIDES_SURFACE, "always");
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
     lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", use->mirrors,
-                        "the environment alone lights metals");
+                        "smooth metals mirror what is around them");
+    lsf_voxel_lamps_switch(plan, use->lamps);
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", texture, "voxel_path.sequence is texture");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
@@ -168,6 +169,8 @@ static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iterati
     lsf_voxels_bind(inputs->voxels);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
+    if (inputs->lamps)
+        lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);
     lsf_bind_texture(LSF_UNIT_PATH_RANDOM, pass->random);
     lsf_scene_gpu_bind_environment(iteration->scene);
     if (iteration->plan->requirements.environment)

@@ -41,14 +41,17 @@ typedef struct lsf_voxel_path_use {
     uint32_t segments;
     bool split_direct; /* emission that the first segment finds is asked for apart */
     bool draws;        /* voxels are drawn by what they reflect */
-    bool mirrors;      /* metals show the environment in their lobes */
+    bool mirrors;      /* smooth metals show what is around them in their lobes */
+    bool lamps;        /* and punctual lights */
 } lsf_voxel_path_use;
 
 typedef struct lsf_voxel_path_inputs {
     const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
     GLuint radiance; /* of voxels, two sides */
-    GLuint draws;    /* by it, voxel_draw.h; 0 unless `draws` */
+    GLuint lamps;    /* that smooth metals mirror; 0 unless `lamps` */
+    const lsf_voxel_grid *grid;
+    GLuint draws; /* by it, voxel_draw.h; 0 unless `draws` */
 } lsf_voxel_path_inputs;
 
 /* At the points' places. */

@@ -131,7 +131,7 @@ static void run_voxels(lsf_sandbox_engine *engine)
             lsf_shadow_map_run_scene(map, iteration, i);
         else
             lsf_shadow_map_run(map, iteration, i);
-        lsf_voxel_light_add(light, engine->voxels, &map->outputs.shadow);
+        lsf_voxel_light_add(light, iteration, engine->voxels, i, &map->outputs.shadow);
     }
     if (engine->sky_map.timer)
         lsf_sky_map_begin_scene(&engine->sky_map, iteration);

@@ -47,7 +47,7 @@ typedef struct flag {
     bool value;
 } flag;
 
-enum { FLAG_COUNT = 38 };
+enum { FLAG_COUNT = 39 };
 
 static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
 {
@@ -58,6 +58,7 @@ static void list_flags(const lsf_requirements *r, flag flags[FLAG_COUNT])
         {"unlit", r->unlit},
         {"specular", r->specular},
         {"glossy", r->glossy},
+        {"smooth_metal", r->smooth_metal},
         {"smooth", r->smooth},
         {"anisotropic", r->anisotropic},
         {"transmissive", r->transmissive},

@@ -19,6 +19,7 @@ typedef struct variant {
     bool traced;      /* light comes to visible points in other ways than directly from punctual
                        * lights */
     bool draws;       /* sides of voxels by their radiance */
+    bool lamps;       /* smooth metals mirror punctual lights */
     bool emitters;    /* points on emissive surfaces are drawn */
     bool shines;      /* surfaces or an environment emit */
     uint32_t levels;  /* of radiance */
@@ -27,13 +28,16 @@ typedef struct variant {
 
 /* Light of punctual lights is on voxels already, and the last bounce is at visible points; light of
  * surfaces and environments has to come to voxels first. */
-static variant choose_variant(const lsf_plan *plan, const lsf_pass_params *params)
+static variant choose_variant(const lsf_plan *plan, const lsf_pass_params *params,
+                              const lsf_state *state)
 {
     const lsf_requirements *r = &plan->requirements;
     variant w = {.levels = lsf_cone_levels(&params->cone),
                  .shines = r->emissive || r->unlit || r->environment};
     w.draws = lsf_cone_draws(&params->cone);
     w.traced = lsf_voxel_chain_has_voxels(plan) && (plan->bounces > 0 || w.shines);
+    w.lamps = w.traced && plan->bounces > 0 && lsf_voxel_lamps(plan, state) &&
+              params->cone.sealed && lsf_cone_slices(&params->cone) == LSF_VOXEL_SIDES_SURFACE;
     w.emitters = w.traced && lsf_cone_emitters(&params->cone, plan);
     if (w.traced && plan->bounces > 0)
         w.bounces = plan->bounces - (w.shines ? 0 : 1);
@@ -67,6 +71,7 @@ static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const varian
         .levels = w->levels,
         .direct = {params->cone.sealed ? LSF_SKY_CHANCE_LOBES : LSF_SKY_CHANCE_DIFFUSE,
                    {(float)params->cone.count, (float)params->cone.count}},
+        .lamps = w->lamps,
         .voxel_rays = (float)params->cone.count,
         .bytes_per_voxel = (8 * slices * 8 / 7 + 1) * (w->bounces < 2 ? w->bounces : 2)};
 }
@@ -83,7 +88,7 @@ static void remark(lsf_plan *plan, const variant *w)
 
 static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
-    variant w = choose_variant(plan, params);
+    variant w = choose_variant(plan, params, state);
     plan->voxel_chance = w.traced && plan->straight && !params->cone.sealed;
     if (w.traced) {
         lsf_voxel_chain_use use = chain_use(params, &w);
@@ -94,7 +99,7 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
             lsf_plan_omit(plan, "voxel_mip", "no cone marches: each is the ray along its axis");
         lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &use);
         if (w.bounces > 0)
-            lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1);
+            lsf_voxel_bounce_plan(plan, &params->cone, &grid, w.bounces > 1, w.lamps);
         else
             lsf_plan_omit(plan, "voxel_bounce", "light does not go from voxel to voxel");
         if (w.emitters && w.bounces > 0)
@@ -103,7 +108,7 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
             lsf_voxel_draw_plan(plan, &grid, use.sides, w.emitters);
         lsf_sparse_chain_plan_split(plan, params, 1);
         bool mirrors = params->cone.sealed && plan->bounces > 1 && lsf_voxel_mirrors(plan, state);
-        lsf_cone_trace_plan(plan, &params->cone, mirrors);
+        lsf_cone_trace_plan(plan, &params->cone, mirrors, w.lamps);
         if (w.emitters && w.bounces == 0)
             lsf_emitter_points_plan(plan, emitter_name(&w));
         lsf_sparse_chain_plan_finish(plan, params, 1);
@@ -143,7 +148,7 @@ static bool create_cone(void **self, lsf_context *context, const lsf_plan *plan,
     if (!c)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     c->context = context;
-    c->variant = choose_variant(plan, params);
+    c->variant = choose_variant(plan, params, state);
     return (c->variant.traced ? create_traced(c, context, plan, params, scene, state, error)
                               : lsf_direct_chain_create(&c->chain.direct, context, plan, params,
                                                         scene, NULL, error)) &&
@@ -188,6 +193,7 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
         lsf_voxel_bounce_begin(&c->bounce, voxels);
     if (c->variant.bounces > 0 && c->variant.shines) {
         const lsf_voxel_bounce_sum reflected = {.source = base,
+                                                .lamps = c->chain.light.lamps,
                                                 .draws = c->draw.list,
                                                 .emitters = emitters,
                                                 .later = c->variant.bounces - 1};
@@ -205,6 +211,8 @@ static GLuint light_voxels(cone *c, const lsf_iteration *iteration)
     for (; done < c->variant.bounces; done++) {
         const lsf_voxel_bounce_sum sum = {.base = base,
                                           .source = light,
+                                          .lamps = c->chain.light.lamps,
+                                          .lit = true,
                                           .draws = c->draw.list,
                                           .emitters = emitters,
                                           .later = c->variant.bounces - 1 - done};
@@ -223,6 +231,7 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
                                               lsf_sparse_chain_split(&c->sparse, iteration, seen),
                                           .voxels = c->chain.voxels,
                                           .radiance = light_voxels(c, iteration),
+                                          .lamps = c->chain.light.lamps,
                                           .draws = c->draw.list,
                                           .emitters = c->variant.emitters ? &c->emitters : NULL};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);

@@ -486,12 +486,11 @@ bool lsf_renderer_iterate(lsf_renderer *renderer, lsf_error *error)
     return lsf_renderer_catch_up(renderer, false, error);
 }
 
-/* Until the GPU is done: what was handed to it so far counts as rendered. */
-static void wait_for_gpu(lsf_renderer *renderer)
+/* Until the GPU is done: the time since then counts as rendered. */
+static void wait_for_gpu(lsf_renderer *renderer, double since)
 {
-    double start = lsf_now();
     glFinish();
-    renderer->render_seconds += lsf_now() - start;
+    renderer->render_seconds += lsf_now() - since;
 }
 
 static bool wants_more(const lsf_renderer *renderer, uint32_t done)
@@ -561,17 +560,18 @@ static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)
         /* A GPU accepts commands faster than it runs them: without this the limit would apply to
          * commands issued. */
         if (limited)
-            wait_for_gpu(renderer);
+            wait_for_gpu(renderer, lsf_now());
         double compiled = allow_compilation(renderer, lsf_thread_seconds() - computed);
         if (!leaves_time(renderer, lsf_now() - start - fmax(compiled, 0.0)))
             break;
         lsf_context_pause(renderer->context);
     }
-    wait_for_gpu(renderer);
+    wait_for_gpu(renderer, lsf_now());
     if (!lsf_renderer_catch_up(renderer, true, error))
         return false;
+    double finished = lsf_now();
     lsf_renderer_picture(renderer);
-    wait_for_gpu(renderer);
+    wait_for_gpu(renderer, finished);
     return lsf_context_check(renderer->context, error);
 }
 

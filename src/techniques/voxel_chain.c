@@ -6,8 +6,8 @@
 static uint32_t bytes_per_voxel(const lsf_plan *plan, const lsf_pass_params *params,
                                 const lsf_voxel_chain_use *use)
 {
-    uint32_t radiance = 8 * use->sides;
-    return lsf_voxelize_bytes(plan, params->voxel_grid.jitter) + radiance +
+    uint32_t radiance = 8 * use->sides, lamps = use->lamps ? 16 * use->sides : 0;
+    return lsf_voxelize_bytes(plan, params->voxel_grid.jitter) + radiance + lamps +
            (use->levels > 1 ? (radiance + 6) / 7 : 0) + use->bytes_per_voxel;
 }
 
@@ -17,6 +17,7 @@ static lsf_voxel_light_use light_use(const lsf_pass_params *params, const lsf_st
     return (lsf_voxel_light_use){.sides = use->sides,
                                  .levels = use->levels,
                                  .lights = state->light_count > 0,
+                                 .lamps = use->lamps,
                                  .sky_rays = use->voxel_rays,
                                  .pcf = params->shadow_map.filter == LSF_SHADOW_FILTER_PCF};
 }
@@ -118,7 +119,7 @@ static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
     lsf_shadow_map *map = &chain->direct.shadow_map;
     if (iteration->lights[light].type == LSF_LIGHT_DIRECTIONAL)
         lsf_shadow_map_run_scene(map, iteration, light);
-    lsf_voxel_light_add(&chain->light, chain->voxels, &map->outputs.shadow);
+    lsf_voxel_light_add(&chain->light, iteration, chain->voxels, light, &map->outputs.shadow);
 }
 
 void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration)

@@ -9,14 +9,16 @@
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* Number of rays by which a path goes on beyond the visible point. */
-static lsf_voxel_chain_use chain_use(const lsf_pass_params *params)
+/* Rays: those by which a path goes on beyond the visible point. */
+static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_pass_params *params,
+                                     const lsf_state *state)
 {
     const lsf_voxel_path_params *p = &params->voxel_path;
     return (lsf_voxel_chain_use){
         .sides = LSF_VOXEL_SIDES_SURFACE,
         .levels = 1,
         .direct = {LSF_SKY_CHANCE_PATHS, {(float)p->min_samples, (float)p->max_samples}},
+        .lamps = plan->bounces > 0 && lsf_voxel_lamps(plan, state),
         .voxel_rays = 1.0f};
 }
 
@@ -43,6 +45,7 @@ static lsf_voxel_path_use path_use(const lsf_plan *plan, const lsf_pass_params *
     use.draws = use.segments > 0 && plan->bounces > 0 && params->voxel_path.draws > 0 &&
                 (state->light_count > 0 || r->environment);
     use.mirrors = use.segments > 0 && lsf_voxel_mirrors(plan, state);
+    use.lamps = chain_use(plan, params, state).lamps;
     return use;
 }
 
@@ -61,7 +64,7 @@ static void remark(lsf_plan *plan, const lsf_voxel_path_use *use)
 static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
     lsf_voxel_path_use use = path_use(plan, params, state);
-    lsf_voxel_chain_use chain = chain_use(params);
+    lsf_voxel_chain_use chain = chain_use(plan, params, state);
     lsf_voxel_chain_plan(plan, params, state, &chain);
     if (use.segments > 0) {
         lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &chain);
@@ -101,7 +104,7 @@ static bool create_voxel_path(void **self, lsf_context *context, const lsf_plan 
     if (!v)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory");
     lsf_voxel_path_use use = path_use(plan, params, state);
-    lsf_voxel_chain_use chain = chain_use(params);
+    lsf_voxel_chain_use chain = chain_use(plan, params, state);
     return lsf_voxel_chain_create(&v->chain, context, plan, params, scene, state, &chain, error) &&
            (use.segments == 0 ||
             create_paths(v, context, plan, params, &use, scene->scene, state, error)) &&
@@ -112,7 +115,7 @@ static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
                                     const lsf_iteration *iteration, const lsf_changes *changes)
 {
     voxel_path *v = self;
-    lsf_voxel_chain_use use = chain_use(params);
+    lsf_voxel_chain_use use = chain_use(iteration->plan, params, iteration->state);
     if (v->traced && (changes->moved || changes->materials) &&
         !lsf_voxel_path_follow(&v->path, changes->materials))
         return LSF_UPDATE_FAILED;
@@ -127,6 +130,8 @@ static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_light_p
                                               lsf_sparse_chain_split(&v->sparse, iteration, seen),
                                           .voxels = v->chain.voxels,
                                           .radiance = v->chain.light.radiance,
+                                          .lamps = v->chain.light.lamps,
+                                          .grid = &v->chain.grid,
                                           .draws = v->draw.list};
     if (v->draw.list) {
         lsf_voxel_draw_begin(&v->draw);

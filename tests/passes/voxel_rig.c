@@ -82,7 +82,8 @@ static void run_light(voxel_rig *rig)
     lsf_voxel_light_begin(&rig->light, rig->outputs);
     for (uint32_t i = 0; i < rig->setup.state.light_count; i++) {
         lsf_shadow_map_run_scene(&rig->shadow_map, &rig->iteration, i);
-        lsf_voxel_light_add(&rig->light, rig->outputs, &rig->shadow_map.outputs.shadow);
+        lsf_voxel_light_add(&rig->light, &rig->iteration, rig->outputs, i,
+                            &rig->shadow_map.outputs.shadow);
     }
     if (rig->sky_map.timer)
         add_sky(rig);
