@@ -25,10 +25,13 @@ bool voxel_is_smooth_metal(uint specular_params)
     return is_smooth_metal(p.w, p.y);
 }
 
+#define VOXEL_LAMP_SKY -1.0
+
 /* Light of the lamps that shine on a side of a voxel, in the grid's unit. */
 struct voxel_lamp {
     vec3 to_lamp;
-    float nearness;  /* 1 over the squared distance to the lamp [1/voxel^2]; 0: it is infinitely far */
+    float nearness;  /* 1 over the squared distance to the lamp [1/voxel^2]; 0: it is infinitely far; VOXEL_LAMP_SKY:
+                      * a direction of the environment */
     vec3 irradiance; /* of the lamp that is kept, the cosine included, over the probability of keeping it */
     vec3 spread;     /* radiance of the side by all lamps, reflected as by a diffuse surface */
 };

@@ -88,7 +88,7 @@ vec3 lamp_mirrored(surface s, voxel_lamp lamp, ivec3 cell, vec3 from, vec3 direc
 {
     vec3 span = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r) - from;
     float meets = max(abs(dot(s.geometric_normal, direction)), LSF_COSINE_MIN);
-    float turn = abs(dot(s.geometric_normal, lamp.to_lamp)) / meets * dot(span, span) * lamp.nearness;
+    float turn = abs(dot(s.geometric_normal, lamp.to_lamp)) / meets * dot(span, span) * max(lamp.nearness, 0.0);
     float kernel = density > 0.0 ? lamp_kernel.x / density * (1.0 + turn) : 0.0;
     return brdf_sum(s, brdf_evaluate(s, -direction, lamp.to_lamp, max(kernel, lamp_kernel.y))) * lamp.irradiance;
 }
@@ -108,6 +108,15 @@ vec3 voxel_reflects(vec3 spread, surface s, ivec3 cell, int side, vec3 from, vec
     if (!voxel_lamp_at(s, cell, side, lamp))
         return spread;
     return max(spread - lamp.spread, 0.0) + lamp_mirrored(s, lamp, cell, from, direction, density);
+}
+
+/* What a voxel that mirrors shows of lamps. The ray finds the environment as it goes on. */
+vec3 voxel_shows_lamp(surface s, ivec3 cell, int side, vec3 from, vec3 direction, float density)
+{
+    voxel_lamp lamp;
+    if (!voxel_lamp_at(s, cell, side, lamp) || lamp.nearness == VOXEL_LAMP_SKY)
+        return vec3(0.0);
+    return lamp_mirrored(s, lamp, cell, from, direction, density);
 }
 #endif
 

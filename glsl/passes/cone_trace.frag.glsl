@@ -84,9 +84,7 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
         vec3 emission = voxel_emission_at(way.cell, side) - voxel_emission_drawn(way.cell, side);
         emission += cone_end_at(point, direction, way.cell, density).emission;
 #if LSF_VOXEL_LAMPS
-        voxel_lamp lamp;
-        if (voxel_lamp_at(s, way.cell, side, lamp))
-            emission += lamp_mirrored(s, lamp, way.cell, point, direction, pdf);
+        emission += voxel_shows_lamp(s, way.cell, side, point, direction, pdf);
 #endif
         sum += through * (way.radiance + way.left * emission);
         through *= way.left;

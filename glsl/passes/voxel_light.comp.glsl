@@ -41,31 +41,31 @@ layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 #endif
 
 #if LSF_VOXEL_LAMPS
-layout(binding = 1, rgba32ui) uniform uimage3D lamp_image; /* voxel_lamp_pack, of each side */
-layout(location = 0) uniform uint lamp_seed;               /* another one for each light of each iteration */
+layout(binding = 1, rgba32ui) uniform uimage3D lamp_image;   /* voxel_lamp_pack, of each side */
+layout(location = LSF_LOCATION_LAMP_SEED) uniform uint lamp_seed; /* another one for each run */
 
-/* Adds a lamp to those of a side; of all it keeps one by weighted reservoir sampling (Chao 1982), each with the
- * probability of its luminance. `radiance`: what the side reflects of the lamp as a diffuse surface; `irradiance`: of
- * the side, the cosine included. */
-void keep_lamp(ivec3 cell, int side, vec3 to_lamp, float nearness, vec3 irradiance, vec3 radiance)
+voxel_lamp kept_front, kept_back; /* of the current voxel, if that is of smooth metal */
+
+/* Adds a light to those of a side; of all it keeps one by weighted reservoir sampling (Chao 1982), each with the
+ * probability of its luminance. `radiance`: what the side reflects of it as a diffuse surface; the others as in
+ * voxel_lamp. `number` in [0, 1). */
+void keep_lamp(inout voxel_lamp kept, vec3 to_lamp, float nearness, vec3 irradiance, vec3 radiance, float number)
 {
-    ivec3 texel = slice_texel(cell, side);
-#if LSF_EMIT
-    voxel_lamp kept = voxel_lamp_unpack(uvec4(0u));
-#else
-    voxel_lamp kept = voxel_lamp_unpack(imageLoad(lamp_image, texel));
-#endif
     float before = luminance(kept.spread), added = luminance(radiance), all = before + added;
-    float number = hash_unit(hash(uvec3(cell) ^ hash(uvec3(lamp_seed, side, 0u)))).x;
-    if (number * all < added) {
-        kept.to_lamp = to_lamp;
-        kept.nearness = nearness;
-        kept.irradiance = irradiance * (all / added);
-    } else {
+    if (number * all < added)
+        kept = voxel_lamp(to_lamp, nearness, irradiance * (all / added), kept.spread);
+    else
         kept.irradiance *= all / max(before, 1e-30);
-    }
     kept.spread += radiance;
-    imageStore(lamp_image, texel, voxel_lamp_pack(kept));
+}
+
+voxel_lamp lamp_kept(ivec3 cell, int side)
+{
+#if LSF_EMIT
+    return voxel_lamp_unpack(uvec4(0u));
+#else
+    return voxel_lamp_unpack(imageLoad(lamp_image, slice_texel(cell, side)));
+#endif
 }
 #endif
 
@@ -95,15 +95,22 @@ float way_out(vec3 inside, vec3 direction)
     return min(ways.x, min(ways.y, ways.z));
 }
 
-/* Adds the radiance of the side that faces the light, and returns it. `irradiance`: on a plane that faces the light;
- * becomes that of the side, in the grid's unit. `inside`: the surface's point, as an offset from the voxel's lower
- * corner; `reach`: no more than the distance to the light. */
-vec3 reflect_light(reflector material, vec3 inside, vec3 position, vec3 n, vec3 shading, vec3 to_light,
-                   float reach, inout vec3 irradiance, inout vec3 front, inout vec3 back)
+/* The surface in a voxel; `inside`: its point, as an offset from the voxel's lower corner. */
+struct voxel_target {
+    ivec3 cell;
+    vec3 inside, n, shading;
+    reflector material;
+    bool mirrors;
+};
+
+/* Adds the radiance of the side that faces the light, with `irradiance` on a plane that faces it; `reach`: no more
+ * than the distance to the light; `nearness`: as in voxel_lamp; `number`: of the light in this run. */
+void reflect_light(voxel_target t, vec3 to_light, float reach, float nearness, vec3 irradiance, int number,
+                   inout vec3 front, inout vec3 back)
 {
-    bool faces = dot(n, to_light) > 0.0;
-    vec3 side = faces ? n : -n;
-    float cosine = max(dot(faces ? shading : -shading, to_light), 0.0);
+    bool faces = dot(t.n, to_light) > 0.0;
+    vec3 side = faces ? t.n : -t.n;
+    float cosine = max(dot(faces ? t.shading : -t.shading, to_light), 0.0);
 #if LSF_SHADOW_SKY
     float density = sky_maps[shadow_sky_map].to_sky.w;
     if (density > 0.0)
@@ -111,50 +118,40 @@ vec3 reflect_light(reflector material, vec3 inside, vec3 position, vec3 n, vec3 
 #endif
     /* The back of a wall that is thinner than a voxel stands for the wall's other face, which would shadow it: that
      * face has the light that enters the voxel. A lamp may be in the voxel, and must not be passed. */
-    float way = faces ? 0.0 : min(way_out(inside, to_light) * grid.origin.w, 0.5 * reach);
-    vec3 lifted = position + LIFT * grid.origin.w * side + way * to_light;
+    float way = faces ? 0.0 : min(way_out(t.inside, to_light) * grid.origin.w, 0.5 * reach);
+    vec3 lifted = voxel_to_position(vec3(t.cell) + t.inside) + LIFT * grid.origin.w * side + way * to_light;
     float visibility = shadow_visibility(lifted, side);
 #if LSF_SHADOW_TINT
     irradiance *= shadow_tint(lifted, side, vec3(1.0));
 #endif
     irradiance *= visibility * cosine * grid.unit.y;
-    vec3 radiance = reflectance(material, cosine) * irradiance / LSF_PI;
+    vec3 radiance = reflectance(t.material, cosine) * irradiance / LSF_PI;
     front += faces ? radiance : vec3(0.0);
     back += faces ? vec3(0.0) : radiance;
-    return radiance;
+#if LSF_VOXEL_LAMPS
+    float random = hash_unit(hash(uvec3(t.cell) ^ hash(uvec3(lamp_seed, number, 0u)))).x;
+    if (t.mirrors && faces)
+        keep_lamp(kept_front, to_light, nearness, irradiance, radiance, random);
+    if (t.mirrors && !faces)
+        keep_lamp(kept_back, to_light, nearness, irradiance, radiance, random);
+#endif
 }
 
 /* Radiance of both sides. */
-void reflected(ivec3 cell, vec3 n, vec3 shading, inout vec3 front, inout vec3 back)
+void reflected(voxel_target t, inout vec3 front, inout vec3 back)
 {
-    uint point = texelFetch(point_texture, cell, 0).r;
-    vec3 inside = voxel_point_unpack(point);
-    vec3 position = voxel_to_position(vec3(cell) + inside);
-#if LSF_EMISSION
-    if (voxel_unlit(point))
-        return;
-#endif
-    reflector material = material_at(cell);
 #if LSF_SHADOW_SKY
-    for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
-        vec3 irradiance = sky_maps[shadow_sky_map].irradiance.rgb;
+    for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++)
         if (sky_maps[shadow_sky_map].error.y > 0.0)
-            reflect_light(material, inside, position, n, shading, sky_maps[shadow_sky_map].to_sky.xyz, 1.0,
-                          irradiance, front, back);
-    }
+            reflect_light(t, sky_maps[shadow_sky_map].to_sky.xyz, 1.0, VOXEL_LAMP_SKY,
+                          sky_maps[shadow_sky_map].irradiance.rgb, shadow_sky_map, front, back);
 #else
     vec3 irradiance;
     float distance2;
-    vec3 to_light = light_direction(position, irradiance, distance2);
-    vec3 radiance =
-        reflect_light(material, inside, position, n, shading, to_light, sqrt(distance2), irradiance, front, back);
-#if LSF_VOXEL_LAMPS
-    if (radiance != vec3(0.0) && voxel_is_smooth_metal(specular_params_at(cell))) {
-        bool far = light.attenuation.w == LSF_LIGHT_TYPE_DIRECTIONAL;
-        float nearness = far ? 0.0 : 1.0 / max(distance2 * grid.size.w * grid.size.w, 1e-20);
-        keep_lamp(cell, dot(n, to_light) > 0.0 ? 0 : 1, to_light, nearness, irradiance, radiance);
-    }
-#endif
+    vec3 to_light = light_direction(voxel_to_position(vec3(t.cell) + t.inside), irradiance, distance2);
+    bool far = light.attenuation.w == LSF_LIGHT_TYPE_DIRECTIONAL;
+    float nearness = far ? 0.0 : 1.0 / max(distance2 * grid.size.w * grid.size.w, 1e-20);
+    reflect_light(t, to_light, sqrt(distance2), nearness, irradiance, 0, front, back);
 #endif
 }
 #endif
@@ -198,18 +195,32 @@ uint light_voxel(ivec3 cell)
     uint normal = texelFetch(normal_texture, cell, 0).r;
     vec3 n = voxel_normal_unpack(normal);
     vec3 front = vec3(0.0), back = vec3(0.0);
-#if LSF_EMIT && LSF_VOXEL_LAMPS
-    for (int side = 0; side < 2 && voxel_is_smooth_metal(specular_params_at(cell)); side++)
-        imageStore(lamp_image, slice_texel(cell, side), uvec4(0u));
-#endif
 #if LSF_EMIT && LSF_EMISSION
     front = voxel_emission_unpack(texelFetch(emission_texture, cell, 0).r);
     if (voxel_emits_both(texelFetch(point_texture, cell, 0).r))
         back = front;
 #endif
+#if LSF_VOXEL_LAMPS
+    bool mirrors = voxel_is_smooth_metal(specular_params_at(cell));
+    kept_front = lamp_kept(cell, 0);
+    kept_back = lamp_kept(cell, 1);
+#else
+    const bool mirrors = false;
+#endif
 #if LSF_REFLECT
-    vec3 shading = voxel_normal_unpack(voxel_shading_bits(cell, normal));
-    reflected(cell, n, shading, front, back);
+    uint point = texelFetch(point_texture, cell, 0).r;
+    voxel_target t = voxel_target(cell, voxel_point_unpack(point), n,
+                                  voxel_normal_unpack(voxel_shading_bits(cell, normal)), material_at(cell), mirrors);
+#if LSF_EMISSION
+    if (!voxel_unlit(point))
+#endif
+        reflected(t, front, back);
+#endif
+#if LSF_VOXEL_LAMPS
+    if (mirrors) {
+        imageStore(lamp_image, slice_texel(cell, 0), voxel_lamp_pack(kept_front));
+        imageStore(lamp_image, slice_texel(cell, 1), voxel_lamp_pack(kept_back));
+    }
 #endif
 #if LSF_EMIT
     return put_side(cell, n, true, front) | put_side(cell, n, false, back);

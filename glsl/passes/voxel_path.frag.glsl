@@ -205,11 +205,10 @@ vec3 reflected_of(vec3 spread, path_vertex met, ivec3 cell, int side, path_verte
 vec3 lamps_of(path_vertex met, ivec3 cell, int side, path_vertex v, vec3 direction, float density)
 {
 #if LSF_VOXEL_LAMPS
-    voxel_lamp lamp;
-    if (voxel_lamp_at(met.s, cell, side, lamp))
-        return lamp_mirrored(met.s, lamp, cell, v.position, direction, density);
-#endif
+    return voxel_shows_lamp(met.s, cell, side, v.position, direction, density);
+#else
     return vec3(0.0);
+#endif
 }
 
 #if LSF_VOXEL_DRAW

@@ -126,6 +126,8 @@ struct lsf_lobe_data {
 #define LSF_LOCATION_EMITTERS (LSF_LOCATION_VOXEL_DRAW + 1)
 /* Location of the spread of lamps that voxels mirror; see lib/voxel_surface.glsl. */
 #define LSF_LOCATION_VOXEL_LAMP (LSF_LOCATION_EMITTERS + 1)
+/* Location of the random numbers of lamps that voxels keep; see passes/voxel_light.comp.glsl. */
+#define LSF_LOCATION_LAMP_SEED (LSF_LOCATION_VOXEL_LAMP + 1)
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

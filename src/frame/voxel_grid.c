@@ -195,7 +195,7 @@ bool lsf_voxel_mirrors(const lsf_plan *plan, const lsf_state *state)
 
 bool lsf_voxel_lamps(const lsf_plan *plan, const lsf_state *state)
 {
-    return plan->requirements.smooth_metal && state->light_count > 0;
+    return plan->requirements.smooth_metal && (plan->sky_lights > 0 || state->light_count > 0);
 }
 
 void lsf_voxel_lamps_switch(lsf_plan *plan, bool lamps)

@@ -5,12 +5,11 @@
 #include "base/base.h"
 #include "frame/light_walls.h"
 #include "frame/purpose.h"
+#include "math/sampling.h"
 #include "shared/scene_data.h"
 
 /* Storage buffer. */
 #define BINDING_BRICKS 1
-/* Uniform of passes/voxel_light.comp.glsl, of programs that add a punctual light. */
-#define LOCATION_LAMP_SEED 0
 
 /* Programs of one shader. */
 typedef struct variant {
@@ -64,8 +63,7 @@ static void plan_variant(lsf_plan *plan, const variant *v, const lsf_voxel_light
     lsf_plan_switch_add(plan, "LSF_SHADOW_PCF", use->pcf ? 2 : 0,
                         "shadow.filter; texels are small beside voxels");
     lsf_plan_switch_add(plan, "LSF_SHADOW_SKY", v->sky, "directions of the environment");
-    if (!v->sky)
-        lsf_voxel_lamps_switch(plan, use->lamps);
+    lsf_voxel_lamps_switch(plan, use->lamps);
     if (v->reflect && !v->sky)
         lsf_light_switches(plan);
 }
@@ -134,9 +132,19 @@ static void bind_voxels(const lsf_voxels *voxels)
     lsf_bind_texture(LSF_UNIT_VOXEL_TRANSMISSION, voxels->transmission);
 }
 
+/* Lights of all runs of all iterations differ in whether they are kept. */
+static void set_seed(lsf_voxel_light *pass, const lsf_iteration *iteration, GLuint program)
+{
+    uint32_t seed = lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_LAMP);
+    if (pass->lamps)
+        glProgramUniform1ui(program, LSF_LOCATION_LAMP_SEED,
+                            lsf_hash(lsf_hash(seed, iteration->index), pass->runs++));
+}
+
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxels *voxels)
 {
     pass->written = false;
+    pass->runs = 0;
     if (!voxels->changed || pass->use.levels == 1)
         return;
     lsf_timer_begin(pass->timer);
@@ -157,28 +165,26 @@ void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels)
 }
 
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_iteration *iteration,
-                         const lsf_voxels *voxels, uint32_t light, const lsf_shadow *shadow)
+                         const lsf_voxels *voxels, const lsf_shadow *shadow)
 {
     GLuint program = pass->written ? pass->add_program : pass->first_program;
     lsf_timer_begin(pass->timer);
     bind_voxels(voxels);
     lsf_shadow_bind(shadow);
-    if (pass->lamps)
-        glProgramUniform1ui(program, LOCATION_LAMP_SEED,
-                            lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_LAMP) +
-                                iteration->index * iteration->light_count + light);
+    set_seed(pass, iteration, program);
     dispatch(pass, program, voxels->bricks);
     lsf_timer_end(pass->timer);
     pass->written = true;
 }
 
-void lsf_voxel_light_add_sky(lsf_voxel_light *pass, const lsf_voxels *voxels,
-                             const lsf_shadow *maps, uint32_t count)
+void lsf_voxel_light_add_sky(lsf_voxel_light *pass, const lsf_iteration *iteration,
+                             const lsf_voxels *voxels, const lsf_shadow *maps, uint32_t count)
 {
     lsf_voxel_light_emit(pass, voxels);
     lsf_timer_begin(pass->timer);
     bind_voxels(voxels);
     lsf_shadow_bind(maps);
+    set_seed(pass, iteration, pass->sky_program);
     glProgramUniform1i(pass->sky_program, 0, (GLint)count);
     glProgramUniform1f(pass->sky_program, LSF_LOCATION_SKY_CHANCE, pass->use.sky_rays);
     dispatch(pass, pass->sky_program, voxels->bricks);

@@ -18,7 +18,7 @@ typedef struct lsf_voxel_light_use {
     uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and
                       * texels of empty voxels mean nothing */
     bool lights;     /* there are punctual lights */
-    bool lamps;      /* smooth metals keep one of them; with LSF_VOXEL_SIDES_SURFACE only */
+    bool lamps;      /* smooth metals keep one light; with LSF_VOXEL_SIDES_SURFACE only */
     bool pcf;        /* maps have no gradients */
     float sky_rays;  /* number of rays that find the environment from a voxel by chance, drawn by
                       * the cosine */
@@ -31,7 +31,8 @@ typedef struct lsf_voxel_light {
     GLuint lamps; /* RGBA32UI, slices as of radiance: the light that a side of smooth metal keeps,
                    * as packed by lib/voxel_lamp.glsl; 0 unless `use.lamps` */
     lsf_voxel_light_use use;
-    bool written; /* since it began */
+    bool written;  /* since it began */
+    uint32_t runs; /* that have added lights since */
     GLuint clear_program, emit_program;
     GLuint first_program, add_program; /* 0: there are no punctual lights */
     GLuint sky_program;                /* 0: the environment lights by no directions */
@@ -46,12 +47,12 @@ bool lsf_voxel_light_create(lsf_voxel_light *pass, lsf_context *context, const l
 void lsf_voxel_light_begin(lsf_voxel_light *pass, const lsf_voxels *voxels);
 /* Writes the voxels' emission where no light was added; does nothing after lights. */
 void lsf_voxel_light_emit(lsf_voxel_light *pass, const lsf_voxels *voxels);
-/* Adds the reflected light of the iteration's `light`, which is punctual, by its shadow map. */
+/* Adds the reflected light of a punctual light, by its shadow map, to the voxels' emission. */
 void lsf_voxel_light_add(lsf_voxel_light *pass, const lsf_iteration *iteration,
-                         const lsf_voxels *voxels, uint32_t light, const lsf_shadow *shadow);
+                         const lsf_voxels *voxels, const lsf_shadow *shadow);
 /* The same of directions of the environment, by those of `maps` that hold the whole scene. */
-void lsf_voxel_light_add_sky(lsf_voxel_light *pass, const lsf_voxels *voxels,
-                             const lsf_shadow *maps, uint32_t count);
+void lsf_voxel_light_add_sky(lsf_voxel_light *pass, const lsf_iteration *iteration,
+                             const lsf_voxels *voxels, const lsf_shadow *maps, uint32_t count);
 void lsf_voxel_light_destroy(lsf_voxel_light *pass);
 
 #endif

@@ -131,12 +131,12 @@ static void run_voxels(lsf_sandbox_engine *engine)
             lsf_shadow_map_run_scene(map, iteration, i);
         else
             lsf_shadow_map_run(map, iteration, i);
-        lsf_voxel_light_add(light, iteration, engine->voxels, i, &map->outputs.shadow);
+        lsf_voxel_light_add(light, iteration, engine->voxels, &map->outputs.shadow);
     }
     if (engine->sky_map.timer)
         lsf_sky_map_begin_scene(&engine->sky_map, iteration);
     while (engine->sky_map.timer && lsf_sky_map_next(&engine->sky_map, iteration))
-        lsf_voxel_light_add_sky(light, engine->voxels, &engine->sky_map.outputs.shadow,
+        lsf_voxel_light_add_sky(light, iteration, engine->voxels, &engine->sky_map.outputs.shadow,
                                 engine->sky_map.outputs.count);
     lsf_voxel_light_emit(light, engine->voxels);
     lsf_voxel_mip_run(&engine->voxel_mip, engine->voxels, light->radiance);

@@ -119,7 +119,7 @@ static void light_voxels(lsf_voxel_chain *chain, const lsf_iteration *iteration,
     lsf_shadow_map *map = &chain->direct.shadow_map;
     if (iteration->lights[light].type == LSF_LIGHT_DIRECTIONAL)
         lsf_shadow_map_run_scene(map, iteration, light);
-    lsf_voxel_light_add(&chain->light, iteration, chain->voxels, light, &map->outputs.shadow);
+    lsf_voxel_light_add(&chain->light, iteration, chain->voxels, &map->outputs.shadow);
 }
 
 void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration)
@@ -146,13 +146,13 @@ static void run_sky(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool
     lsf_direct_chain_sky_begin(&chain->direct, iteration);
     while (lsf_direct_chain_sky_next(&chain->direct, iteration))
         if (on_voxels && map->outputs.whole > 0)
-            lsf_voxel_light_add_sky(&chain->light, chain->voxels, &map->outputs.shadow,
+            lsf_voxel_light_add_sky(&chain->light, iteration, chain->voxels, &map->outputs.shadow,
                                     map->outputs.count);
     if (!on_voxels)
         return;
     lsf_sky_map_begin_scene(map, iteration);
     while (lsf_iteration_goes_on(iteration) && lsf_sky_map_next(map, iteration))
-        lsf_voxel_light_add_sky(&chain->light, chain->voxels, &map->outputs.shadow,
+        lsf_voxel_light_add_sky(&chain->light, iteration, chain->voxels, &map->outputs.shadow,
                                 map->outputs.count);
 }
 

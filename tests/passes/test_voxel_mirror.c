@@ -175,20 +175,23 @@ static void reference_means(const lsf_scene *scene, lsf_render_params params, ui
     lsf_image_destroy(image);
 }
 
-/* A metal floor mirrors two lamps onto a white wall. Each voxel keeps one of them. */
-static void floors_throw_light_forward(void **unused)
+/* A metal floor and a white wall, without light. */
+static lsf_scene *floor_and_wall(void)
 {
-    (void)unused;
-    lsf_render_params params = wall_params();
     lsf_scene *scene = build_scene();
     build_metal(scene, 0.4f);
     build_floor(scene, 0.0f, 4.0f);
     build_material(scene, 1, 1, 1);
     build_wall(scene);
-    build_lamp(scene, 35.0, 1, 0.1f);
-    build_lamp(scene, 65.0, 0.1f, 1);
-    finish_gl_scene(scene);
+    return scene;
+}
+
+/* The light that the floor adds to the wall is that of the path tracer. */
+static void expect_thrown(lsf_scene *scene)
+{
+    lsf_render_params params = wall_params();
     double direct[3], both[3];
+    finish_gl_scene(scene);
     reference_means(scene, params, 0, direct);
     reference_means(scene, params, 1, both);
     for (size_t i = 0; i < LSF_COUNT(techniques); i++) {
@@ -207,11 +210,34 @@ static void floors_throw_light_forward(void **unused)
     destroy_scene(scene);
 }
 
+/* Each voxel keeps one of both. */
+static void floors_throw_light_of_lamps(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = floor_and_wall();
+    build_lamp(scene, 35.0, 1, 0.1f);
+    build_lamp(scene, 65.0, 0.1f, 1);
+    expect_thrown(scene);
+}
+
+/* The sun is a texel of the environment, some 43 degrees above the floor. */
+static void floors_throw_light_of_a_sun(void **unused)
+{
+    (void)unused;
+    enum { SIDE = 32 };
+    lsf_scene *scene = floor_and_wall();
+    float *texels = build_environment_map(scene, 2 * SIDE, SIDE);
+    float *sun = texels + 3 * (SIDE / 4 * 2 * SIDE + SIDE);
+    sun[0] = sun[1] = sun[2] = 150.0f;
+    expect_thrown(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_have_highlights),
-        cmocka_unit_test(floors_throw_light_forward),
+        cmocka_unit_test(floors_throw_light_of_lamps),
+        cmocka_unit_test(floors_throw_light_of_a_sun),
         cmocka_unit_test(a_corner_sends_back),
         cmocka_unit_test(a_furnace_stays_white),
     };

@@ -71,10 +71,12 @@ static void add_sky(voxel_rig *rig)
     lsf_sky_map_begin(&rig->sky_map, &rig->iteration);
     while (lsf_sky_map_next(&rig->sky_map, &rig->iteration))
         if (maps->whole > 0)
-            lsf_voxel_light_add_sky(&rig->light, rig->outputs, &maps->shadow, maps->count);
+            lsf_voxel_light_add_sky(&rig->light, &rig->iteration, rig->outputs, &maps->shadow,
+                                    maps->count);
     lsf_sky_map_begin_scene(&rig->sky_map, &rig->iteration);
     while (lsf_sky_map_next(&rig->sky_map, &rig->iteration))
-        lsf_voxel_light_add_sky(&rig->light, rig->outputs, &maps->shadow, maps->count);
+        lsf_voxel_light_add_sky(&rig->light, &rig->iteration, rig->outputs, &maps->shadow,
+                                maps->count);
 }
 
 static void run_light(voxel_rig *rig)
@@ -82,7 +84,7 @@ static void run_light(voxel_rig *rig)
     lsf_voxel_light_begin(&rig->light, rig->outputs);
     for (uint32_t i = 0; i < rig->setup.state.light_count; i++) {
         lsf_shadow_map_run_scene(&rig->shadow_map, &rig->iteration, i);
-        lsf_voxel_light_add(&rig->light, &rig->iteration, rig->outputs, i,
+        lsf_voxel_light_add(&rig->light, &rig->iteration, rig->outputs,
                             &rig->shadow_map.outputs.shadow);
     }
     if (rig->sky_map.timer)
