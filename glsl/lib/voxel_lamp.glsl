@@ -18,6 +18,9 @@ bool is_smooth_metal(float metallic, float roughness)
     return metallic >= 0.5 && 4.0 * LSF_PI * COSINE_DENSITY * alpha * alpha < 1.0;
 }
 
+/* In the place of a lamp's nearness: it is a direction of the environment. */
+#define VOXEL_LAMP_SKY -1.0
+
 #if LSF_VOXEL_LAMPS
 bool voxel_is_smooth_metal(uint specular_params)
 {
@@ -25,13 +28,11 @@ bool voxel_is_smooth_metal(uint specular_params)
     return is_smooth_metal(p.w, p.y);
 }
 
-#define VOXEL_LAMP_SKY -1.0
-
 /* Light of the lamps that shine on a side of a voxel, in the grid's unit. */
 struct voxel_lamp {
     vec3 to_lamp;
-    float nearness;  /* 1 over the squared distance to the lamp [1/voxel^2]; 0: it is infinitely far; VOXEL_LAMP_SKY:
-                      * a direction of the environment */
+    float nearness;  /* 1 over the squared distance to the lamp [1/voxel^2]; 0: it is infinitely far; or
+                      * VOXEL_LAMP_SKY */
     vec3 irradiance; /* of the lamp that is kept, the cosine included, over the probability of keeping it */
     vec3 spread;     /* radiance of the side by all lamps, reflected as by a diffuse surface */
 };
