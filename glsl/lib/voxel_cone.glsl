@@ -165,7 +165,7 @@ cone_light cone_trace(vec3 point, vec3 normal, vec3 direction, float chance, flo
     density += float(cone_draws) *
                voxel_draw_density(point, direction, way.cell, voxel_draw_plane(way.cell), end.rest);
 #endif
-    end.rest = cone_reflected(end.rest, point, direction, way.cell, density) * (chance / density);
+    end.rest = cone_reflected(end.rest, point, direction, way.cell, density) * (chance / max(density, 1e-20));
     return cone_light(way.radiance + way.left * (end.emission + end.rest), vec3(0.0));
 }
 

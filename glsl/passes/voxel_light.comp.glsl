@@ -41,7 +41,7 @@ layout(location = LSF_LOCATION_SKY_CHANCE) uniform float sky_rays;
 #endif
 
 #if LSF_VOXEL_LAMPS
-layout(binding = 1, rgba32ui) uniform uimage3D lamp_image;   /* voxel_lamp_pack, of each side */
+layout(binding = 1, rgba32ui) uniform uimage3D lamp_image;        /* voxel_lamp_pack, of each side */
 layout(location = LSF_LOCATION_LAMP_SEED) uniform uint lamp_seed; /* another one for each run */
 
 voxel_lamp kept_front, kept_back; /* of the current voxel, if that is of smooth metal */
@@ -95,7 +95,8 @@ float way_out(vec3 inside, vec3 direction)
     return min(ways.x, min(ways.y, ways.z));
 }
 
-/* The surface in a voxel; `inside`: its point, as an offset from the voxel's lower corner. */
+/* The surface in a voxel; `inside`: its point, as an offset from the voxel's lower corner; `mirrors`: it is of smooth
+ * metal, and keeps a lamp. */
 struct voxel_target {
     ivec3 cell;
     vec3 inside, n, shading;

@@ -10,7 +10,7 @@ static uint32_t open_samples(const lsf_plan *plan, const lsf_sky_light_params *p
     if (params->open >= 0)
         return (uint32_t)params->open;
     if (plan->open)
-        return plan->temporal ? 32 : 64;
+        return plan->temporal && plan->filtered ? 32 : 64;
     return plan->hurried ? 8 : 32;
 }
 
