@@ -1,5 +1,6 @@
-/* Light of lamps that voxels of smooth metal mirror. Each side of such a voxel keeps one lamp, drawn by what the side
- * reflects of it; src/passes/voxel_light.md, "Metals". Switch LSF_VOXEL_LAMPS: there are lamps and smooth metals. */
+/* Lamps that voxels of smooth metal mirror: punctual lights and directions of the environment. Each side of such a
+ * voxel keeps one, drawn by what the side reflects of it; src/passes/voxel_light.md, "Metals". Switch LSF_VOXEL_LAMPS:
+ * there are both. */
 #ifndef LSF_LIB_VOXEL_LAMP
 #define LSF_LIB_VOXEL_LAMP
 

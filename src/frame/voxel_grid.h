@@ -91,12 +91,12 @@ void lsf_voxel_specular_params_switch(lsf_plan *plan);
 /* Whether rays that show detail go on from smooth metals by their lobe, which mirrors the
  * environment and other voxels. */
 bool lsf_voxel_mirrors(const lsf_plan *plan, const lsf_state *state);
-/* Whether smooth metals mirror punctual lights, of which each voxel keeps one; adds the switch to
- * the current pass. */
+/* Whether smooth metals mirror lamps, of which each side of a voxel keeps one: punctual lights and
+ * directions of the environment; adds the switch to the current pass. */
 bool lsf_voxel_lamps(const lsf_plan *plan, const lsf_state *state);
 void lsf_voxel_lamps_switch(lsf_plan *plan, bool lamps);
 /* Binds the lamps that voxels keep, and sets the uniform of lib/voxel_surface.glsl. `lit`: the
- * light that is read contains that of lamps. */
+ * light of voxels that is read contains that of lamps. */
 void lsf_voxel_lamps_bind(const lsf_iteration *iteration, const lsf_voxel_grid *grid, GLuint lamps,
                           bool lit);
 /* Adds the switch of surfaces that transmit and are there by chance, where cones march. */

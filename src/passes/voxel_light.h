@@ -18,7 +18,7 @@ typedef struct lsf_voxel_light_use {
     uint32_t levels; /* of the texture; the pass writes the finest. With 1 it is not filtered, and
                       * texels of empty voxels mean nothing */
     bool lights;     /* there are punctual lights */
-    bool lamps;      /* smooth metals keep one light; with LSF_VOXEL_SIDES_SURFACE only */
+    bool lamps;      /* smooth metals keep one; with LSF_VOXEL_SIDES_SURFACE only */
     bool pcf;        /* maps have no gradients */
     float sky_rays;  /* number of rays that find the environment from a voxel by chance, drawn by
                       * the cosine */

@@ -42,7 +42,7 @@ typedef struct lsf_voxel_path_use {
     bool split_direct; /* emission that the first segment finds is asked for apart */
     bool draws;        /* voxels are drawn by what they reflect */
     bool mirrors;      /* smooth metals show what is around them in their lobes */
-    bool lamps;        /* and punctual lights */
+    bool lamps;        /* and lamps that voxels keep */
 } lsf_voxel_path_use;
 
 typedef struct lsf_voxel_path_inputs {

@@ -19,7 +19,7 @@ typedef struct variant {
     bool traced;      /* light comes to visible points in other ways than directly from punctual
                        * lights */
     bool draws;       /* sides of voxels by their radiance */
-    bool lamps;       /* smooth metals mirror punctual lights */
+    bool lamps;       /* smooth metals mirror lamps */
     bool emitters;    /* points on emissive surfaces are drawn */
     bool shines;      /* surfaces or an environment emit */
     uint32_t levels;  /* of radiance */

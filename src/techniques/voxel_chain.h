@@ -10,7 +10,7 @@
 
 typedef struct lsf_voxel_chain_use {
     uint32_t sides, levels;   /* of the voxels' radiance; 0 sides: voxels are not lit */
-    bool lamps;               /* voxels of smooth metal keep a punctual light that they mirror */
+    bool lamps;               /* voxels of smooth metal keep one that they mirror */
     uint32_t bytes_per_voxel; /* memory of the technique beside them */
     lsf_direct_chain_use direct;
     float voxel_rays; /* number of rays from a voxel that find the environment by chance, drawn
