@@ -81,12 +81,12 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
         surface s = voxel_surface_at(way.cell, direction, side);
         if (!voxel_mirrors(s, pdf))
             break;
-        vec3 emission = voxel_emission_at(way.cell, side) - voxel_emission_drawn(way.cell, side);
-        emission += cone_end_at(point, direction, way.cell, density).emission;
+        vec3 shown = voxel_emission_at(way.cell, side) - voxel_emission_drawn(way.cell, side);
+        shown += cone_end_at(point, direction, way.cell, density).emission;
 #if LSF_VOXEL_LAMPS
-        emission += voxel_shows_lamp(s, way.cell, side, point, direction, pdf);
+        shown += voxel_shows_lamp(s, way.cell, side, point, direction, pdf);
 #endif
-        sum += through * (way.radiance + way.left * emission);
+        sum += through * (way.radiance + way.left * shown);
         through *= way.left;
         point = vec3(way.cell) + voxel_point_unpack(texelFetch(voxel_point, way.cell, 0).r);
         if (!mirror(s, i, direction, through, pdf))

@@ -1,5 +1,6 @@
 /* Noise of a frame's light without tint, and its difference from the reprojected history. A single iteration shows
- * no noise: its luminance is stored, whose variance among neighbours temporal_window takes. Switch LSF_LOBE: there is specular light. */
+ * no noise: its luminance is stored, whose variance among neighbours temporal_window takes. Switch LSF_LOBE: there is
+ * specular light. */
 #include "lib/light_clear.glsl"
 
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* of lsf_light_mean_part */

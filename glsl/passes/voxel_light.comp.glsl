@@ -51,11 +51,11 @@ voxel_lamp kept_front, kept_back; /* of the current voxel, if that is of smooth 
  * voxel_lamp. `number` in [0, 1). */
 void keep_lamp(inout voxel_lamp kept, vec3 to_lamp, float nearness, vec3 irradiance, vec3 radiance, float number)
 {
-    float before = luminance(kept.spread), added = luminance(radiance), all = before + added;
-    if (number * all < added)
-        kept = voxel_lamp(to_lamp, nearness, irradiance * (all / added), kept.spread);
+    float before = luminance(kept.spread), added = luminance(radiance), sum = before + added;
+    if (number * sum < added)
+        kept = voxel_lamp(to_lamp, nearness, irradiance * (sum / added), kept.spread);
     else
-        kept.irradiance *= all / max(before, 1e-30);
+        kept.irradiance *= sum / max(before, 1e-30);
     kept.spread += radiance;
 }
 

@@ -30,7 +30,7 @@ typedef struct lsf_cone_trace {
 } lsf_cone_trace;
 
 /* `mirrors`: rays of specular lobes find what metals mirror; only where cones are sealed and light
- * bounces twice or more. */
+ * bounces twice or more; `lamps`: there are voxels that keep one. */
 void lsf_cone_trace_plan(lsf_plan *plan, const lsf_cone_params *params, bool mirrors, bool lamps);
 bool lsf_cone_trace_create(lsf_cone_trace *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_cone_params *params, const lsf_voxel_grid *grid,

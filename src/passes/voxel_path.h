@@ -48,10 +48,10 @@ typedef struct lsf_voxel_path_use {
 typedef struct lsf_voxel_path_inputs {
     const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
-    GLuint radiance; /* of voxels, two sides */
-    GLuint lamps;    /* that smooth metals mirror; 0 unless `lamps` */
-    const lsf_voxel_grid *grid;
-    GLuint draws; /* by it, voxel_draw.h; 0 unless `draws` */
+    GLuint radiance;            /* of voxels, two sides */
+    GLuint lamps;               /* that smooth metals mirror; 0 unless `lamps` */
+    const lsf_voxel_grid *grid; /* of the voxels */
+    GLuint draws;               /* by it, voxel_draw.h; 0 unless `draws` */
 } lsf_voxel_path_inputs;
 
 /* At the points' places. */

@@ -48,6 +48,7 @@ static void add_material(lsf_requirements *r, const lsf_material *material, bool
     bool textured = in_use(r, &material->metallic_roughness_texture);
     r->metallic_roughness_textured |= textured;
     r->glossy |= textured || material->roughness < 1.0f || material->metallic > 0.0f;
+    /* Voxels mirror where alpha, of a roughness of 8 bits, is below 1/2 (lib/voxel_lamp.glsl). */
     r->smooth_metal |= material->metallic >= 0.5f && (textured || material->roughness < 0.71f);
     bool weighted = in_use(r, &material->specular_texture);
     bool tinted = in_use(r, &material->specular_color_texture);

@@ -9,7 +9,7 @@
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* Rays: those by which a path goes on beyond the visible point. */
+/* A path goes on from each voxel by one ray. */
 static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_pass_params *params,
                                      const lsf_state *state)
 {

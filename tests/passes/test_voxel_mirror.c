@@ -38,24 +38,33 @@ static lsf_scene *metal_corner(float roughness, float low)
     return scene;
 }
 
+static lsf_render_params voxel_params(uint32_t samples, uint32_t bounces, float fov_y)
+{
+    static const char *const options[] = {"voxel.resolution=64"};
+    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    params.samples = samples;
+    params.bounces = bounces;
+    params.fov_y = fov_y;
+    params.options = options;
+    params.option_count = LSF_COUNT(options);
+    return params;
+}
+
+/* A unit vector in the plane across the wall, `degrees` above the floor and away from the wall. */
+static lsf_float3 elevated(double degrees)
+{
+    double angle = degrees * M_PI / 180.0;
+    return lsf_f3((float)cos(angle), (float)sin(angle), 0);
+}
+
 /* Radiance of the floor half a unit from the wall, seen `degrees` above the horizon. */
 static void seen_at(const lsf_scene *scene, const char *technique, double degrees, double rgb[3])
 {
-    double angle = degrees * M_PI / 180.0;
-    const float eye[3] = {3.0f * (float)cos(angle), 3.0f * (float)sin(angle), 0.1f};
-    const float target[3] = {0, 0, 0.1f};
-    const char *const options[] = {"voxel.resolution=64"};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+    lsf_float3 target = lsf_f3(0, 0, 0.1f);
+    lsf_render_params params = voxel_params(32, 3, 0.02f);
     params.technique = technique;
-    params.samples = 32;
-    params.bounces = 3;
-    params.fov_y = 0.02f;
-    params.options = options;
-    params.option_count = LSF_COUNT(options);
-    params.camera_position = eye;
-    params.camera_target = target;
-    params.width = params.height = 8;
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image =
+        render_gl_from(scene, params, 8, lsf_f3_mad(target, elevated(degrees), 3.0f), target);
     mean_rgb(image, 0, rgb);
     lsf_image_destroy(image);
 }
@@ -88,13 +97,6 @@ static void a_furnace_stays_white(void **unused)
     lsf_scene *scene = metal_corner(0.15f, 1.0f);
     expect_seen(scene, 40.0, 1.0);
     destroy_scene(scene);
-}
-
-/* A unit vector in the plane across the wall, `degrees` above the floor and away from the wall. */
-static lsf_float3 elevated(double degrees)
-{
-    double angle = degrees * M_PI / 180.0;
-    return lsf_f3((float)cos(angle), (float)sin(angle), 0);
 }
 
 static void build_lamp(lsf_scene *scene, double degrees, float red, float blue)
@@ -150,13 +152,7 @@ static void lamps_have_highlights(void **unused)
 static lsf_render_params wall_params(void)
 {
     static const float eye[3] = {3, 1, 0}, target[3] = {-0.5f, 1, 0};
-    static const char *const options[] = {"voxel.resolution=64"};
-    lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
-    params.samples = 128;
-    params.bounces = 1;
-    params.fov_y = 20.0f;
-    params.options = options;
-    params.option_count = LSF_COUNT(options);
+    lsf_render_params params = voxel_params(128, 1, 20.0f);
     params.camera_position = eye;
     params.camera_target = target;
     params.width = params.height = 16;
@@ -220,7 +216,7 @@ static void floors_throw_light_of_lamps(void **unused)
     expect_thrown(scene);
 }
 
-/* The sun is a texel of the environment, some 43 degrees above the floor. */
+/* The sun is a texel of the environment, 42 degrees above the floor. */
 static void floors_throw_light_of_a_sun(void **unused)
 {
     (void)unused;
