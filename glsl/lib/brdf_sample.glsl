@@ -112,9 +112,43 @@ vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
 #endif
 
 #if LSF_TRANSMISSION
+/* The direction, in the sampler's frame, in which a microfacet transmits light to the view; above the horizon
+ * (z >= 0), where it is 0, the microfacet of a rough surface sends the light back to the side that it comes from.
+ * `gain`: f cos / p of visible normals, without the Fresnel term: the masking of the light's direction. */
+vec3 brdf_transmitted(brdf_sampler p, vec3 h, float vh, out float gain)
+{
+    vec3 local;
+    if (p.eta == 1.0) {
+        local = 2.0 * vh * h - p.view;
+        vec3 stretched = vec3(p.alpha_t, p.alpha, 1.0) * p.view;
+        gain = 2.0 * local.z * (p.view.z + length(stretched)) *
+               lsf_ggx_v_anisotropic(local.z, p.view.z, local.x, local.y, p.view.x, p.view.y, p.alpha_t,
+                                     p.alpha);
+        local.z = -local.z;
+    } else {
+        local = (vh / p.eta - lsf_refracted_cosine(vh, p.eta)) * h - p.view / p.eta;
+        gain = lsf_ggx_g1(-local.z, local.x, local.y, p.alpha_t, p.alpha);
+    }
+    return local;
+}
+
+vec3 brdf_from_frame(brdf_sampler p, vec3 local)
+{
+    return normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
+}
+
+/* What sheen and coat leave of light that passes the surface along a direction. */
+float brdf_layers_pass(brdf_sampler p, surface s, vec3 direction)
+{
+    float left = sheen_leaves(s, p.view.z, abs(dot(p.normal, direction)));
+#if LSF_COAT
+    left *= lsf_coat_passes(s.coat, p.coat_view.z) * lsf_coat_passes(s.coat, abs(dot(p.coat_normal, direction)));
+#endif
+    return left;
+}
+
 /* Whether the numbers that brdf_draw would take choose transmission; then the direction and its weight f cos / p,
- * with p over all strategies that may draw the direction. The weight is 0 where a microfacet of a rough surface
- * sends the light back to the side that it comes from. */
+ * with p over all strategies that may draw the direction. The weight is 0 where the microfacet does not transmit. */
 bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 weight)
 {
     weight = vec3(0.0);
@@ -133,28 +167,14 @@ bool brdf_pass(brdf_sampler p, surface s, vec3 u, out vec3 direction, out vec3 w
     float share = brdf_reflected_share(p, vh);
     if (u.z < p.specular * share)
         return false;
-    vec3 local = 2.0 * vh * h - p.view;
-    float gain; /* f cos / p without the Fresnel term: masking of the light direction */
-    if (p.eta == 1.0) {
-        vec3 stretched = vec3(p.alpha_t, p.alpha, 1.0) * p.view;
-        gain = 2.0 * local.z * (p.view.z + length(stretched)) *
-               lsf_ggx_v_anisotropic(local.z, p.view.z, local.x, local.y, p.view.x, p.view.y, p.alpha_t,
-                                     p.alpha);
-        local.z = -local.z;
-    } else {
-        local = (vh / p.eta - lsf_refracted_cosine(vh, p.eta)) * h - p.view / p.eta;
-        gain = lsf_ggx_g1(-local.z, local.x, local.y, p.alpha_t, p.alpha);
-    }
+    float gain;
+    vec3 local = brdf_transmitted(p, h, vh, gain);
     if (local.z >= 0.0)
         return true;
-    direction = normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
+    direction = brdf_from_frame(p, local);
     float passes = s.transmission * (1.0 - s.metallic) * (1.0 - brdf_interface(p, p.dielectric, vh));
     weight = s.base_color * (passes * gain / ((1.0 - to_coat) * p.specular * (1.0 - share)));
-    weight *= sheen_leaves(s, p.view.z, abs(dot(p.normal, direction)));
-#if LSF_COAT
-    weight *= lsf_coat_passes(s.coat, p.coat_view.z) *
-              lsf_coat_passes(s.coat, abs(dot(p.coat_normal, direction)));
-#endif
+    weight *= brdf_layers_pass(p, s, direction);
     return true;
 }
 #endif
@@ -207,6 +227,21 @@ float brdf_pdf(brdf_sampler p, vec3 direction)
 #else
     return nl / LSF_PI;
 #endif
+}
+
+/* Turns a ray along `direction` that meets the surface into one that goes on from it, drawn from the BRDF with the
+ * density `pdf`, and multiplies its weight into `through`. False: no light is reflected from there. */
+bool brdf_follow(surface s, vec3 u, inout vec3 direction, inout vec3 through, out float pdf)
+{
+    vec3 view = -direction;
+    brdf_sampler p = brdf_sampler_of(s, view, false);
+    direction = brdf_draw(p, u);
+    pdf = brdf_pdf(p, direction);
+    float cosine = dot(s.normal, direction);
+    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0)
+        return false;
+    through *= brdf_sum(s, brdf_evaluate(s, view, direction, 0.0)) * (cosine / pdf);
+    return true;
 }
 
 #endif

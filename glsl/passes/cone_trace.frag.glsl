@@ -42,22 +42,6 @@ void reflect_light(surface s, vec3 to_viewer, vec3 direction, float cosine, vec3
 
 #if LSF_VOXEL_MIRRORS
 layout(location = 1) uniform int most_mirrors; /* that a ray of the specular lobe goes on from */
-
-/* Draws the direction that a mirroring voxel shows to a ray along `direction`, and multiplies its weight into
- * `through`. False: no light is reflected from there. */
-bool mirror(surface s, int order, inout vec3 direction, inout vec3 through, out float pdf)
-{
-    vec3 view = -direction;
-    brdf_sampler p = brdf_sampler_of(s, view, false);
-    uint iteration = floatBitsToUint(cone_gather.x);
-    direction = brdf_draw(p, hash_unit(hash(uvec3(gl_FragCoord.xy, iteration + uint(order)))));
-    pdf = brdf_pdf(p, direction);
-    float cosine = dot(s.normal, direction);
-    if (cosine <= 0.0 || dot(s.geometric_normal, direction) <= 0.0)
-        return false;
-    through *= brdf_sum(s, brdf_evaluate(s, view, direction, 0.0)) * (cosine / pdf);
-    return true;
-}
 #endif
 
 #if LSF_SPECULAR && LSF_SEALED
@@ -89,7 +73,8 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
         sum += through * (way.radiance + way.left * shown);
         through *= way.left;
         point = vec3(way.cell) + voxel_point_unpack(texelFetch(voxel_point, way.cell, 0).r);
-        if (!mirror(s, i, direction, through, pdf))
+        uint order = floatBitsToUint(cone_gather.x) + uint(i);
+        if (!brdf_follow(s, hash_unit(hash(uvec3(gl_FragCoord.xy, order))), direction, through, pdf))
             return grid.unit.x * sum;
         density = ONLY_WAY;
         sky = environment_radiance(direction);

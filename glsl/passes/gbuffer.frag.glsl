@@ -1,3 +1,4 @@
+/* Switch LSF_REFRACTED: surfaces of media are always there. */
 #include "lib/chance.glsl"
 #include "lib/material.glsl"
 #include "lib/straight.glsl"
@@ -37,6 +38,10 @@ void main()
         discard;
 #if LSF_STRAIGHT
     float passes = straight_chance(straight_transmittance(s, to_viewer));
+#if LSF_REFRACTED
+    if (s.volume)
+        passes = 0.0; /* refracted paths begin there */
+#endif
     /* The random number is another than the one that decides whether a blended surface is present. */
     uint layer = ~layer_key(vertex_layer.x, vertex_layer.y, front);
     float number = chance_even_number(uvec3(layer, uvec2(gl_FragCoord.xy)));

@@ -8,12 +8,9 @@
 #include "lib/pixel_tile.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
-#include "lib/voxel_surface.glsl"
+#include "lib/voxel_vertex.glsl"
 #if LSF_VOXEL_DRAW
 #include "lib/voxel_draw.glsl"
-#endif
-#if LSF_ABSORPTION
-#include "lib/scene.glsl"
 #endif
 
 #if LSF_EMISSION && !LSF_ENVIRONMENT
@@ -37,12 +34,6 @@ layout(location = 1 + LSF_SPLIT_DIRECT) out vec4 specular_out;
 layout(location = 3) out vec4 direct_specular_out;
 #endif
 #endif
-
-/* The current vertex of a path. */
-struct path_vertex {
-    vec3 position, view; /* [voxels]; unit, towards the previous vertex */
-    surface s;
-};
 
 /* The two parts of light that compose takes. */
 struct light_parts {
@@ -77,65 +68,15 @@ bool voxel_mirrors_light(surface s, float pdf)
 /* The voxel that a path from v hits. The last segment is traced only if there may be emission on it. */
 bool trace(path_vertex v, vec3 direction, bool last, out ivec3 cell)
 {
-#if LSF_TRANSMISSION
-    /* A ray through the surface starts where it leaves the voxels of the plane. */
-    vec3 n = v.s.geometric_normal;
-    bool sinks = dot(n, direction) < 0.0, inside = v.s.volume && v.s.front == sinks;
-    vec3 start = inside  ? v.position
-                 : sinks ? voxel_start_along(v.position, -n, direction)
-                         : voxel_start(v.position, n, direction);
-#else
-    vec3 start = voxel_start(v.position, v.s.geometric_normal, direction);
-#endif
     voxel_ray ray;
-    if (!voxel_ray_begin(start, direction, ray))
+    bool inside;
+    if (!path_ray_begin(v, direction, ray, inside))
         return false;
 #if LSF_EMISSION && !LSF_ENVIRONMENT
     if (last && !voxel_ray_passes(ray, shining_bricks))
         return false;
 #endif
-#if LSF_TRANSMISSION
-    if (inside)
-        return voxel_leave_inside(ray) && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
-#endif
-    return voxel_leave_start(ray) && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
-}
-
-/* The surface of a voxel, seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
-path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
-{
-    path_vertex v;
-    v.s = voxel_surface_at(cell, direction, side);
-    v.position = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
-    v.view = -direction;
-#if LSF_TRANSMISSION
-    /* The path continues from its hit with the plane, not from the voxel's stored point. */
-    float meets = dot(v.s.geometric_normal, direction);
-    if (v.s.transmission > 0.0 && meets != 0.0) {
-        vec3 there = origin + direction * (dot(v.s.geometric_normal, v.position - origin) / meets);
-        v.position = clamp(there, vec3(cell), vec3(cell + 1));
-    }
-#endif
-    return v;
-}
-
-/* Absorption of the medium around a ray that leaves v; `before`: that around the previous segment; 0: air. Media
- * do not nest. */
-vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)
-{
-#if LSF_ABSORPTION
-    if (v.s.volume) {
-        bool outwards = (dot(v.s.geometric_normal, direction) > 0.0) == v.s.front;
-        return outwards ? vec3(0.0) : materials[v.s.material].absorption.rgb;
-    }
-#endif
-    return before;
-}
-
-/* Beer-Lambert law: transmittance over a vector in the grid. */
-vec3 left_after(vec3 absorption, vec3 span)
-{
-    return exp(-absorption * (length(span) * grid.origin.w));
+    return path_ray_meet(ray, inside, cell);
 }
 
 /* Throughput for light from a direction: `through` the path so far, times f cos / density. */

@@ -56,7 +56,8 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
                         "direct light is asked for apart");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight,
                         "light comes through materials that transmit");
-    lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
+    lsf_plan_switch_add(plan, "LSF_ABSORPTION", lsf_plan_media_absorb(plan),
+                        "there are media, which are looked through");
     lsf_scene_gpu_environment_switches(plan, "an environment is seen");
     lsf_plan_switch_add(plan, "LSF_BACKGROUND", !plan->background.environment,
                         "something else is seen instead of the environment");

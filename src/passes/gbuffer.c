@@ -48,8 +48,10 @@ static void plan_switches(lsf_plan *plan)
                             "its colour attachment is numbered");
     if (plan->straight) {
         lsf_plan_switch_add(plan, "LSF_TINT_TARGET", target++, "its colour attachment is numbered");
-        lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->requirements.refractive,
-                            "there are media");
+        lsf_plan_switch_add(plan, "LSF_ABSORPTION", lsf_plan_media_absorb(plan),
+                            "there are media, which are looked through");
+        lsf_plan_switch_add(plan, "LSF_REFRACTED", plan->refracted,
+                            "refracted paths show what is behind media");
     }
 }
 
@@ -61,7 +63,7 @@ static void plan_transmittance(lsf_plan *plan)
         return;
     lsf_plan_texture_add(plan, "gbuffer.tint", GL_RGBA16F, w, h,
                          "light comes through materials that transmit");
-    if (plan->requirements.refractive)
+    if (lsf_plan_media_absorb(plan))
         lsf_plan_texture_add(plan, "gbuffer.absorption", GL_RGBA32F, w, h,
                              "optical depth of media");
 }

@@ -36,7 +36,8 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_scene_gpu_scatter_switch(plan);
-    lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->straight && r->refractive, "there are media");
+    lsf_plan_switch_add(plan, "LSF_ABSORPTION", lsf_plan_media_absorb(plan),
+                        "there are media, which are looked through");
     lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_INDIRECT", use->indirect, "light bounces, or comes by chance");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,

@@ -19,6 +19,11 @@ bool lsf_plan_surfaces_shine(const lsf_plan *plan)
     return plan->requirements.emissive || plan->requirements.unlit;
 }
 
+bool lsf_plan_media_absorb(const lsf_plan *plan)
+{
+    return plan->straight && plan->requirements.refractive && !plan->refracted;
+}
+
 bool lsf_plan_measures_motion(const lsf_plan *plan)
 {
     return plan->temporal || (plan->aovs & LSF_AOV_MOTION);

@@ -72,6 +72,7 @@ struct lsf_plan {
                         * cannot refract it */
     bool voxel_chance; /* ... and through voxels, which are there by chance: cones march and cannot
                         * go on behind one */
+    bool refracted; /* ... except to the eye: what media transmit to it comes by refracted paths */
     bool scattered; /* rough thin walls that are seen scatter the light that comes through them */
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
     uint32_t pattern;    /* side of the pattern in which pixels take different samples, which a
@@ -98,6 +99,8 @@ struct lsf_plan {
 
 /* Whether surfaces send out radiance of their own: some material emits or is unlit. */
 bool lsf_plan_surfaces_shine(const lsf_plan *plan);
+/* Whether media absorb light on its straight way to the eye. */
+bool lsf_plan_media_absorb(const lsf_plan *plan);
 /* Whether the G-buffer holds motion. */
 bool lsf_plan_measures_motion(const lsf_plan *plan);
 /* Whether lit surfaces differ in roughness, metallic, f0 or what they transmit. */

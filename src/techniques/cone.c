@@ -8,6 +8,7 @@
 #include "frame/purpose.h"
 #include "passes/compose.h"
 #include "passes/cone_trace.h"
+#include "passes/refraction.h"
 #include "passes/voxel_bounce.h"
 #include "passes/voxel_draw.h"
 #include "passes/voxel_mip.h"
@@ -20,6 +21,7 @@ typedef struct variant {
                        * lights */
     bool draws;       /* sides of voxels by their radiance */
     bool lamps;       /* smooth metals mirror lamps */
+    bool refracts;    /* what media transmit to the eye */
     bool emitters;    /* points on emissive surfaces are drawn */
     bool shines;      /* surfaces or an environment emit */
     uint32_t levels;  /* of radiance */
@@ -38,6 +40,9 @@ static variant choose_variant(const lsf_plan *plan, const lsf_pass_params *param
     w.traced = lsf_voxel_chain_has_voxels(plan) && (plan->bounces > 0 || w.shines);
     w.lamps = w.traced && plan->bounces > 0 && lsf_voxel_lamps(plan, state) &&
               params->cone.sealed && lsf_cone_slices(&params->cone) == LSF_VOXEL_SIDES_SURFACE;
+    w.refracts = w.traced && params->cone.sealed &&
+                 lsf_cone_slices(&params->cone) == LSF_VOXEL_SIDES_SURFACE &&
+                 lsf_refraction_needed(plan, &params->refraction);
     w.emitters = w.traced && lsf_cone_emitters(&params->cone, plan);
     if (w.traced && plan->bounces > 0)
         w.bounces = plan->bounces - (w.shines ? 0 : 1);
@@ -59,6 +64,7 @@ typedef struct cone {
     lsf_emitter_points emitters;
     lsf_voxel_bounce bounce;
     lsf_cone_trace trace;
+    lsf_refraction refraction;
     lsf_sparse_chain sparse;
     lsf_compose compose;
 } cone;
@@ -89,6 +95,7 @@ static void remark(lsf_plan *plan, const variant *w)
 static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state)
 {
     variant w = choose_variant(plan, params, state);
+    plan->refracted = w.refracts;
     plan->voxel_chance = w.traced && plan->straight && !params->cone.sealed;
     if (w.traced) {
         lsf_voxel_chain_use use = chain_use(params, &w);
@@ -111,6 +118,9 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         lsf_cone_trace_plan(plan, &params->cone, mirrors, w.lamps);
         if (w.emitters && w.bounces == 0)
             lsf_emitter_points_plan(plan, emitter_name(&w));
+        if (w.refracts)
+            lsf_refraction_plan(plan, &params->refraction,
+                                "cone_trace.specular voxel_bounce|voxel_light", mirrors, w.lamps);
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
@@ -137,6 +147,9 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
            (c->variant.bounces == 0 ||
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
+           (!c->variant.refracts ||
+            lsf_refraction_create(&c->refraction, context, plan, &params->refraction,
+                                  c->trace.light.specular, error)) &&
            lsf_sparse_chain_create(&c->sparse, context, plan, params, error);
 }
 
@@ -235,6 +248,13 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
                                           .draws = c->draw.list,
                                           .emitters = c->variant.emitters ? &c->emitters : NULL};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
+    if (c->variant.refracts)
+        lsf_refraction_run(&c->refraction, iteration,
+                           &(lsf_refraction_inputs){.seen = inputs.seen,
+                                                    .voxels = inputs.voxels,
+                                                    .grid = &c->chain.grid,
+                                                    .radiance = inputs.radiance,
+                                                    .lamps = inputs.lamps});
     return lsf_sparse_chain_finish(&c->sparse, iteration, seen, &c->trace.light);
 }
 
@@ -266,6 +286,7 @@ static void destroy_cone(void *self)
     lsf_compose_destroy(&c->compose);
     lsf_sparse_chain_destroy(&c->sparse);
     lsf_emitter_points_destroy(&c->emitters, c->context);
+    lsf_refraction_destroy(&c->refraction);
     lsf_cone_trace_destroy(&c->trace);
     lsf_voxel_bounce_destroy(&c->bounce);
     lsf_voxel_draw_destroy(&c->draw);
@@ -287,13 +308,15 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
             reports[count++] = (lsf_pass_report){.timer = c->draw.timer};
         count += lsf_sparse_chain_report_split(&c->sparse, reports + count);
         reports[count++] = (lsf_pass_report){.timer = c->trace.timer};
+        if (c->variant.refracts)
+            reports[count++] = (lsf_pass_report){.timer = c->refraction.timer};
         count += lsf_sparse_chain_report_finish(&c->sparse, reports + count);
     }
     reports[count++] = (lsf_pass_report){.timer = c->compose.timer};
     return count;
 }
 
-static const char *const groups[] = {"voxel", "cone", "sparse", NULL};
+static const char *const groups[] = {"voxel", "cone", "refraction", "sparse", NULL};
 
 const lsf_technique lsf_technique_cone = {
     .name = "cone",

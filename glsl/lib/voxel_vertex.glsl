@@ -1,0 +1,79 @@
+/* Vertices of paths through voxels: the rays that leave them, the surfaces that these meet, and what media absorb on
+ * the way. Switches LSF_TRANSMISSION, LSF_ABSORPTION (there are media) and those of lib/voxel_surface.glsl. */
+#ifndef LSF_LIB_VOXEL_VERTEX
+#define LSF_LIB_VOXEL_VERTEX
+
+#include "lib/voxel_surface.glsl"
+#if LSF_ABSORPTION
+#include "lib/scene.glsl"
+#endif
+
+struct path_vertex {
+    vec3 position, view; /* [voxels]; unit, towards the previous vertex */
+    surface s;
+};
+
+/* Begins a ray from v. `inside`: it runs through the medium whose surface v is on. False: it leaves the grid at
+ * once. */
+bool path_ray_begin(path_vertex v, vec3 direction, out voxel_ray ray, out bool inside)
+{
+    inside = false;
+#if LSF_TRANSMISSION
+    /* A ray through the surface starts where it leaves the voxels of the plane. */
+    vec3 n = v.s.geometric_normal;
+    bool sinks = dot(n, direction) < 0.0;
+    inside = v.s.volume && v.s.front == sinks;
+    vec3 start = inside  ? v.position
+                 : sinks ? voxel_start_along(v.position, -n, direction)
+                         : voxel_start(v.position, n, direction);
+#else
+    vec3 start = voxel_start(v.position, v.s.geometric_normal, direction);
+#endif
+    return voxel_ray_begin(start, direction, ray);
+}
+
+/* The voxel that the ray meets. */
+bool path_ray_meet(inout voxel_ray ray, bool inside, out ivec3 cell)
+{
+    bool left = inside ? voxel_leave_inside(ray) : voxel_leave_start(ray);
+    return left && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
+}
+
+/* The surface of a voxel, seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
+path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
+{
+    path_vertex v;
+    v.s = voxel_surface_at(cell, direction, side);
+    v.position = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
+    v.view = -direction;
+#if LSF_TRANSMISSION
+    /* The path continues from its hit with the plane, not from the voxel's stored point. */
+    float meets = dot(v.s.geometric_normal, direction);
+    if (v.s.transmission > 0.0 && meets != 0.0) {
+        vec3 there = origin + direction * (dot(v.s.geometric_normal, v.position - origin) / meets);
+        v.position = clamp(there, vec3(cell), vec3(cell + 1));
+    }
+#endif
+    return v;
+}
+
+/* Absorption of the medium around a ray that leaves v; `before`: that around the previous segment; 0: air. Media
+ * do not nest. */
+vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)
+{
+#if LSF_ABSORPTION
+    if (v.s.volume) {
+        bool outwards = (dot(v.s.geometric_normal, direction) > 0.0) == v.s.front;
+        return outwards ? vec3(0.0) : materials[v.s.material].absorption.rgb;
+    }
+#endif
+    return before;
+}
+
+/* Beer-Lambert law: transmittance over a vector in the grid. */
+vec3 left_after(vec3 absorption, vec3 span)
+{
+    return exp(-absorption * (length(span) * grid.origin.w));
+}
+
+#endif

@@ -1,0 +1,136 @@
+/* Light that comes to visible points through the surfaces of media, refracted; see src/passes/refraction.md. Switches
+ * LSF_TRANSMISSION (always), LSF_ABSORPTION, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS and those of the libraries. */
+#include "lib/brdf_sample.glsl"
+#include "lib/environment.glsl"
+#include "lib/gbuffer_textures.glsl"
+#include "lib/path_random.glsl"
+#include "lib/reflectance.glsl"
+#include "lib/sparse.glsl"
+#include "lib/voxel_vertex.glsl"
+
+layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance; /* two slices along z, one for each side */
+layout(location = 0) uniform ivec2 lengths;   /* paths of a point, most segments of a path */
+layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
+
+layout(location = 0) out vec4 specular_out; /* added */
+
+/* Draws whether a path passes the surface of v or is reflected by it, and how. Multiplies the weight into `through`.
+ * False: the path ends. */
+bool pass_or_reflect(path_vertex v, vec3 u, bool visible, inout vec3 through, out vec3 direction)
+{
+    brdf_sampler p = brdf_sampler_of(v.s, v.view, false);
+    vec3 h = brdf_visible_normal(p, disc_draw(u.xy));
+    float vh = min(dot(p.view, h), 1.0), reflects = brdf_interface(p, p.dielectric, vh);
+    /* The lobe of visible points is gathered with other light, as if they were seen from outside. */
+    float gathered = visible ? lsf_fresnel_schlick_to(p.dielectric.x, p.dielectric.y, vh) : 0.0;
+    float mirrored = (1.0 - v.s.metallic) * max(reflects - gathered, 0.0);
+    vec3 passes = v.s.base_color * (v.s.transmission * (1.0 - v.s.metallic) * (1.0 - reflects));
+    float chance = mirrored / max(mirrored + largest(passes), 1e-6), gain;
+    vec3 local;
+    if (u.z < chance) {
+        local = 2.0 * vh * h - p.view;
+        gain = lsf_ggx_g1(local.z, local.x, local.y, p.alpha_t, p.alpha);
+        through *= mirrored / chance * gain;
+    } else {
+        local = brdf_transmitted(p, h, vh, gain);
+        through *= passes * (gain / max(1.0 - chance, 1e-6));
+    }
+    direction = brdf_from_frame(p, local);
+    through *= brdf_layers_pass(p, v.s, direction);
+    bool reflected = u.z < chance, above = dot(v.s.geometric_normal, direction) > 0.0;
+    return through != vec3(0.0) && (local.z > 0.0) == reflected && above == reflected;
+}
+
+/* The share of the light that voxels of transmitting materials hold which is not reflected by the dielectric's lobe:
+ * paths follow that. At the mean cosine of diffuse light, 2/3. */
+vec3 matte_share(surface s)
+{
+    const float cosine = 2.0 / 3.0;
+    float lobe = (1.0 - s.metallic) * lsf_specular_albedo(s.f0, 1.0, cosine, s.roughness);
+    reflector material = reflector(s.base_color, s.transmission, s.roughness, s.f0, s.metallic);
+    return max(1.0 - lobe / max(reflectance(material, cosine), vec3(1e-6)), vec3(0.0));
+}
+
+/* Radiance of the side of a voxel towards a path's previous vertex. `mirrors`: the path goes on from it. */
+vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, bool mirrors)
+{
+#if LSF_VOXEL_MIRRORS
+    if (mirrors) {
+        vec3 shown = voxel_emission_at(cell, side);
+#if LSF_VOXEL_LAMPS
+        shown += voxel_shows_lamp(met.s, cell, side, before.position, direction, 0.0);
+#endif
+        return shown;
+    }
+#endif
+    vec3 held = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
+    if (met.s.transmission > 0.0) {
+        vec3 emission = voxel_emission_at(cell, side);
+        return emission + matte_share(met.s) * max(held - emission, 0.0);
+    }
+#if LSF_VOXEL_LAMPS
+    held = voxel_reflects(held, met.s, cell, side, before.position, direction, 0.0);
+#endif
+    return held;
+}
+
+/* Light of a path that begins at the visible point v and passes its surface. */
+vec3 path_light(path_vertex v, path_random_key key, uint index)
+{
+    vec3 sum = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
+    bool mirrors = false; /* v is of smooth metal */
+    for (int segment = 0; segment < lengths.y; segment++) {
+        vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
+        float pdf;
+        bool goes_on = mirrors ? brdf_follow(v.s, u, direction, through, pdf)
+                               : pass_or_reflect(v, u, segment == 0, through, direction);
+        if (!goes_on)
+            break;
+        voxel_ray ray;
+        bool inside;
+        ivec3 cell;
+        if (!path_ray_begin(v, direction, ray, inside) || !path_ray_meet(ray, inside, cell)) {
+#if LSF_ENVIRONMENT
+            sum += through * environment_radiance(direction);
+#endif
+            break;
+        }
+        int side;
+        path_vertex met = vertex_at(cell, v.position, direction, side);
+#if LSF_ABSORPTION
+        absorption = absorption_along(v, direction, absorption);
+        through *= left_after(absorption, met.position - v.position);
+#endif
+#if LSF_VOXEL_MIRRORS
+        mirrors = voxel_mirrors(met.s, 0.0);
+#endif
+        sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, mirrors);
+        if (met.s.unlit || (met.s.transmission == 0.0 && !mirrors))
+            break;
+        v = met;
+    }
+    return sum;
+}
+
+void main()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depth_texture, texel, 0).r;
+    uvec4 surface_texel = texelFetch(surface_texture, texel, 0);
+    specular_out = vec4(0.0);
+    if (depth == 0.0 || surface_texel_unlit(surface_texel))
+        return;
+    path_vertex v;
+    v.s = surface_unpack(surface_texel);
+    specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
+    if (!v.s.volume || v.s.transmission == 0.0)
+        return;
+    vec2 ndc = position_ndc(texel);
+    v.position = voxel_from_position(position_from_depth(ndc, depth));
+    v.view = -normalize(view_ray_direction(ndc));
+    path_random_key key;
+    key.pixel = uint(texel.x) | (uint(texel.y) << 16);
+    key.seed = iteration.y;
+    for (int i = 0; i < lengths.x; i++)
+        specular_out.rgb += path_light(v, key, iteration.x * uint(lengths.x) + uint(i)) / float(lengths.x);
+}

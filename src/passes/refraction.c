@@ -1,0 +1,93 @@
+#include "passes/refraction.h"
+
+#include <string.h>
+
+#include "base/base.h"
+#include "frame/purpose.h"
+#include "shared/scene_data.h"
+
+/* Uniforms of passes/refraction.frag.glsl. */
+#define LOCATION_LENGTHS 0
+#define LOCATION_ITERATION 1
+
+const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT] = {
+    {"refraction.paths", LSF_OPTION_INT, offsetof(lsf_refraction_params, paths), 0, 64, NULL,
+     "paths",
+     "refracted paths of each pixel that shows a medium; 0: light goes straight through it"},
+};
+
+bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *params)
+{
+    return plan->straight && plan->requirements.refractive && params->paths > 0;
+}
+
+void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params, const char *reads,
+                         bool mirrors, bool lamps)
+{
+    const lsf_requirements *r = &plan->requirements;
+    lsf_plan_pass_add(plan, "refraction", "%d path%s of each visible point of a medium",
+                      params->paths, lsf_plural((uint64_t)params->paths));
+    lsf_plan_reads(plan, "view points|gbuffer voxelize");
+    lsf_plan_reads(plan, reads);
+    lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
+    lsf_sparse_grid_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_SPECULAR", true, "always");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", true, "always");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "always");
+    lsf_plan_switch_add(plan, "LSF_ABSORPTION", true, "there are media");
+    lsf_voxel_specular_params_switch(plan);
+    lsf_voxel_bend_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_ANISOTROPY", r->anisotropic, "some material is anisotropic");
+    lsf_scene_gpu_lobe_switches(plan, true);
+    lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
+                        "some material emits or is unlit");
+    lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
+    lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", mirrors,
+                        "smooth metals mirror what is around them");
+    lsf_voxel_lamps_switch(plan, lamps);
+}
+
+bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_refraction_params *params, GLuint specular, lsf_error *error)
+{
+    static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/refraction.frag.glsl"};
+    *pass = (lsf_refraction){.context = context, .params = *params};
+    lsf_framebuffer_desc desc = {
+        .label = "refraction", .color_count = 1, .colors = {specular}, .layer = -1};
+    pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
+    pass->program = lsf_plan_program(plan, context, "refraction", files, error);
+    pass->timer = lsf_timer_create(context, "refraction", error);
+    return pass->framebuffer && pass->program && pass->timer;
+}
+
+void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
+                        const lsf_refraction_inputs *inputs)
+{
+    const lsf_sparse_grid *grid = &iteration->grid;
+    lsf_timer_begin(pass->timer);
+    lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
+                         pass->program);
+    lsf_blend_add(1);
+    lsf_surface_maps_bind(inputs->seen);
+    lsf_voxels_bind(inputs->voxels);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
+    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
+    if (inputs->lamps)
+        lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);
+    lsf_scene_gpu_bind_environment(iteration->scene);
+    /* Each crossing is a segment; as many as paths of light have that bounce as often. */
+    glUniform2i(LOCATION_LENGTHS, pass->params.paths, (GLint)iteration->plan->bounces + 1);
+    glUniform2ui(LOCATION_ITERATION, iteration->index,
+                 lsf_iteration_seed(iteration, LSF_PURPOSE_REFRACTION));
+    lsf_draw_fullscreen(pass->context);
+    lsf_timer_end(pass->timer);
+}
+
+void lsf_refraction_destroy(lsf_refraction *pass)
+{
+    if (!pass->context)
+        return;
+    lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_timer_destroy(pass->timer);
+    memset(pass, 0, sizeof *pass);
+}

@@ -1,0 +1,47 @@
+/* Light that visible points of media transmit, by refracted paths through the voxels. See
+ * refraction.md. */
+#ifndef LSF_PASSES_REFRACTION_H
+#define LSF_PASSES_REFRACTION_H
+
+#include "frame/iteration.h"
+#include "frame/maps.h"
+#include "frame/voxel_grid.h"
+#include "plan/option.h"
+
+typedef struct lsf_refraction_params {
+    int32_t paths; /* of each visible point of a medium in an iteration; 0: its light goes straight */
+} lsf_refraction_params;
+
+#define LSF_REFRACTION_PARAMS_DEFAULTS .paths = 4
+
+#define LSF_REFRACTION_OPTION_COUNT 1
+extern const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT];
+
+typedef struct lsf_refraction_inputs {
+    const lsf_surface_maps *seen; /* by points */
+    const lsf_voxels *voxels;
+    const lsf_voxel_grid *grid; /* of the voxels */
+    GLuint radiance;            /* of voxels, two sides */
+    GLuint lamps;               /* that smooth metals mirror; 0 unless `lamps` */
+} lsf_refraction_inputs;
+
+typedef struct lsf_refraction {
+    lsf_context *context;
+    lsf_refraction_params params;
+    GLuint framebuffer, program;
+    lsf_timer *timer; /* NULL: not planned */
+} lsf_refraction;
+
+/* Whether visible media are refracted, where voxels with two sides are lit. */
+bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *params);
+/* `reads`: the specular light at the points, to which this is added, and that of voxels, as for
+ * lsf_plan_reads; `mirrors`: paths go on from smooth metals; `lamps`: which keep one. */
+void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params, const char *reads,
+                         bool mirrors, bool lamps);
+bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf_plan *plan,
+                           const lsf_refraction_params *params, GLuint specular, lsf_error *error);
+void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
+                        const lsf_refraction_inputs *inputs);
+void lsf_refraction_destroy(lsf_refraction *pass);
+
+#endif
