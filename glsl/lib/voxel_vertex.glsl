@@ -57,6 +57,60 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     return v;
 }
 
+#if LSF_ABSORPTION
+/* Reach within which the neighbours of a voxel may store the far side of a medium [voxels]. */
+#define THIN_REACH 1.8
+
+/* Where a body is thinner than a voxel, the voxel in which a ray leaves it may store its near side alone. Whether a ray
+ * from v, through the medium behind v's surface, has missed the far side; `met`: what it has met instead, if anything. */
+bool path_exit_missed(path_vertex v, vec3 direction, bool meets, path_vertex met)
+{
+    bool enters = v.s.volume && v.s.front && dot(v.s.geometric_normal, direction) < 0.0;
+    bool leaves = meets && met.s.volume && !met.s.front && met.s.material == v.s.material;
+    return enters && !leaves;
+}
+
+/* The nearest far side in the voxels beside v. Failing that, where the ray has met nothing or the medium's front, the
+ * body is a slab without thickness; other surfaces lie within the medium. False: `met` stays. */
+bool path_exit(path_vertex v, vec3 direction, bool meets, inout ivec3 cell, inout int side, inout path_vertex met)
+{
+    ivec3 own = ivec3(floor(v.position));
+    float nearest = THIN_REACH;
+    for (int i = 0; i < 27; i++) {
+        ivec3 at = own + ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+        if (!voxel_inside(at) || !voxel_occupied(at))
+            continue;
+        surface s = v.s;
+        transmission_unpack(texelFetch(voxel_transmission_bits, at, 0).r, s);
+        vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, at, 0).r);
+        float along = dot(n, direction);
+        if (!s.volume || s.material != v.s.material || along <= 0.0)
+            continue;
+        vec3 point = vec3(at) + voxel_point_unpack(texelFetch(voxel_point, at, 0).r);
+        float distance = max(dot(n, point - v.position) / along, 0.0);
+        if (distance < nearest) {
+            nearest = distance;
+            cell = at;
+        }
+    }
+    if (nearest < THIN_REACH) {
+        met.s = voxel_surface_at(cell, direction, side);
+        met.position = v.position + nearest * direction;
+        met.view = -direction;
+        return true;
+    }
+    bool front = meets && met.s.volume && met.s.front && met.s.material == v.s.material;
+    if ((meets && !front) || !voxel_inside(own) || !voxel_occupied(own))
+        return false;
+    cell = own;
+    voxel_surface_at(cell, direction, side);
+    met = v;
+    transmission_set_side(met.s, false);
+    met.view = -direction;
+    return true;
+}
+#endif
+
 /* Absorption of the medium around a ray that leaves v; `before`: that around the previous segment; 0: air. Media
  * do not nest. */
 vec3 absorption_along(path_vertex v, vec3 direction, vec3 before)

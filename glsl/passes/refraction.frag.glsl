@@ -88,15 +88,22 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
             break;
         voxel_ray ray;
         bool inside;
-        ivec3 cell;
-        if (!path_ray_begin(v, direction, ray, inside) || !path_ray_meet(ray, inside, cell)) {
+        ivec3 cell = ivec3(0);
+        int side = 0;
+        bool meets = path_ray_begin(v, direction, ray, inside) && path_ray_meet(ray, inside, cell);
+        path_vertex met = v;
+        if (meets)
+            met = vertex_at(cell, v.position, direction, side);
+#if LSF_ABSORPTION
+        if (path_exit_missed(v, direction, meets, met))
+            meets = path_exit(v, direction, meets, cell, side, met) || meets;
+#endif
+        if (!meets) {
 #if LSF_ENVIRONMENT
             sum += through * environment_radiance(direction);
 #endif
             break;
         }
-        int side;
-        path_vertex met = vertex_at(cell, v.position, direction, side);
 #if LSF_ABSORPTION
         absorption = absorption_along(v, direction, absorption);
         through *= left_after(absorption, met.position - v.position);

@@ -249,15 +249,22 @@ void add_path(path_vertex v, path_random_key key, uint index, int count)
         if (!draw_direction(v, sampler_of_v, path_random(key, index, uint(segment)), segment, through,
                             direction, pdf))
             return;
-        ivec3 cell;
-        if (!trace(v, direction, segment == lengths.x, cell)) {
+        ivec3 cell = ivec3(0);
+        int side = 0;
+        bool meets = trace(v, direction, segment == lengths.x, cell);
+        path_vertex met = v;
+        if (meets)
+            met = vertex_at(cell, v.position, direction, side);
+#if LSF_ABSORPTION
+        if (path_exit_missed(v, direction, meets, met))
+            meets = path_exit(v, direction, meets, cell, side, met) || meets;
+#endif
+        if (!meets) {
 #if LSF_ENVIRONMENT
             add_light(through, sky_found(v, direction, mirrors ? 0.0 : pdf, segment, float(count)), segment == 0);
 #endif
             return;
         }
-        int side;
-        path_vertex met = vertex_at(cell, v.position, direction, side);
 #if LSF_ABSORPTION
         absorption = absorption_along(v, direction, absorption);
         vec3 left = left_after(absorption, met.position - v.position);
