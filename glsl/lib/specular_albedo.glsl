@@ -1,4 +1,5 @@
-/* Directional albedo of the specular lobe: the tint by which its light is divided before pixels share it. */
+/* Directional albedo of the specular lobe, and of what the surface transmits, where paths bring that to the eye with its
+ * light: the tint by which this is divided before pixels share it. Switch LSF_REFRACTED: paths begin at media alone. */
 #ifndef LSF_LIB_SPECULAR_ALBEDO
 #define LSF_LIB_SPECULAR_ALBEDO
 
@@ -15,7 +16,12 @@ vec3 specular_albedo(surface s, vec3 view)
         f90 = surface_specular_f90(s);
     }
 #endif
-    return lobe_albedo(f0, f90, dot(s.normal, view), pow(s.roughness, 4.0));
+    vec3 albedo = lobe_albedo(f0, f90, dot(s.normal, view), pow(s.roughness, 4.0));
+#if LSF_TRANSMISSION && (!LSF_STRAIGHT || LSF_REFRACTED)
+    if (LSF_STRAIGHT == 0 || s.volume)
+        albedo += (1.0 - largest(albedo)) * s.transmission * (1.0 - s.metallic) * s.base_color;
+#endif
+    return albedo;
 }
 
 #endif

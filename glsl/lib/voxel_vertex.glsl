@@ -39,6 +39,31 @@ bool path_ray_meet(inout voxel_ray ray, bool inside, out ivec3 cell)
     return left && voxel_ray_meet(ray, VOXEL_FAR, true, cell);
 }
 
+#if LSF_ABSORPTION
+/* Reach of the neighbours that a normal is interpolated between [voxels], and the least cosine between their normals,
+ * beyond which an edge is between them. */
+#define SMOOTH_REACH 1.6
+#define SMOOTH_LEAST 0.9
+
+/* The shading normal at a point of a voxel's surface, between those of its neighbours: constant normals would split
+ * what is seen through a medium into facets. */
+vec3 interpolated_normal(vec3 normal, ivec3 cell, vec3 at, int side)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 27; i++) {
+        ivec3 there = cell + ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+        if (!voxel_inside(there) || !voxel_occupied(there))
+            continue;
+        vec3 away = vec3(there) + voxel_point_unpack(texelFetch(voxel_point, there, 0).r) - at;
+        vec3 n = voxel_normal_unpack(voxel_shading_bits(there, texelFetch(voxel_normal, there, 0).r));
+        n = side == 0 ? n : -n;
+        float near = max(1.0 - dot(away, away) / (SMOOTH_REACH * SMOOTH_REACH), 0.0);
+        sum += dot(n, normal) > SMOOTH_LEAST ? near * near * n : vec3(0.0);
+    }
+    return sum == vec3(0.0) ? normal : normalize(sum);
+}
+#endif
+
 /* The surface of a voxel, seen from `origin` along `direction`; `side`: 0 from the side of its normal, else 1. */
 path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 {
@@ -52,6 +77,10 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     if (v.s.transmission > 0.0 && meets != 0.0) {
         vec3 there = origin + direction * (dot(v.s.geometric_normal, v.position - origin) / meets);
         v.position = clamp(there, vec3(cell), vec3(cell + 1));
+#if LSF_ABSORPTION
+        if (v.s.volume)
+            v.s.normal = interpolated_normal(v.s.normal, cell, v.position, side);
+#endif
     }
 #endif
     return v;

@@ -35,6 +35,8 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_plan_switch_add(plan, "LSF_REFRACTED", plan->refracted,
+                        "refracted paths show what is behind media");
     lsf_scene_gpu_scatter_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", lsf_plan_media_absorb(plan),
                         "there are media, which are looked through");

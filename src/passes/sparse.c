@@ -99,6 +99,8 @@ static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
+    lsf_plan_switch_add(plan, "LSF_REFRACTED", plan->refracted,
+                        "refracted paths show what is behind media");
     lsf_scene_gpu_scatter_switch(plan);
     lsf_scene_gpu_lobe_switches(plan, specular_params);
 }
