@@ -20,12 +20,16 @@ bool pass_or_reflect(path_vertex v, vec3 u, bool visible, inout vec3 through, ou
 {
     brdf_sampler p = brdf_sampler_of(v.s, v.view, false);
     vec3 h = brdf_visible_normal(p, disc_draw(u.xy));
-    float vh = min(dot(p.view, h), 1.0), reflects = brdf_interface(p, p.dielectric, vh);
+    float vh = min(dot(p.view, h), 1.0), far_vh = v.s.eta < 1.0 ? lsf_refracted_cosine(vh, v.s.eta) : vh;
+    vec3 f0 = surface_specular_f0(v.s);
+    float f90 = surface_specular_f90(v.s);
+    vec3 mirrored = f0 + (f90 - f0) * lsf_fresnel_schlick(0.0, far_vh);
     /* The lobe of visible points is gathered with other light, as if they were seen from outside. */
-    float gathered = visible ? lsf_fresnel_schlick_to(p.dielectric.x, p.dielectric.y, vh) : 0.0;
-    float mirrored = (1.0 - v.s.metallic) * max(reflects - gathered, 0.0);
-    vec3 passes = v.s.base_color * (v.s.transmission * (1.0 - v.s.metallic) * (1.0 - reflects));
-    float chance = mirrored / max(mirrored + largest(passes), 1e-6), gain;
+    if (visible)
+        mirrored = max(mirrored - f0 - (f90 - f0) * lsf_fresnel_schlick(0.0, vh), 0.0);
+    float enters = v.s.transmission * (1.0 - v.s.metallic) * (1.0 - brdf_interface(p, p.dielectric, vh));
+    vec3 passes = v.s.base_color * enters;
+    float chance = largest(mirrored) / max(largest(mirrored) + largest(passes), 1e-6), gain;
     vec3 local;
     if (u.z < chance) {
         local = 2.0 * vh * h - p.view;
@@ -41,14 +45,13 @@ bool pass_or_reflect(path_vertex v, vec3 u, bool visible, inout vec3 through, ou
     return through != vec3(0.0) && (local.z > 0.0) == reflected && above == reflected;
 }
 
-/* The share of the light that voxels of transmitting materials hold which is not reflected by the dielectric's lobe:
- * paths follow that. At the mean cosine of diffuse light, 2/3. */
+/* The share of the light that a voxel of a transmitting material holds which its diffuse lobe reflects; paths follow the
+ * specular one. At the mean cosine of diffuse light, 2/3. */
 vec3 matte_share(surface s)
 {
-    const float cosine = 2.0 / 3.0;
-    float lobe = (1.0 - s.metallic) * lsf_specular_albedo(s.f0, 1.0, cosine, s.roughness);
-    reflector material = reflector(s.base_color, s.transmission, s.roughness, s.f0, s.metallic);
-    return max(1.0 - lobe / max(reflectance(material, cosine), vec3(1e-6)), vec3(0.0));
+    vec3 diffuse, specular;
+    reflectances(reflector(s.base_color, s.transmission, s.roughness, s.f0, s.metallic), 2.0 / 3.0, diffuse, specular);
+    return diffuse / max(diffuse + specular, vec3(1e-6));
 }
 
 /* Radiance of the side of a voxel towards a path's previous vertex. `mirrors`: the path goes on from it. */

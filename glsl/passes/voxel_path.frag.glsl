@@ -55,9 +55,17 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
     indirect.specular += through.specular * radiance;
 }
 
-/* Whether a voxel that was hit along a direction of that density shows the environment in its lobe. */
+/* Transmission from which the diffuse lobe counts for nothing. */
+#define CLEAR_LEAST 0.99
+
+/* Whether a voxel that was hit along a direction of that density shows the environment in its lobe: smooth metals do, and
+ * clear glass, whose lobe is all that it reflects. */
 bool voxel_mirrors_light(surface s, float pdf)
 {
+#if LSF_TRANSMISSION
+    if (s.transmission >= CLEAR_LEAST)
+        return true;
+#endif
 #if LSF_VOXEL_MIRRORS
     return voxel_mirrors(s, pdf);
 #else
