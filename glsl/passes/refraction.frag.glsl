@@ -1,10 +1,13 @@
 /* Light that comes to visible points through the surfaces of media, refracted; see src/passes/refraction.md. Switches
- * LSF_TRANSMISSION (always), LSF_ABSORPTION, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS and those of the libraries. */
+ * LSF_TRANSMISSION (always), LSF_ABSORPTION, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels are lit
+ * directly: paths go on from all) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
+#include "lib/interleave.glsl"
 #include "lib/path_random.glsl"
 #include "lib/reflectance.glsl"
+#include "lib/sky.glsl"
 #include "lib/sparse.glsl"
 #include "lib/voxel_vertex.glsl"
 
@@ -82,10 +85,11 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
 {
     vec3 sum = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool mirrors = false; /* v is of smooth metal */
+    bool spreads = false; /* v reflects by its whole BRDF, after light of the environment's directions */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf;
-        bool goes_on = mirrors ? brdf_follow(v.s, u, direction, through, pdf)
+        bool goes_on = mirrors || spreads ? brdf_follow(v.s, u, direction, through, pdf)
                                : pass_or_reflect(v, u, segment == 0, through, direction);
         if (!goes_on)
             break;
@@ -103,7 +107,8 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
 #endif
         if (!meets) {
 #if LSF_ENVIRONMENT
-            sum += through * environment_radiance(direction);
+            vec3 sky = environment_radiance(direction);
+            sum += through * (spreads ? sky_left(sky, dot(v.s.normal, direction) / LSF_PI) : sky);
 #endif
             break;
         }
@@ -114,12 +119,29 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
 #if LSF_VOXEL_MIRRORS
         mirrors = voxel_mirrors(met.s, 0.0);
 #endif
+#if LSF_PATHS_BOUNCE
+        spreads = met.s.transmission == 0.0 && !mirrors;
+        bool last = segment == lengths.y - 1; /* no bounce is left for other light than emission */
+        sum += through * grid.unit.x * (last ? voxel_emission_at(cell, side)
+                                             : voxel_shows(met, cell, side, v, direction, mirrors));
+#else
         sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, mirrors);
-        if (met.s.unlit || (met.s.transmission == 0.0 && !mirrors))
+#endif
+        if (met.s.unlit || (met.s.transmission == 0.0 && !mirrors && !spreads))
             break;
         v = met;
     }
     return sum;
+}
+
+/* The pixel of a point, whose order may be that of an interleaving pattern. */
+ivec2 point_pixel(ivec2 point)
+{
+#if LSF_SPARSE
+    return position_pixel(point);
+#else
+    return interleave_pixel(point, textureSize(depth_texture, 0));
+#endif
 }
 
 void main()
@@ -135,11 +157,12 @@ void main()
     specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
     if (!v.s.volume || v.s.transmission == 0.0)
         return;
-    vec2 ndc = position_ndc(texel);
+    ivec2 pixel = point_pixel(texel);
+    vec2 ndc = sample_ndc(vec2(pixel) + 0.5);
     v.position = voxel_from_position(position_from_depth(ndc, depth));
     v.view = -normalize(view_ray_direction(ndc));
     path_random_key key;
-    key.pixel = uint(texel.x) | (uint(texel.y) << 16);
+    key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
     for (int i = 0; i < lengths.x; i++)
         specular_out.rgb += path_light(v, key, iteration.x * uint(lengths.x) + uint(i)) / float(lengths.x);

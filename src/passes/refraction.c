@@ -21,16 +21,17 @@ bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *pa
     return plan->straight && plan->requirements.refractive && params->paths > 0;
 }
 
-void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params, const char *reads,
-                         bool mirrors, bool lamps)
+void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
+                         const lsf_refraction_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
     lsf_plan_pass_add(plan, "refraction", "%d path%s of each visible point of a medium",
                       params->paths, lsf_plural((uint64_t)params->paths));
     lsf_plan_reads(plan, "view points|gbuffer voxelize");
-    lsf_plan_reads(plan, reads);
+    lsf_plan_reads(plan, use->reads);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
+    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", true, "always");
     lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", true, "always");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "always");
@@ -42,9 +43,11 @@ void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params, co
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
-    lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", mirrors,
+    lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", use->mirrors,
                         "smooth metals mirror what is around them");
-    lsf_voxel_lamps_switch(plan, lamps);
+    lsf_voxel_lamps_switch(plan, use->lamps);
+    lsf_plan_switch_add(plan, "LSF_PATHS_BOUNCE", use->bounces,
+                        "voxels are lit directly, and paths go on from all");
 }
 
 bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf_plan *plan,
@@ -75,6 +78,8 @@ void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
     if (inputs->lamps)
         lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);
     lsf_scene_gpu_bind_environment(iteration->scene);
+    if (iteration->plan->requirements.environment)
+        lsf_iteration_bind_sky(iteration);
     /* Each crossing is a segment; as many as paths of light have that bounce as often. */
     glUniform2i(LOCATION_LENGTHS, pass->params.paths, (GLint)iteration->plan->bounces + 1);
     glUniform2ui(LOCATION_ITERATION, iteration->index,

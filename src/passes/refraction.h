@@ -17,6 +17,15 @@ typedef struct lsf_refraction_params {
 #define LSF_REFRACTION_OPTION_COUNT 1
 extern const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT];
 
+typedef struct lsf_refraction_use {
+    const char *reads; /* the specular light at the points, to which this is added, and that of
+                        * voxels, as for lsf_plan_reads */
+    uint32_t interleave; /* side of the pattern in whose order points are; 1: that of pixels */
+    bool mirrors;      /* paths go on from smooth metals */
+    bool lamps;        /* which keep one */
+    bool bounces;      /* voxels are lit directly: paths go on from all */
+} lsf_refraction_use;
+
 typedef struct lsf_refraction_inputs {
     const lsf_surface_maps *seen; /* by points */
     const lsf_voxels *voxels;
@@ -34,10 +43,8 @@ typedef struct lsf_refraction {
 
 /* Whether visible media are refracted, where voxels with two sides are lit. */
 bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *params);
-/* `reads`: the specular light at the points, to which this is added, and that of voxels, as for
- * lsf_plan_reads; `mirrors`: paths go on from smooth metals; `lamps`: which keep one. */
-void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params, const char *reads,
-                         bool mirrors, bool lamps);
+void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
+                         const lsf_refraction_use *use);
 bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf_plan *plan,
                            const lsf_refraction_params *params, GLuint specular, lsf_error *error);
 void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,

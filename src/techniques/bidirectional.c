@@ -18,14 +18,15 @@
 #include "shared/scene_data.h"
 #include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
-#include "techniques/direct_chain.h"
 #include "techniques/light_picks.h"
+#include "techniques/refraction_chain.h"
 #include "techniques/sparse_chain.h"
 
 typedef struct bidirectional {
     lsf_context *context;
     lsf_bidirectional_sampling sampling;
-    lsf_direct_chain chain;
+    lsf_voxel_chain chain; /* without voxels, unless media are refracted */
+    lsf_refraction refraction;
     lsf_reflective_shadow_map rsm;
     lsf_vpl vpl;
     lsf_ray_bundle *bundle;         /* NULL: no bundles */
@@ -83,6 +84,17 @@ static bool create_bundles(bidirectional *b, lsf_context *context, const lsf_pla
            lsf_ray_bundle_create(&b->bundle, context, plan, &params->ray_bundle, &use, error);
 }
 
+static bool create_chain(bidirectional *b, lsf_context *context, const lsf_plan *plan,
+                         const lsf_pass_params *params, const lsf_scene_gpu *scene,
+                         const lsf_state *state, lsf_error *error)
+{
+    lsf_voxel_chain_use voxels = lsf_refraction_chain_voxels(plan, state);
+    return b->sampling.refracts ? lsf_voxel_chain_create(&b->chain, context, plan, params, scene,
+                                                         state, &voxels, error)
+                                : lsf_direct_chain_create(&b->chain.direct, context, plan, params,
+                                                          scene, NULL, error);
+}
+
 static bool create_bidirectional(void **self, lsf_context *context, const lsf_plan *plan,
                                  const lsf_pass_params *params, const lsf_scene_gpu *scene,
                                  const lsf_state *state, lsf_error *error)
@@ -99,7 +111,7 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
     b->lights = lsf_alloc(draws, sizeof *b->lights);
     if (!b->lights)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u samples", draws);
-    return lsf_direct_chain_create(&b->chain, context, plan, params, scene, NULL, error) &&
+    return create_chain(b, context, plan, params, scene, state, error) &&
            ((!s.vpl_light && !s.bundle_light) ||
             (lsf_light_picks_init(&b->light_picks, plan, scene->scene, state,
                                   plan->sky_lights > 0 && plan->requirements.environment_map,
@@ -112,6 +124,8 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
             (lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
                                             error) &&
              lsf_sparse_chain_create(&b->sparse, context, plan, params, error))) &&
+           (!s.refracts || lsf_refraction_create(&b->refraction, context, plan, &params->refraction,
+                                                 b->shade.outputs.light.specular, error)) &&
            lsf_compose_create(&b->compose, context, plan, error);
 }
 
@@ -126,8 +140,10 @@ static lsf_update update_bidirectional(void *self, const lsf_pass_params *params
         lsf_light_picks_update(&b->light_picks, iteration->plan, iteration->scene->scene,
                                iteration->state);
     bool emitters = b->sampling.vpl_emitter && (changes->moved || changes->materials);
-    return !emitters || lsf_emitters_update(&b->emitters, changes->materials) ? LSF_UPDATE_DONE
-                                                                              : LSF_UPDATE_FAILED;
+    if (emitters && !lsf_emitters_update(&b->emitters, changes->materials))
+        return LSF_UPDATE_FAILED;
+    lsf_voxel_chain_use voxels = lsf_refraction_chain_voxels(iteration->plan, iteration->state);
+    return lsf_voxel_chain_update(&b->chain, params, iteration, &voxels, changes);
 }
 
 /* Each sample takes the light of one punctual light. A path beyond the VPLs goes with one of
@@ -394,7 +410,7 @@ static void run_light(sample_work *work, uint32_t light, uint32_t count)
         first++;
     if (first == count)
         return;
-    lsf_reflective_shadow_map_run(&b->rsm, work->iteration, light, &b->chain.gbuffer.outputs.seen);
+    lsf_reflective_shadow_map_run(&b->rsm, work->iteration, light, &b->chain.direct.gbuffer.outputs.seen);
     const lsf_vpl_inputs map = {.shadow = &b->rsm.outputs.shadow,
                                 .seen = &b->rsm.outputs.seen,
                                 .importance = b->rsm.outputs.importance,
@@ -424,7 +440,7 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
     if (s->segments > 0) {
         lsf_bundle_directions_draw(&b->directions, iteration, s->bundle_count, s->segments > 1,
                                    b->aims);
-        lsf_ray_bundle_aim(b->bundle, iteration, b->aims, b->chain.gbuffer.outputs.seen.depth);
+        lsf_ray_bundle_aim(b->bundle, iteration, b->aims, b->chain.direct.gbuffer.outputs.seen.depth);
     }
     for (uint32_t i = 0; s->segments > 1 && i < s->bundle_count && lsf_iteration_goes_on(iteration);
          i++)
@@ -444,16 +460,21 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
                               lsf_technique_outputs *outputs)
 {
     bidirectional *b = self;
-    const lsf_gbuffer_maps *gbuffer = &b->chain.gbuffer.outputs;
+    const lsf_gbuffer_maps *gbuffer = &b->chain.direct.gbuffer.outputs;
     const lsf_split_light *light = &b->shade.outputs.light;
     share_sky(b, iteration);
-    b->chain.gbuffer.lobe_angle = suppressed_angle(b, iteration);
-    lsf_direct_chain_run(&b->chain, iteration);
-    lsf_light_parts parts = lsf_direct_chain_parts(&b->chain);
+    b->chain.direct.gbuffer.lobe_angle = suppressed_angle(b, iteration);
+    if (b->sampling.refracts)
+        lsf_voxel_chain_run(&b->chain, iteration);
+    else
+        lsf_direct_chain_run(&b->chain.direct, iteration);
+    lsf_light_parts parts = lsf_direct_chain_parts(&b->chain.direct);
     if (light->irradiance) {
         lsf_bidirectional_shade_inputs inputs = {
             .seen = lsf_sparse_chain_split(&b->sparse, iteration, &gbuffer->seen)};
         run_samples(b, iteration, &inputs);
+        if (b->sampling.refracts)
+            lsf_refraction_chain_run(&b->refraction, iteration, &b->chain, inputs.seen);
         parts.indirect = lsf_sparse_chain_finish(&b->sparse, iteration, &gbuffer->seen, light);
     }
     if (b->bundle)
@@ -490,7 +511,8 @@ static void destroy_bidirectional(void *self)
     lsf_bundle_directions_finish(&b->directions);
     lsf_vpl_destroy(&b->vpl);
     lsf_reflective_shadow_map_destroy(&b->rsm);
-    lsf_direct_chain_destroy(&b->chain);
+    lsf_refraction_destroy(&b->refraction);
+    lsf_voxel_chain_destroy(&b->chain);
     lsf_light_picks_finish(&b->light_picks);
     lsf_emitters_finish(&b->emitters);
     free(b->lights);
@@ -501,7 +523,7 @@ static void destroy_bidirectional(void *self)
 static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MAX_PASSES])
 {
     bidirectional *b = self;
-    uint32_t count = lsf_direct_chain_report(&b->chain, reports);
+    uint32_t count = lsf_voxel_chain_report(&b->chain, reports);
     lsf_timer *bundle_timers[3] = {NULL};
     if (b->bundle)
         lsf_ray_bundle_timers(b->bundle, bundle_timers);
@@ -517,6 +539,7 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
         {.timer = bundle_timers[2]},
         {.timer = b->shade.vpl_timer},
         {.timer = b->shade.hit_timer},
+        {.timer = b->refraction.timer},
     };
     count += lsf_sparse_chain_report_split(&b->sparse, reports + count);
     for (size_t i = 0; i < LSF_COUNT(candidates); i++)
@@ -527,8 +550,8 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
     return count;
 }
 
-static const char *const groups[] = {"rsm", "vpl",    "bundle", "bidirectional",
-                                     "mis", "sparse", NULL};
+static const char *const groups[] = {"rsm", "vpl",        "bundle", "bidirectional",
+                                     "mis", "refraction", "voxel",  "sparse", NULL};
 
 const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",

@@ -21,6 +21,7 @@ typedef struct lsf_bidirectional_sampling {
                           * count on its light without shadows */
     bool whole_scene;
     bool split_direct;
+    bool refracts; /* what media transmit to the eye, by paths through voxels */
     uint32_t interleave, tiles;
 } lsf_bidirectional_sampling;
 

@@ -119,8 +119,12 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         if (w.emitters && w.bounces == 0)
             lsf_emitter_points_plan(plan, emitter_name(&w));
         if (w.refracts)
-            lsf_refraction_plan(plan, &params->refraction,
-                                "cone_trace.specular voxel_bounce|voxel_light", mirrors, w.lamps);
+            lsf_refraction_plan(
+                plan, &params->refraction,
+                &(lsf_refraction_use){.reads = "cone_trace.specular voxel_bounce|voxel_light",
+                                      .interleave = 1,
+                                      .mirrors = mirrors,
+                                      .lamps = w.lamps});
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
