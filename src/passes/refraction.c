@@ -11,9 +11,10 @@
 #define LOCATION_ITERATION 1
 
 const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT] = {
-    {"refraction.paths", LSF_OPTION_INT, offsetof(lsf_refraction_params, paths), 0, 64, NULL,
+    {"refraction.paths", LSF_OPTION_INT, offsetof(lsf_refraction_params, paths), 0, 16, NULL,
      "paths",
-     "refracted paths of each pixel that shows a medium; 0: light goes straight through it"},
+     "refracted paths of each pixel that shows a medium, four times as many with cone and "
+     "substitute_tree; 0: light goes straight through it"},
 };
 
 bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *params)
@@ -25,8 +26,9 @@ void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
                          const lsf_refraction_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
-    lsf_plan_pass_add(plan, "refraction", "%d path%s of each visible point of a medium",
-                      params->paths, lsf_plural((uint64_t)params->paths));
+    uint32_t paths = (uint32_t)params->paths * use->factor;
+    lsf_plan_pass_add(plan, "refraction", "%u path%s of each visible point of a medium", paths,
+                      lsf_plural(paths));
     lsf_plan_reads(plan, "view points|gbuffer voxelize");
     lsf_plan_reads(plan, use->reads);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
@@ -51,10 +53,11 @@ void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
 }
 
 bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf_plan *plan,
-                           const lsf_refraction_params *params, GLuint specular, lsf_error *error)
+                           const lsf_refraction_params *params, uint32_t factor, GLuint specular,
+                           lsf_error *error)
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/refraction.frag.glsl"};
-    *pass = (lsf_refraction){.context = context, .params = *params};
+    *pass = (lsf_refraction){.context = context, .paths = (uint32_t)params->paths * factor};
     lsf_framebuffer_desc desc = {
         .label = "refraction", .color_count = 1, .colors = {specular}, .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
@@ -81,7 +84,7 @@ void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
     if (iteration->plan->requirements.environment)
         lsf_iteration_bind_sky(iteration);
     /* Each crossing is a segment; as many as paths of light have that bounce as often. */
-    glUniform2i(LOCATION_LENGTHS, pass->params.paths, (GLint)iteration->plan->bounces + 1);
+    glUniform2i(LOCATION_LENGTHS, (GLint)pass->paths, (GLint)iteration->plan->bounces + 1);
     glUniform2ui(LOCATION_ITERATION, iteration->index,
                  lsf_iteration_seed(iteration, LSF_PURPOSE_REFRACTION));
     lsf_draw_fullscreen(pass->context);

@@ -9,7 +9,8 @@
 #include "plan/option.h"
 
 typedef struct lsf_refraction_params {
-    int32_t paths; /* of each visible point of a medium in an iteration; 0: its light goes straight */
+    int32_t paths; /* of each visible point of a medium in an iteration, times the `factor` of the
+                    * use; 0: its light goes straight */
 } lsf_refraction_params;
 
 #define LSF_REFRACTION_PARAMS_DEFAULTS .paths = 4
@@ -18,6 +19,7 @@ typedef struct lsf_refraction_params {
 extern const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT];
 
 typedef struct lsf_refraction_use {
+    uint32_t factor;   /* of paths, higher the longer the rest of an iteration takes */
     const char *reads; /* the specular light at the points, to which this is added, and that of
                         * voxels, as for lsf_plan_reads */
     uint32_t interleave; /* side of the pattern in whose order points are; 1: that of pixels */
@@ -36,7 +38,7 @@ typedef struct lsf_refraction_inputs {
 
 typedef struct lsf_refraction {
     lsf_context *context;
-    lsf_refraction_params params;
+    uint32_t paths; /* of a point */
     GLuint framebuffer, program;
     lsf_timer *timer; /* NULL: not planned */
 } lsf_refraction;
@@ -46,7 +48,8 @@ bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *pa
 void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
                          const lsf_refraction_use *use);
 bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf_plan *plan,
-                           const lsf_refraction_params *params, GLuint specular, lsf_error *error);
+                           const lsf_refraction_params *params, uint32_t factor, GLuint specular,
+                           lsf_error *error);
 void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
                         const lsf_refraction_inputs *inputs);
 void lsf_refraction_destroy(lsf_refraction *pass);

@@ -125,7 +125,7 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
                                             error) &&
              lsf_sparse_chain_create(&b->sparse, context, plan, params, error))) &&
            (!s.refracts || lsf_refraction_create(&b->refraction, context, plan, &params->refraction,
-                                                 b->shade.outputs.light.specular, error)) &&
+                                                 1, b->shade.outputs.light.specular, error)) &&
            lsf_compose_create(&b->compose, context, plan, error);
 }
 

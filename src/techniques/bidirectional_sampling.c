@@ -201,7 +201,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
         lsf_bidirectional_shade_plan(plan, &params->bidirectional_shade, &use);
         if (s.refracts)
             lsf_refraction_chain_plan(plan, params, state,
-                                      "bidirectional_shade.specular voxel_light", s.interleave);
+                                      "bidirectional_shade.specular voxel_light", 1, s.interleave);
         lsf_sparse_chain_plan_finish(plan, params, s.interleave);
     } else {
         lsf_plan_omit(plan, "bidirectional_shade", "no light bounces");

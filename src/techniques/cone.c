@@ -69,6 +69,9 @@ typedef struct cone {
     lsf_compose compose;
 } cone;
 
+/* Refracted paths end where they meet a surface, and cost little beside the rest. */
+#define REFRACTION_FACTOR 4
+
 static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const variant *w)
 {
     uint32_t slices = lsf_cone_slices(&params->cone);
@@ -122,6 +125,7 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
             lsf_refraction_plan(
                 plan, &params->refraction,
                 &(lsf_refraction_use){.reads = "cone_trace.specular voxel_bounce|voxel_light",
+                                      .factor = REFRACTION_FACTOR,
                                       .interleave = 1,
                                       .mirrors = mirrors,
                                       .lamps = w.lamps});
@@ -153,7 +157,7 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
            (!c->variant.refracts ||
             lsf_refraction_create(&c->refraction, context, plan, &params->refraction,
-                                  c->trace.light.specular, error)) &&
+                                  REFRACTION_FACTOR, c->trace.light.specular, error)) &&
            lsf_sparse_chain_create(&c->sparse, context, plan, params, error);
 }
 

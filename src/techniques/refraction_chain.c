@@ -16,11 +16,12 @@ lsf_voxel_chain_use lsf_refraction_chain_voxels(const lsf_plan *plan, const lsf_
 
 void lsf_refraction_chain_plan(lsf_plan *plan, const lsf_pass_params *params,
                                const lsf_state *state, const char *reads,
-                               uint32_t interleave)
+                               uint32_t factor, uint32_t interleave)
 {
     const lsf_refraction_use use = {.reads = reads,
                                     .mirrors = lsf_voxel_mirrors(plan, state),
                                     .lamps = lsf_refraction_chain_voxels(plan, state).lamps,
+                                    .factor = factor,
                                     .interleave = interleave,
                                     .bounces = true};
     lsf_refraction_plan(plan, &params->refraction, &use);

@@ -11,11 +11,19 @@
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl_cloud.h"
 #include "techniques/light_picks.h"
+#include "techniques/refraction_chain.h"
 #include "techniques/sparse_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* Voxels serve for paths and for visibility; they send out no light. */
-static const lsf_voxel_chain_use chain_use = {0};
+/* An iteration takes so long that more refracted paths cost little. */
+#define REFRACTION_FACTOR 4
+
+/* Voxels serve for paths of light and for visibility; they send out light only for refracted
+ * paths. */
+static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_state *state)
+{
+    return plan->refracted ? lsf_refraction_chain_voxels(plan, state) : (lsf_voxel_chain_use){0};
+}
 
 typedef struct substitute_tree {
     lsf_voxel_chain chain;
@@ -25,6 +33,7 @@ typedef struct substitute_tree {
     lsf_vpl_cloud cloud;
     lsf_light_tree tree;
     lsf_light_tree_sample sample;
+    lsf_refraction refraction;
     lsf_sparse_chain sparse;
     lsf_compose compose;
 } substitute_tree;
@@ -75,8 +84,11 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
                                  const lsf_state *state)
 {
     lsf_vpl_cloud_use use = cloud_use(plan, state);
+    plan->refracted =
+        is_traced(&use) && plan->bounces > 0 && lsf_refraction_chain_needed(plan, params);
     if (is_traced(&use)) {
-        lsf_voxel_chain_plan(plan, params, state, &chain_use);
+        lsf_voxel_chain_use voxels = chain_use(plan, state);
+        lsf_voxel_chain_plan(plan, params, state, &voxels);
         if (use.lights)
             lsf_reflective_shadow_map_plan(
                 plan, &params->reflective_shadow_map, state,
@@ -87,6 +99,9 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
         lsf_light_tree_plan(plan, &params->light_tree, record_count(params, &use), "vpl_cloud");
         lsf_sparse_chain_plan_split(plan, params, 1);
         lsf_light_tree_sample_plan(plan, &params->light_tree_sample, params->light_tree.covariance);
+        if (plan->refracted)
+            lsf_refraction_chain_plan(plan, params, state, "light_tree_sample.specular voxel_light",
+                                      REFRACTION_FACTOR, 1);
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
@@ -110,8 +125,8 @@ static bool create_traced(substitute_tree *t, lsf_context *context, const lsf_pl
                           const lsf_pass_params *params, const lsf_scene_gpu *scene,
                           const lsf_state *state, lsf_error *error)
 {
-    return lsf_voxel_chain_create(&t->chain, context, plan, params, scene, state, &chain_use,
-                                  error) &&
+    lsf_voxel_chain_use voxels = chain_use(plan, state);
+    return lsf_voxel_chain_create(&t->chain, context, plan, params, scene, state, &voxels, error) &&
            (!t->use.lights || create_lights(t, context, plan, scene->scene, state, error)) &&
            lsf_vpl_cloud_create(&t->cloud, context, plan, &params->vpl_cloud, &t->use, scene->scene,
                                 state, error) &&
@@ -119,6 +134,9 @@ static bool create_traced(substitute_tree *t, lsf_context *context, const lsf_pl
                                  record_count(params, &t->use), error) &&
            lsf_light_tree_sample_create(&t->sample, context, plan, &params->light_tree_sample,
                                         error) &&
+           (!plan->refracted ||
+            lsf_refraction_create(&t->refraction, context, plan, &params->refraction,
+                                  REFRACTION_FACTOR, t->sample.light.specular, error)) &&
            lsf_sparse_chain_create(&t->sparse, context, plan, params, error);
 }
 
@@ -148,7 +166,8 @@ static lsf_update update_substitute_tree(void *self, const lsf_pass_params *para
     if ((changes->moved || changes->materials) &&
         !lsf_vpl_cloud_follow(&t->cloud, changes->materials))
         return LSF_UPDATE_FAILED;
-    return lsf_voxel_chain_update(&t->chain, params, iteration, &chain_use, changes);
+    lsf_voxel_chain_use voxels = chain_use(iteration->plan, iteration->state);
+    return lsf_voxel_chain_update(&t->chain, params, iteration, &voxels, changes);
 }
 
 /* The first vertices of the light's paths, where it has any in this iteration. */
@@ -182,6 +201,8 @@ static lsf_split_light gather(substitute_tree *t, const lsf_iteration *iteration
         .voxels = t->chain.voxels,
         .tree = &t->tree.outputs};
     lsf_light_tree_sample_run(&t->sample, iteration, &inputs);
+    if (t->refraction.timer)
+        lsf_refraction_chain_run(&t->refraction, iteration, &t->chain, inputs.seen);
     return lsf_sparse_chain_finish(&t->sparse, iteration, seen, &t->sample.light);
 }
 
@@ -193,7 +214,7 @@ static void run_substitute_tree(void *self, const lsf_iteration *iteration,
     t->chain.direct.gbuffer.lobe_angle = lsf_iteration_sky_angle(iteration);
     if (is_traced(&t->use)) {
         lsf_voxel_chain_begin(&t->chain, iteration);
-        lsf_direct_chain_lights(&t->chain.direct, iteration);
+        lsf_voxel_chain_lights(&t->chain, iteration, t->chain.lit);
         fill_cloud(t, iteration);
         light = gather(t, iteration);
     } else {
@@ -213,6 +234,7 @@ static void destroy_substitute_tree(void *self)
         return;
     lsf_compose_destroy(&t->compose);
     lsf_sparse_chain_destroy(&t->sparse);
+    lsf_refraction_destroy(&t->refraction);
     lsf_light_tree_sample_destroy(&t->sample);
     lsf_light_tree_destroy(&t->tree);
     lsf_vpl_cloud_destroy(&t->cloud);
@@ -244,12 +266,14 @@ static uint32_t report_substitute_tree(void *self,
         reports[count++] = (lsf_pass_report){t->sample.timer, LSF_LIGHT_TREE_SAMPLE_COUNTS,
                                              lsf_light_tree_sample_count_names,
                                              lsf_light_tree_sample_counts(&t->sample)};
+    if (t->refraction.timer)
+        reports[count++] = (lsf_pass_report){.timer = t->refraction.timer};
     count += lsf_sparse_chain_report_finish(&t->sparse, reports + count);
     reports[count++] = (lsf_pass_report){.timer = t->compose.timer};
     return count;
 }
 
-static const char *const groups[] = {"cloud", "light_tree", "rsm", "voxel", "sparse", NULL};
+static const char *const groups[] = {"cloud", "light_tree", "refraction", "rsm", "voxel", "sparse", NULL};
 
 const lsf_technique lsf_technique_substitute_tree = {
     .name = "substitute_tree",

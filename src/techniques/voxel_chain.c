@@ -134,7 +134,7 @@ void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteratio
 
 void lsf_voxel_chain_emit(lsf_voxel_chain *chain)
 {
-    if (chain->voxelize)
+    if (chain->lit)
         lsf_voxel_light_emit(&chain->light, chain->voxels);
 }
 
