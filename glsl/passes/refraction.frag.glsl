@@ -9,6 +9,7 @@
 #include "lib/reflectance.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
+#include "lib/straight.glsl"
 #include "lib/voxel_vertex.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance; /* two slices along z, one for each side */
@@ -57,8 +58,9 @@ vec3 matte_share(surface s)
     return diffuse / max(diffuse + specular, vec3(1e-6));
 }
 
-/* Radiance of the side of a voxel towards a path's previous vertex. `mirrors`: the path goes on from it. */
-vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, bool mirrors)
+/* Radiance of the side of a voxel towards a path's previous vertex. `mirrors`: the path goes on from it as from a mirror;
+ * `straight`: or straight through it. */
+vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, bool mirrors, bool straight)
 {
 #if LSF_VOXEL_MIRRORS
     if (mirrors) {
@@ -70,7 +72,7 @@ vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3
     }
 #endif
     vec3 held = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
-    if (met.s.transmission > 0.0) {
+    if (met.s.transmission > 0.0 && !straight) {
         vec3 emission = voxel_emission_at(cell, side);
         return emission + matte_share(met.s) * max(held - emission, 0.0);
     }
@@ -85,14 +87,22 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
 {
     vec3 sum = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool mirrors = false; /* v is of smooth metal */
-    bool spreads = false; /* v reflects by its whole BRDF, after light of the environment's directions */
+    bool spreads = false; /* v is opaque and reflects light that voxels hold, too */
+    /* Density of the direction by the last vertex that spreads light [1/sr]; 0: there was none. Behind it light goes
+     * straight through media, as voxels are lit. */
+    float spread = 0.0;
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf;
-        bool goes_on = mirrors || spreads ? brdf_follow(v.s, u, direction, through, pdf)
-                               : pass_or_reflect(v, u, segment == 0, through, direction);
-        if (!goes_on)
+        if (mirrors || spreads) {
+            if (!brdf_follow(v.s, u, direction, through, pdf))
+                break;
+            spread = spreads ? dot(v.s.normal, direction) / LSF_PI : 0.0;
+        } else if (spread > 0.0) {
+            through *= straight_transmittance(v.s, v.view);
+        } else if (!pass_or_reflect(v, u, segment == 0, through, direction)) {
             break;
+        }
         voxel_ray ray;
         bool inside;
         ivec3 cell = ivec3(0);
@@ -108,7 +118,7 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
         if (!meets) {
 #if LSF_ENVIRONMENT
             vec3 sky = environment_radiance(direction);
-            sum += through * (spreads ? sky_left(sky, dot(v.s.normal, direction) / LSF_PI) : sky);
+            sum += through * (spread > 0.0 ? sky_left(sky, spread) : sky);
 #endif
             break;
         }
@@ -123,9 +133,9 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
         spreads = met.s.transmission == 0.0 && !mirrors;
         bool last = segment == lengths.y - 1; /* no bounce is left for other light than emission */
         sum += through * grid.unit.x * (last ? voxel_emission_at(cell, side)
-                                             : voxel_shows(met, cell, side, v, direction, mirrors));
+                                             : voxel_shows(met, cell, side, v, direction, mirrors, spread > 0.0));
 #else
-        sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, mirrors);
+        sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, mirrors, false);
 #endif
         if (met.s.unlit || (met.s.transmission == 0.0 && !mirrors && !spreads))
             break;
