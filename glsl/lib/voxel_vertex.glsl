@@ -91,20 +91,23 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 #define THIN_REACH 1.8
 
 /* Where a body is thinner than a voxel, the voxel in which a ray leaves it may store its near side alone. Whether a ray
- * from v, through the medium behind v's surface, has missed the far side; `met`: what it has met instead, if anything. */
+ * from v, through the medium behind v's surface, may have missed the far side; `met`: what it has met, if anything. */
 bool path_exit_missed(path_vertex v, vec3 direction, bool meets, path_vertex met)
 {
     bool enters = v.s.volume && v.s.front && dot(v.s.geometric_normal, direction) < 0.0;
     bool leaves = meets && met.s.volume && !met.s.front && met.s.material == v.s.material;
-    return enters && !leaves;
+    return enters && !(leaves && distance(met.position, v.position) < THIN_REACH);
 }
 
-/* The nearest far side in the voxels beside v. Failing that, where the ray has met nothing or the medium's front, the
- * body is a slab without thickness; other surfaces lie within the medium. False: `met` stays. */
+/* The nearest far side in the voxels beside v; where the ray has met another far side, this must be parallel to v's side,
+ * as that of a hollow body's wall. Failing that, where the ray has left a closed body or met its front, the body is a slab
+ * without thickness; other surfaces lie within the medium. False: `met` stays. */
 bool path_exit(path_vertex v, vec3 direction, bool meets, inout ivec3 cell, inout int side, inout path_vertex met)
 {
     ivec3 own = ivec3(floor(v.position));
     float nearest = THIN_REACH;
+    bool leaves = meets && met.s.volume && met.s.material == v.s.material && !met.s.front;
+    float least = leaves ? SMOOTH_LEAST : 0.0; /* cosine between both sides */
     for (int i = 0; i < 27; i++) {
         ivec3 at = own + ivec3(i % 3, i / 3 % 3, i / 9) - 1;
         if (!voxel_inside(at) || !voxel_occupied(at))
@@ -113,7 +116,7 @@ bool path_exit(path_vertex v, vec3 direction, bool meets, inout ivec3 cell, inou
         transmission_unpack(texelFetch(voxel_transmission_bits, at, 0).r, s);
         vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, at, 0).r);
         float along = dot(n, direction);
-        if (!s.volume || s.material != v.s.material || along <= 0.0)
+        if (!s.volume || s.material != v.s.material || along <= 0.0 || dot(n, -v.s.geometric_normal) < least)
             continue;
         vec3 point = vec3(at) + voxel_point_unpack(texelFetch(voxel_point, at, 0).r);
         float distance = max(dot(n, point - v.position) / along, 0.0);
@@ -124,12 +127,18 @@ bool path_exit(path_vertex v, vec3 direction, bool meets, inout ivec3 cell, inou
     }
     if (nearest < THIN_REACH) {
         met.s = voxel_surface_at(cell, direction, side);
+        /* The wall turns from voxel to voxel, not between its sides. */
+        if (dot(met.s.geometric_normal, v.s.geometric_normal) > SMOOTH_LEAST) {
+            met.s.geometric_normal = v.s.geometric_normal;
+            met.s.normal = v.s.normal;
+        }
         met.position = v.position + nearest * direction;
         met.view = -direction;
         return true;
     }
     bool front = meets && met.s.volume && met.s.front && met.s.material == v.s.material;
-    if ((meets && !front) || !voxel_inside(own) || !voxel_occupied(own))
+    bool misses = !meets && materials[v.s.material].absorption.w == 0.0;
+    if (!(front || misses) || !voxel_inside(own) || !voxel_occupied(own))
         return false;
     cell = own;
     voxel_surface_at(cell, direction, side);

@@ -30,7 +30,8 @@ struct lsf_material_data {
     vec4 surface;    /* metallic, roughness, normal scale, f0 of the dielectric */
     vec4 anisotropy; /* strength, cos and sin of the rotation; transmission */
     vec4 flags;      /* double-sided, unlit, surface of a medium; 0 or 1; the material's number */
-    vec4 absorption; /* rgb: of the medium, per unit of normalised space */
+    vec4 absorption; /* rgb: of the medium, per unit of normalised space; 1 where its surface is
+                        open */
     lsf_texture_slot_data base_color_slot, metallic_roughness_slot, normal_slot, emissive_slot,
         anisotropy_slot, transmission_slot;
 };

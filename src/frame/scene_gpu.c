@@ -193,7 +193,7 @@ struct lsf_material_data lsf_scene_gpu_material(const lsf_scene *scene, const ls
         .anisotropy = {m->anisotropy_strength, cosf(m->anisotropy_rotation),
                        sinf(m->anisotropy_rotation), m->transmission},
         .flags = {m->double_sided, m->unlit, m->volume && m->transmission > 0.0f, (float)material},
-        .absorption = {absorption[0], absorption[1], absorption[2], 0.0f},
+        .absorption = {absorption[0], absorption[1], absorption[2], m->open},
         .base_color_slot = lsf_scene_gpu_slot(&m->base_color_texture),
         .metallic_roughness_slot = lsf_scene_gpu_slot(&m->metallic_roughness_texture),
         .normal_slot = lsf_scene_gpu_slot(&m->normal_texture),

@@ -19,13 +19,13 @@ typedef struct lsf_refraction_params {
 extern const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT];
 
 typedef struct lsf_refraction_use {
-    uint32_t factor;   /* of paths, higher the longer the rest of an iteration takes */
-    const char *reads; /* the specular light at the points, to which this is added, and that of
-                        * voxels, as for lsf_plan_reads */
+    uint32_t factor;     /* of paths, higher the longer the rest of an iteration takes */
+    const char *reads;   /* the specular light at the points, to which this is added, and that of
+                          * voxels, as for lsf_plan_reads */
     uint32_t interleave; /* side of the pattern in whose order points are; 1: that of pixels */
-    bool mirrors;      /* paths go on from smooth metals */
-    bool lamps;        /* which keep one */
-    bool bounces;      /* voxels are lit directly: paths go on from all */
+    bool mirrors;        /* paths go on from smooth metals */
+    bool lamps;          /* which keep one */
+    bool bounces;        /* voxels are lit directly: paths go on from all */
 } lsf_refraction_use;
 
 typedef struct lsf_refraction_inputs {

@@ -417,7 +417,8 @@ bool lsf_scene_compute_requirements(lsf_scene *scene)
     memset(r, 0, sizeof(*r));
     clear_bounds(r);
     add_lights(scene, r);
-    if (!add_instances(scene, r) || !add_materials(scene, r) || !find_moving(scene, r))
+    if (!add_instances(scene, r) || !add_materials(scene, r) || !find_moving(scene, r) ||
+        !lsf_scene_find_open_media(scene))
         return false;
     find_center(r);
     add_environment(scene, r);

@@ -144,6 +144,7 @@ typedef struct lsf_material {
     float transmission;                            /* share of the light that is not reflected
                                                     * [1] */
     bool volume;                /* bounds a medium that light is refracted into; else a thin wall */
+    bool open;                  /* ... and its triangles enclose nothing, as those of a plane */
     float attenuation_distance; /* distance after which white light has attenuation_color; scene
                                  * units */
     float attenuation_color[3];
@@ -334,6 +335,8 @@ bool lsf_material_is_rough_wall(const lsf_material *material);
 
 /* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a
  * d) of the light is left after the distance d (KHR_materials_volume, "Attenuation"). */
+/* Finds the materials whose media are open. False without memory. */
+bool lsf_scene_find_open_media(lsf_scene *scene);
 void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,
                           float absorption[3]);
 

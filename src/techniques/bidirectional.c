@@ -410,7 +410,8 @@ static void run_light(sample_work *work, uint32_t light, uint32_t count)
         first++;
     if (first == count)
         return;
-    lsf_reflective_shadow_map_run(&b->rsm, work->iteration, light, &b->chain.direct.gbuffer.outputs.seen);
+    lsf_reflective_shadow_map_run(&b->rsm, work->iteration, light,
+                                  &b->chain.direct.gbuffer.outputs.seen);
     const lsf_vpl_inputs map = {.shadow = &b->rsm.outputs.shadow,
                                 .seen = &b->rsm.outputs.seen,
                                 .importance = b->rsm.outputs.importance,
@@ -440,7 +441,8 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
     if (s->segments > 0) {
         lsf_bundle_directions_draw(&b->directions, iteration, s->bundle_count, s->segments > 1,
                                    b->aims);
-        lsf_ray_bundle_aim(b->bundle, iteration, b->aims, b->chain.direct.gbuffer.outputs.seen.depth);
+        lsf_ray_bundle_aim(b->bundle, iteration, b->aims,
+                           b->chain.direct.gbuffer.outputs.seen.depth);
     }
     for (uint32_t i = 0; s->segments > 1 && i < s->bundle_count && lsf_iteration_goes_on(iteration);
          i++)
@@ -550,8 +552,8 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
     return count;
 }
 
-static const char *const groups[] = {"rsm", "vpl",        "bundle", "bidirectional",
-                                     "mis", "refraction", "voxel",  "sparse", NULL};
+static const char *const groups[] = {
+    "rsm", "vpl", "bundle", "bidirectional", "mis", "refraction", "voxel", "sparse", NULL};
 
 const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",

@@ -15,8 +15,8 @@ lsf_voxel_chain_use lsf_refraction_chain_voxels(const lsf_plan *plan, const lsf_
 }
 
 void lsf_refraction_chain_plan(lsf_plan *plan, const lsf_pass_params *params,
-                               const lsf_state *state, const char *reads,
-                               uint32_t factor, uint32_t interleave)
+                               const lsf_state *state, const char *reads, uint32_t factor,
+                               uint32_t interleave)
 {
     const lsf_refraction_use use = {.reads = reads,
                                     .mirrors = lsf_voxel_mirrors(plan, state),

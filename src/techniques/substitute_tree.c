@@ -273,7 +273,8 @@ static uint32_t report_substitute_tree(void *self,
     return count;
 }
 
-static const char *const groups[] = {"cloud", "light_tree", "refraction", "rsm", "voxel", "sparse", NULL};
+static const char *const groups[] = {"cloud", "light_tree", "refraction", "rsm",
+                                     "voxel", "sparse",     NULL};
 
 const lsf_technique lsf_technique_substitute_tree = {
     .name = "substitute_tree",

@@ -62,8 +62,8 @@ typedef struct lsf_pass_params {
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
     .cone = {LSF_CONE_PARAMS_DEFAULTS}, .refraction = {LSF_REFRACTION_PARAMS_DEFAULTS},            \
-    .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS},            \
-    .vpl_cloud = {LSF_VPL_CLOUD_PARAMS_DEFAULTS}, .light_tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS},  \
+    .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS}, .vpl_cloud = {LSF_VPL_CLOUD_PARAMS_DEFAULTS},  \
+    .light_tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS},                                                \
     .light_tree_sample = {LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS},                                  \
     .light_filter = {LSF_LIGHT_FILTER_PARAMS_DEFAULTS}, .denoise = {LSF_DENOISE_PARAMS_DEFAULTS},  \
     .temporal = {LSF_TEMPORAL_PARAMS_DEFAULTS}
