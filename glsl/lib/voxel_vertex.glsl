@@ -3,6 +3,7 @@
 #ifndef LSF_LIB_VOXEL_VERTEX
 #define LSF_LIB_VOXEL_VERTEX
 
+#include "lib/view.glsl"
 #include "lib/voxel_surface.glsl"
 #if LSF_ABSORPTION
 #include "lib/scene.glsl"
@@ -89,6 +90,33 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
 #if LSF_ABSORPTION
 /* Reach within which the neighbours of a voxel may store the far side of a medium [voxels]. */
 #define THIN_REACH 1.8
+
+/* The nearest back of a medium behind each pixel's surface, as a depth like that of the G-buffer. */
+layout(binding = LSF_UNIT_FAR_SIDE) uniform sampler2D far_side_texture;
+
+/* Thickness of the body whose surface v is visible in a pixel, across that surface [voxels]. */
+float seen_thickness(path_vertex v, ivec2 pixel, vec2 ndc)
+{
+    float depth = texelFetch(far_side_texture, pixel, 0).r;
+    if (depth == 0.0)
+        return VOXEL_FAR;
+    vec3 across = voxel_from_position(position_from_depth(ndc, depth)) - v.position;
+    return abs(dot(v.s.geometric_normal, across));
+}
+
+/* Takes a ray from a visible point into a body through it, if that is thinner than a voxel, whose sides are parallel
+ * then. False: it is thicker, or the ray does not enter it. */
+bool path_through_wall(path_vertex v, vec3 direction, float thickness, out path_vertex far_side)
+{
+    float sinks = -dot(v.s.geometric_normal, direction);
+    far_side = v;
+    if (!v.s.volume || !v.s.front || sinks <= 0.0 || thickness >= 1.0)
+        return false;
+    far_side.position += thickness / max(sinks, LSF_COSINE_MIN) * direction;
+    far_side.view = -direction;
+    transmission_set_side(far_side.s, false);
+    return true;
+}
 
 /* Where a body is thinner than a voxel, the voxel in which a ray leaves it may store its near side alone. Whether a ray
  * from v, through the medium behind v's surface, may have missed the far side; `met`: what it has met, if anything. */

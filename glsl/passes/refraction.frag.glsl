@@ -1,5 +1,5 @@
 /* Light that comes to visible points through the surfaces of media, refracted; see src/passes/refraction.md. Switches
- * LSF_TRANSMISSION (always), LSF_ABSORPTION, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels are lit
+ * LSF_TRANSMISSION and LSF_ABSORPTION (always), LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels are lit
  * directly: paths go on from all) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
@@ -82,8 +82,8 @@ vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3
     return held;
 }
 
-/* Light of a path that begins at the visible point v and passes its surface. */
-vec3 path_light(path_vertex v, path_random_key key, uint index)
+/* Light of a path that begins at the visible point v of a body of that thickness, and passes its surface. */
+vec3 path_light(path_vertex v, float thickness, path_random_key key, uint index)
 {
     vec3 sum = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool mirrors = false; /* v is of smooth metal */
@@ -103,6 +103,12 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
         } else if (!pass_or_reflect(v, u, segment == 0, through, direction)) {
             break;
         }
+        path_vertex far_side;
+        if (segment == 0 && path_through_wall(v, direction, thickness, far_side)) {
+            through *= left_after(absorption_along(v, direction, absorption), far_side.position - v.position);
+            v = far_side;
+            continue;
+        }
         voxel_ray ray;
         bool inside;
         ivec3 cell = ivec3(0);
@@ -111,10 +117,8 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
         path_vertex met = v;
         if (meets)
             met = vertex_at(cell, v.position, direction, side);
-#if LSF_ABSORPTION
         if (path_exit_missed(v, direction, meets, met))
             meets = path_exit(v, direction, meets, cell, side, met) || meets;
-#endif
         if (!meets) {
 #if LSF_ENVIRONMENT
             vec3 sky = environment_radiance(direction);
@@ -122,10 +126,8 @@ vec3 path_light(path_vertex v, path_random_key key, uint index)
 #endif
             break;
         }
-#if LSF_ABSORPTION
         absorption = absorption_along(v, direction, absorption);
         through *= left_after(absorption, met.position - v.position);
-#endif
 #if LSF_VOXEL_MIRRORS
         mirrors = voxel_mirrors(met.s, 0.0);
 #endif
@@ -171,9 +173,10 @@ void main()
     vec2 ndc = sample_ndc(vec2(pixel) + 0.5);
     v.position = voxel_from_position(position_from_depth(ndc, depth));
     v.view = -normalize(view_ray_direction(ndc));
+    float thickness = seen_thickness(v, pixel, ndc);
     path_random_key key;
     key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
     for (int i = 0; i < lengths.x; i++)
-        specular_out.rgb += path_light(v, key, iteration.x * uint(lengths.x) + uint(i)) / float(lengths.x);
+        specular_out.rgb += path_light(v, thickness, key, iteration.x * uint(lengths.x) + uint(i)) / float(lengths.x);
 }

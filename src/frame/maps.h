@@ -29,6 +29,8 @@ typedef struct lsf_gbuffer_maps {
                       * reverse-Z depth in the frame before, A the instance's number and 1 */
     GLuint tint, absorption; /* RGBA16F, RGBA32F: of light between the surface and the eye; 0:
                               * none is lost */
+    GLuint far_side; /* DEPTH_COMPONENT32F, like depth, of the nearest back of a medium behind the
+                      * surface; 0 where there is none. 0: no medium is refracted */
 } lsf_gbuffer_maps;
 
 /* The parts of an iteration's picture before they are added up. */

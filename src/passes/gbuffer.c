@@ -68,6 +68,13 @@ static void plan_transmittance(lsf_plan *plan)
                              "optical depth of media");
 }
 
+/* Whether refracted paths begin at surfaces of media. */
+static bool refracts(const lsf_plan *plan)
+{
+    return plan->requirements.refractive && plan->transmission &&
+           (plan->refracted || !plan->straight);
+}
+
 void lsf_gbuffer_plan(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -103,6 +110,9 @@ void lsf_gbuffer_plan(lsf_plan *plan)
     else
         lsf_plan_omit(plan, "gbuffer.motion", "nothing reads it");
     plan_transmittance(plan);
+    if (refracts(plan))
+        lsf_plan_texture_add(plan, "gbuffer.far_side", GL_DEPTH_COMPONENT32F, w, h,
+                             "refracted paths pass thin walls of media");
     plan_switches(plan);
 }
 
@@ -127,6 +137,21 @@ static bool create_transmittance(lsf_gbuffer *pass, const lsf_plan *plan, lsf_er
     return pass->tint_framebuffer && pass->tint_program;
 }
 
+static bool create_far_side(lsf_gbuffer *pass, const lsf_plan *plan, lsf_error *error)
+{
+    static const char *const files[5] = {"passes/gbuffer.vert.glsl",
+                                         "passes/gbuffer_far_side.frag.glsl"};
+    GLuint *depth = &pass->outputs.far_side;
+    if (!lsf_plan_create_texture_if_planned(plan, pass->context, "gbuffer.far_side", depth, error))
+        return false;
+    if (!*depth)
+        return true;
+    lsf_framebuffer_desc desc = {.label = "gbuffer.far_side", .depth = *depth, .layer = -1};
+    pass->far_framebuffer = lsf_framebuffer_create(pass->context, &desc, error);
+    pass->far_program = lsf_plan_program(plan, pass->context, "gbuffer", files, error);
+    return pass->far_framebuffer && pass->far_program;
+}
+
 bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan *plan,
                         const lsf_gbuffer_params *params, const lsf_scene_gpu *scene,
                         lsf_error *error)
@@ -141,7 +166,7 @@ bool lsf_gbuffer_create(lsf_gbuffer *pass, lsf_context *context, const lsf_plan 
         !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.emission", &out->emission,
                                             error) ||
         !lsf_plan_create_texture_if_planned(plan, context, "gbuffer.motion", &out->motion, error) ||
-        !create_transmittance(pass, plan, error))
+        !create_transmittance(pass, plan, error) || !create_far_side(pass, plan, error))
         return false;
     lsf_framebuffer_desc desc = {.label = "gbuffer",
                                  .color_count = 5,
@@ -193,6 +218,21 @@ static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_dr
                        pass->counts);
 }
 
+/* Draws media once more: the backs behind the visible surface. */
+static void find_far_side(lsf_gbuffer *pass, const lsf_iteration *iteration,
+                          const lsf_draw_region *region)
+{
+    static const GLfloat zero[4] = {0};
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->far_framebuffer);
+    lsf_begin_surfaces(iteration->plan->seen_width, iteration->plan->seen_height,
+                       pass->far_program);
+    glClearNamedFramebufferfv(pass->far_framebuffer, GL_DEPTH, 0, zero);
+    lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
+    lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, pass->outputs.seen.depth);
+    lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_TRANSMISSIVE, region,
+                       pass->counts);
+}
+
 void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
 {
     static const GLuint zero_uint[4] = {0};
@@ -218,6 +258,8 @@ void lsf_gbuffer_run(lsf_gbuffer *pass, const lsf_iteration *iteration)
     glDisable(GL_CULL_FACE);
     if (pass->outputs.tint)
         tint(pass, iteration, &region);
+    if (pass->outputs.far_side)
+        find_far_side(pass, iteration, &region);
     lsf_timer_end(pass->timer);
 }
 
@@ -227,10 +269,11 @@ void lsf_gbuffer_destroy(lsf_gbuffer *pass)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_framebuffer_destroy(pass->context, &pass->tint_framebuffer);
+    lsf_framebuffer_destroy(pass->context, &pass->far_framebuffer);
     GLuint *textures[] = {
         &pass->outputs.seen.depth, &pass->outputs.seen.surface, &pass->outputs.seen.specular_params,
         &pass->outputs.emission,   &pass->outputs.motion,       &pass->outputs.tint,
-        &pass->outputs.absorption};
+        &pass->outputs.absorption, &pass->outputs.far_side};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);
     lsf_timer_destroy(pass->timer);

@@ -23,6 +23,7 @@ typedef struct lsf_gbuffer {
     lsf_gbuffer_maps outputs; /* of the plan's size, valid until the next run */
     GLuint framebuffer, program;
     GLuint tint_framebuffer, tint_program; /* 0: nothing transmits */
+    GLuint far_framebuffer, far_program;   /* 0: no medium is refracted */
     float lobe_angle; /* solid angle that the technique spreads a lobe over [sr]; 0: it spreads
                        * none. It decides how much rough walls scatter (lib/straight.glsl) */
     uint64_t counts[LSF_DRAW_COUNTS];

@@ -77,6 +77,7 @@ void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
     lsf_surface_maps_bind(inputs->seen);
     lsf_voxels_bind(inputs->voxels);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
+    lsf_bind_texture(LSF_UNIT_FAR_SIDE, inputs->far_side);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     if (inputs->lamps)
         lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);

@@ -30,6 +30,7 @@ typedef struct lsf_refraction_use {
 
 typedef struct lsf_refraction_inputs {
     const lsf_surface_maps *seen; /* by points */
+    GLuint far_side;              /* as in lsf_gbuffer_maps, by pixels */
     const lsf_voxels *voxels;
     const lsf_voxel_grid *grid; /* of the voxels */
     GLuint radiance;            /* of voxels, two sides */

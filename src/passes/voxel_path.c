@@ -168,6 +168,7 @@ static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iterati
     lsf_surface_maps_bind(inputs->seen);
     lsf_voxels_bind(inputs->voxels);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
+    lsf_bind_texture(LSF_UNIT_FAR_SIDE, inputs->far_side);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     if (inputs->lamps)
         lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);

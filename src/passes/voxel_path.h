@@ -47,6 +47,7 @@ typedef struct lsf_voxel_path_use {
 
 typedef struct lsf_voxel_path_inputs {
     const lsf_surface_maps *seen; /* by points */
+    GLuint far_side;              /* as in lsf_gbuffer_maps, by pixels */
     const lsf_voxels *voxels;
     GLuint radiance;            /* of voxels, two sides */
     GLuint lamps;               /* that smooth metals mirror; 0 unless `lamps` */

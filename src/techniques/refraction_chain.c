@@ -31,6 +31,7 @@ void lsf_refraction_chain_run(lsf_refraction *pass, const lsf_iteration *iterati
                               const lsf_voxel_chain *chain, const lsf_surface_maps *seen)
 {
     const lsf_refraction_inputs inputs = {.seen = seen,
+                                          .far_side = chain->direct.gbuffer.outputs.far_side,
                                           .voxels = chain->voxels,
                                           .grid = &chain->grid,
                                           .radiance = chain->light.radiance,

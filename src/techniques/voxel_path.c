@@ -128,6 +128,7 @@ static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_light_p
     const lsf_surface_maps *seen = &v->chain.direct.gbuffer.outputs.seen;
     const lsf_voxel_path_inputs inputs = {.seen =
                                               lsf_sparse_chain_split(&v->sparse, iteration, seen),
+                                          .far_side = v->chain.direct.gbuffer.outputs.far_side,
                                           .voxels = v->chain.voxels,
                                           .radiance = v->chain.light.radiance,
                                           .lamps = v->chain.light.lamps,

@@ -69,25 +69,32 @@ static void build_lamps(lsf_scene *scene, float edge, float height)
 
 /* Through a slab onto a lamp of two halves: the border is seen where Snell's law says, to a voxel.
  */
+static void check_border(const char *technique, double thickness, int right)
+{
+    const double ior = 1.5, voxel = 4.0 / 32.0, f0 = 0.04;
+    double inside = asin(0.6 / ior), pass = pow((1.0 - f0) * (1.0 - pow(0.2, 5.0)), 2.0);
+    double crossing = thickness * tan(inside) + (1.0 - thickness) * 0.75;
+    lsf_scene *scene = build_scene();
+    build_lamps(scene, (float)(crossing + (right ? -1.5 : 1.5) * voxel), -1.0f);
+    build_glass(scene, 1.0f, 0.0f, (float)ior);
+    build_box(scene, lsf_f3(-2, (float)-thickness, -2), lsf_f3(2, 0, 2), false);
+    finish_gl_scene(scene);
+    double rgb[3];
+    look(scene, technique, 16, 2, NEEDLE, lsf_f3(-0.75f, 1, 0), lsf_f3(0, 0, 0), rgb);
+    print_message("%s, %.2f thick: %.4f and %.4f, expected %.4f on one\n", technique, thickness,
+                  rgb[0], rgb[1], pass);
+    assert_true(fabs(rgb[right] - pass) < 0.05 && rgb[!right] < 0.05);
+    lsf_scene_destroy(scene);
+}
+
+/* The thin slab lies along the grid, so that its far side is missing in some grids. */
 static void slab_displaces(void **unused)
 {
     (void)unused;
-    const double ior = 1.5, voxel = 4.0 / 32.0, thickness = 0.5;
-    double inside = asin(0.6 / ior), crossing = thickness * tan(inside) + 0.5 * 0.75;
     for (size_t t = 0; t < LSF_COUNT(techniques); t++)
         for (int right = 0; right < 2; right++) {
-            lsf_scene *scene = build_scene();
-            build_lamps(scene, (float)(crossing + (right ? -1.5 : 1.5) * voxel), -1.0f);
-            build_glass(scene, 1.0f, 0.0f, (float)ior);
-            build_box(scene, lsf_f3(-2, (float)-thickness, -2), lsf_f3(2, 0, 2), false);
-            finish_gl_scene(scene);
-            double rgb[3], f0 = pow((ior - 1.0) / (ior + 1.0), 2.0);
-            double pass = pow((1.0 - f0) * (1.0 - pow(0.2, 5.0)), 2.0);
-            look(scene, techniques[t], 16, 2, NEEDLE, lsf_f3(-0.75f, 1, 0), lsf_f3(0, 0, 0), rgb);
-            print_message("%s: %.4f and %.4f, expected %.4f on one\n", techniques[t], rgb[0],
-                          rgb[1], pass);
-            assert_true(fabs(rgb[right] - pass) < 0.05 && rgb[!right] < 0.05);
-            lsf_scene_destroy(scene);
+            check_border(techniques[t], 0.5, right);
+            check_border(techniques[t], 0.03, right);
         }
 }
 
