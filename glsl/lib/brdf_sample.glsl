@@ -104,6 +104,12 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     return p;
 }
 
+/* The unit vector of the direction that has these coordinates in the sampler's frame. */
+vec3 brdf_from_frame(brdf_sampler p, vec3 local)
+{
+    return normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
+}
+
 #if LSF_SPECULAR
 vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
 {
@@ -112,9 +118,9 @@ vec3 brdf_visible_normal(brdf_sampler p, vec2 disc)
 #endif
 
 #if LSF_TRANSMISSION
-/* The direction, in the sampler's frame, in which a microfacet transmits light to the view; above the horizon
- * (z >= 0), where it is 0, the microfacet of a rough surface sends the light back to the side that it comes from.
- * `gain`: f cos / p of visible normals, without the Fresnel term: the masking of the light's direction. */
+/* The direction from which a microfacet of normal h transmits light to the view, in the sampler's frame. It lies below
+ * the horizon; if not, the microfacet sends the light back to the side that it comes from, as rough surfaces do. `gain`:
+ * f cos / p of visible normals without the Fresnel term, which is the masking of the light's direction. */
 vec3 brdf_transmitted(brdf_sampler p, vec3 h, float vh, out float gain)
 {
     vec3 local;
@@ -130,11 +136,6 @@ vec3 brdf_transmitted(brdf_sampler p, vec3 h, float vh, out float gain)
         gain = lsf_ggx_g1(-local.z, local.x, local.y, p.alpha_t, p.alpha);
     }
     return local;
-}
-
-vec3 brdf_from_frame(brdf_sampler p, vec3 local)
-{
-    return normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
 }
 
 /* What sheen and coat leave of light that passes the surface along a direction. */
@@ -198,7 +199,7 @@ vec3 brdf_draw(brdf_sampler p, vec3 u)
         local = 2.0 * dot(p.view, h) * h - p.view;
     }
 #endif
-    return normalize(local.x * p.tangent + local.y * p.bitangent + local.z * p.normal);
+    return brdf_from_frame(p, local);
 }
 
 /* Density [1/sr] of a direction above the horizon. */

@@ -118,24 +118,25 @@ bool path_through_wall(path_vertex v, vec3 direction, float thickness, out path_
     return true;
 }
 
-/* Where a body is thinner than a voxel, the voxel in which a ray leaves it may store its near side alone. Whether a ray
- * from v, through the medium behind v's surface, may have missed the far side; `met`: what it has met, if anything. */
-bool path_exit_missed(path_vertex v, vec3 direction, bool meets, path_vertex met)
+/* Whether a surface belongs to the medium whose surface v is on, and is seen from its front or from its back. */
+bool is_side_of(path_vertex v, surface s, bool front)
 {
-    bool enters = v.s.volume && v.s.front && dot(v.s.geometric_normal, direction) < 0.0;
-    bool leaves = meets && met.s.volume && !met.s.front && met.s.material == v.s.material;
-    return enters && !(leaves && distance(met.position, v.position) < THIN_REACH);
+    return s.volume && s.material == v.s.material && s.front == front;
 }
 
-/* The nearest far side in the voxels beside v; where the ray has met another far side, this must be parallel to v's side,
- * as that of a hollow body's wall. Failing that, where the ray has left a closed body or met its front, the body is a slab
- * without thickness; other surfaces lie within the medium. False: `met` stays. */
-bool path_exit(path_vertex v, vec3 direction, bool meets, inout ivec3 cell, inout int side, inout path_vertex met)
+/* Where a body is thinner than a voxel, the voxel in which a ray leaves it may store its near side alone. If a ray from v
+ * into a body has not met the far side nearby, this replaces what it has met, if anything (`meets`), by the nearest far
+ * side in the voxels beside v. Where the ray has met another far side, this must be parallel to v's side, as that of a
+ * hollow body's wall. Failing that, where the ray has left a closed body or met its front, the body is a slab without
+ * thickness; other surfaces lie within the medium. */
+void path_find_exit(path_vertex v, vec3 direction, inout bool meets, inout ivec3 cell, inout int side, inout path_vertex met)
 {
+    bool enters = v.s.volume && v.s.front && dot(v.s.geometric_normal, direction) < 0.0;
+    bool leaves = meets && is_side_of(v, met.s, false);
+    if (!enters || (leaves && distance(met.position, v.position) < THIN_REACH))
+        return;
     ivec3 own = ivec3(floor(v.position));
-    float nearest = THIN_REACH;
-    bool leaves = meets && met.s.volume && met.s.material == v.s.material && !met.s.front;
-    float least = leaves ? SMOOTH_LEAST : 0.0; /* cosine between both sides */
+    float nearest = THIN_REACH, least = leaves ? SMOOTH_LEAST : 0.0; /* least: cosine between both sides */
     for (int i = 0; i < 27; i++) {
         ivec3 at = own + ivec3(i % 3, i / 3 % 3, i / 9) - 1;
         if (!voxel_inside(at) || !voxel_occupied(at))
@@ -147,9 +148,9 @@ bool path_exit(path_vertex v, vec3 direction, bool meets, inout ivec3 cell, inou
         if (!s.volume || s.material != v.s.material || along <= 0.0 || dot(n, -v.s.geometric_normal) < least)
             continue;
         vec3 point = vec3(at) + voxel_point_unpack(texelFetch(voxel_point, at, 0).r);
-        float distance = max(dot(n, point - v.position) / along, 0.0);
-        if (distance < nearest) {
-            nearest = distance;
+        float way = max(dot(n, point - v.position) / along, 0.0);
+        if (way < nearest) {
+            nearest = way;
             cell = at;
         }
     }
@@ -162,18 +163,18 @@ bool path_exit(path_vertex v, vec3 direction, bool meets, inout ivec3 cell, inou
         }
         met.position = v.position + nearest * direction;
         met.view = -direction;
-        return true;
+        meets = true;
+        return;
     }
-    bool front = meets && met.s.volume && met.s.front && met.s.material == v.s.material;
-    bool misses = !meets && materials[v.s.material].absorption.w == 0.0;
-    if (!(front || misses) || !voxel_inside(own) || !voxel_occupied(own))
-        return false;
+    bool slab = meets ? is_side_of(v, met.s, true) : materials[v.s.material].absorption.w == 0.0;
+    if (!slab || !voxel_inside(own) || !voxel_occupied(own))
+        return;
     cell = own;
     voxel_surface_at(cell, direction, side);
     met = v;
     transmission_set_side(met.s, false);
     met.view = -direction;
-    return true;
+    meets = true;
 }
 #endif
 

@@ -1,8 +1,7 @@
 /* Switch LSF_REFRACTED: surfaces of media are always there. */
 #include "lib/chance.glsl"
-#include "lib/material.glsl"
+#include "passes/gbuffer_fragment.glsl"
 #include "lib/straight.glsl"
-#include "lib/view.glsl"
 
 layout(location = 0) out uvec4 surface_out;
 #if LSF_SPECULAR_PARAMS
@@ -26,11 +25,7 @@ layout(location = LSF_TINT_TARGET) out vec4 tint_out;
 
 void main()
 {
-#if LSF_ORTHOGRAPHIC
-    vec3 to_viewer = -view.forward.xyz;
-#else
-    vec3 to_viewer = -vertex_position - view.depth.w * view.forward.xyz;
-#endif
+    vec3 to_viewer = fragment_to_viewer();
     surface s;
     vec3 emission;
     bool front;

@@ -1,16 +1,11 @@
 /* Depth of the nearest back of a medium behind the visible surface, on the straight line of sight. */
-#include "lib/material.glsl"
-#include "lib/view.glsl"
+#include "passes/gbuffer_fragment.glsl"
 
 layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2D depth_texture;
 
 void main()
 {
-#if LSF_ORTHOGRAPHIC
-    vec3 to_viewer = -view.forward.xyz;
-#else
-    vec3 to_viewer = -vertex_position - view.depth.w * view.forward.xyz;
-#endif
+    vec3 to_viewer = fragment_to_viewer();
     surface s;
     vec3 emission;
     bool front;

@@ -1,8 +1,7 @@
 /* Tint of the absent surfaces in front of the visible one: the product over all of them, in any order. Switch
  * LSF_ABSORPTION: there are media. */
-#include "lib/material.glsl"
+#include "passes/gbuffer_fragment.glsl"
 #include "lib/straight.glsl"
-#include "lib/view.glsl"
 
 layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2D depth_texture;
 
@@ -13,11 +12,7 @@ layout(location = 1) out vec4 absorption_out; /* added */
 
 void main()
 {
-#if LSF_ORTHOGRAPHIC
-    vec3 to_viewer = -view.forward.xyz;
-#else
-    vec3 to_viewer = -vertex_position - view.depth.w * view.forward.xyz;
-#endif
+    vec3 to_viewer = fragment_to_viewer();
     surface s;
     vec3 emission;
     bool front;

@@ -1,6 +1,6 @@
 /* Light that comes to visible points through the surfaces of media, refracted; see src/passes/refraction.md. Switches
- * LSF_TRANSMISSION and LSF_ABSORPTION (always), LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels are lit
- * directly: paths go on from all) and those of the libraries. */
+ * LSF_TRANSMISSION and LSF_ABSORPTION (always), LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE
+ * (voxels are lit directly: paths go on from all) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
@@ -87,7 +87,7 @@ vec3 path_light(path_vertex v, float thickness, path_random_key key, uint index)
 {
     vec3 sum = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool mirrors = false; /* v is of smooth metal */
-    bool spreads = false; /* v is opaque and reflects light that voxels hold, too */
+    bool spreads = false; /* v is opaque, and the path goes on from it by its whole BRDF */
     /* Density of the direction by the last vertex that spreads light [1/sr]; 0: there was none. Behind it light goes
      * straight through media, as voxels are lit. */
     float spread = 0.0;
@@ -117,8 +117,7 @@ vec3 path_light(path_vertex v, float thickness, path_random_key key, uint index)
         path_vertex met = v;
         if (meets)
             met = vertex_at(cell, v.position, direction, side);
-        if (path_exit_missed(v, direction, meets, met))
-            meets = path_exit(v, direction, meets, cell, side, met) || meets;
+        path_find_exit(v, direction, meets, cell, side, met);
         if (!meets) {
 #if LSF_ENVIRONMENT
             vec3 sky = environment_radiance(direction);

@@ -276,8 +276,7 @@ void add_path(path_vertex v, float thickness, path_random_key key, uint index, i
         if (meets)
             met = vertex_at(cell, v.position, direction, side);
 #if LSF_ABSORPTION
-        if (path_exit_missed(v, direction, meets, met))
-            meets = path_exit(v, direction, meets, cell, side, met) || meets;
+        path_find_exit(v, direction, meets, cell, side, met);
 #endif
         if (!meets) {
 #if LSF_ENVIRONMENT

@@ -68,13 +68,6 @@ static void plan_transmittance(lsf_plan *plan)
                              "optical depth of media");
 }
 
-/* Whether refracted paths begin at surfaces of media. */
-static bool refracts(const lsf_plan *plan)
-{
-    return plan->requirements.refractive && plan->transmission &&
-           (plan->refracted || !plan->straight);
-}
-
 void lsf_gbuffer_plan(lsf_plan *plan)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -110,7 +103,7 @@ void lsf_gbuffer_plan(lsf_plan *plan)
     else
         lsf_plan_omit(plan, "gbuffer.motion", "nothing reads it");
     plan_transmittance(plan);
-    if (refracts(plan))
+    if (plan->refracted)
         lsf_plan_texture_add(plan, "gbuffer.far_side", GL_DEPTH_COMPONENT32F, w, h,
                              "refracted paths pass thin walls of media");
     plan_switches(plan);

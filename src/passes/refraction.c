@@ -19,7 +19,8 @@ const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT] = {
 
 bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *params)
 {
-    return plan->straight && plan->requirements.refractive && params->paths > 0;
+    return plan->straight && plan->requirements.refractive && plan->bounces > 0 &&
+           params->paths > 0;
 }
 
 void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,

@@ -44,7 +44,8 @@ typedef struct lsf_refraction {
     lsf_timer *timer; /* NULL: not planned */
 } lsf_refraction;
 
-/* Whether visible media are refracted, where voxels with two sides are lit. */
+/* Whether visible media are refracted, where voxels with two sides are lit. Without bounces paths
+ * would end within them. */
 bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *params);
 void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
                          const lsf_refraction_use *use);

@@ -72,7 +72,7 @@ struct lsf_plan {
                         * cannot refract it */
     bool voxel_chance; /* ... and through voxels, which are there by chance: cones march and cannot
                         * go on behind one */
-    bool refracted; /* ... except to the eye: what media transmit to it comes by refracted paths */
+    bool refracted;    /* what media transmit to the eye comes by refracted paths */
     bool scattered; /* rough thin walls that are seen scatter the light that comes through them */
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
     uint32_t pattern;    /* side of the pattern in which pixels take different samples, which a

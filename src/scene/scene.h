@@ -333,10 +333,10 @@ bool lsf_material_is_thin_wall(const lsf_material *material);
 /* ... and it scatters: it is rougher than what lets light straight through. */
 bool lsf_material_is_rough_wall(const lsf_material *material);
 
-/* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a
- * d) of the light is left after the distance d (KHR_materials_volume, "Attenuation"). */
 /* Finds the materials whose media are open. False without memory. */
 bool lsf_scene_find_open_media(lsf_scene *scene);
+/* Absorption coefficient of the medium that a material bounds, per unit of normalised space: exp(-a
+ * d) of the light is left after the distance d (KHR_materials_volume, "Attenuation"). */
 void lsf_scene_absorption(const lsf_scene *scene, const lsf_material *material,
                           float absorption[3]);
 

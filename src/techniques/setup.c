@@ -292,7 +292,7 @@ static bool plan_technique(lsf_setup *setup, lsf_error *error)
     setup->layer_count = 0;
     set_layers(setup, params->aovs);
     setup->technique->plan(plan, &setup->pass_params, &setup->state);
-    if (plan->refracted)
+    if (plan->straight && plan->refracted)
         lsf_plan_remark(plan, "media refract what they show to the eye; other light goes straight "
                               "through materials that transmit, and rough thin walls scatter it "
                               "to the eye alone; voxel_path and the reference refract all");

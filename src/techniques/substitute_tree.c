@@ -84,8 +84,7 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
                                  const lsf_state *state)
 {
     lsf_vpl_cloud_use use = cloud_use(plan, state);
-    plan->refracted =
-        is_traced(&use) && plan->bounces > 0 && lsf_refraction_chain_needed(plan, params);
+    plan->refracted = is_traced(&use) && lsf_refraction_chain_needed(plan, params);
     if (is_traced(&use)) {
         lsf_voxel_chain_use voxels = chain_use(plan, state);
         lsf_voxel_chain_plan(plan, params, state, &voxels);

@@ -65,6 +65,7 @@ static void plan_voxel_path(lsf_plan *plan, const lsf_pass_params *params, const
 {
     lsf_voxel_path_use use = path_use(plan, params, state);
     lsf_voxel_chain_use chain = chain_use(plan, params, state);
+    plan->refracted = use.segments > 0 && plan->requirements.refractive;
     lsf_voxel_chain_plan(plan, params, state, &chain);
     if (use.segments > 0) {
         lsf_voxel_grid grid = lsf_voxel_chain_grid(plan, params, state, &chain);
