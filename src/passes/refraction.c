@@ -68,23 +68,14 @@ bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf
 }
 
 void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
-                        const lsf_refraction_inputs *inputs)
+                        const lsf_path_inputs *inputs)
 {
     const lsf_sparse_grid *grid = &iteration->grid;
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
                          pass->program);
     lsf_blend_add(1);
-    lsf_surface_maps_bind(inputs->seen);
-    lsf_voxels_bind(inputs->voxels);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
-    lsf_bind_texture(LSF_UNIT_FAR_SIDE, inputs->far_side);
-    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
-    if (inputs->lamps)
-        lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);
-    lsf_scene_gpu_bind_environment(iteration->scene);
-    if (iteration->plan->requirements.environment)
-        lsf_iteration_bind_sky(iteration);
+    lsf_path_inputs_bind(inputs, iteration);
     /* Each crossing is a segment; as many as paths of light have that bounce as often. */
     glUniform2i(LOCATION_LENGTHS, (GLint)pass->paths, (GLint)iteration->plan->bounces + 1);
     glUniform2ui(LOCATION_ITERATION, iteration->index,

@@ -3,9 +3,7 @@
 #ifndef LSF_PASSES_REFRACTION_H
 #define LSF_PASSES_REFRACTION_H
 
-#include "frame/iteration.h"
-#include "frame/maps.h"
-#include "frame/voxel_grid.h"
+#include "frame/path_inputs.h"
 #include "plan/option.h"
 
 typedef struct lsf_refraction_params {
@@ -28,15 +26,6 @@ typedef struct lsf_refraction_use {
     bool bounces;        /* voxels are lit directly: paths go on from all */
 } lsf_refraction_use;
 
-typedef struct lsf_refraction_inputs {
-    const lsf_surface_maps *seen; /* by points */
-    GLuint far_side;              /* as in lsf_gbuffer_maps, by pixels */
-    const lsf_voxels *voxels;
-    const lsf_voxel_grid *grid; /* of the voxels */
-    GLuint radiance;            /* of voxels, two sides */
-    GLuint lamps;               /* that smooth metals mirror; 0 unless `lamps` */
-} lsf_refraction_inputs;
-
 typedef struct lsf_refraction {
     lsf_context *context;
     uint32_t paths; /* of a point */
@@ -53,7 +42,7 @@ bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf
                            const lsf_refraction_params *params, uint32_t factor, GLuint specular,
                            lsf_error *error);
 void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
-                        const lsf_refraction_inputs *inputs);
+                        const lsf_path_inputs *inputs);
 void lsf_refraction_destroy(lsf_refraction *pass);
 
 #endif

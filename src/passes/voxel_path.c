@@ -162,31 +162,16 @@ bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited)
     return lsf_emitter_points_follow(&pass->emitters, materials_edited);
 }
 
-static void bind_inputs(const lsf_voxel_path *pass, const lsf_iteration *iteration,
-                        const lsf_voxel_path_inputs *inputs)
-{
-    lsf_surface_maps_bind(inputs->seen);
-    lsf_voxels_bind(inputs->voxels);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
-    lsf_bind_texture(LSF_UNIT_FAR_SIDE, inputs->far_side);
-    lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
-    if (inputs->lamps)
-        lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);
-    lsf_bind_texture(LSF_UNIT_PATH_RANDOM, pass->random);
-    lsf_scene_gpu_bind_environment(iteration->scene);
-    if (iteration->plan->requirements.environment)
-        lsf_iteration_bind_sky(iteration);
-}
-
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
-                        const lsf_voxel_path_inputs *inputs)
+                        const lsf_path_inputs *inputs, GLuint draws)
 {
     const lsf_voxel_path_params *p = &pass->params;
     const lsf_sparse_grid *grid = &iteration->grid;
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
                          pass->program);
-    bind_inputs(pass, iteration, inputs);
+    lsf_path_inputs_bind(inputs, iteration);
+    lsf_bind_texture(LSF_UNIT_PATH_RANDOM, pass->random);
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
                 p->max_samples);
     glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_PATH));
@@ -194,9 +179,9 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
         lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
         lsf_emitter_points_bind(&pass->emitters, p->emitters);
     }
-    if (inputs->draws) {
+    if (draws) {
         glUniform1i(LSF_LOCATION_VOXEL_DRAW, p->draws);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VOXEL_DRAWS, inputs->draws);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VOXEL_DRAWS, draws);
     }
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);

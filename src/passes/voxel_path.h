@@ -3,9 +3,7 @@
 #define LSF_PASSES_VOXEL_PATH_H
 
 #include "frame/emitter_points.h"
-#include "frame/iteration.h"
-#include "frame/maps.h"
-#include "frame/voxel_grid.h"
+#include "frame/path_inputs.h"
 #include "plan/option.h"
 
 typedef enum lsf_voxel_path_sequence {
@@ -45,16 +43,6 @@ typedef struct lsf_voxel_path_use {
     bool lamps;        /* and lamps that voxels keep */
 } lsf_voxel_path_use;
 
-typedef struct lsf_voxel_path_inputs {
-    const lsf_surface_maps *seen; /* by points */
-    GLuint far_side;              /* as in lsf_gbuffer_maps, by pixels */
-    const lsf_voxels *voxels;
-    GLuint radiance;            /* of voxels, two sides */
-    GLuint lamps;               /* that smooth metals mirror; 0 unless `lamps` */
-    const lsf_voxel_grid *grid; /* of the voxels */
-    GLuint draws;               /* by it, voxel_draw.h; 0 unless `draws` */
-} lsf_voxel_path_inputs;
-
 /* At the points' places. */
 typedef struct lsf_voxel_path_outputs {
     lsf_split_light light;
@@ -80,8 +68,9 @@ bool lsf_voxel_path_create(lsf_voxel_path *pass, lsf_context *context, const lsf
                            const lsf_scene *scene, const lsf_state *state, lsf_error *error);
 /* Updates the emitters to the current state. False without memory. */
 bool lsf_voxel_path_follow(lsf_voxel_path *pass, bool materials_edited);
+/* `draws`: the list of voxel_draw.h by the inputs' radiance; 0 unless the use has them. */
 void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
-                        const lsf_voxel_path_inputs *inputs);
+                        const lsf_path_inputs *inputs, GLuint draws);
 void lsf_voxel_path_destroy(lsf_voxel_path *pass);
 
 #endif

@@ -475,8 +475,10 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
         lsf_bidirectional_shade_inputs inputs = {
             .seen = lsf_sparse_chain_split(&b->sparse, iteration, &gbuffer->seen)};
         run_samples(b, iteration, &inputs);
-        if (b->sampling.refracts)
-            lsf_refraction_chain_run(&b->refraction, iteration, &b->chain, inputs.seen);
+        if (b->sampling.refracts) {
+            const lsf_path_inputs paths = lsf_voxel_chain_paths(&b->chain, inputs.seen);
+            lsf_refraction_run(&b->refraction, iteration, &paths);
+        }
         parts.indirect = lsf_sparse_chain_finish(&b->sparse, iteration, &gbuffer->seen, light);
     }
     if (b->bundle)

@@ -256,15 +256,11 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
                                           .draws = c->draw.list,
                                           .emitters = c->variant.emitters ? &c->emitters : NULL};
     lsf_cone_trace_run(&c->trace, iteration, &inputs);
-    if (c->variant.refracts)
-        lsf_refraction_run(
-            &c->refraction, iteration,
-            &(lsf_refraction_inputs){.seen = inputs.seen,
-                                     .far_side = c->chain.direct.gbuffer.outputs.far_side,
-                                     .voxels = inputs.voxels,
-                                     .grid = &c->chain.grid,
-                                     .radiance = inputs.radiance,
-                                     .lamps = inputs.lamps});
+    if (c->variant.refracts) {
+        lsf_path_inputs paths = lsf_voxel_chain_paths(&c->chain, inputs.seen);
+        paths.radiance = inputs.radiance; /* with the light that has bounced */
+        lsf_refraction_run(&c->refraction, iteration, &paths);
+    }
     return lsf_sparse_chain_finish(&c->sparse, iteration, seen, &c->trace.light);
 }
 

@@ -26,15 +26,3 @@ void lsf_refraction_chain_plan(lsf_plan *plan, const lsf_pass_params *params,
                                     .bounces = true};
     lsf_refraction_plan(plan, &params->refraction, &use);
 }
-
-void lsf_refraction_chain_run(lsf_refraction *pass, const lsf_iteration *iteration,
-                              const lsf_voxel_chain *chain, const lsf_surface_maps *seen)
-{
-    const lsf_refraction_inputs inputs = {.seen = seen,
-                                          .far_side = chain->direct.gbuffer.outputs.far_side,
-                                          .voxels = chain->voxels,
-                                          .grid = &chain->grid,
-                                          .radiance = chain->light.radiance,
-                                          .lamps = chain->light.lamps};
-    lsf_refraction_run(pass, iteration, &inputs);
-}

@@ -15,8 +15,5 @@ lsf_voxel_chain_use lsf_refraction_chain_voxels(const lsf_plan *plan, const lsf_
 void lsf_refraction_chain_plan(lsf_plan *plan, const lsf_pass_params *params,
                                const lsf_state *state, const char *reads, uint32_t factor,
                                uint32_t interleave);
-/* `seen`: by points; `chain`: after its light. */
-void lsf_refraction_chain_run(lsf_refraction *pass, const lsf_iteration *iteration,
-                              const lsf_voxel_chain *chain, const lsf_surface_maps *seen);
 
 #endif

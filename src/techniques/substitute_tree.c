@@ -200,8 +200,10 @@ static lsf_split_light gather(substitute_tree *t, const lsf_iteration *iteration
         .voxels = t->chain.voxels,
         .tree = &t->tree.outputs};
     lsf_light_tree_sample_run(&t->sample, iteration, &inputs);
-    if (t->refraction.timer)
-        lsf_refraction_chain_run(&t->refraction, iteration, &t->chain, inputs.seen);
+    if (t->refraction.timer) {
+        const lsf_path_inputs paths = lsf_voxel_chain_paths(&t->chain, inputs.seen);
+        lsf_refraction_run(&t->refraction, iteration, &paths);
+    }
     return lsf_sparse_chain_finish(&t->sparse, iteration, seen, &t->sample.light);
 }
 

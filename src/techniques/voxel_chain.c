@@ -170,6 +170,16 @@ void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iterati
     lsf_voxel_chain_emit(chain); /* where no light has brought it along */
 }
 
+lsf_path_inputs lsf_voxel_chain_paths(const lsf_voxel_chain *chain, const lsf_surface_maps *seen)
+{
+    return (lsf_path_inputs){.seen = seen,
+                             .far_side = chain->direct.gbuffer.outputs.far_side,
+                             .voxels = chain->voxels,
+                             .grid = &chain->grid,
+                             .radiance = chain->light.radiance,
+                             .lamps = chain->light.lamps};
+}
+
 lsf_voxel_view_outputs lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration)
 {
     if (chain->view.program)

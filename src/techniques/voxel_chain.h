@@ -3,6 +3,7 @@
 #ifndef LSF_TECHNIQUES_VOXEL_CHAIN_H
 #define LSF_TECHNIQUES_VOXEL_CHAIN_H
 
+#include "frame/path_inputs.h"
 #include "passes/voxel_light.h"
 #include "passes/voxel_view.h"
 #include "passes/voxelize.h"
@@ -48,6 +49,8 @@ void lsf_voxel_chain_run(lsf_voxel_chain *chain, const lsf_iteration *iteration)
 void lsf_voxel_chain_begin(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 void lsf_voxel_chain_emit(lsf_voxel_chain *chain);
 void lsf_voxel_chain_lights(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels);
+/* What paths from the points `seen` read, after the light. */
+lsf_path_inputs lsf_voxel_chain_paths(const lsf_voxel_chain *chain, const lsf_surface_maps *seen);
 /* The layers of voxels, where asked for; to be called when the voxels' light is complete. */
 lsf_voxel_view_outputs lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration);
 void lsf_voxel_chain_destroy(lsf_voxel_chain *chain);

@@ -127,19 +127,13 @@ static lsf_update update_voxel_path(void *self, const lsf_pass_params *params,
 static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_light_parts *parts)
 {
     const lsf_surface_maps *seen = &v->chain.direct.gbuffer.outputs.seen;
-    const lsf_voxel_path_inputs inputs = {.seen =
-                                              lsf_sparse_chain_split(&v->sparse, iteration, seen),
-                                          .far_side = v->chain.direct.gbuffer.outputs.far_side,
-                                          .voxels = v->chain.voxels,
-                                          .radiance = v->chain.light.radiance,
-                                          .lamps = v->chain.light.lamps,
-                                          .grid = &v->chain.grid,
-                                          .draws = v->draw.list};
+    const lsf_path_inputs inputs =
+        lsf_voxel_chain_paths(&v->chain, lsf_sparse_chain_split(&v->sparse, iteration, seen));
     if (v->draw.list) {
         lsf_voxel_draw_begin(&v->draw);
         lsf_voxel_draw_run(&v->draw, iteration, v->chain.voxels, v->chain.light.radiance);
     }
-    lsf_voxel_path_run(&v->path, iteration, &inputs);
+    lsf_voxel_path_run(&v->path, iteration, &inputs, v->draw.list);
     parts->indirect = lsf_sparse_chain_finish(&v->sparse, iteration, seen, &v->path.outputs.light);
     parts->split_direct = v->path.outputs.direct;
 }
