@@ -2,6 +2,7 @@
 #ifndef LSF_TESTS_GL_TEST_H
 #define LSF_TESTS_GL_TEST_H
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,6 +14,29 @@
 #include <cmocka.h>
 
 #include "gl/gl.h"
+
+/* The backend of tests that need no certain one: OSMesa, as a machine for tests has no GPU. With
+ * LSF_TEST_BACKEND=egl they run on a GPU. */
+static inline lsf_backend gl_test_backend(void)
+{
+    const char *name = getenv("LSF_TEST_BACKEND");
+    if (name && strcmp(name, "egl") != 0)
+        fail_msg("LSF_TEST_BACKEND=%s: use egl, or leave it out", name);
+    return name ? LSF_BACKEND_EGL : LSF_BACKEND_OSMESA;
+}
+
+/* GPUs keep none of a NaN's bits. */
+static inline bool gl_test_same_float(float a, float b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+/* LSF_RASTER_STEP of shared/scene_data.h where the driver derives depths from moved vertices;
+ * llvmpipe does not. */
+static inline float gl_test_raster_step(void)
+{
+    return gl_test_backend() == LSF_BACKEND_OSMESA ? 0.0f : 1.0f / 512.0f;
+}
 
 /* NULL when the machine lacks this backend. */
 static inline lsf_context *gl_test_open(lsf_backend backend, const char *shader_dir)

@@ -37,7 +37,7 @@ against_reference against_reference_render(const char *name, const lsf_scene *sc
         each.samples /= 4;
     for (uint32_t half = 0; half < 2; half++) {
         each.seed = half;
-        pictures.gl[half] = render_gl(LSF_BACKEND_OSMESA, scene, &each);
+        pictures.gl[half] = render_gl(gl_test_backend(), scene, &each);
         each.seed = 0;
         pictures.reference[half] = lsf_reference_render(scene, &each, half, NULL, &error);
         if (!pictures.reference[half])

@@ -23,7 +23,7 @@ void bundle_rig_run(bundle_rig *rig, const lsf_scene *scene, const lsf_render_pa
 {
     lsf_error error = {0};
     *rig = (bundle_rig){.width = params->width, .height = params->height};
-    rig->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    rig->context = gl_test_context(gl_test_backend(), NULL);
     const lsf_ray_bundle_use use = {
         .count = 1, .slots = 1, .interleave = 1, .distances_only = distances_only};
     const lsf_gbuffer_params gbuffer = {LSF_GBUFFER_PARAMS_DEFAULTS};

@@ -74,7 +74,7 @@ void light_passes_init(light_passes *p, const lsf_scene *scene, int32_t rsm_reso
     lsf_error error = {0};
     memset(p, 0, sizeof *p);
     shader_folder_create(&p->folder);
-    p->context = gl_test_context(LSF_BACKEND_OSMESA, p->folder.path);
+    p->context = gl_test_context(gl_test_backend(), p->folder.path);
     p->scene = scene;
     const lsf_view_params view = {.fov_y = NAN, .aspect = 1.0f};
     require(lsf_state_update(&p->state, scene, &view, &error), &error);
@@ -238,6 +238,22 @@ double light_passes_trace(const light_passes *p, lsf_float3 origin, lsf_float3 d
                 lsf_f3_cross(lsf_f3_sub(t[1], t[0]), lsf_f3_sub(t[2], t[0])), lsf_f3(0, 0, 0));
     }
     return nearest;
+}
+
+float light_passes_raster_error(const light_passes *p, lsf_float3 normal, double distance)
+{
+    const struct lsf_light_data *light = &p->rsm.outputs.light;
+    float most = 0.0f;
+    for (int face = 0; face < (int)light->map_origin.w; face++) {
+        lsf_vec4 right = light->map_right[face], up = light->map_up[face],
+                 window = light->map_window[face];
+        float x = fabsf(lsf_f3_dot(normal, (lsf_float3){right.x, right.y, right.z})) * window.z;
+        float y = fabsf(lsf_f3_dot(normal, (lsf_float3){up.x, up.y, up.z})) * window.w;
+        most = fmaxf(most, x + y);
+    }
+    bool perspective = light->map_shape.y == 0.0f;
+    return gl_test_raster_step() * 2.0f * light->map_shape.w * most *
+           (perspective ? (float)distance : 1.0f);
 }
 
 void light_passes_random(uint64_t index, uint64_t dimension, float point[2])

@@ -63,6 +63,10 @@ void light_passes_probe(light_passes *p, const char *library, const char *switch
 double light_passes_trace(const light_passes *p, lsf_float3 origin, lsf_float3 direction,
                           double start, lsf_float3 *normal);
 
+/* Largest distance of a point that is found from the reflective shadow map from its surface, at a
+ * distance from the light: what gl_test_raster_step makes of it. */
+float light_passes_raster_error(const light_passes *p, lsf_float3 normal, double distance);
+
 /* Two numbers in [0, 1) of a sequence of the test's own. */
 void light_passes_random(uint64_t index, uint64_t dimension, float point[2]);
 

@@ -104,7 +104,7 @@ void assert_light_scales(lsf_render_params params)
 void assert_every_allocation_may_fail(const lsf_scene *scene, lsf_render_params params,
                                       uint32_t least)
 {
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     params.width = params.height = 16;
     uint32_t failures = 0;
     for (bool created = false; !created; failures++) {

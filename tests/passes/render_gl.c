@@ -29,7 +29,7 @@ lsf_image *render_gl_from(const lsf_scene *scene, lsf_render_params params, uint
     params.width = params.height = size;
     params.camera_position = position;
     params.camera_target = at;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl(gl_test_backend(), scene, &params);
 }
 
 lsf_render_params corner_params(lsf_render_params params, uint32_t size)
@@ -44,7 +44,7 @@ lsf_render_params corner_params(lsf_render_params params, uint32_t size)
 lsf_image *render_corner(const lsf_scene *scene, lsf_render_params params, uint32_t size)
 {
     params = corner_params(params, size);
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl(gl_test_backend(), scene, &params);
 }
 
 void render_gl_point(const lsf_scene *scene, lsf_float3 eye, lsf_float3 target, uint32_t samples,
@@ -92,10 +92,10 @@ void assert_scaled_pixels(const lsf_image *image, const lsf_image *expected, flo
 void assert_same_for_any_threads(const lsf_scene *scene, const lsf_render_params *params)
 {
     static const char *const threads[] = {"0", "1", "8"};
-    lsf_image *expected = render_gl(LSF_BACKEND_OSMESA, scene, params);
+    lsf_image *expected = render_gl(gl_test_backend(), scene, params);
     for (int i = 0; i < 3; i++) {
         setenv("LP_NUM_THREADS", threads[i], 1);
-        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, params);
+        lsf_image *image = render_gl(gl_test_backend(), scene, params);
         assert_same_pixels(image, expected);
         lsf_image_destroy(image);
     }
@@ -122,7 +122,7 @@ void assert_finite_extremes(lsf_render_params params, float environment)
         const float eye[3] = {0, kind == 2 ? 0.0f : 0.8f, 0.9f}, target[3] = {0, 0, 0};
         params.camera_position = eye;
         params.camera_target = target;
-        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+        lsf_image *image = render_gl(gl_test_backend(), scene, &params);
         double rgb[3];
         mean_rgb(image, 0, rgb);
         lsf_image_destroy(image);

@@ -37,7 +37,7 @@ void surface_rig_begin(surface_rig *r, uint32_t width, uint32_t height, bool ort
     memset(r, 0, sizeof *r);
     r->width = width;
     r->height = height;
-    r->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    r->context = gl_test_context(gl_test_backend(), NULL);
     r->scene = glossy_scene(orthographic);
     params.width = width;
     params.height = height;

@@ -43,7 +43,7 @@ static void look_down(const lsf_scene *scene, bool reference, double rgb[3])
     params.camera_position = eye;
     params.camera_target = target;
     lsf_image *image = reference ? lsf_reference_render(scene, &params, 0, NULL, &error)
-                                 : render_gl(LSF_BACKEND_OSMESA, scene, &params);
+                                 : render_gl(gl_test_backend(), scene, &params);
     if (!image)
         fail_msg("%s", error.message);
     mean_rgb(image, 0, rgb);

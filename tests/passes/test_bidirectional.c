@@ -233,7 +233,7 @@ static void weights_sum_to_one(void **unused)
                         "    p[gl_GlobalInvocationID.x].zw =\n"
                         "        vec2(mis_weight(q.x, q.y), mis_weight(q.y, q.x));\n"
                         "}\n");
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, folder.path);
+    lsf_context *context = gl_test_context(gl_test_backend(), folder.path);
     lsf_error error = {0};
     lsf_program_desc desc = {.label = "weights", .files = {"weights.comp.glsl"}};
     GLuint program = lsf_program_get(context, &desc, &error);

@@ -20,7 +20,7 @@ static double lost(const char *option, uint32_t samples, float *brightest)
     params.bounces = 2;
     params.options = options;
     params.option_count = 2;
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_error error = {0};
     lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
     if (!renderer || !lsf_renderer_run(renderer, &error))

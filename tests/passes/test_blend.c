@@ -37,7 +37,7 @@ static lsf_image *take(const char *technique, const lsf_scene *scene, const look
     bool voxels = strcmp(technique, "voxel_path") == 0 || strcmp(technique, "cone") == 0;
     params.options = l->options;
     params.option_count = voxels && l->options[0] ? 1 : 0;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl(gl_test_backend(), scene, &params);
 }
 
 static double mean_of(const char *technique, const lsf_scene *scene, const look *l)

@@ -108,7 +108,7 @@ static void rig_begin(rig *r)
 {
     shader_folder_create(&r->folder);
     shader_folder_write(&r->folder, "draws.comp.glsl", shader);
-    r->context = gl_test_context(LSF_BACKEND_OSMESA, r->folder.path);
+    r->context = gl_test_context(gl_test_backend(), r->folder.path);
     lsf_error error = {0};
     lsf_program_desc desc = {.label = "draws", .files = {"draws.comp.glsl"}};
     r->program = lsf_program_get(r->context, &desc, &error);

@@ -18,7 +18,7 @@ static lsf_image *render(const lsf_scene *scene, const char *technique)
                                       .samples = 2,
                                       .options = options,
                                       .option_count = LSF_COUNT(options)};
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl(gl_test_backend(), scene, &params);
 }
 
 static void a_cornell_box(void **state)

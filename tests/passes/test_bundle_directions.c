@@ -199,7 +199,7 @@ static void shader_agrees(void **unused)
                         "    uint i = gl_GlobalInvocationID.x;\n"
                         "    d[i].w = bundle_pdf(d[i].xyz);\n"
                         "}\n");
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, folder.path);
+    lsf_context *context = gl_test_context(gl_test_backend(), folder.path);
     lsf_error error = {0};
     const lsf_define define = {"LSF_BUNDLE_IMPORTANCE", 1};
     lsf_program_desc desc = {

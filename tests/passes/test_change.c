@@ -50,7 +50,7 @@ static void each_step(void **user)
     (void)user;
     lsf_error error = {0};
     lsf_scene *scene = rig_scene(5.0f);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_render_params params = step(0);
     lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
     assert_non_null(renderer);
@@ -83,7 +83,7 @@ static void eyes_keep_the_plan(void **user)
     static const char *const techniques[] = {"bidirectional", "cone"};
     lsf_error error = {0};
     lsf_scene *scene = rig_scene(5.0f);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         lsf_render_params params = rig_params(techniques[t]);
         params.option_count = 0;
@@ -112,7 +112,7 @@ static void refused(void **user)
     (void)user;
     lsf_error error = {0};
     lsf_scene *scene = rig_scene(5.0f);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_render_params params = step(1), wrong;
     lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
     lsf_image *expected = run(renderer);

@@ -71,7 +71,7 @@ static void pyramid_create(pyramid *p, uint32_t sides)
 {
     lsf_error error = {0};
     *p = (pyramid){.sides = sides, .plan = calloc(1, sizeof(lsf_plan))};
-    p->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    p->context = gl_test_context(gl_test_backend(), NULL);
     p->grid = (lsf_voxel_grid){.resolution = WIDTH, .size = {WIDTH, HEIGHT, DEPTH}, .side = 1.0f};
     const struct lsf_voxel_grid_data data = {.size = {WIDTH, HEIGHT, DEPTH, 1.0f}};
     lsf_voxel_mip_plan(p->plan, sides);
@@ -243,7 +243,7 @@ static double floor_radiance(const lsf_scene *scene, float x, uint32_t samples,
     params.fov_y = 0.5f;
     params.camera_position = eye;
     params.camera_target = target;
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image = render_gl(gl_test_backend(), scene, &params);
     double mean = mean_of(image, 0);
     lsf_image_destroy(image);
     return mean;
@@ -326,7 +326,7 @@ static lsf_image *render_room(const lsf_scene *scene, const char *const *options
     params.option_count = option_count;
     params.camera_position = eye;
     params.camera_target = target;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl(gl_test_backend(), scene, &params);
 }
 
 static void same_bits_again(void **state)
@@ -379,7 +379,7 @@ static void empty_and_flat_scenes(void **state)
     empty->environment = (lsf_environment){.present = true, .radiance = {0.5f, 0.5f, 0.5f}};
     build_light(empty, LSF_LIGHT_POINT, lsf_f3(0, 2, 0), lsf_f3(0, -1, 0), 1.0f);
     finish_gl_scene(empty);
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, empty, &params);
+    lsf_image *image = render_gl(gl_test_backend(), empty, &params);
     assert_true(image->pixels[0] == 0.5f);
     lsf_image_destroy(image);
     destroy_scene(empty);
@@ -394,7 +394,7 @@ static void empty_and_flat_scenes(void **state)
     params.bounces = 2;
     params.camera_position = eye;
     params.camera_target = target;
-    image = render_gl(LSF_BACKEND_OSMESA, flat, &params);
+    image = render_gl(gl_test_backend(), flat, &params);
     assert_true(mean_of(image, 0) > 0.0);
     lsf_image_destroy(image);
     destroy_scene(flat);

@@ -40,7 +40,7 @@ static world begin_world(lsf_render_params params, const char *kind, const char 
 {
     char kind_option[64], processor_option[64];
     lsf_error error = {0};
-    world w = {.scene = build_scene(), .context = gl_test_context(LSF_BACKEND_OSMESA, NULL)};
+    world w = {.scene = build_scene(), .context = gl_test_context(gl_test_backend(), NULL)};
     build_corner(w.scene);
     build_light(w.scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
     w.scene->environment.radiance[1] = w.scene->environment.radiance[2] = 0.3f;

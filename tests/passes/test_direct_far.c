@@ -91,7 +91,7 @@ static lsf_image *render_from(double distance, bool orthographic)
     params.width = params.height = SIZE;
     params.samples = 8;
     params.aovs = LSF_AOV_NORMAL;
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image = render_gl(gl_test_backend(), scene, &params);
     destroy_scene(scene);
     return image;
 }
@@ -116,7 +116,7 @@ static void from_far_away(void **unused)
 static void too_far_or_too_narrow(void **unused)
 {
     (void)unused;
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_scene *scene = small_scene(LSF_LIGHT_POINT);
     finish_gl_scene(scene);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};

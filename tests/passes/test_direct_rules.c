@@ -27,7 +27,7 @@ static lsf_image *render_view(const lsf_scene *scene, const lsf_render_params *b
     lsf_render_params params = *base;
     params.camera_position = position;
     params.camera_target = target;
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl(gl_test_backend(), scene, &params);
 }
 
 static void lights_add_up(void **unused)
@@ -76,7 +76,7 @@ static lsf_image *render_moved(double x, double y, double z)
     params.width = 96;
     params.height = 64;
     params.samples = 16;
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image = render_gl(gl_test_backend(), scene, &params);
     destroy_scene(scene);
     return image;
 }
@@ -124,7 +124,7 @@ static lsf_image *render_shadow(lsf_light_type type, bool box, const char *filte
     params.camera_target = target;
     params.options = &filter;
     params.option_count = 1;
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image = render_gl(gl_test_backend(), scene, &params);
     destroy_scene(scene);
     return image;
 }
@@ -198,7 +198,7 @@ static void tone_curve(void **unused)
                                             LSF_TONE_CURVE_ACES,    LSF_TONE_CURVE_AGX};
     static uint8_t rgb[SIDE * SIDE * 3];
     lsf_scene *scene = bright_environment();
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = params.height = SIDE;

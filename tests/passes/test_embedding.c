@@ -118,7 +118,7 @@ static void pictures_on_the_gpu(void **state)
 {
     (void)state;
     lsf_error error = {0};
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_scene *scene = rig_scene(5.0f);
     lsf_render_params params = rig_params("direct");
     params.width = params.height = 16;
@@ -189,7 +189,7 @@ static void *work(void *user)
 {
     job *j = user;
     const lsf_context_params context_params = {LSF_CONTEXT_PARAMS_DEFAULTS,
-                                               .backend = LSF_BACKEND_OSMESA};
+                                               .backend = gl_test_backend()};
     const lsf_render_params params = rig_params(j->technique);
     bool own = !j->context;
     if (own)
@@ -225,7 +225,7 @@ static void threads_with_a_context_each(void **state)
     pthread_t threads[THREADS];
     job jobs[THREADS];
     for (int i = 0; i < THREADS; i++) {
-        expected[i] = rig_alone(LSF_BACKEND_OSMESA, scene, techniques[i]);
+        expected[i] = rig_alone(gl_test_backend(), scene, techniques[i]);
         jobs[i] = (job){.scene = scene, .technique = techniques[i]};
     }
     for (int i = 0; i < THREADS; i++)

@@ -217,7 +217,7 @@ static lsf_renderer *create(lsf_context *context, const lsf_scene *scene,
 static void assert_frames_are_those_of_new_renderers(const world *w,
                                                      const lsf_render_params *params)
 {
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_renderer *renderer = create(context, w->scene, params);
     const size_t bytes = (size_t)SIZE * SIZE * 3 * sizeof(float);
     float before[SIZE * SIZE * 3] = {0};
@@ -277,7 +277,7 @@ static void times_of_passes(void **unused)
     (void)unused;
     world w = build_world(false, NO_SKY);
     lsf_render_params params = params_of("direct", NULL, 0);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_renderer *renderer = create(context, w.scene, &params);
     const lsf_pass_time *times = NULL;
     double milliseconds = 0.0;

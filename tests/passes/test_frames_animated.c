@@ -168,7 +168,7 @@ static void materials_and_lights(void **unused)
     finish_gl_scene(animated.scene);
     finish_gl_scene(edited.scene);
     edit(&edited);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     for (size_t t = 0; t < LSF_COUNT(cases); t++) {
         lsf_image *image = run_frames(context, animated.scene, &cases[t], true);
         lsf_renderer *renderer = create(context, edited.scene, &cases[t]);
@@ -206,7 +206,7 @@ static void masks(void **unused)
     build_value(scene, LSF_KIND_MATERIAL, w.lamp, "alphaCutoff", (float[]){0.2f, 0.9f});
     build_value(scene, LSF_KIND_MATERIAL, w.lamp, EMISSIVE_STRENGTH, (float[]){40, 4});
     finish_gl_scene(scene);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     const test_case paths = {"voxel_path", false};
     lsf_image_destroy(run_frames(context, scene, &paths, true));
     gl_test_check(context);
@@ -226,7 +226,7 @@ static void visibility(void **unused)
     w.scene->materials[w.lamp].emission[1] = 4.0f;
     finish_gl_scene(w.scene);
     assert_true(w.scene->requirements.moving);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     for (size_t t = 0; t < LSF_COUNT(cases); t++)
         lsf_image_destroy(run_frames(context, w.scene, &cases[t], false));
     gl_test_check(context);

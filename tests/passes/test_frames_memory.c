@@ -67,7 +67,7 @@ static void frames_allocate_nothing(void **unused)
     for (size_t t = 0; t < LSF_COUNT(techniques); t++) {
         lsf_error error = {0};
         lsf_scene *scene = moving_scene();
-        lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+        lsf_context *context = gl_test_context(gl_test_backend(), NULL);
         lsf_render_params params = tiny_params(techniques[t]);
         lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
         require(renderer != NULL, &error);
@@ -97,7 +97,7 @@ static void renderers_and_contexts_give_back_all(void **unused)
         lsf_error error = {0};
         if (i == warm)
             heap = heap_bytes();
-        lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+        lsf_context *context = gl_test_context(gl_test_backend(), NULL);
         lsf_render_params params = tiny_params("direct");
         lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
         require(renderer && lsf_renderer_run(renderer, &error), &error);

@@ -50,7 +50,7 @@ static void shader_agrees(void **unused)
                         "    places[pixel.y * length.x + pixel.x] =\n"
                         "        ivec4(place, interleave_pixel(place, length));\n"
                         "}\n");
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, folder.path);
+    lsf_context *context = gl_test_context(gl_test_backend(), folder.path);
     static const uint32_t sizes[][2] = {{1, 1}, {7, 13}, {33, 5}};
     for (int size = 1; size <= 8; size++)
         for (size_t s = 0; s < LSF_COUNT(sizes); s++) {
@@ -116,7 +116,7 @@ static lsf_image *render_floor(int phases)
     params.camera_target = target;
     params.options = options;
     params.option_count = LSF_COUNT(options);
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image = render_gl(gl_test_backend(), scene, &params);
     lsf_scene_destroy(scene);
     return image;
 }

@@ -18,7 +18,7 @@ static lsf_image *render(const lsf_scene *scene, const char *technique, uint32_t
     params.raw = raw;
     params.options = options;
     params.option_count = LSF_COUNT(options);
-    return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    return render_gl(gl_test_backend(), scene, &params);
 }
 
 static double relmse(const lsf_image *image, const lsf_image *truth)

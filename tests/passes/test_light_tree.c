@@ -38,7 +38,7 @@ static void rig_begin(rig *r, uint32_t count, bool covariance)
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};
     const lsf_light_tree_params tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS, .covariance = covariance};
     memset(r, 0, sizeof *r);
-    r->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    r->context = gl_test_context(gl_test_backend(), NULL);
     r->scene = build_scene();
     build_corner(r->scene);
     finish_gl_scene(r->scene);

@@ -62,7 +62,7 @@ static void rig_begin(rig *r)
     const lsf_light_tree_params tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS};
     shader_folder_create(&r->folder);
     shader_folder_write(&r->folder, "walks.comp.glsl", shader);
-    r->context = gl_test_context(LSF_BACKEND_OSMESA, r->folder.path);
+    r->context = gl_test_context(gl_test_backend(), r->folder.path);
     r->scene = build_scene();
     build_corner(r->scene);
     finish_gl_scene(r->scene);

@@ -26,7 +26,7 @@ static spread render_runs(const lsf_scene *scene, const char *const options[3], 
 {
     double values[RUNS], sum = 0.0, squares = 0.0;
     lsf_error error = {0};
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL); /* keeps compiled programs */
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL); /* keeps compiled programs */
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
     params.width = params.height = 2;

@@ -284,7 +284,7 @@ static void check(const struct plan_case *c)
     params = corner_params(params, SIZE);
     lsf_scene *scene = rich_scene();
     lsf_error error = {0};
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     start_spying();
     lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
     if (!renderer || !lsf_renderer_run(renderer, &error))

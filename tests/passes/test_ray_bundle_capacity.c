@@ -57,7 +57,7 @@ static outcome render(const lsf_scene *scene, uint32_t bounces, double chained, 
     params.camera_target = target;
     params.options = options;
     params.option_count = LSF_COUNT(options);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
     if (!renderer)
         fail_msg("%s", error.message);

@@ -91,7 +91,9 @@ static void texels_hold_what_rays_meet(void **unused)
             texel_ray(light, face, (float)x, (float)y, &origin, &direction);
             double hit = light_passes_trace(&p, origin, direction, 0.0, &normal);
             double found = texel_distance(light, m.depth[at]);
-            bool same = isinf(hit) ? isinf(found) : fabs(found - hit) < 1e-5 * hit + 1e-6;
+            double facing = fabs((double)lsf_f3_dot(normal, direction));
+            double off = (double)light_passes_raster_error(&p, normal, hit) / fmax(facing, 1e-9);
+            bool same = isinf(hit) ? isinf(found) : fabs(found - hit) < 1e-5 * hit + 1e-6 + off;
             lsf_float3 n = octahedral_decode(m.surface[4 * at]);
             depths += same;
             met += isfinite(hit);

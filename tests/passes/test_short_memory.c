@@ -105,7 +105,7 @@ static void check(const char *technique)
     params.option_count = LSF_COUNT(options);
     params = corner_params(params, SIZE);
     lsf_scene *scene = full_scene();
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     lsf_error error = {0};
     lsf_image *expected = render(context, scene, &params, &error);
     if (!expected)

@@ -319,7 +319,7 @@ static void corner_in_each_technique(void **unused)
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
         params.technique = cases[i].technique;
         params.samples = cases[i].samples;
-        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+        lsf_image *image = render_gl(gl_test_backend(), scene, &params);
         mean_rgb(image, 0, mean);
         print_message("%s: %.5f, expected %.5f\n", cases[i].technique, mean[1], expected[1]);
         for (int c = 0; c < 3; c++)

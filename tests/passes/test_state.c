@@ -263,7 +263,7 @@ static void set_hostile_memory(bool hostile)
 static lsf_image *render_hostile(const lsf_scene *scene, const lsf_render_params *params)
 {
     lsf_error error = {0};
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     set_hostile_memory(true);
     lsf_renderer *renderer = lsf_renderer_create(context, scene, params, &error);
     set_hostile_memory(false);
@@ -287,7 +287,7 @@ static lsf_image *render_hostile(const lsf_scene *scene, const lsf_render_params
 static void check_hostile(const char *what, const lsf_scene *scene, lsf_render_params params)
 {
     groups = filled = 0;
-    lsf_image *expected = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *expected = render_gl(gl_test_backend(), scene, &params);
     lsf_image *image = render_hostile(scene, &params);
     print_message("%s, %s: %u passes, %u textures and buffers\n", params.technique, what, groups,
                   filled);

@@ -74,7 +74,7 @@ static void run(lsf_renderer *renderer)
 static void check(const char *technique)
 {
     lsf_scene *scene = lit_scene();
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     caller c = {.stop_after = UINT32_MAX};
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .bounces = 1};
     params.technique = technique;
@@ -158,7 +158,7 @@ static void compilation_is_not_rendering(void **unused)
         {0.2, 0.02, 0.2, 0.02, 5},
     };
     lsf_scene *scene = lit_scene();
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     look = 0.0;
     for (size_t i = 0; i < LSF_COUNT(courses); i++) {
         course c = courses[i];

@@ -25,7 +25,7 @@ static lsf_image *render(const lsf_scene *scene, uint32_t bounces, bool referenc
         .option_count = LSF_COUNT(options),
     };
     if (!reference)
-        return render_gl(LSF_BACKEND_OSMESA, scene, &params);
+        return render_gl(gl_test_backend(), scene, &params);
     lsf_image *image = lsf_reference_render(scene, &params, 0, NULL, &error);
     if (!image)
         fail_msg("%s", error.message);

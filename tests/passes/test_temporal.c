@@ -31,7 +31,7 @@ static world begin_filtered(lsf_render_params params, const char *filter, const 
                                    "cloud.count=8192",
                                    "gbuffer.side=1"};
     lsf_error error = {0};
-    world w = {.scene = build_scene(), .context = gl_test_context(LSF_BACKEND_OSMESA, NULL)};
+    world w = {.scene = build_scene(), .context = gl_test_context(gl_test_backend(), NULL)};
     build_corner(w.scene);
     build_material(w.scene, 0.9f, 0.4f, 0.2f);
     build_box(w.scene, lsf_f3(-0.3f, 0, 0.2f), lsf_f3(0.2f, 0.6f, 0.7f), false);

@@ -82,7 +82,7 @@ static void outlines_are_forgotten(void **unused)
     (void)unused;
     static const char *const sides[] = {"gbuffer.side=1", "gbuffer.side=2"};
     lsf_scene *scene = load_default_scene("cornell_point.gltf");
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL);
     float kept[VALUES], single[VALUES], truth[VALUES];
     lsf_view view = view_turned(4.0 * LAST);
     run_alone(context, scene, "gbuffer.side=1", 32, &view, truth);

@@ -79,7 +79,7 @@ static means render_all(const estimator *e, float light)
     means found = {0};
     lsf_error error = {0};
     lsf_scene *scene = load(e, light);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, NULL); /* keeps compiled programs */
+    lsf_context *context = gl_test_context(gl_test_backend(), NULL); /* keeps compiled programs */
     for (uint32_t run = 0; run < RUNS; run++) {
         lsf_render_params params = params_of(e, e->samples, 1 + run);
         lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);

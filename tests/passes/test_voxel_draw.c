@@ -119,7 +119,7 @@ static void drawn_by_luminance(void **state)
     uint32_t sides = *(const uint32_t *)*state;
     rig *r = calloc(1, sizeof *r);
     r->plan = calloc(1, sizeof *r->plan);
-    r->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    r->context = gl_test_context(gl_test_backend(), NULL);
     create_textures(r, sides);
     fill(r, sides);
     for (uint32_t i = 0; i < 3; i++) {

@@ -52,7 +52,7 @@ static lsf_image *render_frame(const drawn_by *by, moving_part part, int frame)
     params.camera_target = target;
     params.fov_y = 70.0f;
     lsf_error error = {0};
-    lsf_image *image = by->technique ? render_gl(LSF_BACKEND_OSMESA, scene, &params)
+    lsf_image *image = by->technique ? render_gl(gl_test_backend(), scene, &params)
                                      : lsf_reference_render(scene, &params, 0, NULL, &error);
     if (!image)
         fail_msg("%s", error.message);

@@ -53,7 +53,7 @@ static double room_light(const way *w, const lsf_scene *scene, float room)
     params.fov_y = 80.0f;
     params.options = options;
     params.option_count = w->option[1] ? 3 : w->option[0] ? 2 : 1;
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image = render_gl(gl_test_backend(), scene, &params);
     double sum = 0.0;
     for (uint32_t i = 0; i < image->width * image->height; i++)
         sum += (double)image->pixels[i * image->channel_count + 1];

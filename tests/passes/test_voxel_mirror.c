@@ -193,7 +193,7 @@ static void expect_thrown(lsf_scene *scene)
     for (size_t i = 0; i < LSF_COUNT(techniques); i++) {
         double found[3];
         params.technique = techniques[i];
-        lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+        lsf_image *image = render_gl(gl_test_backend(), scene, &params);
         mean_rgb(image, 0, found);
         lsf_image_destroy(image);
         for (int c = 0; c < 3; c += 2) {

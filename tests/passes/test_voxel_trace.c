@@ -227,7 +227,7 @@ static void test_hits(void **state)
     };
     shader_folder folder;
     shader_folder_create(&folder);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, folder.path);
+    lsf_context *context = gl_test_context(gl_test_backend(), folder.path);
     ray *rays = calloc(RAYS, sizeof *rays);
     hit *hits = calloc(RAYS, sizeof *hits);
     for (uint32_t c = 0; c < LSF_COUNT(cases); c++) {

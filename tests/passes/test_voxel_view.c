@@ -35,7 +35,7 @@ static void floor_of_voxels(const char *technique, float side)
     params.camera_target = target;
     params.fov_y = 20.0f;
     params.aovs = LSF_AOV_VOXEL_ALBEDO | LSF_AOV_VOXEL_NORMAL | LSF_AOV_VOXEL_RADIANCE;
-    lsf_image *image = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *image = render_gl(gl_test_backend(), scene, &params);
     const float lit = side > 0.0f ? 0.8f * 2.0f / LSF_PI : 0.0f;
     for (uint32_t pixel = 0; pixel < 256; pixel++) {
         assert_true(fabsf(channel_at(image, "voxel_albedo.R", pixel) - 0.5f) < 1e-3f);

@@ -50,7 +50,9 @@ static void check_positions(const light_passes *p, const struct lsf_vpl_data *vp
         double hit = light_passes_trace(p, origin, direction, 0.0, &normal);
         lsf_float3 n = xyz(vpls[i].geometric_normal);
         lit++;
-        close += fabs(hit - distance) < 1e-5;
+        double facing = fabs((double)lsf_f3_dot(n, direction));
+        double off = (double)light_passes_raster_error(p, n, distance) / fmax(facing, 1e-9);
+        close += fabs(hit - distance) < 1e-5 + off;
         right += lsf_f3_dot(n, direction) < 0.0f && lsf_f3_length(lsf_f3_cross(n, normal)) < 1e-4f;
     }
     print_message("%s: %u of %u VPLs lit, %u where the ray ends, %u with its normal\n", name, lit,
@@ -243,7 +245,9 @@ static void maps_see_what_rays_see(void **unused)
             if (vpls[v].position.w == 0.0f)
                 continue;
             lsf_float3 n1 = xyz(vpls[v].geometric_normal);
-            lsf_float3 x1 = lsf_f3_mad(xyz(vpls[v].position), n1, 2e-6f); /* clear of its plane */
+            float clear =
+                2e-6f + light_passes_raster_error(&p, n1, sqrt((double)vpls[v].to_light.w));
+            lsf_float3 x1 = lsf_f3_mad(xyz(vpls[v].position), n1, clear); /* clear of its plane */
             for (uint32_t i = 0; i < POINTS; i++) {
                 float u[2], w[2];
                 light_passes_random(i, v, u);

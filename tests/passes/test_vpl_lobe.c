@@ -72,7 +72,7 @@ static void lobes_carry_the_flux(void **unused)
     shader_folder folder;
     shader_folder_create(&folder);
     shader_folder_write(&folder, "lobes.comp.glsl", shader);
-    lsf_context *context = gl_test_context(LSF_BACKEND_OSMESA, folder.path);
+    lsf_context *context = gl_test_context(gl_test_backend(), folder.path);
     const lsf_define defines[] = {{"SIDE", SIDE}};
     lsf_program_desc desc = {
         .label = "lobes", .files = {"lobes.comp.glsl"}, .defines = defines, .define_count = 1};

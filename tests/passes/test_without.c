@@ -66,7 +66,7 @@ static void test_each_feature(void **state)
     params.technique = "direct";
     params.samples = 1;
     params.raw = true;
-    lsf_image *whole = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *whole = render_gl(gl_test_backend(), scene, &params);
     for (int f = 0; f < LSF_FEATURE_COUNT; f++) {
         lsf_error error = {0};
         assert_non_null(lsf_feature_name((lsf_feature)f));
@@ -77,10 +77,10 @@ static void test_each_feature(void **state)
             fail_msg("%s", error.message);
         assert_false(lsf_scene_has(without, (lsf_feature)f));
         assert_memory_equal(&scene->requirements, &before, sizeof before);
-        lsf_image_destroy(render_gl(LSF_BACKEND_OSMESA, without, &params));
+        lsf_image_destroy(render_gl(gl_test_backend(), without, &params));
         lsf_scene_destroy(without);
     }
-    lsf_image *again = render_gl(LSF_BACKEND_OSMESA, scene, &params);
+    lsf_image *again = render_gl(gl_test_backend(), scene, &params);
     assert_same_pixels(again, whole);
     assert_null(lsf_feature_name(LSF_FEATURE_COUNT));
     lsf_image_destroy(again);

@@ -488,7 +488,7 @@ static void refused(void **user)
     assert_int_equal(error.code, LSF_ERROR_USAGE);
 
     lsf_scene *scene = rig_scene(5.0f);
-    application app = open_application(ops_of(LSF_BACKEND_OSMESA));
+    application app = open_application(ops_of(gl_test_backend()));
     lsf_context *context = wrap(&app);
     lsf_renderer *renderer = rig_renderer(context, scene, "direct");
     static const char *const varying = "gl_Position";
@@ -517,7 +517,7 @@ static void shader_folder(void **user)
     (void)user;
     lsf_error error = {0};
     lsf_scene *scene = rig_scene(5.0f);
-    application app = open_application(ops_of(LSF_BACKEND_OSMESA));
+    application app = open_application(ops_of(gl_test_backend()));
     const lsf_context_wrap_params params = {.get_proc_address = get_proc_address,
                                             .make_current = make_current,
                                             .user = &app,

@@ -44,7 +44,7 @@ void voxel_rig_init(voxel_rig *rig, const lsf_scene *scene, int32_t resolution,
     grid.jitter = jitter;
     params.width = params.height = 64;
     *rig = (voxel_rig){.sides = sides};
-    rig->context = gl_test_context(LSF_BACKEND_OSMESA, NULL);
+    rig->context = gl_test_context(gl_test_backend(), NULL);
     if (!lsf_setup_begin(&rig->setup, scene, &params, true, &error))
         fail_msg("%s", error.message);
     lsf_plan *plan = rig->setup.plan;

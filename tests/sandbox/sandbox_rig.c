@@ -7,7 +7,7 @@ lsf_context *sandbox_context;
 int sandbox_setup(void **state)
 {
     (void)state;
-    sandbox_context = gl_test_open(LSF_BACKEND_OSMESA, NULL);
+    sandbox_context = gl_test_open(gl_test_backend(), NULL);
     return 0;
 }
 
