@@ -5,6 +5,7 @@
 #include "lib/voxel.glsl"
 
 layout(binding = 0, r32ui) readonly uniform uimage3D key_image;
+layout(location = 29) uniform uvec2 list_sizes; /* instances; voxels for which `won` has room */
 
 /* An instance, in draw order. */
 struct voxelize_draw {
@@ -32,7 +33,7 @@ uint winner(ivec3 cell)
 /* The draw to which a triangle belongs, by bisection. */
 uint draw_of(uint triangle)
 {
-    uint low = 0u, high = uint(draws.length());
+    uint low = 0u, high = list_sizes.x;
     for (int i = 0; i < 32 && high - low > 1u; i++) {
         uint middle = (low + high) / 2u;
         if (draws[middle].first_triangle <= triangle)

@@ -13,7 +13,7 @@ void main()
         ivec3 cell = voxel_brick_cell(brick, n);
         uint draw = draw_of(winner(cell));
         uint index = draws[draw].first + atomicAdd(draws[draw].listed, 1u);
-        if (index < uint(won.length()))
+        if (index < list_sizes.y)
             won[index] = voxel_brick_pack(cell);
     }
 }

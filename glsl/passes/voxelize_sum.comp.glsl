@@ -5,8 +5,8 @@ layout(local_size_x = 1) in;
 
 void main()
 {
-    uint first = 0u, capacity = uint(won.length());
-    for (uint i = 0u; i < uint(draws.length()); i++) {
+    uint first = 0u, capacity = list_sizes.y;
+    for (uint i = 0u; i < list_sizes.x; i++) {
         uint count = min(draws[i].count, capacity - first);
         uint groups = (count + LSF_VOXELIZE_GROUP - 1u) / LSF_VOXELIZE_GROUP;
         draws[i].groups_x = LSF_VOXEL_LIST_ROW;

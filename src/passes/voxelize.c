@@ -32,9 +32,10 @@
 
 #define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
 
-/* Locations in voxelize.geom.glsl and voxelize_write. */
+/* Locations in voxelize.geom.glsl, voxelize_write and voxelize_list.glsl. */
 #define LOCATION_SIDE 27
 #define LOCATION_DRAW 28
+#define LOCATION_LIST_SIZES 29
 
 /* Capacity for voxels that instances win: a storage block of 128 MiB. In a grid of more voxels
  * than this of which more are occupied, a quarter of all at 512^3, the rest would have no
@@ -448,6 +449,16 @@ static void mark_group(lsf_voxelize *pass, const lsf_iteration *iteration, insta
                     GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
+/* The shaders are told how long both lists are: NVIDIA's driver says 0 for length() of a storage
+ * buffer's array here. */
+static void use_list_program(const lsf_voxelize *pass, const lsf_iteration *iteration,
+                             GLuint program)
+{
+    glUseProgram(program);
+    glUniform2ui(LOCATION_LIST_SIZES, iteration->scene->draw_count,
+                 (GLuint)won_voxels(&pass->grid));
+}
+
 /* Sorts voxels by the instance that has won them: counts, sums, and places. */
 static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
 {
@@ -457,13 +468,13 @@ static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_WON, pass->won);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pass->outputs.bricks);
     lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, pass->outputs.occupancy[0]);
-    glUseProgram(pass->count_program);
+    use_list_program(pass, iteration, pass->count_program);
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    glUseProgram(pass->sum_program);
+    use_list_program(pass, iteration, pass->sum_program);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    glUseProgram(pass->list_program);
+    use_list_program(pass, iteration, pass->list_program);
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
