@@ -54,6 +54,15 @@ vec3 light_projection_position(int face, vec2 face_position, float depth)
            q.z * light.map_forward[face].xyz;
 }
 
+/* Largest distance of a texel's point from the plane of its surface, because vertices are moved by LSF_RASTER_STEP.
+ * `distance`: to the light, or along the face's forward axis. */
+float light_projection_raster_error(int face, vec3 normal, float distance)
+{
+    vec2 per_texel = abs(vec2(dot(light.map_right[face].xyz, normal), dot(light.map_up[face].xyz, normal)));
+    per_texel *= 2.0 * light.map_shape.w * light.map_window[face].zw;
+    return LSF_RASTER_STEP * (per_texel.x + per_texel.y) * (light_projection_perspective() ? distance : 1.0);
+}
+
 vec4 light_projection_clip(int face, vec3 position)
 {
     vec3 q = light_projection_coordinates(face, position);

@@ -214,6 +214,7 @@ bool reflects(surface s)
 struct light_hit {
     vec3 position, direction; /* unit, away from the light */
     float distance;
+    int face;       /* of the map */
     vec3 apart;     /* offset from the centre of the map's texel */
     surface s;
     vec3 intensity; /* of the light, towards the hit [W/sr]; for a directional light [W/m^2] */
@@ -228,6 +229,7 @@ light_hit light_ray_draw(vec2 u)
     met_plane met;
     ivec2 at = find_texel(r, met);
     light_hit h;
+    h.face = r.face;
     h.s = surface_at(r.face, at);
     h.direction = r.direction;
     h.distance = distance_to(r, met);

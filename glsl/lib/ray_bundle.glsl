@@ -125,6 +125,14 @@ vec2 bundle_texel_size()
     return bundle.window.zw * (2.0 / float(LSF_BUNDLE_SIDE));
 }
 
+/* Largest distance of a node's position from the plane of its surface, because vertices are moved by
+ * LSF_RASTER_STEP. */
+float bundle_raster_error(vec3 normal)
+{
+    vec2 per_texel = abs(vec2(dot(bundle.right.xyz, normal), dot(bundle.up.xyz, normal))) * bundle_texel_size();
+    return LSF_RASTER_STEP * (per_texel.x + per_texel.y);
+}
+
 /* --- planes: depth at the texel's centre, 0..1 over the scene, and slopes as rise over run in normalised space.
  * Keys are those of lib/plane_key.glsl. Another 16 and twice 8 bits are stored with the surface. */
 

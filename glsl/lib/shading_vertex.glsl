@@ -30,6 +30,7 @@ layout(binding = 2) uniform usampler2D specular_params_texture;
 struct shading_vertex {
     vec3 position, view; /* view: unit, towards the previous vertex */
     surface s;
+    float raster_error;     /* the position's, see LSF_RASTER_STEP */
     vec3 diffuse, specular; /* contribution to both parts of unit radiance towards that vertex */
 #if LSF_POOLED
     float normal_change; /* change of the normal over the pattern of pixels [radians] */
@@ -74,6 +75,7 @@ bool vertex_load(out shading_vertex v)
     if (position.w == 0.0)
         return false;
     v.position = position.xyz;
+    v.raster_error = position.w;
     uvec3 t = texelFetch(throughput_texture, texel, 0).xyz;
     vec2 middle = unpackHalf2x16(t.y);
     v.diffuse = vec3(unpackHalf2x16(t.x), middle.x);
@@ -93,6 +95,9 @@ bool vertex_load(out shading_vertex v)
     v.specular = vec3(1.0);
 #endif
     v.s = surface_unpack(texelFetch(surface_texture, texel, 0));
+#if !LSF_DEEP
+    v.raster_error = view_raster_error(v.position, v.s.geometric_normal);
+#endif
 #if LSF_SPECULAR_PARAMS
     specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
 #endif

@@ -9,8 +9,8 @@
  *  - the receiver's plane, by its normal, to the texel's centre: at an outer edge the
  *    neighbouring face then lies behind it.
  * A surface must be in front by both to cast a shadow. Neither test needs a bias that grows with
- * slope; what is left is rounding: of depths, of planes, and of the receiver's position, which may lie off
- * its surface by light.map_offset.z. */
+ * slope; what is left is rounding: of depths, of planes, of the occluder's vertices on the map (LSF_RASTER_STEP), and of
+ * the receiver's position, which may lie off its surface by light.map_offset.z and shadow_raster_error. */
 #ifndef LSF_LIB_SHADOW
 #define LSF_LIB_SHADOW
 
@@ -45,6 +45,10 @@ layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2DArray shadow_tint_textur
 #endif
 #endif
 
+/* Distance at which the pipeline may have put the receiver off its surface, set by the shader whose position is that of a
+ * fragment: see LSF_RASTER_STEP. [normalised space] */
+float shadow_raster_error = 0.0;
+
 /* Relative rounding error of interpolated depth in a perspective map. */
 #define LSF_SHADOW_EPSILON 2e-5
 
@@ -68,6 +72,12 @@ struct shadow_receiver {
     int face;
 };
 
+/* Rounding error of the depth of the same plane on the map. */
+float shadow_vertex_error(vec2 gradient)
+{
+    return LSF_RASTER_STEP * (abs(gradient.x) + abs(gradient.y));
+}
+
 #if LSF_SHADOW_HEMISPHERE
 
 /* The receiver is projected in the octant of the texel's centre, where the texel's plane is known. It is lifted
@@ -75,7 +85,8 @@ struct shadow_receiver {
 shadow_receiver shadow_project(vec3 position, vec3 normal)
 {
     shadow_receiver r;
-    vec3 local = hemisphere_local(position + light.map_offset.z * normal - light.map_origin.xyz);
+    float lift = light.map_offset.z + shadow_raster_error;
+    vec3 local = hemisphere_local(position + lift * normal - light.map_origin.xyz);
     float texels = light.map_shape.z;
     vec3 q = hemisphere_project(hemisphere_octant(local), local);
     r.at = clamp(ivec2((q.xy / q.z * 0.5 + 0.5) * texels), ivec2(0), ivec2(int(texels) - 1));
@@ -87,7 +98,7 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     r.texel = (q.xy / q.z * 0.5 + 0.5) * texels;
     r.depth = light.map_shape.x / q.z;
     r.gradient = light.map_shape.x * 2.0 / (texels * dot(local_normal, local)) * n.xy;
-    r.error = (LSF_SHADOW_EPSILON + HEMISPHERE_DEPTH_ERROR) * r.depth;
+    r.error = (LSF_SHADOW_EPSILON + HEMISPHERE_DEPTH_ERROR) * r.depth + shadow_vertex_error(r.gradient);
     return r;
 }
 
@@ -108,7 +119,8 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     r.gradient = texel.xy * n.xy / (-n.z * texel.z);
     r.error = LSF_SHADOW_DEPTH_ERROR + SKY_MAP_DEPTH_ERROR +
               (LSF_SHADOW_SLOPE_ERROR * max(texel.x, texel.y) +
-               sky_maps[r.face].error.x / abs(n.z)) / texel.z;
+               (sky_maps[r.face].error.x + shadow_raster_error) / abs(n.z)) / texel.z +
+              shadow_vertex_error(r.gradient);
     r.at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(int(texel.w) - 1));
     return r;
 }
@@ -123,12 +135,13 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
     vec3 n = vec3(dot(light.map_right[r.face].xyz, normal), dot(light.map_up[r.face].xyz, normal),
                   dot(light.map_forward[r.face].xyz, normal));
     vec2 extent = light.map_window[r.face].zw;
+    float off = light.map_offset.z + shadow_raster_error;
     if (light_projection_perspective()) {
         /* On the plane n.q = c, near / q.z = near / c (n.z + n.xy extent (x, y)). */
         float c = dot(n, q);
         r.depth = light.map_shape.x / q.z;
         r.gradient = light.map_shape.x / c * extent * n.xy;
-        r.error = r.depth * (LSF_SHADOW_EPSILON + light.map_offset.z / abs(c));
+        r.error = r.depth * (LSF_SHADOW_EPSILON + off / abs(c));
     } else {
         /* q.z = (c - n.xy extent (x, y)) / n.z */
         float range = light.map_shape.y - light.map_shape.x;
@@ -136,11 +149,12 @@ shadow_receiver shadow_project(vec3 position, vec3 normal)
         r.gradient = extent * n.xy / (n.z * range);
         r.error = LSF_SHADOW_DEPTH_ERROR +
                   (LSF_SHADOW_SLOPE_ERROR * 2.0 * light.map_shape.w * max(extent.x, extent.y) +
-                   light.map_offset.z / abs(n.z)) / range;
+                   off / abs(n.z)) / range;
     }
     float texels = light.map_shape.z;
     r.texel = (light_projection_face_position(r.face, q) * 0.5 + 0.5) * texels;
     r.gradient *= 2.0 / texels;
+    r.error += shadow_vertex_error(r.gradient);
     r.at = clamp(ivec2(floor(r.texel)), ivec2(0), ivec2(int(texels) - 1));
     return r;
 }

@@ -48,4 +48,14 @@ vec3 position_from_depth(vec2 ndc, float depth)
     return view_ray_start(ndc) + view_depth_from_start(depth) * view_ray_direction(ndc);
 }
 
+/* Largest distance from the plane of its surface at which position_from_depth has put this position, because
+ * vertices are moved by LSF_RASTER_STEP. */
+float view_raster_error(vec3 position, vec3 normal)
+{
+    float along = dot(position - view.start.xyz, view.forward.xyz);
+    vec3 dx = view.start_dx.xyz + along * view.forward_dx.xyz, dy = view.start_dy.xyz + along * view.forward_dy.xyz;
+    vec2 per_pixel = 2.0 * view.size.zw * abs(vec2(dot(normal, dx), dot(normal, dy)));
+    return LSF_RASTER_STEP * (per_pixel.x + per_pixel.y);
+}
+
 #endif

@@ -58,6 +58,7 @@ light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3,
     float cosine_3 = -dot(x2.geometric_normal, direction);
     float shading_cosine_0 = dot(x2.normal, to_light);
     bool transmits = false;
+    shadow_raster_error = bundle_raster_error(x2.geometric_normal);
 #if LSF_SHADOW_TINT
     transmits = x2.transmission > 0.0 && (!x2.volume || light.intensity.w > 0.0);
 #endif
@@ -179,7 +180,7 @@ void main()
             t.irradiance *= left;
             t.specular *= left;
 #endif
-            position_out = vec4(position, 1.0);
+            position_out = vec4(position, max(bundle_raster_error(x2.geometric_normal), 1e-9)); /* 0: no vertex */
             surface_out = surface_pack(x2);
             throughput_out = uvec4(throughput_pack(t), 0u);
 #if LSF_SPECULAR_PARAMS

@@ -105,6 +105,7 @@ void main()
     if (cosine_3 <= 0.0 || dot(v.s.normal, direction) <= 0.0 ||
         dot(v.s.geometric_normal, direction) <= 0.0)
         discard;
+    shadow_raster_error = v.raster_error;
     if (shadow_visibility(v.position, v.s.geometric_normal) == 0.0)
         discard;
 #if LSF_PUNCTUAL && LSF_EMITTERS

@@ -189,6 +189,7 @@ void main()
 #endif
     vec2 ndc = sample_ndc(gl_FragCoord.xy);
     vec3 position = position_from_depth(ndc, depth);
+    shadow_raster_error = view_raster_error(position, s.geometric_normal);
     vec3 view_direction = surface_view(s, -normalize(view_ray_direction(ndc)));
     light_parts sum = light_parts(vec3(0.0), vec3(0.0));
 #if LSF_SHADOW_SKY

@@ -38,6 +38,7 @@ void main()
         vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
         vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_angle), vec4(-h.direction, distance2),
         vec4(h.intensity, transmission));
-    float error = NORMAL_ERROR * length(h.apart) + DISTANCE_ERROR * h.distance;
+    float error = NORMAL_ERROR * length(h.apart) + DISTANCE_ERROR * h.distance +
+                  light_projection_raster_error(h.face, s.geometric_normal, h.distance);
     vpl_map_write(index, h.position, s.geometric_normal, error, drawn.z, map_shape);
 }

@@ -47,6 +47,11 @@ struct lsf_lobe_data {
 };
 #define LSF_LOBE_ROWS 17 /* of four floats */
 
+/* Largest distance along x and y by which a pipeline moves a vertex on the screen, to 1/256 of a
+ * pixel: GL_SUBPIXEL_BITS is 8 on GPUs for desktops. GPUs derive depths from moved vertices, so
+ * that a surface has the depth of a point that is as far away; llvmpipe does not. [pixels] */
+#define LSF_RASTER_STEP (1.0f / 512.0f)
+
 /* In place of an alpha cutoff. */
 #define LSF_ALPHA_ALL -1.0f     /* nothing is cut out */
 #define LSF_ALPHA_BLENDED -2.0f /* alphaMode BLEND; see lib/alpha.glsl */
@@ -80,7 +85,8 @@ struct lsf_lobe_data {
 #define LSF_UNIT_COAT_NORMAL 29
 #define LSF_UNIT_SHEEN_COLOR 30
 #define LSF_UNIT_SHEEN_ROUGHNESS 31
-#define LSF_UNIT_SEEN_DEPTH 14 /* depth of the visible surface, for surfaces in front of it */
+#define LSF_UNIT_SEEN_SURFACE 20 /* the visible surface, for those behind it */
+#define LSF_UNIT_SEEN_DEPTH 14   /* depth of the visible surface, for surfaces in front of it */
 
 /* Texture units of the current light. */
 #define LSF_UNIT_SHADOW_DEPTH 6
