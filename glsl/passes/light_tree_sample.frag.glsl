@@ -95,7 +95,8 @@ void add_light(light_receiver r, light_point p, bool specular, float probability
     float geometry = leaves * arrives / probability;
     if (p.record != LSF_LIGHT_TREE_NONE)
         geometry *= light_lobe(p.record, p.normal, -direction, kernel);
-    float bounded = geometry / held2, lost = geometry / distance2 - bounded;
+    float bounded = geometry / held2;
+    float lost = held2 > distance2 ? max(geometry / distance2 - bounded, 0.0) : 0.0;
 #if LSF_SPECULAR
     if (specular) {
         vec3 reflected = f.specular * intensity;
