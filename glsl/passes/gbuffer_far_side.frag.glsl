@@ -1,7 +1,12 @@
-/* Depth of the nearest back of a medium behind the visible surface, on the straight line of sight. */
+/* Depth of the nearest back of a medium that is parallel to the visible surface and behind it, on the straight line of
+ * sight. */
 #include "passes/gbuffer_fragment.glsl"
 
 layout(binding = LSF_UNIT_SEEN_DEPTH) uniform sampler2D depth_texture;
+layout(binding = LSF_UNIT_SEEN_SURFACE) uniform usampler2D surface_texture;
+
+/* Least cosine between both sides of a wall. */
+#define PARALLEL_LEAST 0.9
 
 void main()
 {
@@ -10,6 +15,9 @@ void main()
     vec3 emission;
     bool front;
     bool present = material_evaluate(to_viewer, s, emission, front);
-    if (!present || front || !s.volume || gl_FragCoord.z >= texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r)
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool behind = gl_FragCoord.z < texelFetch(depth_texture, pixel, 0).r;
+    vec3 seen = surface_unpack(texelFetch(surface_texture, pixel, 0)).geometric_normal;
+    if (!present || front || !s.volume || !behind || dot(s.geometric_normal, seen) < PARALLEL_LEAST)
         discard;
 }

@@ -211,7 +211,7 @@ static void tint(lsf_gbuffer *pass, const lsf_iteration *iteration, const lsf_dr
                        pass->counts);
 }
 
-/* Draws media once more: the backs behind the visible surface. */
+/* Draws media once more: backs behind the visible surface that are parallel to it. */
 static void find_far_side(lsf_gbuffer *pass, const lsf_iteration *iteration,
                           const lsf_draw_region *region)
 {
@@ -222,6 +222,7 @@ static void find_far_side(lsf_gbuffer *pass, const lsf_iteration *iteration,
     glClearNamedFramebufferfv(pass->far_framebuffer, GL_DEPTH, 0, zero);
     lsf_iteration_set_blend_chance(iteration, LSF_PURPOSE_STRAIGHT_PIXEL, 0);
     lsf_bind_texture(LSF_UNIT_SEEN_DEPTH, pass->outputs.seen.depth);
+    lsf_bind_texture(LSF_UNIT_SEEN_SURFACE, pass->outputs.seen.surface);
     lsf_scene_gpu_draw(iteration->scene, iteration->state, LSF_DRAW_TRANSMISSIVE, region,
                        pass->counts);
 }
