@@ -115,7 +115,8 @@ static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list)
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list);
     glUseProgram(program);
     glDispatchComputeIndirect(0);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT); /* the list tells which sides are stored */
 }
 
 /* Of units two are others than lsf_voxels_bind takes, which are those of shadow maps and of
