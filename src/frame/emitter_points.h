@@ -5,6 +5,7 @@
 #define LSF_FRAME_EMITTER_POINTS_H
 
 #include "frame/iteration.h"
+#include "frame/upload.h"
 #include "scene/emitters.h"
 #include "shared/emitter_data.h"
 
@@ -12,11 +13,10 @@
 
 typedef struct lsf_emitter_points {
     lsf_emitters list;
-    struct lsf_emitter_point_data *points;
-    GLuint buffer; /* 0: there are none */
+    lsf_upload upload; /* no buffer: there are none */
 } lsf_emitter_points;
 
-/* Lists their buffer, under a name of the pass. */
+/* Lists their buffers, under a name of the pass. */
 void lsf_emitter_points_plan(lsf_plan *plan, const char *name);
 bool lsf_emitter_points_create(lsf_emitter_points *points, lsf_context *context,
                                const lsf_plan *plan, const char *name, const lsf_scene *scene,

@@ -1,7 +1,6 @@
 #include "passes/open_sky.h"
 #include "frame/purpose.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/base.h"
@@ -34,8 +33,8 @@ void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", 0, "never: random numbers are computed");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->seen_width,
                           plan->seen_height);
-    lsf_plan_buffer_add(plan, "open_sky.drawn", LSF_OPEN_SKY_DRAWN * sizeof(lsf_open_sky_data),
-                        "directions drawn by the environment's radiance");
+    lsf_upload_plan(plan, "open_sky.drawn", LSF_OPEN_SKY_DRAWN * sizeof(lsf_open_sky_data),
+                    "directions drawn by the environment's radiance");
 }
 
 bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_plan *plan,
@@ -45,13 +44,8 @@ bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_pla
     *pass = (lsf_open_sky){.context = context, .use = *use};
     if (!lsf_plan_find_pass(plan, "open_sky"))
         return true;
-    pass->drawn = lsf_alloc(LSF_OPEN_SKY_DRAWN, sizeof *pass->drawn);
-    if (!pass->drawn)
-        return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %d directions",
-                             LSF_OPEN_SKY_DRAWN);
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
-        !lsf_plan_create_buffer(plan, context, "open_sky.drawn", NULL, GL_DYNAMIC_STORAGE_BIT,
-                                &pass->buffer, error))
+        !lsf_upload_create(&pass->drawn, context, plan, "open_sky.drawn", error))
         return false;
     const lsf_framebuffer_desc desc = {.label = "open_sky",
                                        .color_count = 2,
@@ -66,6 +60,7 @@ bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_pla
 static void draw_directions(lsf_open_sky *pass, const lsf_iteration *iteration)
 {
     const lsf_sky *sky = &iteration->sky;
+    lsf_open_sky_data *drawn = lsf_upload_begin(&pass->drawn);
     for (uint32_t i = 0; i < LSF_OPEN_SKY_DRAWN; i++) {
         uint32_t bits[2];
         lsf_iteration_sample(iteration, iteration->index * LSF_OPEN_SKY_DRAWN + i,
@@ -75,11 +70,11 @@ static void draw_directions(lsf_open_sky *pass, const lsf_iteration *iteration)
         lsf_float3 direction = lsf_sky_sample(sky, u, &pdf);
         lsf_float3 radiance = lsf_environment_radiance(sky->environment, direction);
         lsf_float3 light = lsf_f3_scale(radiance, 1.0f / pdf);
-        pass->drawn[i] = (lsf_open_sky_data){
+        drawn[i] = (lsf_open_sky_data){
             .direction = {direction.x, direction.y, direction.z, lsf_sky_density(sky, radiance)},
             .radiance = {light.x, light.y, light.z, 0.0f}};
     }
-    glNamedBufferSubData(pass->buffer, 0, LSF_OPEN_SKY_DRAWN * sizeof *pass->drawn, pass->drawn);
+    lsf_upload_end(&pass->drawn);
 }
 
 void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
@@ -95,7 +90,7 @@ void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
     lsf_bind_texture(3, control);
     lsf_scene_gpu_bind_environment(iteration->scene);
     lsf_iteration_bind_sky(iteration);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_OPEN_SKY, pass->buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_OPEN_SKY, pass->drawn.buffer);
     glUniform2i(0, (GLint)pass->use.open_samples, (GLint)iteration->index);
     glUniform1i(2, iteration->done > 0);
     glUniform1ui(1, lsf_iteration_seed(iteration, LSF_PURPOSE_OPEN_SKY));
@@ -111,8 +106,7 @@ void lsf_open_sky_destroy(lsf_open_sky *pass)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
-    lsf_buffer_destroy(pass->context, &pass->buffer);
+    lsf_upload_destroy(&pass->drawn, pass->context);
     lsf_timer_destroy(pass->timer);
-    free(pass->drawn);
     memset(pass, 0, sizeof *pass);
 }

@@ -6,15 +6,16 @@
 #include "frame/iteration.h"
 #include "frame/maps.h"
 #include "frame/sky_use.h"
+#include "frame/upload.h"
 #include "shared/open_sky_data.h"
 
 typedef struct lsf_open_sky {
     lsf_context *context;
     lsf_split_light light; /* output: of the iteration */
-    lsf_open_sky_data *drawn;
-    uint32_t samples; /* of each kind */
+    lsf_upload drawn;      /* LSF_OPEN_SKY_DRAWN directions */
+    uint32_t samples;      /* of each kind */
     lsf_sky_use use;
-    GLuint framebuffer, program, buffer;
+    GLuint framebuffer, program;
     lsf_timer *timer; /* NULL: there is no such pass */
 } lsf_open_sky;
 

@@ -7,6 +7,36 @@
 
 #define LSF_VOXELIZE_TEXTURES 11
 
+/* Storage buffers beside LSF_BINDING_MATERIALS. */
+#define BINDING_BRICKS 1
+#define BINDING_TILES 2
+#define BINDING_DRAWS 2
+#define BINDING_WON 3
+
+/* Columns of voxels that one invocation does by itself, and those of a tile's side that a work
+ * group shares; tiles in the list, 8 bytes each. */
+#define SMALL_COLUMNS 16
+#define TILE 8
+#define GROUP_TILES 8
+#define MAX_TILES (1u << 20)
+
+/* Work groups of triangles are laid out in rows: GL promises 65,535 along an axis. */
+#define GROUP 64
+#define ROW_GROUPS 1024u
+#define ROW (GROUP * ROW_GROUPS)
+
+#define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
+
+/* Capacity for voxels that instances win: a storage block of 128 MiB. In a grid of more voxels
+ * than this of which more are occupied, a quarter of all at 512^3, the rest would have no
+ * surface. */
+#define MAX_WON ((uint64_t)1 << 25)
+
+/* struct voxelize_draw in voxelize_list.glsl. */
+typedef struct voxelize_draw {
+    uint32_t groups[3], first, count, listed, first_triangle, triangles;
+} voxelize_draw;
+
 /* The grid with the instances that stand still, where others move: each run begins with a copy
  * of it. */
 typedef struct lsf_voxelize_still {
@@ -50,6 +80,11 @@ typedef struct lsf_voxelize_texture {
 
 void lsf_voxelize_textures(lsf_voxelize *pass,
                            lsf_voxelize_texture textures[LSF_VOXELIZE_TEXTURES]);
+
+/* --- voxelize_plan.c --- */
+
+/* Number of voxels for which there is room in the list of those that instances win. */
+uint64_t lsf_voxelize_won_voxels(const lsf_voxel_grid *grid);
 
 /* --- voxelize_still.c --- */
 

@@ -82,7 +82,7 @@ static void check_feature(feature add, uint32_t aovs, uint64_t count, const char
                           uint64_t bytes, const char *switches, int extra_passes)
 {
     lsf_plan *base = plan_with(NULL, 0), *plan = plan_with(add, aovs);
-    const char *names[9];
+    const char *names[10];
     char changed[512];
     assert_int_equal(added(base, plan, names), count);
     for (uint64_t i = 0; i < count; i++)
@@ -161,13 +161,15 @@ static void make_environment(lsf_scene *scene, lsf_material *material)
 static void environment(void **unused)
 {
     (void)unused;
-    const char *const names[] = {"sky_map.map",     "sky_map.depth",        "sky_map.maps",
-                                 "scene.triangles", "open_sky.irradiance",  "open_sky.specular",
-                                 "open_sky.drawn",  "direct_light.control", "compose.radiance"};
+    const char *const names[] = {
+        "sky_map.map",          "sky_map.depth",     "sky_map.maps",   "scene.triangles",
+        "open_sky.irradiance",  "open_sky.specular", "open_sky.drawn", "open_sky.drawn_staging",
+        "direct_light.control", "compose.radiance"};
     /* Eight maps of 128 texels a side, which share a depth buffer; 16 slots of 128 bytes; two
-     * triangles; 1024 directions; two pictures of light without shadows and three layers */
-    check_feature(make_environment, 0, 9, names,
-                  (uint64_t)128 * 128 * (8 + 1) * 4 + 16 * 128 + 2 * 36 + 1024 * 32 +
+     * triangles; 1024 directions, and those of three iterations; two pictures of light without
+     * shadows and three layers */
+    check_feature(make_environment, 0, 10, names,
+                  (uint64_t)128 * 128 * (8 + 1) * 4 + 16 * 128 + 2 * 36 + 4 * 1024 * 32 +
                       (uint64_t)PIXELS * 16 * (2 + 3 + 1),
                   "direct_light.LSF_DIRECTIONAL_LIGHT ", 4);
 }
