@@ -45,8 +45,8 @@ layout(binding = LSF_UNIT_SHADOW_TINT) uniform sampler2DArray shadow_tint_textur
 #endif
 #endif
 
-/* Distance at which the pipeline may have put the receiver off its surface, set by the shader whose position is that of a
- * fragment: see LSF_RASTER_STEP. [normalised space] */
+/* Largest distance of the receiver from its surface because vertices were moved (LSF_RASTER_STEP). Shaders whose
+ * receivers were found by the pipeline set it; for others it is 0. [normalised space] */
 float shadow_raster_error = 0.0;
 
 /* Relative rounding error of interpolated depth in a perspective map. */
@@ -72,7 +72,7 @@ struct shadow_receiver {
     int face;
 };
 
-/* Rounding error of the depth of the same plane on the map. */
+/* Error of a depth on the map, of a plane with this gradient, because vertices are moved (LSF_RASTER_STEP). */
 float shadow_vertex_error(vec2 gradient)
 {
     return LSF_RASTER_STEP * (abs(gradient.x) + abs(gradient.y));

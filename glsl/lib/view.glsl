@@ -48,8 +48,8 @@ vec3 position_from_depth(vec2 ndc, float depth)
     return view_ray_start(ndc) + view_depth_from_start(depth) * view_ray_direction(ndc);
 }
 
-/* Largest distance from the plane of its surface at which position_from_depth has put this position, because
- * vertices are moved by LSF_RASTER_STEP. */
+/* Largest distance of a position that position_from_depth has found from the plane of its surface, because vertices are
+ * moved by LSF_RASTER_STEP. */
 float view_raster_error(vec3 position, vec3 normal)
 {
     float along = dot(position - view.start.xyz, view.forward.xyz);

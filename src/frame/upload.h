@@ -1,12 +1,12 @@
 /* Data of several kilobytes that the host writes anew in each iteration. It is written to mapped
- * memory, of which a part is used again once the GPU has copied it: a driver may let
- * glNamedBufferSubData overtake draws that still read what was there before. */
+ * memory, of which a part is used again once the GPU has copied it, so that it cannot reach draws
+ * of an earlier iteration, whatever a driver does with glNamedBufferSubData (docs/gpu.md). */
 #ifndef LSF_FRAME_UPLOAD_H
 #define LSF_FRAME_UPLOAD_H
 
 #include "frame/resources.h"
 
-/* Iterations by which the GPU may be behind before the host waits. */
+/* Uploads by which the GPU may be behind before the host waits. */
 #define LSF_UPLOAD_PARTS 3
 
 typedef struct lsf_upload {

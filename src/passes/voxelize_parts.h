@@ -13,24 +13,12 @@
 #define BINDING_DRAWS 2
 #define BINDING_WON 3
 
-/* Columns of voxels that one invocation does by itself, and those of a tile's side that a work
- * group shares; tiles in the list, 8 bytes each. */
-#define SMALL_COLUMNS 16
-#define TILE 8
+/* Tiles of large triangles that a work group shares. */
 #define GROUP_TILES 8
-#define MAX_TILES (1u << 20)
 
 /* Work groups of triangles are laid out in rows: GL promises 65,535 along an axis. */
 #define GROUP 64
 #define ROW_GROUPS 1024u
-#define ROW (GROUP * ROW_GROUPS)
-
-#define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
-
-/* Capacity for voxels that instances win: a storage block of 128 MiB. In a grid of more voxels
- * than this of which more are occupied, a quarter of all at 512^3, the rest would have no
- * surface. */
-#define MAX_WON ((uint64_t)1 << 25)
 
 /* struct voxelize_draw in voxelize_list.glsl. */
 typedef struct voxelize_draw {

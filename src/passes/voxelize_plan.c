@@ -1,5 +1,18 @@
 #include "passes/voxelize_parts.h"
 
+/* Columns of voxels that one invocation does by itself, and those of a tile's side that a work
+ * group shares; tiles in the list, 8 bytes each. */
+#define SMALL_COLUMNS 16
+#define TILE 8
+#define MAX_TILES (1u << 20)
+
+#define BRICK_VOXELS (LSF_VOXEL_BRICK * LSF_VOXEL_BRICK * LSF_VOXEL_BRICK)
+
+/* Capacity for voxels that instances win: a storage block of 128 MiB. In a grid of more voxels
+ * than this of which more are occupied, a quarter of all at 512^3, the rest would have no
+ * surface. */
+#define MAX_WON ((uint64_t)1 << 25)
+
 const lsf_option_row lsf_voxelize_options[LSF_VOXELIZE_OPTION_COUNT] = {
     {"voxel.method", LSF_OPTION_ENUM, offsetof(lsf_voxelize_params, method), 0, 0, "compute|raster",
      "", "compute: an exact triangle-box test; raster: enlarged triangles on the raster pipeline"},
@@ -52,7 +65,8 @@ static void plan_programs(lsf_plan *plan)
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILE", TILE, "columns of a tile's side");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_GROUP_TILES", GROUP_TILES, "tiles of a work group");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_TILES", MAX_TILES, "room in the list of tiles");
-    lsf_plan_switch_add(plan, "LSF_VOXELIZE_ROW", ROW, "triangles of a row of work groups");
+    lsf_plan_switch_add(plan, "LSF_VOXELIZE_ROW", GROUP * ROW_GROUPS,
+                        "triangles of a row of work groups");
     lsf_plan_switch_add(plan, "LSF_BINDING_TILES", BINDING_TILES, "always");
     lsf_scene_gpu_material_switches(plan, false, false);
     lsf_voxel_chance_switch(plan);

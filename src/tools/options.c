@@ -227,7 +227,7 @@ static const lsf_command_option options[] = {
      "write the mean of the iterations without a filter; all pixels take the same samples unless "
      "interleave.size is set"},
     {"seed", 0, "N", STAGING, "Picture", LSF_VALUE_SEED, AT(seed), 0, 0, NULL, "0",
-     "seed of the random numbers: the same seed gives the same bits"},
+     "seed of the random numbers: the same seed gives the same bits, except on some GPUs"},
     {"define", 'D', "pass.key=value", STAGING, "Picture", LSF_VALUE_DEFINE, AT(defines), 0, 0, NULL,
      NULL, "set an option of a pass; repeatable; see --list-options"},
 

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "gl/gl.h"
+#include "shared/scene_data.h"
 
 /* The backend of tests that need no certain one: OSMesa, as a machine for tests has no GPU. With
  * LSF_TEST_BACKEND=egl they run on a GPU. */
@@ -35,7 +36,7 @@ static inline bool gl_test_same_float(float a, float b)
  * llvmpipe does not. */
 static inline float gl_test_raster_step(void)
 {
-    return gl_test_backend() == LSF_BACKEND_OSMESA ? 0.0f : 1.0f / 512.0f;
+    return gl_test_backend() == LSF_BACKEND_OSMESA ? 0.0f : LSF_RASTER_STEP;
 }
 
 /* NULL when the machine lacks this backend. */
