@@ -143,6 +143,10 @@ void main()
     if (hit.y == LSF_NO_NODE)
         kernel = along ? sky.z : sky.w;
 #endif
+#if LSF_LOBE_PATHS
+    if (hit.y == LSF_NO_NODE)
+        v.lobe_left = 1.0;
+#endif
     light_parts through = vertex_reflect(v, direction, kernel + suppression.z);
     vec3 arriving = vec3(0.0); /* emission */
     light_parts through_emission = through;

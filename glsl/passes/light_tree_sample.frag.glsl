@@ -4,6 +4,7 @@
  * libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/gbuffer_textures.glsl"
+#include "lib/lobe_paths.glsl"
 #include "lib/sparse.glsl"
 #include "passes/light_tree_sample_cut.glsl"
 #include "passes/light_tree_sample_walk.glsl"
@@ -61,6 +62,16 @@ vec3 seen(light_receiver r, light_point p)
 #endif
 }
 
+/* Share of the specular light that paths leave to samples. */
+float lobe_left(light_receiver r)
+{
+#if LSF_LOBE_PATHS
+    return 1.0 - lobe_paths_share(r.s, r.view);
+#else
+    return 1.0;
+#endif
+}
+
 /* Probability that a sample is for the specular lobe. */
 float specular_chance(light_receiver r)
 {
@@ -70,7 +81,7 @@ float specular_chance(light_receiver r)
 #if LSF_COAT
     chance = mix(chance, 1.0, p.coat);
 #endif
-    return chance;
+    return lobe_left(r) > 0.0 ? chance : 0.0;
 #else
     return 0.0;
 #endif
@@ -99,7 +110,7 @@ void add_light(light_receiver r, light_point p, bool specular, float probability
     float lost = held2 > distance2 ? max(geometry / distance2 - bounded, 0.0) : 0.0;
 #if LSF_SPECULAR
     if (specular) {
-        vec3 reflected = f.specular * intensity;
+        vec3 reflected = lobe_left(r) * f.specular * intensity;
         specular_out += vec4(bounded * reflected, lost * luminance(reflected));
         return;
     }

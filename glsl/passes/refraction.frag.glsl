@@ -5,6 +5,7 @@
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/interleave.glsl"
+#include "lib/lobe_paths.glsl"
 #include "lib/path_random.glsl"
 #include "lib/reflectance.glsl"
 #include "lib/sky.glsl"
@@ -17,10 +18,72 @@ layout(location = 0) uniform ivec2 lengths;   /* paths of a point, most segments
 layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
 
 layout(location = 0) out vec4 specular_out; /* added */
+#if LSF_SPLIT_DIRECT
+layout(location = 1) out vec4 direct_specular_out; /* added: emission that lobes of opaque points show */
+#endif
 
+/* Probability with which a path along a visible point's lobes takes the specular ones; sheen is found by the others. */
+#if LSF_SHEEN
+#define LOBES_SPECULAR 0.9
+#else
+#define LOBES_SPECULAR 1.0
+#endif
+
+/* Whether paths pass the surface, refracted. */
+bool is_medium(surface s)
+{
+#if LSF_ABSORPTION
+    return s.volume && s.transmission > 0.0;
+#else
+    return false;
+#endif
+}
+
+/* Microfacet reflection: a direction of the specular lobe, in the sampler's frame, for the normal h. `gain`: f cos / p of
+ * visible normals without the Fresnel term. */
+vec3 mirrored_at(brdf_sampler p, vec3 h, out float gain)
+{
+    vec3 local = 2.0 * dot(p.view, h) * h - p.view;
+    vec3 stretched = vec3(p.alpha_t, p.alpha, 1.0) * p.view;
+    gain = local.z <= 0.0 ? 0.0
+                          : 2.0 * local.z * (p.view.z + length(stretched)) *
+                                lsf_ggx_v_anisotropic(local.z, p.view.z, local.x, local.y, p.view.x, p.view.y, p.alpha_t,
+                                                      p.alpha);
+    return local;
+}
+
+#if LSF_LOBE_PATHS
+/* Draws by the specular lobes of a visible point. */
+brdf_sampler lobe_sampler(path_vertex v)
+{
+    brdf_sampler p = brdf_sampler_of(v.s, v.view, true);
+    p.specular = LOBES_SPECULAR;
+#if LSF_TRANSMISSION
+    p.passing = 0.0;
+#endif
+    return p;
+}
+
+/* Draws a direction of these lobes with the density `pdf`. False: nothing is reflected from there. */
+bool leave_by_lobe(path_vertex v, vec3 u, inout vec3 through, out vec3 direction, out float pdf)
+{
+    brdf_sampler p = lobe_sampler(v);
+    direction = brdf_draw(p, u);
+    pdf = brdf_pdf(p, direction);
+    float cosine = dot(v.s.normal, direction);
+    if (cosine <= 0.0 || dot(v.s.geometric_normal, direction) <= 0.0)
+        return false;
+    through *= brdf_evaluate(v.s, v.view, direction, 0.0).specular * (cosine / pdf);
+    return true;
+}
+#endif
+
+#if LSF_ABSORPTION
 /* Draws whether a path passes the surface of v or is reflected by it, and how. Multiplies the weight into `through`.
- * False: the path ends. */
-bool pass_or_reflect(path_vertex v, vec3 u, bool visible, inout vec3 through, out vec3 direction)
+ * `share`: the part of the lobe at a visible point that it has; other light gathers the rest as if the point were seen
+ * from outside. Of the environment that is all, so that `sky` becomes the part of the path's weight that nothing else
+ * finds. False: the path ends. */
+bool pass_or_reflect(path_vertex v, vec3 u, bool visible, float share, inout vec3 through, out vec3 direction, out float sky)
 {
     brdf_sampler p = brdf_sampler_of(v.s, v.view, false);
     vec3 h = brdf_visible_normal(p, disc_draw(u.xy));
@@ -28,27 +91,34 @@ bool pass_or_reflect(path_vertex v, vec3 u, bool visible, inout vec3 through, ou
     vec3 f0 = surface_specular_f0(v.s);
     float f90 = surface_specular_f90(v.s);
     vec3 mirrored = f0 + (f90 - f0) * lsf_fresnel_schlick(0.0, far_vh);
-    /* The lobe of visible points is gathered with other light, as if they were seen from outside. */
-    if (visible)
-        mirrored = max(mirrored - f0 - (f90 - f0) * lsf_fresnel_schlick(0.0, vh), 0.0);
+    sky = 1.0;
+    if (visible) {
+        vec3 gathered = f0 + (f90 - f0) * lsf_fresnel_schlick(0.0, vh);
+        vec3 found = max(mirrored - gathered, 0.0);
+        mirrored = max(mirrored - (1.0 - share) * gathered, 0.0);
+        sky = largest(found) / max(largest(mirrored), 1e-6);
+    }
     float enters = v.s.transmission * (1.0 - v.s.metallic) * (1.0 - brdf_interface(p, p.dielectric, vh));
     vec3 passes = v.s.base_color * enters;
     float chance = largest(mirrored) / max(largest(mirrored) + largest(passes), 1e-6), gain;
+    bool reflected = u.z < chance;
     vec3 local;
-    if (u.z < chance) {
-        local = 2.0 * vh * h - p.view;
-        gain = lsf_ggx_g1(local.z, local.x, local.y, p.alpha_t, p.alpha);
+    if (reflected) {
+        local = mirrored_at(p, h, gain);
         through *= mirrored / chance * gain;
     } else {
         local = brdf_transmitted(p, h, vh, gain);
         through *= passes * (gain / max(1.0 - chance, 1e-6));
+        sky = 1.0;
     }
     direction = brdf_from_frame(p, local);
     through *= brdf_layers_pass(p, v.s, direction);
-    bool reflected = u.z < chance, above = dot(v.s.geometric_normal, direction) > 0.0;
+    bool above = dot(v.s.geometric_normal, direction) > 0.0;
     return through != vec3(0.0) && (local.z > 0.0) == reflected && above == reflected;
 }
+#endif
 
+#if LSF_TRANSMISSION
 /* The share of the light that a voxel of a transmitting material holds which its diffuse lobe reflects; paths follow the
  * specular one. At the mean cosine of diffuse light, 2/3. */
 vec3 matte_share(surface s)
@@ -57,50 +127,131 @@ vec3 matte_share(surface s)
     reflectances(reflector(s.base_color, s.transmission, s.roughness, s.f0, s.metallic), 2.0 / 3.0, diffuse, specular);
     return diffuse / max(diffuse + specular, vec3(1e-6));
 }
+#endif
 
-/* Radiance of the side of a voxel towards a path's previous vertex. `mirrors`: the path goes on from it as from a mirror;
+bool transmits(surface s)
+{
+#if LSF_TRANSMISSION
+    return s.transmission > 0.0;
+#else
+    return false;
+#endif
+}
+
+/* Radiance of the side of a voxel towards a path's previous vertex, but for its emission. `density`: that of all paths in
+ * this direction [1/sr]; 0: it was not drawn by a BRDF. `mirrors`: the path goes on from the voxel as from a mirror;
  * `straight`: or straight through it. */
-vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, bool mirrors, bool straight)
+vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, float density, bool mirrors, bool straight)
 {
 #if LSF_VOXEL_MIRRORS
     if (mirrors) {
-        vec3 shown = voxel_emission_at(cell, side);
 #if LSF_VOXEL_LAMPS
-        shown += voxel_shows_lamp(met.s, cell, side, before.position, direction, 0.0);
+        return voxel_shows_lamp(met.s, cell, side, before.position, direction, density);
+#else
+        return vec3(0.0);
 #endif
-        return shown;
     }
 #endif
     vec3 held = texelFetch(voxel_radiance, cell + ivec3(0, 0, side * int(grid.size.z)), 0).rgb;
-    if (met.s.transmission > 0.0 && !straight) {
-        vec3 emission = voxel_emission_at(cell, side);
-        return emission + matte_share(met.s) * max(held - emission, 0.0);
-    }
+    held = max(held - voxel_emission_at(cell, side), 0.0);
+#if LSF_TRANSMISSION
+    if (met.s.transmission > 0.0 && !straight)
+        return matte_share(met.s) * held;
+#endif
 #if LSF_VOXEL_LAMPS
-    held = voxel_reflects(held, met.s, cell, side, before.position, direction, 0.0);
+    held = voxel_reflects(held, met.s, cell, side, before.position, direction, density);
 #endif
     return held;
 }
 
-/* Light of a path that begins at the visible point v of a body of that thickness, and passes its surface. */
-vec3 path_light(path_vertex v, float thickness, path_random_key key, uint index)
+#if LSF_EMITTERS
+/* Light of points drawn on emitters that v reflects, weighted against segments from v that hit them. `lobe`: v reflects
+ * by its specular lobes alone. */
+vec3 emitters_at(path_vertex v, bool lobe, vec3 absorption, path_random_key key, uint index, int segment)
 {
-    vec3 sum = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
+    vec3 sum = vec3(0.0);
+    brdf_sampler p = lobe ? lobe_sampler(v) : brdf_sampler_of(v.s, v.view, false);
+    uint count = uint(emitters.y);
+    for (uint i = 0u; i < count; i++) {
+        emitter_view e;
+        vec2 u = path_random(key, index * count + i, ~uint(segment)).xy;
+        if (!emitter_view_from(v.position, v.s.geometric_normal, u, e))
+            continue;
+        float cosine = dot(v.s.normal, e.direction);
+        if (cosine <= 0.0 || !voxel_sees(v.position, v.s.geometric_normal, e.position, e.normal))
+            continue;
+        float density = emitters.y * e.density;
+        brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
+        vec3 reflected = lobe ? f.specular : brdf_sum(v.s, f);
+        vec3 left = left_after(absorption_along(v, e.direction, absorption), e.position - v.position);
+        sum += reflected * e.radiance * left * (cosine / density * emitter_share(density, brdf_pdf(p, e.direction)));
+    }
+    return sum;
+}
+#endif
+
+/* Emission of a voxel that a segment from v has met, drawn with this density; 0: points on emitters are not drawn at
+ * v. */
+vec3 emission_met(path_vertex v, vec3 direction, float pdf, ivec3 cell, int side, path_vertex met)
+{
+    vec3 emission = voxel_emission_at(cell, side);
+#if LSF_EMITTERS
+    if (pdf > 0.0) {
+        float drawn = emitter_density_met(v.position, direction, met.position, met.s.geometric_normal,
+                                          texelFetch(voxel_point, cell, 0).r, grid.unit.x * emission);
+        emission *= emitter_share(pdf, emitters.y * drawn);
+    }
+#endif
+    return grid.unit.x * emission;
+}
+
+/* Light of a path that begins at the visible point v: through the surface of a medium, a body of that thickness, or along
+ * the specular lobes, of which it has a share. `direct`: the emission that these show. */
+vec3 path_light(path_vertex v, float thickness, float share, path_random_key key, uint index, out vec3 direct)
+{
+    vec3 sum = direct = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
+    bool medium = is_medium(v.s);
+    if (!medium)
+        through = vec3(share);
     bool mirrors = false; /* v is of smooth metal */
     bool spreads = false; /* v is opaque, and the path goes on from it by its whole BRDF */
     /* Density of the direction by the last vertex that spreads light [1/sr]; 0: there was none. Behind it light goes
      * straight through media, as voxels are lit. */
     float spread = 0.0;
+    float sky_part = 1.0; /* of the environment's light, that nothing else finds */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
-        float pdf;
+        float pdf = 0.0;
+        bool lobe = segment == 0 && !medium;
+#if LSF_EMITTERS
+        if (mirrors || spreads || lobe) {
+            vec3 lit = through * emitters_at(v, lobe, absorption, key, index, segment);
+            if (lobe)
+                direct += lit;
+            else
+                sum += lit;
+        }
+#endif
         if (mirrors || spreads) {
             if (!brdf_follow(v.s, u, direction, through, pdf))
                 break;
             spread = spreads ? dot(v.s.normal, direction) / LSF_PI : 0.0;
-        } else if (spread > 0.0) {
+            sky_part = 1.0;
+        }
+#if LSF_LOBE_PATHS
+        else if (lobe) {
+            if (!leave_by_lobe(v, u, through, direction, pdf))
+                break;
+            sky_part = 0.0;
+        }
+#endif
+#if LSF_TRANSMISSION
+        else if (spread > 0.0 || sky_part < 1.0) {
             through *= straight_transmittance(v.s, v.view);
-        } else if (!pass_or_reflect(v, u, segment == 0, through, direction)) {
+        }
+#endif
+#if LSF_ABSORPTION
+        else if (!pass_or_reflect(v, u, segment == 0, share, through, direction, sky_part)) {
             break;
         }
         path_vertex far_side;
@@ -109,6 +260,7 @@ vec3 path_light(path_vertex v, float thickness, path_random_key key, uint index)
             v = far_side;
             continue;
         }
+#endif
         voxel_ray ray;
         bool inside;
         ivec3 cell = ivec3(0);
@@ -117,10 +269,12 @@ vec3 path_light(path_vertex v, float thickness, path_random_key key, uint index)
         path_vertex met = v;
         if (meets)
             met = vertex_at(cell, v.position, direction, side);
+#if LSF_ABSORPTION
         path_find_exit(v, direction, meets, cell, side, met);
+#endif
         if (!meets) {
 #if LSF_ENVIRONMENT
-            vec3 sky = environment_radiance(direction);
+            vec3 sky = environment_radiance(direction) * sky_part;
             sum += through * (spread > 0.0 ? sky_left(sky, spread) : sky);
 #endif
             break;
@@ -128,17 +282,22 @@ vec3 path_light(path_vertex v, float thickness, path_random_key key, uint index)
         absorption = absorption_along(v, direction, absorption);
         through *= left_after(absorption, met.position - v.position);
 #if LSF_VOXEL_MIRRORS
-        mirrors = voxel_mirrors(met.s, 0.0);
+        mirrors = voxel_mirrors(met.s, pdf);
 #endif
+        bool last = false, straight = false;
 #if LSF_PATHS_BOUNCE
-        spreads = met.s.transmission == 0.0 && !mirrors;
-        bool last = segment == lengths.y - 1; /* no bounce is left for other light than emission */
-        sum += through * grid.unit.x * (last ? voxel_emission_at(cell, side)
-                                             : voxel_shows(met, cell, side, v, direction, mirrors, spread > 0.0));
-#else
-        sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, mirrors, false);
+        spreads = !transmits(met.s) && !mirrors;
+        last = segment == lengths.y - 1; /* no bounce is left for other light than emission */
+        straight = spread > 0.0 || sky_part < 1.0;
 #endif
-        if (met.s.unlit || (met.s.transmission == 0.0 && !mirrors && !spreads))
+        vec3 emission = through * emission_met(v, direction, pdf, cell, side, met);
+        if (lobe)
+            direct += emission;
+        else
+            sum += emission;
+        if (!last)
+            sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, float(lengths.x) * pdf, mirrors, straight);
+        if (met.s.unlit || (!transmits(met.s) && !mirrors && !spreads))
             break;
         v = met;
     }
@@ -161,21 +320,41 @@ void main()
     float depth = texelFetch(depth_texture, texel, 0).r;
     uvec4 surface_texel = texelFetch(surface_texture, texel, 0);
     specular_out = vec4(0.0);
+#if LSF_SPLIT_DIRECT
+    direct_specular_out = vec4(0.0);
+#endif
     if (depth == 0.0 || surface_texel_unlit(surface_texel))
         return;
     path_vertex v;
     v.s = surface_unpack(surface_texel);
     specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
-    if (!v.s.volume || v.s.transmission == 0.0)
-        return;
     ivec2 pixel = point_pixel(texel);
     vec2 ndc = sample_ndc(vec2(pixel) + 0.5);
     v.position = voxel_from_position(position_from_depth(ndc, depth));
     v.view = -normalize(view_ray_direction(ndc));
-    float thickness = seen_thickness(v, pixel, ndc);
+    float share = 0.0, thickness = VOXEL_FAR;
+    int count = lengths.x;
+#if LSF_LOBE_PATHS
+    share = lobe_paths_share(v.s, v.view);
+#endif
+#if LSF_ABSORPTION
+    if (is_medium(v.s))
+        thickness = seen_thickness(v, pixel, ndc);
+#endif
+    if (share == 0.0 && !is_medium(v.s))
+        return;
     path_random_key key;
     key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
-    for (int i = 0; i < lengths.x; i++)
-        specular_out.rgb += path_light(v, thickness, key, iteration.x * uint(lengths.x) + uint(i)) / float(lengths.x);
+    vec3 direct_sum = vec3(0.0);
+    for (int i = 0; i < count; i++) {
+        vec3 direct;
+        specular_out.rgb += path_light(v, thickness, share, key, iteration.x * uint(count) + uint(i), direct) / float(count);
+        direct_sum += direct / float(count);
+    }
+#if LSF_SPLIT_DIRECT
+    direct_specular_out.rgb = direct_sum;
+#else
+    specular_out.rgb += direct_sum;
+#endif
 }

@@ -74,6 +74,7 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
     lsf_plan_switch_add(plan, "LSF_POOLED",
                         !deep && plan->filtered && use->interleave > 1 && r->specular,
                         "a filter pools the light of the pattern");
+    lsf_plan_switch_add(plan, "LSF_LOBE_PATHS", use->lobes && !deep, "paths gather narrow lobes");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic,
@@ -205,6 +206,8 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
         if (!pass->vpl_programs[deep])
             return false;
     }
+    const char *first = lsf_plan_find_pass(plan, vpl_names[0]) ? vpl_names[0] : hit_names[0];
+    pass->lobes = lsf_plan_switch_value(plan, first, "LSF_LOBE_PATHS");
     pass->vpl_timer = lsf_timer_create(context, "bidirectional_shade_vpl", error);
     pass->hit_timer =
         pass->vpl_timer ? lsf_timer_create(context, "bidirectional_shade_hit", error) : NULL;
@@ -247,6 +250,8 @@ static void set_sample(const lsf_bidirectional_shade *pass, const lsf_bidirectio
         before = kernel / (sample->path_count * sample->arrival_pdf);
     glUniform4f(LSF_LOCATION_STRATEGY, sample->vpl_count, sample->bundle_count,
                 pass->params.mis_beta, sample->weight);
+    if (pass->lobes && !deep)
+        glUniform1f(LSF_LOCATION_LOBE_PATHS, pass->lobe_kernel);
     glUniform4f(LSF_LOCATION_SUPPRESSION, kernel, sample->bound, before, sample->light_probability);
 }
 

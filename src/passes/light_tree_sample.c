@@ -97,7 +97,7 @@ static void plan_triangles(lsf_plan *plan, const lsf_light_tree_sample_params *p
 }
 
 void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_params *params,
-                                bool covariance)
+                                bool covariance, bool lobes)
 {
     const lsf_requirements *r = &plan->requirements;
     bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
@@ -128,6 +128,7 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     else
         lsf_scene_gpu_scatter_switches(plan);
     lsf_scene_gpu_lobe_switches(plan, specular_params);
+    lsf_plan_switch_add(plan, "LSF_LOBE_PATHS", lobes, "paths gather narrow lobes");
     lsf_sparse_grid_texture_size(plan, size);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, size[0], size[1]);
     lsf_plan_buffer_add(plan, "light_tree_sample.counts",
@@ -142,7 +143,10 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
     static const char *const files[5] = {"lib/fullscreen.vert.glsl",
                                          "passes/light_tree_sample.frag.glsl"};
     *pass = (lsf_light_tree_sample){
-        .context = context, .params = *params, .sight = sight_of(plan, params)};
+        .context = context,
+        .params = *params,
+        .sight = sight_of(plan, params),
+        .lobes = lsf_plan_switch_value(plan, "light_tree_sample", "LSF_LOBE_PATHS")};
     const lsf_split_light *out = &pass->light;
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         !lsf_plan_create_buffer(plan, context, "light_tree_sample.counts", NULL, 0,
@@ -192,6 +196,13 @@ static void bind_sight(const lsf_light_tree_sample *pass, const lsf_iteration *i
     glUniform1ui(LOCATION_TRIANGLES, iteration->scene->triangle_count);
 }
 
+float lsf_light_tree_sample_lobe_kernel(const lsf_light_tree_sample *pass,
+                                        const lsf_iteration *iteration)
+{
+    return 2.0f * LSF_PI * pass->params.kernel_samples /
+           ((float)pass->params.samples * lsf_iteration_expected(iteration));
+}
+
 void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,
                                const lsf_light_tree_sample_inputs *inputs)
 {
@@ -204,6 +215,8 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_COUNTS, pass->count_buffer);
     bind_sight(pass, iteration, inputs);
     set_disc_scale(pass, iteration);
+    if (pass->lobes)
+        glUniform1f(LSF_LOCATION_LOBE_PATHS, lsf_light_tree_sample_lobe_kernel(pass, iteration));
     glUniform1f(LOCATION_SPREAD, square_or_any(pass->params.angle));
     /* By luminance alone the root is as good as any cut. */
     glUniform1f(LOCATION_CUT, pass->params.node == LSF_LIGHT_TREE_VPL

@@ -58,7 +58,8 @@ typedef struct lsf_light_tree_sample_inputs {
 typedef struct lsf_light_tree_sample {
     lsf_context *context;
     lsf_light_tree_sample_params params;
-    int sight; /* as LSF_LIGHT_TREE_SIGHT */
+    int sight;  /* as LSF_LIGHT_TREE_SIGHT */
+    bool lobes; /* paths gather narrow lobes */
     /* Output, at the points' places. Alpha: luminance that the bound took away. */
     lsf_split_light light;
     GLuint count_buffer;
@@ -67,13 +68,17 @@ typedef struct lsf_light_tree_sample {
     lsf_timer *timer;
 } lsf_light_tree_sample;
 
-/* `covariance`: as for the tree. Needs the G-buffer's plan, that of the tree and, where voxels
- * occlude, that of the voxels. */
+/* `covariance`: as for the tree; `lobes`: paths gather narrow lobes (refraction.h). Needs the
+ * G-buffer's plan, that of the tree and, where voxels occlude, that of the voxels. */
 void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_params *params,
-                                bool covariance);
+                                bool covariance, bool lobes);
 bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *context,
                                   const lsf_plan *plan, const lsf_light_tree_sample_params *params,
                                   lsf_error *error);
+/* For lib/lobe_paths.glsl: solid angle of as many samples of a point as its lobes are to be spread
+ * over, were they uniform over the half sphere [sr]. */
+float lsf_light_tree_sample_lobe_kernel(const lsf_light_tree_sample *pass,
+                                        const lsf_iteration *iteration);
 void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,
                                const lsf_light_tree_sample_inputs *inputs);
 /* Counts of all runs; it waits for them. */

@@ -17,10 +17,17 @@ const lsf_option_row lsf_refraction_options[LSF_REFRACTION_OPTION_COUNT] = {
      "substitute_tree; 0: light goes straight through it"},
 };
 
+static const char emitter_name[] = "refraction.emitters";
+
 bool lsf_refraction_needed(const lsf_plan *plan, const lsf_refraction_params *params)
 {
     return plan->straight && plan->requirements.refractive && plan->bounces > 0 &&
            params->paths > 0;
+}
+
+bool lsf_refraction_lobes(const lsf_plan *plan, const lsf_refraction_params *params)
+{
+    return plan->requirements.smooth_metal && plan->bounces > 0 && params->paths > 0;
 }
 
 void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
@@ -37,14 +44,23 @@ void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave, "interleave.size");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", true, "always");
     lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", true, "always");
-    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", true, "always");
-    lsf_plan_switch_add(plan, "LSF_ABSORPTION", true, "there are media");
+    lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
+                        "light passes materials that transmit");
+    lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->refracted, "there are media");
+    lsf_plan_switch_add(plan, "LSF_LOBE_PATHS", use->lobes, "there are smooth metals");
+    lsf_scene_gpu_scatter_switch(plan);
     lsf_voxel_specular_params_switch(plan);
     lsf_voxel_bend_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", r->anisotropic, "some material is anisotropic");
     lsf_scene_gpu_lobe_switches(plan, true);
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
                         "some material emits or is unlit");
+    bool emitters = use->bounces && r->emissive;
+    lsf_plan_switch_add(plan, "LSF_EMITTERS", emitters, "some material emits, and paths bounce");
+    if (emitters)
+        lsf_emitter_points_plan(plan, emitter_name);
+    lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
+                        "direct light is asked for apart");
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
     lsf_plan_switch_add(plan, "LSF_VOXEL_MIRRORS", use->mirrors,
                         "smooth metals mirror what is around them");
@@ -54,17 +70,33 @@ void lsf_refraction_plan(lsf_plan *plan, const lsf_refraction_params *params,
 }
 
 bool lsf_refraction_create(lsf_refraction *pass, lsf_context *context, const lsf_plan *plan,
-                           const lsf_refraction_params *params, uint32_t factor, GLuint specular,
-                           lsf_error *error)
+                           const lsf_refraction_params *params, uint32_t factor,
+                           const lsf_refraction_targets *targets, const lsf_scene *scene,
+                           const lsf_state *state, lsf_error *error)
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/refraction.frag.glsl"};
-    *pass = (lsf_refraction){.context = context, .paths = (uint32_t)params->paths * factor};
-    lsf_framebuffer_desc desc = {
-        .label = "refraction", .color_count = 1, .colors = {specular}, .layer = -1};
+    *pass = (lsf_refraction){.context = context,
+                             .paths = (uint32_t)params->paths * factor,
+                             .lobes = lsf_plan_switch_value(plan, "refraction", "LSF_LOBE_PATHS"),
+                             .targets = targets->direct ? 2 : 1};
+    if (lsf_plan_find(plan, emitter_name) &&
+        !lsf_emitter_points_create(&pass->emitters, context, plan, emitter_name, scene, state,
+                                   error))
+        return false;
+    lsf_framebuffer_desc desc = {.label = "refraction",
+                                 .color_count = pass->targets,
+                                 .colors = {targets->specular, targets->direct},
+                                 .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "refraction", files, error);
     pass->timer = lsf_timer_create(context, "refraction", error);
     return pass->framebuffer && pass->program && pass->timer;
+}
+
+bool lsf_refraction_follow(lsf_refraction *pass, bool materials_edited)
+{
+    return !pass->emitters.upload.buffer ||
+           lsf_emitter_points_follow(&pass->emitters, materials_edited);
 }
 
 void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
@@ -74,12 +106,18 @@ void lsf_refraction_run(lsf_refraction *pass, const lsf_iteration *iteration,
     lsf_timer_begin(pass->timer);
     lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
                          pass->program);
-    lsf_blend_add(1);
+    lsf_blend_add(pass->targets);
     lsf_path_inputs_bind(inputs, iteration);
     /* Each crossing is a segment; as many as paths of light have that bounce as often. */
     glUniform2i(LOCATION_LENGTHS, (GLint)pass->paths, (GLint)iteration->plan->bounces + 1);
+    if (pass->lobes)
+        glUniform1f(LSF_LOCATION_LOBE_PATHS, pass->lobe_kernel);
     glUniform2ui(LOCATION_ITERATION, iteration->index,
                  lsf_iteration_seed(iteration, LSF_PURPOSE_REFRACTION));
+    if (pass->emitters.upload.buffer) {
+        lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_REFRACTION_EMITTER);
+        lsf_emitter_points_bind(&pass->emitters, 1);
+    }
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }
@@ -89,6 +127,7 @@ void lsf_refraction_destroy(lsf_refraction *pass)
     if (!pass->context)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
+    lsf_emitter_points_destroy(&pass->emitters, pass->context);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
 }

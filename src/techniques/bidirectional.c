@@ -124,8 +124,11 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
             (lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
                                             error) &&
              lsf_sparse_chain_create(&b->sparse, context, plan, params, error))) &&
-           (!s.refracts || lsf_refraction_create(&b->refraction, context, plan, &params->refraction,
-                                                 1, b->shade.outputs.light.specular, error)) &&
+           (!s.refracts ||
+            lsf_refraction_create(&b->refraction, context, plan, &params->refraction, 1,
+                                  &(lsf_refraction_targets){b->shade.outputs.light.specular,
+                                                            b->shade.outputs.direct.specular},
+                                  scene->scene, state, error)) &&
            lsf_compose_create(&b->compose, context, plan, error);
 }
 
@@ -141,6 +144,9 @@ static lsf_update update_bidirectional(void *self, const lsf_pass_params *params
                                iteration->state);
     bool emitters = b->sampling.vpl_emitter && (changes->moved || changes->materials);
     if (emitters && !lsf_emitters_update(&b->emitters, changes->materials))
+        return LSF_UPDATE_FAILED;
+    if ((changes->moved || changes->materials) &&
+        !lsf_refraction_follow(&b->refraction, changes->materials))
         return LSF_UPDATE_FAILED;
     lsf_voxel_chain_use voxels = lsf_refraction_chain_voxels(iteration->plan, iteration->state);
     return lsf_voxel_chain_update(&b->chain, params, iteration, &voxels, changes);
@@ -474,6 +480,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     if (light->irradiance) {
         lsf_bidirectional_shade_inputs inputs = {
             .seen = lsf_sparse_chain_split(&b->sparse, iteration, &gbuffer->seen)};
+        b->shade.lobe_kernel = b->refraction.lobe_kernel = suppressed_angle(b, iteration);
         run_samples(b, iteration, &inputs);
         if (b->sampling.refracts) {
             const lsf_path_inputs paths = lsf_voxel_chain_paths(&b->chain, inputs.seen);
@@ -489,7 +496,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
         .parts = parts,
         .layers = b->compose.outputs,
         .bounded = b->shade_params.bound > 0.0f,
-        .kernel = suppressed_angle(b, iteration),
+        .kernel = b->shade.lobes ? 0.0f : suppressed_angle(b, iteration),
         .gate = b->bundle ? lsf_ray_bundle_gate(b->bundle) : 0,
     };
 }
@@ -563,6 +570,7 @@ const lsf_technique lsf_technique_bidirectional = {
     .groups = groups,
     .bounces = true,
     .maps_scene = true,
+    .voxels_in_a_second = 64,
     .plan = lsf_bidirectional_plan,
     .create = create_bidirectional,
     .update = update_bidirectional,

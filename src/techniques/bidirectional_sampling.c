@@ -147,7 +147,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
     plan->tiles = s.tiles;
     bool indirect = s.vpl_light || s.vpl_emitter || s.segments > 0;
-    plan->refracted = s.refracts;
+    plan->refracted = s.refracts && lsf_refraction_needed(plan, &params->refraction);
     if (s.refracts) {
         lsf_voxel_chain_use voxels = lsf_refraction_chain_voxels(plan, state);
         lsf_voxel_chain_plan(plan, params, state, &voxels);
@@ -197,11 +197,13 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
             .deep_vpl = s.segments > 0 &&
                         ((s.vpl_light && s.bounces > 1) || (s.vpl_emitter && s.bounces > 0)),
             .split_direct = s.split_direct,
+            .lobes = s.refracts && lsf_refraction_lobes(plan, &params->refraction),
             .interleave = s.interleave};
         lsf_bidirectional_shade_plan(plan, &params->bidirectional_shade, &use);
         if (s.refracts)
             lsf_refraction_chain_plan(plan, params, state,
-                                      "bidirectional_shade.specular voxel_light", 1, s.interleave);
+                                      "bidirectional_shade.specular voxel_light", 1, s.interleave,
+                                      s.split_direct);
         lsf_sparse_chain_plan_finish(plan, params, s.interleave);
     } else {
         lsf_plan_omit(plan, "bidirectional_shade", "no light bounces");

@@ -157,7 +157,9 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
            (!c->variant.refracts ||
             lsf_refraction_create(&c->refraction, context, plan, &params->refraction,
-                                  REFRACTION_FACTOR, c->trace.light.specular, error)) &&
+                                  REFRACTION_FACTOR,
+                                  &(lsf_refraction_targets){.specular = c->trace.light.specular},
+                                  scene->scene, state, error)) &&
            lsf_sparse_chain_create(&c->sparse, context, plan, params, error);
 }
 

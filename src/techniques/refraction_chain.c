@@ -2,7 +2,8 @@
 
 bool lsf_refraction_chain_needed(const lsf_plan *plan, const lsf_pass_params *params)
 {
-    return lsf_voxel_chain_has_voxels(plan) && lsf_refraction_needed(plan, &params->refraction);
+    return lsf_voxel_chain_has_voxels(plan) && (lsf_refraction_needed(plan, &params->refraction) ||
+                                                lsf_refraction_lobes(plan, &params->refraction));
 }
 
 /* A path goes on from each voxel by one ray. */
@@ -16,13 +17,15 @@ lsf_voxel_chain_use lsf_refraction_chain_voxels(const lsf_plan *plan, const lsf_
 
 void lsf_refraction_chain_plan(lsf_plan *plan, const lsf_pass_params *params,
                                const lsf_state *state, const char *reads, uint32_t factor,
-                               uint32_t interleave)
+                               uint32_t interleave, bool split_direct)
 {
     const lsf_refraction_use use = {.reads = reads,
                                     .mirrors = lsf_voxel_mirrors(plan, state),
                                     .lamps = lsf_refraction_chain_voxels(plan, state).lamps,
                                     .factor = factor,
                                     .interleave = interleave,
+                                    .split_direct = split_direct,
+                                    .lobes = lsf_refraction_lobes(plan, &params->refraction),
                                     .bounces = true};
     lsf_refraction_plan(plan, &params->refraction, &use);
 }

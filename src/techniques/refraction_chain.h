@@ -14,6 +14,6 @@ lsf_voxel_chain_use lsf_refraction_chain_voxels(const lsf_plan *plan, const lsf_
  * as in lsf_refraction_use. */
 void lsf_refraction_chain_plan(lsf_plan *plan, const lsf_pass_params *params,
                                const lsf_state *state, const char *reads, uint32_t factor,
-                               uint32_t interleave);
+                               uint32_t interleave, bool split_direct);
 
 #endif

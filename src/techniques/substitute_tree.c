@@ -20,9 +20,11 @@
 
 /* Voxels serve for paths of light and for visibility; they send out light only for refracted
  * paths. */
-static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_state *state)
+static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_pass_params *params,
+                                     const lsf_state *state)
 {
-    return plan->refracted ? lsf_refraction_chain_voxels(plan, state) : (lsf_voxel_chain_use){0};
+    return lsf_refraction_chain_needed(plan, params) ? lsf_refraction_chain_voxels(plan, state)
+                                                     : (lsf_voxel_chain_use){0};
 }
 
 typedef struct substitute_tree {
@@ -84,9 +86,9 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
                                  const lsf_state *state)
 {
     lsf_vpl_cloud_use use = cloud_use(plan, state);
-    plan->refracted = is_traced(&use) && lsf_refraction_chain_needed(plan, params);
+    plan->refracted = is_traced(&use) && lsf_refraction_needed(plan, &params->refraction);
     if (is_traced(&use)) {
-        lsf_voxel_chain_use voxels = chain_use(plan, state);
+        lsf_voxel_chain_use voxels = chain_use(plan, params, state);
         lsf_voxel_chain_plan(plan, params, state, &voxels);
         if (use.lights)
             lsf_reflective_shadow_map_plan(
@@ -97,10 +99,11 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
         lsf_vpl_cloud_plan(plan, &params->vpl_cloud, &use);
         lsf_light_tree_plan(plan, &params->light_tree, record_count(params, &use), "vpl_cloud");
         lsf_sparse_chain_plan_split(plan, params, 1);
-        lsf_light_tree_sample_plan(plan, &params->light_tree_sample, params->light_tree.covariance);
-        if (plan->refracted)
+        lsf_light_tree_sample_plan(plan, &params->light_tree_sample, params->light_tree.covariance,
+                                   lsf_refraction_lobes(plan, &params->refraction));
+        if (lsf_refraction_chain_needed(plan, params))
             lsf_refraction_chain_plan(plan, params, state, "light_tree_sample.specular voxel_light",
-                                      REFRACTION_FACTOR, 1);
+                                      REFRACTION_FACTOR, 1, false);
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
@@ -124,7 +127,7 @@ static bool create_traced(substitute_tree *t, lsf_context *context, const lsf_pl
                           const lsf_pass_params *params, const lsf_scene_gpu *scene,
                           const lsf_state *state, lsf_error *error)
 {
-    lsf_voxel_chain_use voxels = chain_use(plan, state);
+    lsf_voxel_chain_use voxels = chain_use(plan, params, state);
     return lsf_voxel_chain_create(&t->chain, context, plan, params, scene, state, &voxels, error) &&
            (!t->use.lights || create_lights(t, context, plan, scene->scene, state, error)) &&
            lsf_vpl_cloud_create(&t->cloud, context, plan, &params->vpl_cloud, &t->use, scene->scene,
@@ -133,9 +136,11 @@ static bool create_traced(substitute_tree *t, lsf_context *context, const lsf_pl
                                  record_count(params, &t->use), error) &&
            lsf_light_tree_sample_create(&t->sample, context, plan, &params->light_tree_sample,
                                         error) &&
-           (!plan->refracted ||
+           (!lsf_refraction_chain_needed(plan, params) ||
             lsf_refraction_create(&t->refraction, context, plan, &params->refraction,
-                                  REFRACTION_FACTOR, t->sample.light.specular, error)) &&
+                                  REFRACTION_FACTOR,
+                                  &(lsf_refraction_targets){.specular = t->sample.light.specular},
+                                  scene->scene, state, error)) &&
            lsf_sparse_chain_create(&t->sparse, context, plan, params, error);
 }
 
@@ -163,9 +168,10 @@ static lsf_update update_substitute_tree(void *self, const lsf_pass_params *para
         lsf_light_picks_update(&t->picks, iteration->plan, iteration->scene->scene,
                                iteration->state);
     if ((changes->moved || changes->materials) &&
-        !lsf_vpl_cloud_follow(&t->cloud, changes->materials))
+        (!lsf_vpl_cloud_follow(&t->cloud, changes->materials) ||
+         !lsf_refraction_follow(&t->refraction, changes->materials)))
         return LSF_UPDATE_FAILED;
-    lsf_voxel_chain_use voxels = chain_use(iteration->plan, iteration->state);
+    lsf_voxel_chain_use voxels = chain_use(iteration->plan, params, iteration->state);
     return lsf_voxel_chain_update(&t->chain, params, iteration, &voxels, changes);
 }
 
@@ -202,6 +208,7 @@ static lsf_split_light gather(substitute_tree *t, const lsf_iteration *iteration
     lsf_light_tree_sample_run(&t->sample, iteration, &inputs);
     if (t->refraction.timer) {
         const lsf_path_inputs paths = lsf_voxel_chain_paths(&t->chain, inputs.seen);
+        t->refraction.lobe_kernel = lsf_light_tree_sample_lobe_kernel(&t->sample, iteration);
         lsf_refraction_run(&t->refraction, iteration, &paths);
     }
     return lsf_sparse_chain_finish(&t->sparse, iteration, seen, &t->sample.light);

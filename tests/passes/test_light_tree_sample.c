@@ -97,7 +97,7 @@ static void rig_begin(rig *r, struct lsf_vpl_record *records, uint32_t count,
     lsf_context *context = r->surfaces.context;
     plan->samples = 1; /* bounds are those of a single iteration */
     lsf_light_tree_plan(plan, &tree, count, "cloud");
-    lsf_light_tree_sample_plan(plan, params, covariance);
+    lsf_light_tree_sample_plan(plan, params, covariance, false);
     surface_rig_start(&r->surfaces);
     move_cloud(r, records, count);
     r->cloud = lsf_buffer_create(context, "cloud", count * sizeof *records, records, 0, &error);
