@@ -9,7 +9,7 @@
 #define LSF_LIB_SHADING_VERTEX
 
 #include "lib/brdf.glsl"
-#include "lib/lobe_paths.glsl"
+#include "lib/specular_share.glsl"
 #if LSF_POOLED
 #include "lib/pooling.glsl"
 #endif
@@ -33,7 +33,7 @@ struct shading_vertex {
     surface s;
     float raster_error;     /* the position's, see LSF_RASTER_STEP */
     vec3 diffuse, specular; /* contribution to both parts of unit radiance towards that vertex */
-#if LSF_LOBE_PATHS
+#if LSF_SPECULAR_PATHS
     float lobe_left; /* share of the specular light of surfaces that paths leave */
 #endif
 #if LSF_POOLED
@@ -111,8 +111,8 @@ bool vertex_load(out shading_vertex v)
 #else
     v.view = surface_view(v.s, v.view);
 #endif
-#if LSF_LOBE_PATHS
-    v.lobe_left = 1.0 - lobe_paths_share(v.s, v.view);
+#if LSF_SPECULAR_PATHS
+    v.lobe_left = 1.0 - specular_paths_share(v.s, v.view);
 #endif
 #if LSF_POOLED
     /* Neighbours in split order are one pattern apart. */
@@ -143,7 +143,7 @@ light_parts vertex_reflect(shading_vertex v, vec3 direction, float kernel)
 #else
     r.irradiance = vec3(f.diffuse * cosine);
     r.specular = f.specular * cosine;
-#if LSF_LOBE_PATHS
+#if LSF_SPECULAR_PATHS
     r.specular *= v.lobe_left;
 #endif
 #endif

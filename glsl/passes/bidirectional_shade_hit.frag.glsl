@@ -143,7 +143,7 @@ void main()
     if (hit.y == LSF_NO_NODE)
         kernel = along ? sky.z : sky.w;
 #endif
-#if LSF_LOBE_PATHS
+#if LSF_SPECULAR_PATHS
     if (hit.y == LSF_NO_NODE)
         v.lobe_left = 1.0;
 #endif

@@ -4,7 +4,7 @@
  * libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/gbuffer_textures.glsl"
-#include "lib/lobe_paths.glsl"
+#include "lib/specular_share.glsl"
 #include "lib/sparse.glsl"
 #include "passes/light_tree_sample_cut.glsl"
 #include "passes/light_tree_sample_walk.glsl"
@@ -65,8 +65,8 @@ vec3 seen(light_receiver r, light_point p)
 /* Share of the specular light that paths leave to samples. */
 float lobe_left(light_receiver r)
 {
-#if LSF_LOBE_PATHS
-    return 1.0 - lobe_paths_share(r.s, r.view);
+#if LSF_SPECULAR_PATHS
+    return 1.0 - specular_paths_share(r.s, r.view);
 #else
     return 1.0;
 #endif

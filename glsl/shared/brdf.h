@@ -73,13 +73,13 @@ LSF_SHARED_FUNCTION float lsf_fresnel_schlick_to(float f0, float f90, float vh)
 
 /* Rays are not refracted by indices nearer to 1 than this: the half vector of the directions on
  * both sides has lost too many digits. */
-#define LSF_REFRACTION_MIN (1.0f / 128.0f)
+#define LSF_SPECULAR_PATH_MIN (1.0f / 128.0f)
 
 /* Index behind a surface over the index in front of it; `ior` is that of the medium behind the
  * surface's front. 1: rays go straight on. */
 LSF_SHARED_FUNCTION float lsf_relative_ior(float ior, bool front)
 {
-    if (ior < 1.0f + LSF_REFRACTION_MIN)
+    if (ior < 1.0f + LSF_SPECULAR_PATH_MIN)
         return 1.0f;
     return front ? ior : 1.0f / ior;
 }

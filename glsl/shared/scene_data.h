@@ -135,8 +135,8 @@ struct lsf_lobe_data {
 #define LSF_LOCATION_VOXEL_LAMP (LSF_LOCATION_EMITTERS + 1)
 /* Location of the random numbers of lamps that voxels keep; see passes/voxel_light.comp.glsl. */
 #define LSF_LOCATION_LAMP_SEED (LSF_LOCATION_VOXEL_LAMP + 1)
-/* Location of the kernel beside which paths gather narrow lobes; see lib/lobe_paths.glsl. */
-#define LSF_LOCATION_LOBE_PATHS (LSF_LOCATION_LAMP_SEED + 1)
+/* Location of the kernel that decides which lobes paths gather; see lib/specular_share.glsl. */
+#define LSF_LOCATION_SPECULAR_SHARE (LSF_LOCATION_LAMP_SEED + 1)
 
 /* Uniform buffers. */
 #define LSF_BINDING_VIEW 0

@@ -34,8 +34,8 @@ typedef enum lsf_purpose {
     LSF_PURPOSE_OPEN_SKY, /* directions whose light has no shadows */
     LSF_PURPOSE_VOXEL_DRAW,
     LSF_PURPOSE_VOXEL_LAMP,
-    LSF_PURPOSE_REFRACTION,
-    LSF_PURPOSE_REFRACTION_EMITTER,
+    LSF_PURPOSE_SPECULAR_PATH,
+    LSF_PURPOSE_SPECULAR_PATH_EMITTER,
     LSF_PURPOSE_STRAIGHT_SHADOW_MAP = 0x80000,            /* one for each light */
     LSF_PURPOSE_STRAIGHT_REFLECTIVE_SHADOW_MAP = 0xa0000, /* the same */
     LSF_PURPOSE_STRAIGHT_VPL = 0xc0000,                   /* one for each VPL of an iteration */

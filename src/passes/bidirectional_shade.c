@@ -74,7 +74,8 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
     lsf_plan_switch_add(plan, "LSF_POOLED",
                         !deep && plan->filtered && use->interleave > 1 && r->specular,
                         "a filter pools the light of the pattern");
-    lsf_plan_switch_add(plan, "LSF_LOBE_PATHS", use->lobes && !deep, "paths gather narrow lobes");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PATHS", use->lobes && !deep,
+                        "paths gather narrow lobes");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_ANISOTROPY", specular_params && r->anisotropic,
@@ -207,7 +208,7 @@ bool lsf_bidirectional_shade_create(lsf_bidirectional_shade *pass, lsf_context *
             return false;
     }
     const char *first = lsf_plan_find_pass(plan, vpl_names[0]) ? vpl_names[0] : hit_names[0];
-    pass->lobes = lsf_plan_switch_value(plan, first, "LSF_LOBE_PATHS");
+    pass->lobes = lsf_plan_switch_value(plan, first, "LSF_SPECULAR_PATHS");
     pass->vpl_timer = lsf_timer_create(context, "bidirectional_shade_vpl", error);
     pass->hit_timer =
         pass->vpl_timer ? lsf_timer_create(context, "bidirectional_shade_hit", error) : NULL;
@@ -251,7 +252,7 @@ static void set_sample(const lsf_bidirectional_shade *pass, const lsf_bidirectio
     glUniform4f(LSF_LOCATION_STRATEGY, sample->vpl_count, sample->bundle_count,
                 pass->params.mis_beta, sample->weight);
     if (pass->lobes && !deep)
-        glUniform1f(LSF_LOCATION_LOBE_PATHS, pass->lobe_kernel);
+        glUniform1f(LSF_LOCATION_SPECULAR_SHARE, pass->lobe_kernel);
     glUniform4f(LSF_LOCATION_SUPPRESSION, kernel, sample->bound, before, sample->light_probability);
 }
 

@@ -52,7 +52,7 @@ typedef struct lsf_bidirectional_shade_use {
     bool hit_light;      /* hits of bundles reflect punctual lights */
     bool deep_vpl;       /* VPLs are connected to vertices beyond the visible one */
     bool split_direct;   /* their light on visible points is asked for apart */
-    bool lobes;          /* paths gather narrow lobes (refraction.h) */
+    bool lobes;          /* paths gather narrow lobes (specular_path.h) */
     uint32_t interleave; /* size of the pattern, 1: none */
 } lsf_bidirectional_shade_use;
 
@@ -100,7 +100,7 @@ typedef struct lsf_bidirectional_shade {
     lsf_bidirectional_shade_outputs outputs;
     GLuint throughput;
     bool lobes;
-    float lobe_kernel;          /* see lib/lobe_paths.glsl; set before it runs */
+    float lobe_kernel;          /* see lib/specular_share.glsl; set before it runs */
     GLuint vpl_framebuffers[2]; /* [1]: for light that is asked for apart; 0 unless it is */
     GLuint hit_framebuffers[2]; /* [deep] */
     uint32_t hit_floats[2];     /* blended attachments of these */

@@ -128,7 +128,7 @@ void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_para
     else
         lsf_scene_gpu_scatter_switches(plan);
     lsf_scene_gpu_lobe_switches(plan, specular_params);
-    lsf_plan_switch_add(plan, "LSF_LOBE_PATHS", lobes, "paths gather narrow lobes");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PATHS", lobes, "paths gather narrow lobes");
     lsf_sparse_grid_texture_size(plan, size);
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, size[0], size[1]);
     lsf_plan_buffer_add(plan, "light_tree_sample.counts",
@@ -146,7 +146,7 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
         .context = context,
         .params = *params,
         .sight = sight_of(plan, params),
-        .lobes = lsf_plan_switch_value(plan, "light_tree_sample", "LSF_LOBE_PATHS")};
+        .lobes = lsf_plan_switch_value(plan, "light_tree_sample", "LSF_SPECULAR_PATHS")};
     const lsf_split_light *out = &pass->light;
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         !lsf_plan_create_buffer(plan, context, "light_tree_sample.counts", NULL, 0,
@@ -216,7 +216,8 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
     bind_sight(pass, iteration, inputs);
     set_disc_scale(pass, iteration);
     if (pass->lobes)
-        glUniform1f(LSF_LOCATION_LOBE_PATHS, lsf_light_tree_sample_lobe_kernel(pass, iteration));
+        glUniform1f(LSF_LOCATION_SPECULAR_SHARE,
+                    lsf_light_tree_sample_lobe_kernel(pass, iteration));
     glUniform1f(LOCATION_SPREAD, square_or_any(pass->params.angle));
     /* By luminance alone the root is as good as any cut. */
     glUniform1f(LOCATION_CUT, pass->params.node == LSF_LIGHT_TREE_VPL

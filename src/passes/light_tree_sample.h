@@ -68,15 +68,15 @@ typedef struct lsf_light_tree_sample {
     lsf_timer *timer;
 } lsf_light_tree_sample;
 
-/* `covariance`: as for the tree; `lobes`: paths gather narrow lobes (refraction.h). Needs the
+/* `covariance`: as for the tree; `lobes`: paths gather narrow lobes (specular_path.h). Needs the
  * G-buffer's plan, that of the tree and, where voxels occlude, that of the voxels. */
 void lsf_light_tree_sample_plan(lsf_plan *plan, const lsf_light_tree_sample_params *params,
                                 bool covariance, bool lobes);
 bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *context,
                                   const lsf_plan *plan, const lsf_light_tree_sample_params *params,
                                   lsf_error *error);
-/* For lib/lobe_paths.glsl: solid angle of as many samples of a point as its lobes are to be spread
- * over, were they uniform over the half sphere [sr]. */
+/* For lib/specular_share.glsl: solid angle of as many samples of a point as its lobes are to be
+ * spread over, were they uniform over the half sphere [sr]. */
 float lsf_light_tree_sample_lobe_kernel(const lsf_light_tree_sample *pass,
                                         const lsf_iteration *iteration);
 void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration *iteration,

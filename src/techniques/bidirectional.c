@@ -19,14 +19,14 @@
 #include "techniques/bidirectional_sampling.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/light_picks.h"
-#include "techniques/refraction_chain.h"
 #include "techniques/sparse_chain.h"
+#include "techniques/specular_path_chain.h"
 
 typedef struct bidirectional {
     lsf_context *context;
     lsf_bidirectional_sampling sampling;
-    lsf_voxel_chain chain; /* without voxels, unless media are refracted */
-    lsf_refraction refraction;
+    lsf_voxel_chain chain; /* without voxels, unless paths go through them */
+    lsf_specular_path paths;
     lsf_reflective_shadow_map rsm;
     lsf_vpl vpl;
     lsf_ray_bundle *bundle;         /* NULL: no bundles */
@@ -88,11 +88,11 @@ static bool create_chain(bidirectional *b, lsf_context *context, const lsf_plan 
                          const lsf_pass_params *params, const lsf_scene_gpu *scene,
                          const lsf_state *state, lsf_error *error)
 {
-    lsf_voxel_chain_use voxels = lsf_refraction_chain_voxels(plan, state);
-    return b->sampling.refracts ? lsf_voxel_chain_create(&b->chain, context, plan, params, scene,
-                                                         state, &voxels, error)
-                                : lsf_direct_chain_create(&b->chain.direct, context, plan, params,
-                                                          scene, NULL, error);
+    lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(plan, state);
+    return b->sampling.specular_paths ? lsf_voxel_chain_create(&b->chain, context, plan, params,
+                                                               scene, state, &voxels, error)
+                                      : lsf_direct_chain_create(&b->chain.direct, context, plan,
+                                                                params, scene, NULL, error);
 }
 
 static bool create_bidirectional(void **self, lsf_context *context, const lsf_plan *plan,
@@ -124,11 +124,11 @@ static bool create_bidirectional(void **self, lsf_context *context, const lsf_pl
             (lsf_bidirectional_shade_create(&b->shade, context, plan, &params->bidirectional_shade,
                                             error) &&
              lsf_sparse_chain_create(&b->sparse, context, plan, params, error))) &&
-           (!s.refracts ||
-            lsf_refraction_create(&b->refraction, context, plan, &params->refraction, 1,
-                                  &(lsf_refraction_targets){b->shade.outputs.light.specular,
-                                                            b->shade.outputs.direct.specular},
-                                  scene->scene, state, error)) &&
+           (!s.specular_paths ||
+            lsf_specular_path_create(&b->paths, context, plan, &params->specular_path, 1,
+                                     &(lsf_specular_path_targets){b->shade.outputs.light.specular,
+                                                                  b->shade.outputs.direct.specular},
+                                     scene->scene, state, error)) &&
            lsf_compose_create(&b->compose, context, plan, error);
 }
 
@@ -146,9 +146,9 @@ static lsf_update update_bidirectional(void *self, const lsf_pass_params *params
     if (emitters && !lsf_emitters_update(&b->emitters, changes->materials))
         return LSF_UPDATE_FAILED;
     if ((changes->moved || changes->materials) &&
-        !lsf_refraction_follow(&b->refraction, changes->materials))
+        !lsf_specular_path_follow(&b->paths, changes->materials))
         return LSF_UPDATE_FAILED;
-    lsf_voxel_chain_use voxels = lsf_refraction_chain_voxels(iteration->plan, iteration->state);
+    lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(iteration->plan, iteration->state);
     return lsf_voxel_chain_update(&b->chain, params, iteration, &voxels, changes);
 }
 
@@ -472,7 +472,7 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     const lsf_split_light *light = &b->shade.outputs.light;
     share_sky(b, iteration);
     b->chain.direct.gbuffer.lobe_angle = suppressed_angle(b, iteration);
-    if (b->sampling.refracts)
+    if (b->sampling.specular_paths)
         lsf_voxel_chain_run(&b->chain, iteration);
     else
         lsf_direct_chain_run(&b->chain.direct, iteration);
@@ -480,11 +480,11 @@ static void run_bidirectional(void *self, const lsf_iteration *iteration,
     if (light->irradiance) {
         lsf_bidirectional_shade_inputs inputs = {
             .seen = lsf_sparse_chain_split(&b->sparse, iteration, &gbuffer->seen)};
-        b->shade.lobe_kernel = b->refraction.lobe_kernel = suppressed_angle(b, iteration);
+        b->shade.lobe_kernel = b->paths.lobe_kernel = suppressed_angle(b, iteration);
         run_samples(b, iteration, &inputs);
-        if (b->sampling.refracts) {
+        if (b->sampling.specular_paths) {
             const lsf_path_inputs paths = lsf_voxel_chain_paths(&b->chain, inputs.seen);
-            lsf_refraction_run(&b->refraction, iteration, &paths);
+            lsf_specular_path_run(&b->paths, iteration, &paths);
         }
         parts.indirect = lsf_sparse_chain_finish(&b->sparse, iteration, &gbuffer->seen, light);
     }
@@ -522,7 +522,7 @@ static void destroy_bidirectional(void *self)
     lsf_bundle_directions_finish(&b->directions);
     lsf_vpl_destroy(&b->vpl);
     lsf_reflective_shadow_map_destroy(&b->rsm);
-    lsf_refraction_destroy(&b->refraction);
+    lsf_specular_path_destroy(&b->paths);
     lsf_voxel_chain_destroy(&b->chain);
     lsf_light_picks_finish(&b->light_picks);
     lsf_emitters_finish(&b->emitters);
@@ -550,7 +550,7 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
         {.timer = bundle_timers[2]},
         {.timer = b->shade.vpl_timer},
         {.timer = b->shade.hit_timer},
-        {.timer = b->refraction.timer},
+        {.timer = b->paths.timer},
     };
     count += lsf_sparse_chain_report_split(&b->sparse, reports + count);
     for (size_t i = 0; i < LSF_COUNT(candidates); i++)
@@ -562,7 +562,7 @@ static uint32_t report_bidirectional(void *self, lsf_pass_report reports[LSF_TEC
 }
 
 static const char *const groups[] = {
-    "rsm", "vpl", "bundle", "bidirectional", "mis", "refraction", "voxel", "sparse", NULL};
+    "rsm", "vpl", "bundle", "bidirectional", "mis", "specular_path", "voxel", "sparse", NULL};
 
 const lsf_technique lsf_technique_bidirectional = {
     .name = "bidirectional",

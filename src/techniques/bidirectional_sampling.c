@@ -7,8 +7,8 @@
 #include "plan/sky_light.h"
 #include "techniques/bundle_directions.h"
 #include "techniques/direct_chain.h"
-#include "techniques/refraction_chain.h"
 #include "techniques/sparse_chain.h"
+#include "techniques/specular_path_chain.h"
 
 static uint32_t max_u32(uint32_t a, uint32_t b)
 {
@@ -72,8 +72,8 @@ lsf_bidirectional_sampling lsf_bidirectional_sampling_choose(const lsf_plan *pla
     s.emitter_count = s.vpl_emitter ? max_u32(vpl_count, s.tiles) : 0;
     if (!s.vpl_light && !s.vpl_emitter && s.segments == 0)
         s.interleave = s.tiles = 1;
-    s.refracts = (s.vpl_light || s.vpl_emitter || s.segments > 0) &&
-                 lsf_refraction_chain_needed(plan, params);
+    s.specular_paths = (s.vpl_light || s.vpl_emitter || s.segments > 0) &&
+                       lsf_specular_path_chain_needed(plan, params);
     s.split_direct =
         (s.emission || s.vpl_emitter) && lsf_sparse_chain_is_plain(plan, params, s.interleave) &&
         (plan->aovs & (LSF_AOV_DIRECT | LSF_AOV_INDIRECT_DIFFUSE | LSF_AOV_INDIRECT_SPECULAR));
@@ -147,9 +147,9 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     plan->random_samples = params->bidirectional_shade.sequence == LSF_BIDIRECTIONAL_RANDOM;
     plan->tiles = s.tiles;
     bool indirect = s.vpl_light || s.vpl_emitter || s.segments > 0;
-    plan->refracted = s.refracts && lsf_refraction_needed(plan, &params->refraction);
-    if (s.refracts) {
-        lsf_voxel_chain_use voxels = lsf_refraction_chain_voxels(plan, state);
+    plan->refracted = s.specular_paths && lsf_specular_path_media(plan, &params->specular_path);
+    if (s.specular_paths) {
+        lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(plan, state);
         lsf_voxel_chain_plan(plan, params, state, &voxels);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
@@ -197,13 +197,16 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
             .deep_vpl = s.segments > 0 &&
                         ((s.vpl_light && s.bounces > 1) || (s.vpl_emitter && s.bounces > 0)),
             .split_direct = s.split_direct,
-            .lobes = s.refracts && lsf_refraction_lobes(plan, &params->refraction),
+            .lobes = s.specular_paths && lsf_specular_path_lobes(plan, &params->specular_path),
             .interleave = s.interleave};
         lsf_bidirectional_shade_plan(plan, &params->bidirectional_shade, &use);
-        if (s.refracts)
-            lsf_refraction_chain_plan(plan, params, state,
-                                      "bidirectional_shade.specular voxel_light", 1, s.interleave,
-                                      s.split_direct);
+        if (s.specular_paths)
+            lsf_specular_path_chain_plan(
+                plan, params, state,
+                &(lsf_specular_path_use){.reads = "bidirectional_shade.specular voxel_light",
+                                         .factor = 1,
+                                         .interleave = s.interleave,
+                                         .split_direct = s.split_direct});
         lsf_sparse_chain_plan_finish(plan, params, s.interleave);
     } else {
         lsf_plan_omit(plan, "bidirectional_shade", "no light bounces");

@@ -21,7 +21,7 @@ typedef struct lsf_bidirectional_sampling {
                           * count on its light without shadows */
     bool whole_scene;
     bool split_direct;
-    bool refracts; /* what media transmit to the eye, by paths through voxels */
+    bool specular_paths; /* through voxels, from media and along narrow lobes */
     uint32_t interleave, tiles;
 } lsf_bidirectional_sampling;
 

@@ -8,7 +8,7 @@
 #include "frame/purpose.h"
 #include "passes/compose.h"
 #include "passes/cone_trace.h"
-#include "passes/refraction.h"
+#include "passes/specular_path.h"
 #include "passes/voxel_bounce.h"
 #include "passes/voxel_draw.h"
 #include "passes/voxel_mip.h"
@@ -42,7 +42,7 @@ static variant choose_variant(const lsf_plan *plan, const lsf_pass_params *param
               params->cone.sealed && lsf_cone_slices(&params->cone) == LSF_VOXEL_SIDES_SURFACE;
     w.refracts = w.traced && params->cone.sealed &&
                  lsf_cone_slices(&params->cone) == LSF_VOXEL_SIDES_SURFACE &&
-                 lsf_refraction_needed(plan, &params->refraction);
+                 lsf_specular_path_media(plan, &params->specular_path);
     w.emitters = w.traced && lsf_cone_emitters(&params->cone, plan);
     if (w.traced && plan->bounces > 0)
         w.bounces = plan->bounces - (w.shines ? 0 : 1);
@@ -64,13 +64,13 @@ typedef struct cone {
     lsf_emitter_points emitters;
     lsf_voxel_bounce bounce;
     lsf_cone_trace trace;
-    lsf_refraction refraction;
+    lsf_specular_path paths;
     lsf_sparse_chain sparse;
     lsf_compose compose;
 } cone;
 
 /* Refracted paths end where they meet a surface, and cost little beside the rest. */
-#define REFRACTION_FACTOR 4
+#define SPECULAR_PATH_FACTOR 4
 
 static lsf_voxel_chain_use chain_use(const lsf_pass_params *params, const variant *w)
 {
@@ -122,13 +122,13 @@ static void plan_cone(lsf_plan *plan, const lsf_pass_params *params, const lsf_s
         if (w.emitters && w.bounces == 0)
             lsf_emitter_points_plan(plan, emitter_name(&w));
         if (w.refracts)
-            lsf_refraction_plan(
-                plan, &params->refraction,
-                &(lsf_refraction_use){.reads = "cone_trace.specular voxel_bounce|voxel_light",
-                                      .factor = REFRACTION_FACTOR,
-                                      .interleave = 1,
-                                      .mirrors = mirrors,
-                                      .lamps = w.lamps});
+            lsf_specular_path_plan(
+                plan, &params->specular_path,
+                &(lsf_specular_path_use){.reads = "cone_trace.specular voxel_bounce|voxel_light",
+                                         .factor = SPECULAR_PATH_FACTOR,
+                                         .interleave = 1,
+                                         .mirrors = mirrors,
+                                         .lamps = w.lamps});
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
@@ -156,10 +156,10 @@ static bool create_traced(cone *c, lsf_context *context, const lsf_plan *plan,
             lsf_voxel_bounce_create(&c->bounce, context, plan, &params->cone, grid, error)) &&
            lsf_cone_trace_create(&c->trace, context, plan, &params->cone, grid, error) &&
            (!c->variant.refracts ||
-            lsf_refraction_create(&c->refraction, context, plan, &params->refraction,
-                                  REFRACTION_FACTOR,
-                                  &(lsf_refraction_targets){.specular = c->trace.light.specular},
-                                  scene->scene, state, error)) &&
+            lsf_specular_path_create(
+                &c->paths, context, plan, &params->specular_path, SPECULAR_PATH_FACTOR,
+                &(lsf_specular_path_targets){.specular = c->trace.light.specular}, scene->scene,
+                state, error)) &&
            lsf_sparse_chain_create(&c->sparse, context, plan, params, error);
 }
 
@@ -261,7 +261,7 @@ static lsf_split_light trace(cone *c, const lsf_iteration *iteration)
     if (c->variant.refracts) {
         lsf_path_inputs paths = lsf_voxel_chain_paths(&c->chain, inputs.seen);
         paths.radiance = inputs.radiance; /* with the light that has bounced */
-        lsf_refraction_run(&c->refraction, iteration, &paths);
+        lsf_specular_path_run(&c->paths, iteration, &paths);
     }
     return lsf_sparse_chain_finish(&c->sparse, iteration, seen, &c->trace.light);
 }
@@ -294,7 +294,7 @@ static void destroy_cone(void *self)
     lsf_compose_destroy(&c->compose);
     lsf_sparse_chain_destroy(&c->sparse);
     lsf_emitter_points_destroy(&c->emitters, c->context);
-    lsf_refraction_destroy(&c->refraction);
+    lsf_specular_path_destroy(&c->paths);
     lsf_cone_trace_destroy(&c->trace);
     lsf_voxel_bounce_destroy(&c->bounce);
     lsf_voxel_draw_destroy(&c->draw);
@@ -317,14 +317,14 @@ static uint32_t report_cone(void *self, lsf_pass_report reports[LSF_TECHNIQUE_MA
         count += lsf_sparse_chain_report_split(&c->sparse, reports + count);
         reports[count++] = (lsf_pass_report){.timer = c->trace.timer};
         if (c->variant.refracts)
-            reports[count++] = (lsf_pass_report){.timer = c->refraction.timer};
+            reports[count++] = (lsf_pass_report){.timer = c->paths.timer};
         count += lsf_sparse_chain_report_finish(&c->sparse, reports + count);
     }
     reports[count++] = (lsf_pass_report){.timer = c->compose.timer};
     return count;
 }
 
-static const char *const groups[] = {"voxel", "cone", "refraction", "sparse", NULL};
+static const char *const groups[] = {"voxel", "cone", "specular_path", "sparse", NULL};
 
 const lsf_technique lsf_technique_cone = {
     .name = "cone",

@@ -28,7 +28,7 @@ const lsf_option_table lsf_pass_option_tables[] = {
     TABLE(voxel_grid, LSF_VOXEL_GRID_OPTION_COUNT),
     TABLE(voxelize, LSF_VOXELIZE_OPTION_COUNT),
     TABLE(cone, LSF_CONE_OPTION_COUNT),
-    TABLE(refraction, LSF_REFRACTION_OPTION_COUNT),
+    TABLE(specular_path, LSF_SPECULAR_PATH_OPTION_COUNT),
     TABLE(voxel_path, LSF_VOXEL_PATH_OPTION_COUNT),
     TABLE(vpl_cloud, LSF_VPL_CLOUD_OPTION_COUNT),
     TABLE(light_tree, LSF_LIGHT_TREE_OPTION_COUNT),

@@ -11,20 +11,21 @@
 #include "passes/reflective_shadow_map.h"
 #include "passes/vpl_cloud.h"
 #include "techniques/light_picks.h"
-#include "techniques/refraction_chain.h"
 #include "techniques/sparse_chain.h"
+#include "techniques/specular_path_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* An iteration takes so long that more refracted paths cost little. */
-#define REFRACTION_FACTOR 4
+/* An iteration takes so long that more paths cost little. */
+#define SPECULAR_PATH_FACTOR 4
 
-/* Voxels serve for paths of light and for visibility; they send out light only for refracted
- * paths. */
+/* Voxels serve for paths of light and for visibility; they send out light only for paths from
+ * visible points. */
 static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_pass_params *params,
                                      const lsf_state *state)
 {
-    return lsf_refraction_chain_needed(plan, params) ? lsf_refraction_chain_voxels(plan, state)
-                                                     : (lsf_voxel_chain_use){0};
+    return lsf_specular_path_chain_needed(plan, params)
+               ? lsf_specular_path_chain_voxels(plan, state)
+               : (lsf_voxel_chain_use){0};
 }
 
 typedef struct substitute_tree {
@@ -35,7 +36,7 @@ typedef struct substitute_tree {
     lsf_vpl_cloud cloud;
     lsf_light_tree tree;
     lsf_light_tree_sample sample;
-    lsf_refraction refraction;
+    lsf_specular_path paths;
     lsf_sparse_chain sparse;
     lsf_compose compose;
 } substitute_tree;
@@ -86,7 +87,7 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
                                  const lsf_state *state)
 {
     lsf_vpl_cloud_use use = cloud_use(plan, state);
-    plan->refracted = is_traced(&use) && lsf_refraction_needed(plan, &params->refraction);
+    plan->refracted = is_traced(&use) && lsf_specular_path_media(plan, &params->specular_path);
     if (is_traced(&use)) {
         lsf_voxel_chain_use voxels = chain_use(plan, params, state);
         lsf_voxel_chain_plan(plan, params, state, &voxels);
@@ -100,10 +101,13 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
         lsf_light_tree_plan(plan, &params->light_tree, record_count(params, &use), "vpl_cloud");
         lsf_sparse_chain_plan_split(plan, params, 1);
         lsf_light_tree_sample_plan(plan, &params->light_tree_sample, params->light_tree.covariance,
-                                   lsf_refraction_lobes(plan, &params->refraction));
-        if (lsf_refraction_chain_needed(plan, params))
-            lsf_refraction_chain_plan(plan, params, state, "light_tree_sample.specular voxel_light",
-                                      REFRACTION_FACTOR, 1, false);
+                                   lsf_specular_path_lobes(plan, &params->specular_path));
+        if (lsf_specular_path_chain_needed(plan, params))
+            lsf_specular_path_chain_plan(
+                plan, params, state,
+                &(lsf_specular_path_use){.reads = "light_tree_sample.specular voxel_light",
+                                         .factor = SPECULAR_PATH_FACTOR,
+                                         .interleave = 1});
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);
@@ -136,11 +140,11 @@ static bool create_traced(substitute_tree *t, lsf_context *context, const lsf_pl
                                  record_count(params, &t->use), error) &&
            lsf_light_tree_sample_create(&t->sample, context, plan, &params->light_tree_sample,
                                         error) &&
-           (!lsf_refraction_chain_needed(plan, params) ||
-            lsf_refraction_create(&t->refraction, context, plan, &params->refraction,
-                                  REFRACTION_FACTOR,
-                                  &(lsf_refraction_targets){.specular = t->sample.light.specular},
-                                  scene->scene, state, error)) &&
+           (!lsf_specular_path_chain_needed(plan, params) ||
+            lsf_specular_path_create(
+                &t->paths, context, plan, &params->specular_path, SPECULAR_PATH_FACTOR,
+                &(lsf_specular_path_targets){.specular = t->sample.light.specular}, scene->scene,
+                state, error)) &&
            lsf_sparse_chain_create(&t->sparse, context, plan, params, error);
 }
 
@@ -169,7 +173,7 @@ static lsf_update update_substitute_tree(void *self, const lsf_pass_params *para
                                iteration->state);
     if ((changes->moved || changes->materials) &&
         (!lsf_vpl_cloud_follow(&t->cloud, changes->materials) ||
-         !lsf_refraction_follow(&t->refraction, changes->materials)))
+         !lsf_specular_path_follow(&t->paths, changes->materials)))
         return LSF_UPDATE_FAILED;
     lsf_voxel_chain_use voxels = chain_use(iteration->plan, params, iteration->state);
     return lsf_voxel_chain_update(&t->chain, params, iteration, &voxels, changes);
@@ -206,10 +210,10 @@ static lsf_split_light gather(substitute_tree *t, const lsf_iteration *iteration
         .voxels = t->chain.voxels,
         .tree = &t->tree.outputs};
     lsf_light_tree_sample_run(&t->sample, iteration, &inputs);
-    if (t->refraction.timer) {
+    if (t->paths.timer) {
         const lsf_path_inputs paths = lsf_voxel_chain_paths(&t->chain, inputs.seen);
-        t->refraction.lobe_kernel = lsf_light_tree_sample_lobe_kernel(&t->sample, iteration);
-        lsf_refraction_run(&t->refraction, iteration, &paths);
+        t->paths.lobe_kernel = lsf_light_tree_sample_lobe_kernel(&t->sample, iteration);
+        lsf_specular_path_run(&t->paths, iteration, &paths);
     }
     return lsf_sparse_chain_finish(&t->sparse, iteration, seen, &t->sample.light);
 }
@@ -242,7 +246,7 @@ static void destroy_substitute_tree(void *self)
         return;
     lsf_compose_destroy(&t->compose);
     lsf_sparse_chain_destroy(&t->sparse);
-    lsf_refraction_destroy(&t->refraction);
+    lsf_specular_path_destroy(&t->paths);
     lsf_light_tree_sample_destroy(&t->sample);
     lsf_light_tree_destroy(&t->tree);
     lsf_vpl_cloud_destroy(&t->cloud);
@@ -274,15 +278,15 @@ static uint32_t report_substitute_tree(void *self,
         reports[count++] = (lsf_pass_report){t->sample.timer, LSF_LIGHT_TREE_SAMPLE_COUNTS,
                                              lsf_light_tree_sample_count_names,
                                              lsf_light_tree_sample_counts(&t->sample)};
-    if (t->refraction.timer)
-        reports[count++] = (lsf_pass_report){.timer = t->refraction.timer};
+    if (t->paths.timer)
+        reports[count++] = (lsf_pass_report){.timer = t->paths.timer};
     count += lsf_sparse_chain_report_finish(&t->sparse, reports + count);
     reports[count++] = (lsf_pass_report){.timer = t->compose.timer};
     return count;
 }
 
-static const char *const groups[] = {"cloud", "light_tree", "refraction", "rsm",
-                                     "voxel", "sparse",     NULL};
+static const char *const groups[] = {"cloud",  "light_tree", "specular_path", "rsm", "voxel",
+                                     "sparse", NULL};
 
 const lsf_technique lsf_technique_substitute_tree = {
     .name = "substitute_tree",

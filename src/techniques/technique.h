@@ -16,9 +16,9 @@
 #include "passes/light_tree_sample.h"
 #include "passes/ray_bundle.h"
 #include "passes/reflective_shadow_map.h"
-#include "passes/refraction.h"
 #include "passes/shadow_map.h"
 #include "passes/sparse.h"
+#include "passes/specular_path.h"
 #include "passes/temporal.h"
 #include "passes/voxel_path.h"
 #include "passes/voxel_view.h"
@@ -42,7 +42,7 @@ typedef struct lsf_pass_params {
     lsf_voxel_grid_params voxel_grid;
     lsf_voxelize_params voxelize;
     lsf_cone_params cone;
-    lsf_refraction_params refraction;
+    lsf_specular_path_params specular_path;
     lsf_voxel_path_params voxel_path;
     lsf_vpl_cloud_params vpl_cloud;
     lsf_light_tree_params light_tree;
@@ -61,7 +61,7 @@ typedef struct lsf_pass_params {
     .sparse = {LSF_SPARSE_PARAMS_DEFAULTS}, .blur = {LSF_BLUR_PARAMS_DEFAULTS},                    \
     .bidirectional_shade = {LSF_BIDIRECTIONAL_SHADE_PARAMS_DEFAULTS},                              \
     .voxel_grid = {LSF_VOXEL_GRID_PARAMS_DEFAULTS}, .voxelize = {LSF_VOXELIZE_PARAMS_DEFAULTS},    \
-    .cone = {LSF_CONE_PARAMS_DEFAULTS}, .refraction = {LSF_REFRACTION_PARAMS_DEFAULTS},            \
+    .cone = {LSF_CONE_PARAMS_DEFAULTS}, .specular_path = {LSF_SPECULAR_PATH_PARAMS_DEFAULTS},      \
     .voxel_path = {LSF_VOXEL_PATH_PARAMS_DEFAULTS}, .vpl_cloud = {LSF_VPL_CLOUD_PARAMS_DEFAULTS},  \
     .light_tree = {LSF_LIGHT_TREE_PARAMS_DEFAULTS},                                                \
     .light_tree_sample = {LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS},                                  \

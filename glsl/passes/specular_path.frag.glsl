@@ -1,15 +1,16 @@
-/* Light that comes to visible points through the surfaces of media, refracted; see src/passes/refraction.md. Switches
- * LSF_TRANSMISSION and LSF_ABSORPTION (always), LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE
- * (voxels are lit directly: paths go on from all) and those of the libraries. */
+/* Specular light of visible points by paths through voxels: what media transmit, refracted, and what narrow lobes reflect;
+ * see src/passes/specular_path.md. Switches LSF_ABSORPTION (there are media), LSF_SPECULAR_PATHS (narrow lobes), LSF_EMITTERS
+ * (points are drawn on emitters; only with LSF_SPECULAR_PATHS), LSF_SPLIT_DIRECT, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS,
+ * LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels are lit directly: paths go on from all) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/interleave.glsl"
-#include "lib/lobe_paths.glsl"
 #include "lib/path_random.glsl"
 #include "lib/reflectance.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
+#include "lib/specular_share.glsl"
 #include "lib/straight.glsl"
 #include "lib/voxel_vertex.glsl"
 
@@ -19,10 +20,11 @@ layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
 
 layout(location = 0) out vec4 specular_out; /* added */
 #if LSF_SPLIT_DIRECT
-layout(location = 1) out vec4 direct_specular_out; /* added: emission that lobes of opaque points show */
+layout(location = 1) out vec4 direct_specular_out; /* added: emission that lobes show, but for those of media */
 #endif
 
-/* Probability with which a path along a visible point's lobes takes the specular ones; sheen is found by the others. */
+/* Probability with which a path along a visible point's lobes draws from the specular ones. Sheen is as broad as a diffuse
+ * lobe, and is found by that. */
 #if LSF_SHEEN
 #define LOBES_SPECULAR 0.9
 #else
@@ -52,7 +54,7 @@ vec3 mirrored_at(brdf_sampler p, vec3 h, out float gain)
     return local;
 }
 
-#if LSF_LOBE_PATHS
+#if LSF_SPECULAR_PATHS
 /* Draws by the specular lobes of a visible point. */
 brdf_sampler lobe_sampler(path_vertex v)
 {
@@ -218,7 +220,7 @@ vec3 path_light(path_vertex v, float thickness, float share, path_random_key key
     /* Density of the direction by the last vertex that spreads light [1/sr]; 0: there was none. Behind it light goes
      * straight through media, as voxels are lit. */
     float spread = 0.0;
-    float sky_part = 1.0; /* of the environment's light, that nothing else finds */
+    float sky_part = 1.0; /* part of the environment's light along the path that nothing else finds */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf = 0.0;
@@ -238,7 +240,7 @@ vec3 path_light(path_vertex v, float thickness, float share, path_random_key key
             spread = spreads ? dot(v.s.normal, direction) / LSF_PI : 0.0;
             sky_part = 1.0;
         }
-#if LSF_LOBE_PATHS
+#if LSF_SPECULAR_PATHS
         else if (lobe) {
             if (!leave_by_lobe(v, u, through, direction, pdf))
                 break;
@@ -332,10 +334,9 @@ void main()
     vec2 ndc = sample_ndc(vec2(pixel) + 0.5);
     v.position = voxel_from_position(position_from_depth(ndc, depth));
     v.view = -normalize(view_ray_direction(ndc));
-    float share = 0.0, thickness = VOXEL_FAR;
-    int count = lengths.x;
-#if LSF_LOBE_PATHS
-    share = lobe_paths_share(v.s, v.view);
+    float share = 0.0, thickness = VOXEL_FAR, weight = 1.0 / float(lengths.x);
+#if LSF_SPECULAR_PATHS
+    share = specular_paths_share(v.s, v.view);
 #endif
 #if LSF_ABSORPTION
     if (is_medium(v.s))
@@ -347,10 +348,11 @@ void main()
     key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
     vec3 direct_sum = vec3(0.0);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < lengths.x; i++) {
         vec3 direct;
-        specular_out.rgb += path_light(v, thickness, share, key, iteration.x * uint(count) + uint(i), direct) / float(count);
-        direct_sum += direct / float(count);
+        uint index = iteration.x * uint(lengths.x) + uint(i);
+        specular_out.rgb += weight * path_light(v, thickness, share, key, index, direct);
+        direct_sum += weight * direct;
     }
 #if LSF_SPLIT_DIRECT
     direct_specular_out.rgb = direct_sum;

@@ -1,14 +1,14 @@
 /* Specular lobes that paths through voxels gather. Other samples would widen them: where a lobe is narrower than the
- * samples of a picture can show, paths that begin along it take over. Switch LSF_LOBE_PATHS, those of lib/brdf.glsl. */
-#ifndef LSF_LIB_LOBE_PATHS
-#define LSF_LIB_LOBE_PATHS
+ * samples of a picture can show, paths that begin along it take over. Switch LSF_SPECULAR_PATHS, those of lib/brdf.glsl. */
+#ifndef LSF_LIB_SPECULAR_SHARE
+#define LSF_LIB_SPECULAR_SHARE
 
 #include "lib/brdf.glsl"
 #include "shared/scene_data.h"
 
-#if LSF_LOBE_PATHS
+#if LSF_SPECULAR_PATHS
 /* Solid angle over which the other samples spread a lobe that reflects all light [sr], as in brdf_evaluate. */
-layout(location = LSF_LOCATION_LOBE_PATHS) uniform float lobe_kernel;
+layout(location = LSF_LOCATION_SPECULAR_SHARE) uniform float lobe_kernel;
 
 /* Share that paths have of a lobe of this alpha that reflects so much, seen under the cosine nv: all if the kernel would
  * widen it, nothing if it is twice as wide. */
@@ -25,7 +25,7 @@ float lifted_cosine(vec3 view, vec3 normal)
 }
 
 /* Share that paths have of the specular light that surfaces send to a visible point: that of its narrower lobe. */
-float lobe_paths_share(surface s, vec3 view)
+float specular_paths_share(surface s, vec3 view)
 {
 #if LSF_SCATTER
     if (s.through)

@@ -17,7 +17,7 @@ static void look(const lsf_scene *scene, const char *technique, uint32_t samples
 {
     static const char *const options[][3] = {
         {"voxel.resolution=32", "voxel_path.min_samples=64", "voxel_path.max_samples=64"},
-        {"voxel.resolution=32", "refraction.paths=16"}};
+        {"voxel.resolution=32", "specular_path.samples=16"}};
     bool paths = strcmp(technique, "voxel_path") == 0;
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = technique;
