@@ -90,7 +90,8 @@ def one_frame(bench, scene, words, size, count, seeds):
     are processor time, spread over the passes as the clock's."""
     picture, found = bench.work / "picture.exr", []
     for seed in range(1, seeds + 1):
-        defines = [f"-D{d}" for d in [*words, f"cloud.count={count}", "light_tree.samples=1"]]
+        defines = [f"-D{d}" for d in [*words, f"cloud.count={count}", "light_tree.samples=1",
+                                      "specular_path.samples=0"]]  # the thesis has no such paths
         run = bench.json("render", scene.path, *scene.options, "-t", "substitute_tree", "-s", 1,
                          "--seed", seed, "-r", size, "-o", picture, *defines)
         times = {"reflective": 0.0, "vpl_cloud": 0.0, "light_tree": 0.0, "sample": 0.0}
