@@ -83,9 +83,9 @@ bool leave_by_lobe(path_vertex v, vec3 u, inout vec3 through, out vec3 direction
 #if LSF_ABSORPTION
 /* Draws whether a path passes the surface of v or is reflected by it, and how. Multiplies the weight into `through`.
  * `share`: the part of the lobe at a visible point that it has; other light gathers the rest as if the point were seen
- * from outside. Of the environment that is all, so that `sky` becomes the part of the path's weight that nothing else
- * finds. False: the path ends. */
-bool pass_or_reflect(path_vertex v, vec3 u, bool visible, float share, inout vec3 through, out vec3 direction, out float sky)
+ * from outside. `sky`: the part of the environment's light along the path that nothing else finds; directions of the
+ * environment find what comes to such a lobe straight through media. False: the path ends. */
+bool pass_or_reflect(path_vertex v, vec3 u, bool visible, float share, inout vec3 through, out vec3 direction, inout float sky)
 {
     brdf_sampler p = brdf_sampler_of(v.s, v.view, false);
     vec3 h = brdf_visible_normal(p, disc_draw(u.xy));
@@ -93,12 +93,12 @@ bool pass_or_reflect(path_vertex v, vec3 u, bool visible, float share, inout vec
     vec3 f0 = surface_specular_f0(v.s);
     float f90 = surface_specular_f90(v.s);
     vec3 mirrored = f0 + (f90 - f0) * lsf_fresnel_schlick(0.0, far_vh);
-    sky = 1.0;
+    float mirrored_sky = 1.0;
     if (visible) {
         vec3 gathered = f0 + (f90 - f0) * lsf_fresnel_schlick(0.0, vh);
         vec3 found = max(mirrored - gathered, 0.0);
         mirrored = max(mirrored - (1.0 - share) * gathered, 0.0);
-        sky = largest(found) / max(largest(mirrored), 1e-6);
+        mirrored_sky = largest(found) / max(largest(mirrored), 1e-6);
     }
     float enters = v.s.transmission * (1.0 - v.s.metallic) * (1.0 - brdf_interface(p, p.dielectric, vh));
     vec3 passes = v.s.base_color * enters;
@@ -108,10 +108,10 @@ bool pass_or_reflect(path_vertex v, vec3 u, bool visible, float share, inout vec
     if (reflected) {
         local = mirrored_at(p, h, gain);
         through *= mirrored / chance * gain;
+        sky = mirrored_sky;
     } else {
         local = brdf_transmitted(p, h, vh, gain);
         through *= passes * (gain / max(1.0 - chance, 1e-6));
-        sky = 1.0;
     }
     direction = brdf_from_frame(p, local);
     through *= brdf_layers_pass(p, v.s, direction);
@@ -248,7 +248,7 @@ vec3 path_light(path_vertex v, float thickness, float share, path_random_key key
         }
 #endif
 #if LSF_TRANSMISSION
-        else if (spread > 0.0 || sky_part < 1.0) {
+        else if (spread > 0.0) {
             through *= straight_transmittance(v.s, v.view);
         }
 #endif
@@ -290,7 +290,7 @@ vec3 path_light(path_vertex v, float thickness, float share, path_random_key key
 #if LSF_PATHS_BOUNCE
         spreads = !transmits(met.s) && !mirrors;
         last = segment == lengths.y - 1; /* no bounce is left for other light than emission */
-        straight = spread > 0.0 || sky_part < 1.0;
+        straight = spread > 0.0;
 #endif
         vec3 emission = through * emission_met(v, direction, pdf, cell, side, met);
         if (lobe)
