@@ -68,6 +68,17 @@ bool emitter_view_from(vec3 position, vec3 normal, vec2 u, out emitter_view e)
     return e.density > 0.0;
 }
 
+/* The same for a vertex of these normals, of its plane and for shading; no light either where voxels are between, or from
+ * behind. `cosine`: at the vertex. */
+bool emitter_seen_from(vec3 position, vec3 geometric_normal, vec3 normal, vec2 u, out emitter_view e, out float cosine)
+{
+    cosine = 0.0;
+    if (!emitter_view_from(position, geometric_normal, u, e))
+        return false;
+    cosine = dot(normal, e.direction);
+    return cosine > 0.0 && voxel_sees(position, geometric_normal, e.position, e.normal);
+}
+
 /* For a ray from `position` that hits a voxel with the point q and the unit normal n: density with which the
  * direction would have been drawn by emitter_view_from. `bits`: the voxel's in voxelize.point. */
 float emitter_density_met(vec3 position, vec3 direction, vec3 q, vec3 n, uint bits, vec3 emission)

@@ -176,11 +176,9 @@ vec3 emitters_at(path_vertex v, bool lobe, vec3 absorption, path_random_key key,
     uint count = uint(emitters.y);
     for (uint i = 0u; i < count; i++) {
         emitter_view e;
+        float cosine;
         vec2 u = path_random(key, index * count + i, ~uint(segment)).xy;
-        if (!emitter_view_from(v.position, v.s.geometric_normal, u, e))
-            continue;
-        float cosine = dot(v.s.normal, e.direction);
-        if (cosine <= 0.0 || !voxel_sees(v.position, v.s.geometric_normal, e.position, e.normal))
+        if (!emitter_seen_from(v.position, v.s.geometric_normal, v.s.normal, u, e, cosine))
             continue;
         float density = emitters.y * e.density;
         brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);

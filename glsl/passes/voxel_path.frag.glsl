@@ -104,11 +104,9 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
     uint count = uint(emitters.y);
     for (uint i = 0u; i < count; i++) {
         emitter_view e;
+        float cosine;
         vec2 u = path_random(key, index * count + i, ~uint(segment)).xy;
-        if (!emitter_view_from(v.position, v.s.geometric_normal, u, e))
-            continue;
-        float cosine = dot(v.s.normal, e.direction);
-        if (cosine <= 0.0 || !voxel_sees(v.position, v.s.geometric_normal, e.position, e.normal))
+        if (!emitter_seen_from(v.position, v.s.geometric_normal, v.s.normal, u, e, cosine))
             continue;
         float density = emitters.y * e.density;
         float weight = cosine / density *
