@@ -32,6 +32,11 @@ const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT] = {
      NULL, "of what is reflected",
      "smallest share of specular reflection for which virtual point lights keep its direction; "
      "below it they emit diffusely; 0: they always keep it, with more noise"},
+    {"cloud.directions", LSF_OPTION_INT, offsetof(lsf_vpl_cloud_params, directions), 0, 256, NULL,
+     "directions",
+     "maximum number of the environment's directions at which light paths begin in an iteration, "
+     "each with a reflective shadow map of the scene; 0: one where the scene stands in the open, "
+     "else all"},
 };
 
 lsf_vpl_cloud_shape lsf_vpl_cloud_shape_of(const lsf_vpl_cloud_params *params,
@@ -48,6 +53,16 @@ lsf_vpl_cloud_shape lsf_vpl_cloud_shape_of(const lsf_vpl_cloud_params *params,
 uint32_t lsf_vpl_cloud_records(const lsf_vpl_cloud_shape *shape)
 {
     return shape->points + shape->paths * shape->vertices;
+}
+
+/* In the open most light comes from the environment itself, and the maps of its directions take
+ * more time than they are worth. */
+static uint32_t directions_used(const lsf_plan *plan, const lsf_vpl_cloud_params *params)
+{
+    uint32_t most = params->directions > 0 ? (uint32_t)params->directions
+                    : plan->open           ? 1
+                                           : plan->sky_lights;
+    return most < plan->sky_lights ? most : plan->sky_lights;
 }
 
 /* Whether paths go on from their first points. */
@@ -106,6 +121,12 @@ void lsf_vpl_cloud_plan(lsf_plan *plan, const lsf_vpl_cloud_params *params,
     } else {
         lsf_plan_omit(plan, "vpl_cloud_emitter", "no surface emits light");
     }
+    uint32_t directions = directions_used(plan, params);
+    if (directions < plan->sky_lights)
+        lsf_plan_remark(plan,
+                        "in an iteration, light paths begin at %u of the environment's %u "
+                        "directions (cloud.directions)",
+                        directions, plan->sky_lights);
     if (use->lights)
         plan_light(plan);
     else
@@ -140,7 +161,8 @@ bool lsf_vpl_cloud_create(lsf_vpl_cloud *pass, lsf_context *context, const lsf_p
                             .use = *use,
                             .shape = lsf_vpl_cloud_shape_of(params, use),
                             .specular = plan->requirements.specular,
-                            .lobe_share = params->lobe_share};
+                            .lobe_share = params->lobe_share,
+                            .directions = directions_used(plan, params)};
     return lsf_plan_create_buffer(plan, context, "vpl_cloud.records", NULL, 0, &pass->records,
                                   error) &&
            (!use->emitters || lsf_emitter_points_create(&pass->emitters, context, plan,
@@ -214,6 +236,38 @@ void lsf_vpl_cloud_begin(lsf_vpl_cloud *pass, const lsf_iteration *iteration, fl
         emit(pass, iteration);
 }
 
+/* The first of the iteration's directions at which paths begin. Iteration t of M directions has the
+ * numbers t M to t M + M - 1 of a sequence whose last digits decide which part of the sphere a
+ * direction is from. The sum of t's digits of base M takes all values equally often for any values
+ * of a few digits; always the same direction, or that of number t mod M, would leave out parts. */
+static uint32_t first_direction(uint32_t t, uint32_t directions)
+{
+    uint64_t sum = t;
+    for (uint32_t digits = t / directions; directions > 1 && digits > 0; digits /= directions)
+        sum += digits;
+    return (uint32_t)(sum % directions);
+}
+
+/* The part of the light paths that begin at a light, as an interval of [0, 1]. All directions of
+ * the environment are equally probable. Where only some begin paths, these have those of the
+ * others, each path with its share of the light as before. */
+static void find_part(const lsf_vpl_cloud *pass, const lsf_iteration *iteration,
+                      const lsf_distribution *picks, uint32_t light, double part[2])
+{
+    uint32_t directions = iteration->plan->sky_lights, used = pass->directions;
+    uint32_t first = iteration->light_count - directions;
+    part[0] = picks->cumulative[light];
+    part[1] = picks->cumulative[light + 1];
+    if (light < first || used == directions)
+        return;
+    uint32_t start = first_direction(iteration->index, directions);
+    uint32_t number = (light - first + directions - start) % directions;
+    double before = picks->cumulative[first];
+    double each = (picks->cumulative[first + directions] - before) / (double)used;
+    part[0] = before + each * (number < used ? number : used);
+    part[1] = before + each * (number < used ? number + 1 : used);
+}
+
 /* Systematic sampling: with one random offset, a light of probability p has p n paths rounded up or
  * down, and p n on average. */
 lsf_vpl_cloud_run lsf_vpl_cloud_deal(const lsf_vpl_cloud *pass, const lsf_iteration *iteration,
@@ -224,9 +278,10 @@ lsf_vpl_cloud_run lsf_vpl_cloud_deal(const lsf_vpl_cloud *pass, const lsf_iterat
         return run;
     double offset = (double)lsf_random_float(
         lsf_iteration_seed(iteration, LSF_PURPOSE_VPL_CLOUD_DEAL), iteration->index);
-    double paths = (double)pass->light_paths;
-    run.first = (uint32_t)floor(picks->cumulative[light] * paths + offset);
-    run.count = (uint32_t)floor(picks->cumulative[light + 1] * paths + offset) - run.first;
+    double paths = (double)pass->light_paths, part[2];
+    find_part(pass, iteration, picks, light, part);
+    run.first = (uint32_t)floor(part[0] * paths + offset);
+    run.count = (uint32_t)floor(part[1] * paths + offset) - run.first;
     run.share = (float)(1.0 / (paths * lsf_distribution_probability(picks, light)));
     return run;
 }

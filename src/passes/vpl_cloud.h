@@ -14,11 +14,13 @@ typedef struct lsf_vpl_cloud_params {
     int32_t count; /* of records, at most */
     float
         lobe_share; /* least share of what a surface reflects by microfacets that keeps its lobe */
+    int32_t directions; /* of the environment, at which paths begin in an iteration, at most; 0: by
+                         * the scene */
 } lsf_vpl_cloud_params;
 
-#define LSF_VPL_CLOUD_PARAMS_DEFAULTS .count = 100000, .lobe_share = 0.5f
+#define LSF_VPL_CLOUD_PARAMS_DEFAULTS .count = 100000, .lobe_share = 0.5f, .directions = 0
 
-#define LSF_VPL_CLOUD_OPTION_COUNT 2
+#define LSF_VPL_CLOUD_OPTION_COUNT 3
 extern const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT];
 
 /* The kinds of lights at which light paths begin, and how often surfaces may reflect them. */
@@ -53,6 +55,7 @@ typedef struct lsf_vpl_cloud {
     lsf_vpl_cloud_shape shape;
     bool specular; /* materials have specular lobes */
     float lobe_share;
+    uint32_t directions;  /* of the environment, at which paths begin */
     uint32_t light_paths; /* of the iteration; the others begin on emitters */
     GLuint records;       /* output: struct lsf_vpl_record each */
     lsf_emitter_points emitters;

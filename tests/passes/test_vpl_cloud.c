@@ -51,10 +51,10 @@ static lsf_voxel_grid plan_all(cloud_rig *rig, const lsf_vpl_cloud_params *param
     return grid;
 }
 
-static void init(cloud_rig *rig, const lsf_scene *scene)
+static void init(cloud_rig *rig, const lsf_scene *scene, int32_t directions)
 {
     lsf_error error = {0};
-    const lsf_vpl_cloud_params params = {.count = COUNT};
+    const lsf_vpl_cloud_params params = {.count = COUNT, .directions = directions};
     lsf_render_params render = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true, .bounces = BOUNCES};
     render.technique = "bidirectional";
     render.width = render.height = 16;
@@ -156,7 +156,7 @@ static void flux_of(const lsf_scene *scene, uint32_t iterations, fluxes flux)
 {
     cloud_rig rig;
     memset(flux, 0, sizeof(fluxes));
-    init(&rig, scene);
+    init(&rig, scene, 0);
     for (uint32_t i = 0; i < iterations; i++) {
         run(&rig, i);
         add_flux(&rig, 1.0 / iterations, flux);
@@ -258,15 +258,21 @@ static void sun_on_a_floor(void **unused)
     destroy_scene(scene);
 }
 
-/* Both sides of a floor under a uniform environment receive pi L. */
-static void environment_on_a_floor(void **unused)
+static lsf_scene *floor_under_a_sky(void)
 {
-    (void)unused;
     lsf_scene *scene = build_scene();
     scene->diffuse_only = true;
     build_material(scene, 0.8f, 0.6f, 0.4f);
     build_floor(scene, 0.0f, 1.0f);
     build_environment(scene, 0.5f);
+    return scene;
+}
+
+/* Both sides of a floor under a uniform environment receive pi L. */
+static void environment_on_a_floor(void **unused)
+{
+    (void)unused;
+    lsf_scene *scene = floor_under_a_sky();
     finish_gl_scene(scene);
     fluxes flux;
     flux_of(scene, 16, flux);
@@ -275,6 +281,62 @@ static void environment_on_a_floor(void **unused)
         expected[c] = 2.0 * M_PI * 0.5 * 4.0 * albedo[c];
     expect("environment", (const double(*)[3])flux, 1, expected, 0.02);
     destroy_scene(scene);
+}
+
+/* Irradiance on both sides of a floor by the lights of the iteration that have paths, those of the
+ * environment in the place of all its directions. */
+static double irradiance_of_dealt(const cloud_rig *rig, uint32_t *maps)
+{
+    uint32_t directions = rig->setup.plan->sky_lights;
+    uint32_t first = rig->iteration.light_count - directions;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < rig->iteration.light_count; i++) {
+        const lsf_light_state *light = &rig->iteration.lights[i];
+        lsf_vpl_cloud_run dealt =
+            lsf_vpl_cloud_deal(&rig->cloud, &rig->iteration, &rig->picks.distribution, i);
+        double stands_for = i < first ? 1.0 : (double)directions / rig->cloud.directions;
+        if (dealt.count > 0)
+            sum += stands_for * (double)light->intensity[0] * fabs(light->direction[1]);
+        *maps += dealt.count > 0;
+    }
+    return sum;
+}
+
+/* Some directions of the environment stand for all, in the mean over iterations; a lamp has its own
+ * paths beside them. */
+static void some_directions_stand_for_all(void **unused)
+{
+    (void)unused;
+    enum { ITERATIONS = 16384 };
+    for (int32_t directions = 1; directions <= 3; directions++) {
+        cloud_rig rig;
+        lsf_scene *scene = floor_under_a_sky();
+        build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(0, -1, 0), 1.0f);
+        finish_gl_scene(scene);
+        init(&rig, scene, directions);
+        for (uint32_t i = 0; i < 3; i++) {
+            uint32_t maps = 0;
+            fluxes flux = {{0}};
+            run(&rig, i);
+            add_flux(&rig, 1.0, flux);
+            double expected[3], irradiance = irradiance_of_dealt(&rig, &maps);
+            assert_int_equal(maps, directions + 1);
+            for (int c = 0; c < 3; c++)
+                expected[c] = irradiance * 4.0 * albedo[c];
+            expect("dealt", (const double(*)[3])flux, 1, expected, 0.01);
+        }
+        double mean = 0.0;
+        uint32_t maps = 0;
+        for (uint32_t i = 0; i < ITERATIONS; i++) {
+            lsf_iteration_begin(&rig.iteration, i);
+            mean += irradiance_of_dealt(&rig, &maps) / ITERATIONS;
+        }
+        print_message("%d of %u directions: irradiance %.4f of %.4f\n", directions,
+                      rig.setup.plan->sky_lights, mean, M_PI + 1.0);
+        assert_true(fabs(mean / (M_PI + 1.0) - 1.0) < 0.01);
+        finish(&rig);
+        destroy_scene(scene);
+    }
 }
 
 static lsf_scene *emissive_square(bool double_sided)
@@ -354,7 +416,7 @@ static void records_lie_on_surfaces(void **unused)
     build_light(scene, LSF_LIGHT_POINT, lsf_f3(0.2f, 0.3f, -0.1f), lsf_f3(0, -1, 0), 3.0f);
     finish_gl_scene(scene);
     cloud_rig rig;
-    init(&rig, scene);
+    init(&rig, scene, 0);
     run(&rig, 3);
     const lsf_state *state = &rig.setup.state;
     const double half[3] = {1.0, 0.8, 1.0};
@@ -397,6 +459,7 @@ int main(void)
         cmocka_unit_test(lights_add_up),
         cmocka_unit_test(sun_on_a_floor),
         cmocka_unit_test(environment_on_a_floor),
+        cmocka_unit_test(some_directions_stand_for_all),
         cmocka_unit_test(emissive_square_shines),
         cmocka_unit_test(emissive_furnace),
         cmocka_unit_test(records_lie_on_surfaces),
