@@ -500,16 +500,17 @@ static bool wants_more(const lsf_renderer *renderer, uint32_t done)
            params->progress(done - renderer->kept, params->samples, params->progress_user);
 }
 
-/* Called within an iteration. The limit does not cut the first one short: a late picture is
- * better than none. */
+/* Called within an iteration. The limit does not cut the first one short: a late picture is better
+ * than none. */
 static bool goes_further(void *user)
 {
     lsf_renderer *renderer = user;
     if (renderer->stopped || lsf_now() < renderer->next_question)
         return !renderer->stopped;
     glFinish(); /* else the clock would measure commands that were issued, not work that was done */
-    renderer->stopped = (renderer->next > renderer->kept && lsf_now() >= renderer->deadline) ||
-                        !wants_more(renderer, renderer->next);
+    bool late = lsf_now() >= renderer->deadline + renderer->grace;
+    renderer->stopped =
+        (late && renderer->next > renderer->kept) || !wants_more(renderer, renderer->next);
     renderer->next_question = lsf_now() + QUESTION_EVERY;
     return !renderer->stopped;
 }
@@ -538,12 +539,12 @@ static double allow_compilation(lsf_renderer *renderer, double seconds)
     return uses->allowed - before;
 }
 
-/* Whether another iteration is likely to end in time: one that does not is dropped, and would only
- * make the user wait. Half of the last one's time is asked for, because the first takes longer than
- * the others. */
-static bool leaves_time(const lsf_renderer *renderer, double last_seconds)
+/* Whether another iteration is likely to end before the limit or a quarter of its time later, after
+ * which it is dropped: runs then take no longer than the limit on average. */
+static bool leaves_time(lsf_renderer *renderer, double last_seconds)
 {
-    return lsf_now() + 0.5 * last_seconds < renderer->deadline;
+    renderer->grace = 0.25 * last_seconds;
+    return lsf_now() + last_seconds < renderer->deadline + renderer->grace;
 }
 
 static bool run_until_stopped(lsf_renderer *renderer, lsf_error *error)

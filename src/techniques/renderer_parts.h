@@ -42,6 +42,7 @@ struct lsf_renderer {
     uint32_t next; /* iteration of the mean to run next: fewer, where some have to be run again */
     uint64_t iterations;            /* asked for in all frames, since the passes were made */
     double deadline, next_question; /* in seconds as lsf_now counts them */
+    double grace;                   /* seconds after the deadline in which an iteration may end */
     bool stopped;                   /* the iteration in progress is to be dropped */
     lsf_first_uses first_uses;      /* in the run in progress */
     double compile_seconds, upload_seconds, render_seconds;

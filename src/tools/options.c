@@ -216,8 +216,8 @@ static const lsf_command_option options[] = {
      NULL, "iterations; the default is 64, or with --time-limit as many as fit"},
     {"time-limit", 0, "S", PLANNING, "Picture", LSF_VALUE_DOUBLE, AT(time_limit), 0.001, 1e9, NULL,
      NULL,
-     "seconds of rendering, without those in which software OpenGL compiles shaders; an unfinished "
-     "iteration is dropped, except the first"},
+     "seconds of rendering, without those in which software OpenGL compiles shaders; the last "
+     "iteration ends at most a quarter of its time late, or is dropped, except the first"},
     {"bounces", 'b', "N", SHOWING | LSF_COMMAND_MEASURE | LSF_COMMAND_SANDBOX, "Picture",
      LSF_VALUE_COUNT, AT(bounces), 0, LSF_BOUNCES_MAX, NULL, NULL,
      "indirect bounces of light; 0 is direct light only; the default is 3, and 7 if materials "
