@@ -15,9 +15,6 @@
 #include "techniques/specular_path_chain.h"
 #include "techniques/voxel_chain.h"
 
-/* An iteration takes so long that more paths cost little. */
-#define SPECULAR_PATH_FACTOR 4
-
 /* Voxels serve for paths of light and for visibility; they send out light only for paths from
  * visible points. */
 static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_pass_params *params,
@@ -106,7 +103,7 @@ static void plan_substitute_tree(lsf_plan *plan, const lsf_pass_params *params,
             lsf_specular_path_chain_plan(
                 plan, params, state,
                 &(lsf_specular_path_use){.reads = "light_tree_sample.specular voxel_light",
-                                         .factor = SPECULAR_PATH_FACTOR,
+                                         .factor = 1,
                                          .interleave = 1});
         lsf_sparse_chain_plan_finish(plan, params, 1);
     } else {
@@ -142,7 +139,7 @@ static bool create_traced(substitute_tree *t, lsf_context *context, const lsf_pl
                                         error) &&
            (!lsf_specular_path_chain_needed(plan, params) ||
             lsf_specular_path_create(
-                &t->paths, context, plan, &params->specular_path, SPECULAR_PATH_FACTOR,
+                &t->paths, context, plan, &params->specular_path, 1,
                 &(lsf_specular_path_targets){.specular = t->sample.light.specular}, scene->scene,
                 state, error)) &&
            lsf_sparse_chain_create(&t->sparse, context, plan, params, error);
