@@ -35,8 +35,9 @@ const lsf_option_row lsf_vpl_cloud_options[LSF_VPL_CLOUD_OPTION_COUNT] = {
     {"cloud.directions", LSF_OPTION_INT, offsetof(lsf_vpl_cloud_params, directions), 0, 256, NULL,
      "directions",
      "maximum number of the environment's directions at which light paths begin in an iteration, "
-     "each with a reflective shadow map of the scene; 0: one where the scene stands in the open, "
-     "else all"},
+     "each with a reflective shadow map of the scene; 0: all, or where the scene stands in the "
+     "open, "
+     "as many as draw 262144 triangles"},
 };
 
 lsf_vpl_cloud_shape lsf_vpl_cloud_shape_of(const lsf_vpl_cloud_params *params,
@@ -55,14 +56,18 @@ uint32_t lsf_vpl_cloud_records(const lsf_vpl_cloud_shape *shape)
     return shape->points + shape->paths * shape->vertices;
 }
 
-/* In the open most light comes from the environment itself, and the maps of its directions take
- * more time than they are worth. */
+/* In the open most light comes from the environment itself, and maps of all directions would take
+ * more time than they are worth where there are many triangles. */
 static uint32_t directions_used(const lsf_plan *plan, const lsf_vpl_cloud_params *params)
 {
-    uint32_t most = params->directions > 0 ? (uint32_t)params->directions
-                    : plan->open           ? 1
-                                           : plan->sky_lights;
-    return most < plan->sky_lights ? most : plan->sky_lights;
+    enum { MOST_TRIANGLES = 1 << 18 }; /* of all maps together */
+    uint64_t triangles = plan->requirements.triangles;
+    uint64_t used = plan->sky_lights;
+    if (params->directions > 0)
+        used = (uint64_t)params->directions;
+    else if (plan->open && used * triangles > MOST_TRIANGLES)
+        used = triangles < MOST_TRIANGLES ? MOST_TRIANGLES / triangles : 1;
+    return used < plan->sky_lights ? (uint32_t)used : plan->sky_lights;
 }
 
 /* Whether paths go on from their first points. */
