@@ -13,8 +13,8 @@
 const lsf_option_row lsf_specular_path_options[LSF_SPECULAR_PATH_OPTION_COUNT] = {
     {"specular_path.samples", LSF_OPTION_INT, offsetof(lsf_specular_path_params, samples), 0, 16,
      NULL, "paths",
-     "paths of each pixel that shows a medium or a narrow lobe, four times as many with cone and "
-     "substitute_tree; 0: light goes straight through media, and other samples gather all lobes"},
+     "paths of each pixel that shows a medium or a narrow lobe, four times as many with cone; 0: "
+     "light goes straight through media, and other samples gather all lobes"},
 };
 
 static const char emitter_name[] = "specular_path.emitters";

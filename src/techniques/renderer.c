@@ -539,8 +539,8 @@ static double allow_compilation(lsf_renderer *renderer, double seconds)
     return uses->allowed - before;
 }
 
-/* Whether another iteration is likely to end before the limit or a quarter of its time later, after
- * which it is dropped: runs then take no longer than the limit on average. */
+/* Whether another iteration is likely to end before the limit or at most a quarter of its time
+ * later, after which it is dropped. */
 static bool leaves_time(lsf_renderer *renderer, double last_seconds)
 {
     renderer->grace = 0.25 * last_seconds;
