@@ -248,7 +248,7 @@ static void search_rest(const lsf_ray_bundle *pass, const lsf_ray_bundle_origins
     set_ray(pass, pass->rest_program, origins, region);
     glDispatchCompute(LSF_BUNDLE_REST_GROUPS, 1, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
-                    GL_TEXTURE_UPDATE_BARRIER_BIT);
+                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 GLuint lsf_ray_bundle_search(lsf_ray_bundle *pass, const lsf_iteration *iteration, uint32_t bundle,

@@ -40,8 +40,10 @@ static void tally(const lsf_ray_bundle *pass, bool iteration_ends, uint32_t iter
     glUniform1ui(2, iterations_done);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                    GL_BUFFER_UPDATE_BARRIER_BIT | GL_QUERY_BUFFER_BARRIER_BIT);
+    /* Searches fetch nodes through buffer textures. */
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                    GL_QUERY_BUFFER_BARRIER_BIT);
 }
 
 void lsf_ray_bundle_tally_build(const lsf_ray_bundle *pass)

@@ -268,7 +268,8 @@ static void run_pdf(lsf_reflective_shadow_map *pass, const lsf_iteration *iterat
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHT, out->shadow.light);
     glUseProgram(pass->scan_program);
     glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
     lsf_timer_end(pass->pdf_timer);
 }
 

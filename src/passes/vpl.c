@@ -293,7 +293,7 @@ static void draw_triangles(lsf_vpl *pass, const lsf_iteration *iteration)
     glUniform1ui(0, scene->triangle_count);
     glDispatchCompute((scene->triangle_count + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+                    GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     glUseProgram(pass->large_program);
     glBindVertexArray(pass->vertex_array);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, pass->command);

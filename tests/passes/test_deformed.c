@@ -59,6 +59,7 @@ static lsf_image *render(mover by, const char *technique)
 static void assert_alike(const lsf_image *image, const lsf_image *expected, const char *technique)
 {
     uint32_t apart = 0, moving = 0;
+    size_t last = 0;
     assert_int_equal(image->channel_count, CHANNELS);
     for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) {
         const float *a = image->pixels + CHANNELS * i, *b = expected->pixels + CHANNELS * i;
@@ -66,11 +67,17 @@ static void assert_alike(const lsf_image *image, const lsf_image *expected, cons
         for (int c = 0; c < CHANNELS; c++)
             near = near && fabsf(a[c] - b[c]) <= 1e-3f * (1.0f + fabsf(b[c]));
         apart += !near;
+        last = near ? last : CHANNELS * i;
         moving += fabsf(b[3]) > 0.1f;
     }
     assert_true(moving > 30);
     if (apart > 4)
-        fail_msg("%s: %u pixels differ", technique, apart);
+        fail_msg("%s: %u pixels differ, the last is %g %g %g, moved by %g %g, expected %g %g %g, "
+                 "moved by %g %g",
+                 technique, apart, image->pixels[last], image->pixels[last + 1],
+                 image->pixels[last + 2], image->pixels[last + 3], image->pixels[last + 4],
+                 expected->pixels[last], expected->pixels[last + 1], expected->pixels[last + 2],
+                 expected->pixels[last + 3], expected->pixels[last + 4]);
 }
 
 static void test_moved_alike(void **unused)
