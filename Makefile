@@ -36,7 +36,8 @@ render: packages  ## install what is missing, build, render the furnished interi
 .PHONY: test
 test: test-packages  ## install what is missing, build, run every test
 	@$(MAKE) --no-print-directory all
-	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --num-processes $(JOBS) $(TEST_OPTIONS); \
+	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --num-processes $(JOBS) \
+	    --wrapper '"$(CURDIR)/scripts/run-test"' $(TEST_OPTIONS); \
 	    scripts/test-report $(BUILD)
 
 .PHONY: sanitize
