@@ -4,7 +4,7 @@
 
 #include "lib/hemisphere.glsl"
 
-layout(r32ui, binding = 0) uniform uimage2D map_image;
+layout(r32ui, binding = 0) coherent uniform uimage2D map_image;
 
 /* Call this before any discard, while the whole quad is alive. */
 vec2 texel_slope()

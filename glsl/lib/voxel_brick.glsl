@@ -12,7 +12,12 @@
 
 layout(local_size_x = VOXEL_BRICK_LANES * LSF_VOXEL_GROUP_BRICKS) in;
 
-layout(std430, binding = LSF_BINDING_BRICKS) buffer lsf_brick_block
+/* Those that write define it otherwise. */
+#ifndef VOXEL_BRICK_ACCESS
+#define VOXEL_BRICK_ACCESS readonly
+#endif
+
+layout(std430, binding = LSF_BINDING_BRICKS) VOXEL_BRICK_ACCESS buffer lsf_brick_block
 {
     uint brick_groups_x, brick_groups_y, brick_groups_z, brick_count;
     lsf_voxel_brick_data bricks[];

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 layout(location = 0) uniform int map_count;
 layout(location = 1) uniform uvec2 range; /* first triangle, and the end of the range */
 layout(location = 2) uniform uint firsts[LSF_SKY_MAPS_MAX]; /* first triangle for each map */
-layout(r32ui, binding = 0) uniform uimage2DArray map_image;
+layout(r32ui, binding = 0) coherent uniform uimage2DArray map_image;
 
 /* Rounding error of a position, in normalised space. A texel's centre this close outside an edge is covered, so
  * that no light leaks between two triangles. */

@@ -2,7 +2,7 @@
 #include "lib/sparse_grid.glsl"
 #include "passes/sparse_guide.glsl"
 
-layout(std430, binding = LSF_BINDING_SPARSE_COUNTS) buffer sparse_count_block
+layout(std430, binding = LSF_BINDING_SPARSE_COUNTS) coherent buffer sparse_count_block
 {
     uint alone_count, borrowed_count;
 };

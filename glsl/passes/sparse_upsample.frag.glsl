@@ -8,7 +8,7 @@
 #include "passes/sparse_tint.glsl"
 #endif
 
-layout(std430, binding = LSF_BINDING_SPARSE_COUNTS) buffer sparse_count_block
+layout(std430, binding = LSF_BINDING_SPARSE_COUNTS) coherent buffer sparse_count_block
 {
     uint alone_count, borrowed_count;
 };

@@ -1,6 +1,7 @@
 /* Light that voxels send out. Switches LSF_EMIT: their emission, which replaces the previous value, else the
  * following is added; LSF_REFLECT: the light of the current light that the side facing it reflects, or, with
  * LSF_SHADOW_SKY, that of a batch of directions of the environment; LSF_VOXEL_LAMPS: smooth metals keep a lamp. */
+#define VOXEL_BRICK_ACCESS restrict
 #include "lib/hash.glsl"
 #include "lib/luminance.glsl"
 #include "lib/voxel_lamp.glsl"

@@ -1,4 +1,6 @@
 /* Lists each brick's voxels with the brick, and counts the voxels that each instance has won. */
+#define VOXEL_BRICK_ACCESS restrict
+#define VOXELIZE_LIST_ACCESS coherent
 #include "lib/voxel_brick.glsl"
 #include "passes/voxelize_list.glsl"
 

@@ -15,11 +15,16 @@ struct voxelize_draw {
     uint first_triangle, triangles;    /* among all */
 };
 
-layout(std430, binding = LSF_BINDING_DRAWS) coherent buffer lsf_draw_block
+/* Those that write define it as coherent. */
+#ifndef VOXELIZE_LIST_ACCESS
+#define VOXELIZE_LIST_ACCESS readonly
+#endif
+
+layout(std430, binding = LSF_BINDING_DRAWS) VOXELIZE_LIST_ACCESS buffer lsf_draw_block
 {
     voxelize_draw draws[];
 };
-layout(std430, binding = LSF_BINDING_WON) coherent buffer lsf_won_block
+layout(std430, binding = LSF_BINDING_WON) VOXELIZE_LIST_ACCESS buffer lsf_won_block
 {
     uint won[]; /* cells, packed as bricks are */
 };

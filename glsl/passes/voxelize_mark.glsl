@@ -4,7 +4,7 @@
 #include "passes/voxelize.glsl"
 
 layout(binding = 0, r32ui) coherent uniform uimage3D key_image;
-layout(binding = 1, r32ui) uniform uimage3D occupancy_image[LSF_VOXEL_OCCUPANCY_LEVELS];
+layout(binding = 1, r32ui) coherent uniform uimage3D occupancy_image[LSF_VOXEL_OCCUPANCY_LEVELS];
 layout(std430, binding = LSF_BINDING_BRICKS) coherent buffer lsf_brick_block
 {
     uint brick_groups_x, brick_groups_y, brick_groups_z, brick_count;

@@ -1,4 +1,5 @@
 /* Writes the voxels that each instance has won to the instance's part of the list. */
+#define VOXELIZE_LIST_ACCESS coherent
 #include "lib/voxel_brick.glsl"
 #include "passes/voxelize_list.glsl"
 

@@ -1,4 +1,5 @@
 /* The start of each instance's voxels in the list. */
+#define VOXELIZE_LIST_ACCESS coherent
 #include "passes/voxelize_list.glsl"
 
 layout(local_size_x = 1) in;

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(r32ui, binding = 0) uniform uimage2D map_image;
+layout(r32ui, binding = 0) coherent uniform uimage2D map_image;
 layout(std430, binding = 1) writeonly buffer large_block
 {
     uint large_triangles[]; /* 4 triangle + octant */

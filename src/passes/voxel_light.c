@@ -116,7 +116,8 @@ static void dispatch(const lsf_voxel_light *pass, GLuint program, GLuint list)
     glUseProgram(program);
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_SHADER_STORAGE_BARRIER_BIT); /* the list tells which sides are stored */
+                    GL_SHADER_STORAGE_BARRIER_BIT | /* the list tells which sides are stored */
+                    GL_COMMAND_BARRIER_BIT);        /* and how many work groups it takes */
 }
 
 /* Of units two are others than lsf_voxels_bind takes, which are those of shadow maps and of

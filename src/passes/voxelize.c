@@ -287,7 +287,7 @@ static void list_winners(lsf_voxelize *pass, const lsf_iteration *iteration)
     lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, pass->outputs.occupancy[0]);
     glUseProgram(pass->count_program);
     glDispatchComputeIndirect(0);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     glUseProgram(pass->sum_program);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
