@@ -266,6 +266,7 @@ static void test_timer(void **state)
         lsf_timer_end(outer);
     }
     double polled;
+    glFinish();
     assert_int_equal(lsf_timer_poll(outer, &polled), RUNS);
     assert_true(polled == lsf_timer_milliseconds(outer));
     assert_int_equal(lsf_timer_poll(outer, &polled), 0);
