@@ -87,33 +87,48 @@ path_vertex vertex_at(ivec3 cell, vec3 origin, vec3 direction, out int side)
     return v;
 }
 
+/* The body whose surface is visible in a pixel: its thickness across that surface [voxels], and what its far side has
+ * there: base colour, and transmission in alpha. */
+struct seen_body {
+    float thickness;
+    vec4 far_color;
+};
+
+seen_body seen_body_none()
+{
+    return seen_body(VOXEL_FAR, vec4(0.0));
+}
+
 #if LSF_ABSORPTION
 /* Reach within which the neighbours of a voxel may store the far side of a medium [voxels]. */
 #define THIN_REACH 1.8
 
-/* The nearest back of a medium behind each pixel's surface, as a depth like that of the G-buffer. */
+/* The nearest back of a medium behind each pixel's surface: a depth like that of the G-buffer; base colour, and
+ * transmission in alpha. */
 layout(binding = LSF_UNIT_FAR_SIDE) uniform sampler2D far_side_texture;
+layout(binding = LSF_UNIT_FAR_COLOR) uniform sampler2D far_color_texture;
 
-/* Thickness of the body whose surface v is visible in a pixel, across that surface [voxels]. */
-float seen_thickness(path_vertex v, ivec2 pixel, vec2 ndc)
+seen_body seen_body_of(path_vertex v, ivec2 pixel, vec2 ndc)
 {
     float depth = texelFetch(far_side_texture, pixel, 0).r;
     if (depth == 0.0)
-        return VOXEL_FAR;
+        return seen_body_none();
     vec3 across = voxel_from_position(position_from_depth(ndc, depth)) - v.position;
-    return abs(dot(v.s.geometric_normal, across));
+    return seen_body(abs(dot(v.s.geometric_normal, across)), texelFetch(far_color_texture, pixel, 0));
 }
 
 /* Takes a ray from a visible point into a body through it, if that is thinner than a voxel, whose sides are parallel
  * then. False: it is thicker, or the ray does not enter it. */
-bool path_through_wall(path_vertex v, vec3 direction, float thickness, out path_vertex far_side)
+bool path_through_wall(path_vertex v, vec3 direction, seen_body body, out path_vertex far_side)
 {
     float sinks = -dot(v.s.geometric_normal, direction);
     far_side = v;
-    if (!v.s.volume || !v.s.front || sinks <= 0.0 || thickness >= 1.0)
+    if (!v.s.volume || !v.s.front || sinks <= 0.0 || body.thickness >= 1.0)
         return false;
-    far_side.position += thickness / max(sinks, LSF_COSINE_MIN) * direction;
+    far_side.position += body.thickness / max(sinks, LSF_COSINE_MIN) * direction;
     far_side.view = -direction;
+    far_side.s.base_color = body.far_color.rgb;
+    far_side.s.transmission = body.far_color.a;
     transmission_set_side(far_side.s, false);
     return true;
 }

@@ -205,9 +205,9 @@ vec3 emission_met(path_vertex v, vec3 direction, float pdf, ivec3 cell, int side
     return grid.unit.x * emission;
 }
 
-/* Light of a path that begins at the visible point v: through the surface of a medium, a body of that thickness, or along
+/* Light of a path that begins at the visible point v: through the surface of a medium, that body, or along
  * the specular lobes, of which it has a share. `direct`: the emission that these show. */
-vec3 path_light(path_vertex v, float thickness, float share, path_random_key key, uint index, out vec3 direct)
+vec3 path_light(path_vertex v, seen_body body, float share, path_random_key key, uint index, out vec3 direct)
 {
     vec3 sum = direct = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool medium = is_medium(v.s);
@@ -255,7 +255,7 @@ vec3 path_light(path_vertex v, float thickness, float share, path_random_key key
             break;
         }
         path_vertex far_side;
-        if (segment == 0 && path_through_wall(v, direction, thickness, far_side)) {
+        if (segment == 0 && path_through_wall(v, direction, body, far_side)) {
             through *= left_after(absorption_along(v, direction, absorption), far_side.position - v.position);
             v = far_side;
             continue;
@@ -332,13 +332,14 @@ void main()
     vec2 ndc = sample_ndc(vec2(pixel) + 0.5);
     v.position = voxel_from_position(position_from_depth(ndc, depth));
     v.view = -normalize(view_ray_direction(ndc));
-    float share = 0.0, thickness = VOXEL_FAR, weight = 1.0 / float(lengths.x);
+    float share = 0.0, weight = 1.0 / float(lengths.x);
+    seen_body body = seen_body_none();
 #if LSF_SPECULAR_PATHS
     share = specular_paths_share(v.s, v.view);
 #endif
 #if LSF_ABSORPTION
     if (is_medium(v.s))
-        thickness = seen_thickness(v, pixel, ndc);
+        body = seen_body_of(v, pixel, ndc);
 #endif
     if (share == 0.0 && !is_medium(v.s))
         return;
@@ -349,7 +350,7 @@ void main()
     for (int i = 0; i < lengths.x; i++) {
         vec3 direct;
         uint index = iteration.x * uint(lengths.x) + uint(i);
-        specular_out.rgb += weight * path_light(v, thickness, share, key, index, direct);
+        specular_out.rgb += weight * path_light(v, body, share, key, index, direct);
         direct_sum += weight * direct;
     }
 #if LSF_SPLIT_DIRECT

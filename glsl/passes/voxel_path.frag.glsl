@@ -235,9 +235,9 @@ vec3 sky_found(path_vertex v, vec3 direction, float pdf, int segment, float coun
 }
 #endif
 
-/* Traces a path from a visible point of a body of that thickness: number `index` among those of all iterations, one of
+/* Traces a path from a visible point of that body: number `index` among those of all iterations, one of
  * `count` of this one. */
-void add_path(path_vertex v, float thickness, path_random_key key, uint index, int count)
+void add_path(path_vertex v, seen_body body, path_random_key key, uint index, int count)
 {
     light_parts through = light_parts(vec3(1.0), vec3(1.0));
     vec3 absorption = vec3(0.0); /* the camera is in air */
@@ -258,7 +258,7 @@ void add_path(path_vertex v, float thickness, path_random_key key, uint index, i
             return;
 #if LSF_ABSORPTION
         path_vertex far_side;
-        if (segment == 0 && path_through_wall(v, direction, thickness, far_side)) {
+        if (segment == 0 && path_through_wall(v, direction, body, far_side)) {
             vec3 kept = left_after(absorption_along(v, direction, absorption), far_side.position - v.position);
             through.irradiance *= kept;
             through.specular *= kept;
@@ -334,9 +334,9 @@ void main()
 #if LSF_SPECULAR_PARAMS
         specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
 #endif
-        float thickness = VOXEL_FAR;
+        seen_body body = seen_body_none();
 #if LSF_ABSORPTION
-        thickness = seen_thickness(v, position_pixel(texel), ndc);
+        body = seen_body_of(v, position_pixel(texel), ndc);
 #endif
         int count = int(surface_path_count(v.s, vec2(lengths.zw)));
         path_random_key key;
@@ -344,7 +344,7 @@ void main()
         key.seed = iteration.y;
         key.texel = texel + int(view_depth(depth) * grid.size.w);
         for (int i = 0; i < count; i++)
-            add_path(v, thickness, key, iteration.x * uint(count) + uint(i), count);
+            add_path(v, body, key, iteration.x * uint(count) + uint(i), count);
         share = 1.0 / float(count);
     }
     irradiance_out = vec4(share * indirect.irradiance, 0.0);

@@ -42,6 +42,7 @@ struct lsf_voxel_grid_data {
 #define LSF_UNIT_VOXEL_LAMP 18
 #define LSF_UNIT_PATH_RANDOM 7
 #define LSF_UNIT_FAR_SIDE 19 /* of media behind the visible surface */
+#define LSF_UNIT_FAR_COLOR 21
 
 /* Lists, storage buffers: the work groups of a dispatch, as rows of LSF_VOXEL_LIST_ROW entries
  * each, and the number of entries; then the entries. */

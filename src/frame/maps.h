@@ -29,8 +29,9 @@ typedef struct lsf_gbuffer_maps {
                       * reverse-Z depth in the frame before, A the instance's number and 1 */
     GLuint tint, absorption; /* RGBA16F, RGBA32F: of light between the surface and the eye; 0:
                               * none is lost */
-    GLuint far_side; /* DEPTH_COMPONENT32F, like depth, of the nearest back of a medium behind the
-                      * surface; 0 where there is none. 0: no medium is refracted */
+    GLuint far_side;  /* DEPTH_COMPONENT32F, like depth, of the nearest back of a medium behind the
+                       * surface; 0 where there is none. 0: no medium is refracted */
+    GLuint far_color; /* RGBA16F, base colour and transmission there; undefined where it is 0 */
 } lsf_gbuffer_maps;
 
 /* The parts of an iteration's picture before they are added up. */

@@ -9,6 +9,7 @@ void lsf_path_inputs_bind(const lsf_path_inputs *inputs, const lsf_iteration *it
     lsf_voxels_bind(inputs->voxels);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_MATERIALS, iteration->scene->materials);
     lsf_bind_texture(LSF_UNIT_FAR_SIDE, inputs->far_side);
+    lsf_bind_texture(LSF_UNIT_FAR_COLOR, inputs->far_color);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, inputs->radiance);
     if (inputs->lamps)
         lsf_voxel_lamps_bind(iteration, inputs->grid, inputs->lamps, true);

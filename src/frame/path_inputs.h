@@ -8,7 +8,7 @@
 
 typedef struct lsf_path_inputs {
     const lsf_surface_maps *seen; /* by points */
-    GLuint far_side;              /* as in lsf_gbuffer_maps, by pixels */
+    GLuint far_side, far_color;   /* as in lsf_gbuffer_maps, by pixels */
     const lsf_voxels *voxels;
     const lsf_voxel_grid *grid; /* of the voxels */
     GLuint radiance;            /* of voxels, two sides */

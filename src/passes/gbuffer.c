@@ -103,9 +103,12 @@ void lsf_gbuffer_plan(lsf_plan *plan)
     else
         lsf_plan_omit(plan, "gbuffer.motion", "nothing reads it");
     plan_transmittance(plan);
-    if (plan->refracted)
+    if (plan->refracted) {
         lsf_plan_texture_add(plan, "gbuffer.far_side", GL_DEPTH_COMPONENT32F, w, h,
                              "refracted paths pass thin walls of media");
+        lsf_plan_texture_add(plan, "gbuffer.far_color", GL_RGBA16F, w, h,
+                             "base colour and transmission of their far sides");
+    }
     plan_switches(plan);
 }
 
@@ -134,12 +137,19 @@ static bool create_far_side(lsf_gbuffer *pass, const lsf_plan *plan, lsf_error *
 {
     static const char *const files[5] = {"passes/gbuffer.vert.glsl",
                                          "passes/gbuffer_far_side.frag.glsl"};
-    GLuint *depth = &pass->outputs.far_side;
-    if (!lsf_plan_create_texture_if_planned(plan, pass->context, "gbuffer.far_side", depth, error))
+    lsf_gbuffer_maps *out = &pass->outputs;
+    if (!lsf_plan_create_texture_if_planned(plan, pass->context, "gbuffer.far_side", &out->far_side,
+                                            error) ||
+        !lsf_plan_create_texture_if_planned(plan, pass->context, "gbuffer.far_color",
+                                            &out->far_color, error))
         return false;
-    if (!*depth)
+    if (!out->far_side)
         return true;
-    lsf_framebuffer_desc desc = {.label = "gbuffer.far_side", .depth = *depth, .layer = -1};
+    lsf_framebuffer_desc desc = {.label = "gbuffer.far_side",
+                                 .color_count = 1,
+                                 .colors = {out->far_color},
+                                 .depth = out->far_side,
+                                 .layer = -1};
     pass->far_framebuffer = lsf_framebuffer_create(pass->context, &desc, error);
     pass->far_program = lsf_plan_program(plan, pass->context, "gbuffer", files, error);
     return pass->far_framebuffer && pass->far_program;
@@ -267,7 +277,7 @@ void lsf_gbuffer_destroy(lsf_gbuffer *pass)
     GLuint *textures[] = {
         &pass->outputs.seen.depth, &pass->outputs.seen.surface, &pass->outputs.seen.specular_params,
         &pass->outputs.emission,   &pass->outputs.motion,       &pass->outputs.tint,
-        &pass->outputs.absorption, &pass->outputs.far_side};
+        &pass->outputs.absorption, &pass->outputs.far_side,     &pass->outputs.far_color};
     for (size_t i = 0; i < LSF_COUNT(textures); i++)
         lsf_texture_destroy(pass->context, textures[i]);
     lsf_timer_destroy(pass->timer);

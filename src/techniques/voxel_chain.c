@@ -174,6 +174,7 @@ lsf_path_inputs lsf_voxel_chain_paths(const lsf_voxel_chain *chain, const lsf_su
 {
     return (lsf_path_inputs){.seen = seen,
                              .far_side = chain->direct.gbuffer.outputs.far_side,
+                             .far_color = chain->direct.gbuffer.outputs.far_color,
                              .voxels = chain->voxels,
                              .grid = &chain->grid,
                              .radiance = chain->light.radiance,

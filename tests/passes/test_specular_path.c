@@ -161,6 +161,43 @@ static void slabs_absorb(void **unused)
     check_slab("cone", 0.5f);
 }
 
+/* A slab thinner than a voxel, colored on one side alone, seen straight on in a white world: each
+ * side tints what passes it once. */
+static void check_tint(const char *technique, bool above)
+{
+    static const uint8_t texels[2][3] = {{64, 128, 255}, {255, 255, 255}};
+    const double ior = 1.5, f = pow((ior - 1.0) / (ior + 1.0), 2.0), pass = 1.0 - f;
+    lsf_scene *scene = white_world();
+    lsf_material *glass = build_glass(scene, 1.0f, 0.0f, (float)ior);
+    glass->base_color_texture.texture = build_texture(scene, 2, 1, 3, texels[0], false);
+    scene->textures[0].nearest = true;
+    build_box(scene, lsf_f3(-8, -0.2f, -8), lsf_f3(8, 0, 8), false);
+    scene->vertices.uv0 = calloc(2 * scene->vertices.count, sizeof(float));
+    for (uint64_t i = 0; i < scene->vertices.count; i++)
+        scene->vertices.uv0[2 * i] =
+            (scene->vertices.position[3 * i + 1] > -0.1f) == above ? 0.25f : 0.75f;
+    finish_gl_scene(scene);
+    double rgb[3];
+    look(scene, technique, 64, 7, NEEDLE, lsf_f3(0, 3, 0), lsf_f3(0, 0, 0), rgb);
+    for (int c = 0; c < 3; c++) {
+        double colors[2] = {texels[0][c] / 255.0, 1.0}, a = colors[!above], b = colors[above];
+        double expected = f + pass * pass * a * (b + f * a) / (1.0 - f * f);
+        print_message("%s, colored %s, channel %d: %.5f, expected %.5f\n", technique,
+                      above ? "above" : "below", c, rgb[c], expected);
+        assert_true(fabs(rgb[c] - expected) < 0.01);
+    }
+    lsf_scene_destroy(scene);
+}
+
+static void each_side_tints_once(void **unused)
+{
+    (void)unused;
+    for (int above = 0; above < 2; above++) {
+        check_tint("voxel_path", above);
+        check_tint("cone", above);
+    }
+}
+
 /* One surface between two white halves of the world: what reaches the viewer is the integral of f
  * cos over all directions. */
 static void rough_surfaces(void **unused)
@@ -235,6 +272,7 @@ int main(void)
         cmocka_unit_test(slab_displaces),
         cmocka_unit_test(thin_wall_bends_nothing),
         cmocka_unit_test(slabs_absorb),
+        cmocka_unit_test(each_side_tints_once),
         cmocka_unit_test(rough_surfaces),
         cmocka_unit_test(diffuse_share),
     };
