@@ -125,8 +125,10 @@ static void set_control(const lsf_direct_light *pass, const lsf_iteration *itera
     lsf_bind_texture(4, inputs->open->specular);
     if (pass->control && iteration->done == 0 && inputs->first == 0)
         glClearTexImage(pass->control, 0, GL_RGBA, GL_FLOAT, NULL);
-    if (pass->control)
+    if (pass->control) {
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); /* open_sky has read it */
         glBindImageTexture(0, pass->control, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);
+    }
 }
 
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,

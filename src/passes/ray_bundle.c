@@ -243,7 +243,8 @@ static void set_ray(const lsf_ray_bundle *pass, GLuint program,
 static void search_rest(const lsf_ray_bundle *pass, const lsf_ray_bundle_origins *origins,
                         const lsf_region *region)
 {
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    /* The search has drawn to the texture that is now stored to. */
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     glBindImageTexture(0, pass->hits, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32UI);
     set_ray(pass, pass->rest_program, origins, region);
     glDispatchCompute(LSF_BUNDLE_REST_GROUPS, 1, 1);

@@ -81,7 +81,8 @@ static void dispatch(GLuint radiance, GLuint bricks)
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, bricks);
     glDispatchComputeIndirect(0);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void lsf_voxel_bounce_begin(lsf_voxel_bounce *pass, const lsf_voxels *voxels)

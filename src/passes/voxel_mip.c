@@ -84,7 +84,7 @@ static void write_whole(const lsf_voxel_mip *pass, GLuint radiance, int level)
     glUniform1i(LOCATION_LEVEL, level);
     glDispatchCompute(groups(size[0] >> level), groups(size[1] >> level),
                       groups((size[2] >> level) * pass->sides));
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 void lsf_voxel_mip_run(lsf_voxel_mip *pass, const lsf_voxels *voxels, GLuint radiance)

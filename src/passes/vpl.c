@@ -239,6 +239,7 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
     lsf_bind_texture(LSF_UNIT_EMISSION, inputs->importance);
     if (inputs->sums)
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_SUMS, inputs->sums);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); /* shading has read the VPLs before */
     glUseProgram(pass->draw_program);
     glUniform2ui(0, first, count);
     glUniform2f(1, (float)pass->shadow_resolution, iteration->view.start.w);
@@ -254,6 +255,7 @@ void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
     lsf_timer_begin(pass->emitter_timer);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); /* as in lsf_vpl_draw */
     glUseProgram(pass->emitter_program);
     glUniform1ui(0, index);
     glUniform4f(1, p[0], p[1], p[2], rotation_of(pass, iteration, index - pass->first_emitter));

@@ -1,6 +1,7 @@
 /* What shaders write into images and storage buffers is seen by later commands only after
- * glMemoryBarrier with the bit of the way by which they access it (OpenGL 4.5, section 7.12.2).
- * Software GL needs no barriers, so that a missing one shows only on a GPU. */
+ * glMemoryBarrier with the bit of the way by which they access it; and it waits for earlier ones,
+ * draws to the same texture, too, only after the bit of images or storage buffers (OpenGL 4.5,
+ * section 7.12.2). Software GL needs no barriers, so that a missing one shows only on a GPU. */
 #include <ctype.h>
 #include <string.h>
 
@@ -11,13 +12,19 @@
 
 enum { OBJECTS = 1 << 14, PROGRAMS = 4096, BITS = 32, STAGES = 5 };
 
-/* By object: when a shader last wrote to it, and which. */
-typedef struct written {
-    uint64_t when; /* 0: never */
+typedef struct last_access {
+    uint64_t when;  /* 0: never */
+    GLuint program; /* 0: by drawing to it */
     char pass[64];
-} written;
+} last_access;
 
-static written buffers[OBJECTS], textures[OBJECTS];
+/* By object. */
+typedef struct accesses {
+    last_access written; /* by a shader */
+    last_access any;     /* by a draw or dispatch */
+} accesses;
+
+static accesses buffers[OBJECTS], textures[OBJECTS];
 static GLuint buffer_of_texture[OBJECTS]; /* of buffer textures */
 static uint64_t now, barriers[BITS];      /* when each bit's last barrier was */
 static char *sources[PROGRAMS][STAGES];
@@ -128,7 +135,7 @@ static int access_of(GLuint program, const gl_spy_use *use)
 
 /* --- who waits for whom --------------------------------------------------------------------- */
 
-static written *object(GLenum kind, GLuint name)
+static accesses *object(GLenum kind, GLuint name)
 {
     assert_true(name < OBJECTS);
     if (kind == GL_TEXTURE && buffer_of_texture[name])
@@ -136,18 +143,30 @@ static written *object(GLenum kind, GLuint name)
     return kind == GL_TEXTURE ? &textures[name] : &buffers[name];
 }
 
-static void expect(GLbitfield bit, GLenum kind, GLuint name, const char *who)
+static void expect_since(const last_access *last, GLbitfield bit, GLenum kind, GLuint name,
+                         const char *who)
 {
     int index = 0;
     while (bit >> index != 1)
         index++;
-    const written *o = object(kind, name);
-    if (name == 0 || o->when <= barriers[index])
+    if (name == 0 || last->when <= barriers[index])
         return;
     char label[64];
     gl_spy_label(kind, name, label);
-    print_message("%s follows %s on %s without the barrier 0x%x\n", who, o->pass, label, bit);
+    print_message("%s follows %s on %s without the barrier 0x%x\n", who, last->pass, label, bit);
     missing++;
+}
+
+static void expect(GLbitfield bit, GLenum kind, GLuint name, const char *who)
+{
+    expect_since(&object(kind, name)->written, bit, kind, name, who);
+}
+
+static void record(last_access *last, GLuint program, const char *pass)
+{
+    last->when = now;
+    last->program = program;
+    snprintf(last->pass, sizeof last->pass, "%s", pass);
 }
 
 static void expect_bound(GLbitfield bit, GLenum binding, const char *who)
@@ -157,7 +176,9 @@ static void expect_bound(GLbitfield bit, GLenum binding, const char *who)
     expect(bit, GL_BUFFER, (GLuint)name, who);
 }
 
-static void expect_attachments(GLuint framebuffer, const char *who)
+/* Calls `visit` for each texture that is attached. */
+static void for_attachments(GLuint framebuffer, const char *who,
+                            void (*visit)(GLuint texture, const char *who))
 {
     for (GLenum i = 0; framebuffer && i < 9; i++) {
         GLenum point = i < 8 ? GL_COLOR_ATTACHMENT0 + i : GL_DEPTH_ATTACHMENT;
@@ -168,8 +189,18 @@ static void expect_attachments(GLuint framebuffer, const char *who)
             continue;
         glGetNamedFramebufferAttachmentParameteriv(framebuffer, point,
                                                    GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &name);
-        expect(GL_FRAMEBUFFER_BARRIER_BIT, GL_TEXTURE, (GLuint)name, who);
+        visit((GLuint)name, who);
     }
+}
+
+static void expect_attached(GLuint texture, const char *who)
+{
+    expect(GL_FRAMEBUFFER_BARRIER_BIT, GL_TEXTURE, texture, who);
+}
+
+static void record_attached(GLuint texture, const char *who)
+{
+    record(&object(GL_TEXTURE, texture)->any, 0, who);
 }
 
 static void on_command(const gl_spy_command *command)
@@ -187,8 +218,14 @@ static void on_command(const gl_spy_command *command)
         bool stored = use->role == GL_SPY_IMAGE || use->role == GL_SPY_STORAGE;
         access[i] = stored ? access_of(command->program, use) : READS;
         /* What is coherent takes part in atomic operations, which need no barriers between them. */
-        if ((access[i] & READS) && !(access[i] & COHERENT))
+        if (access[i] & COHERENT)
+            continue;
+        if (access[i] & READS)
             expect(bits[use->role], use->kind, use->name, command->pass);
+        /* Runs of one program that only write share their texels among them. */
+        const last_access *any = &object(use->kind, use->name)->any;
+        if ((access[i] & WRITES) && !(access[i] == WRITES && any->program == command->program))
+            expect_since(any, bits[use->role], use->kind, use->name, command->pass);
     }
     if (command->indirect)
         expect_bound(GL_COMMAND_BARRIER_BIT,
@@ -197,19 +234,17 @@ static void on_command(const gl_spy_command *command)
                      command->pass);
     if (command->indexed)
         expect_bound(GL_ELEMENT_ARRAY_BARRIER_BIT, GL_ELEMENT_ARRAY_BUFFER_BINDING, command->pass);
-    if (command->draws) {
-        GLint framebuffer = 0;
+    GLint framebuffer = 0;
+    if (command->draws)
         glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
-        expect_attachments((GLuint)framebuffer, command->pass);
-    }
+    for_attachments((GLuint)framebuffer, command->pass, expect_attached);
     now++;
+    for_attachments((GLuint)framebuffer, command->pass, record_attached);
     for (size_t i = 0; i < command->use_count; i++) {
-        const gl_spy_use *use = &command->uses[i];
-        if (access[i] & WRITES) {
-            written *o = object(use->kind, use->name);
-            o->when = now;
-            snprintf(o->pass, sizeof o->pass, "%s", command->pass);
-        }
+        accesses *o = object(command->uses[i].kind, command->uses[i].name);
+        record(&o->any, command->program, command->pass);
+        if (access[i] & WRITES)
+            record(&o->written, command->program, command->pass);
     }
 }
 
@@ -233,7 +268,7 @@ static void spy_texture_buffer(GLuint texture, GLenum format, GLuint buffer)
 static void spy_delete_buffers(GLsizei count, const GLuint *names)
 {
     for (GLsizei i = 0; i < count; i++)
-        *object(GL_BUFFER, names[i]) = (written){0};
+        *object(GL_BUFFER, names[i]) = (accesses){0};
     delete_buffers(count, names);
 }
 
@@ -241,7 +276,7 @@ static void spy_delete_textures(GLsizei count, const GLuint *names)
 {
     for (GLsizei i = 0; i < count; i++) {
         buffer_of_texture[names[i]] = 0;
-        *object(GL_TEXTURE, names[i]) = (written){0};
+        *object(GL_TEXTURE, names[i]) = (accesses){0};
     }
     delete_textures(count, names);
 }
@@ -321,13 +356,13 @@ static void spy_get_sub_image(GLuint texture, GLint level, GLint x, GLint y, GLi
 
 static void spy_clear_floats(GLuint framebuffer, GLenum kind, GLint at, const GLfloat *value)
 {
-    expect_attachments(framebuffer, "glClearNamedFramebufferfv");
+    for_attachments(framebuffer, "glClearNamedFramebufferfv", expect_attached);
     clear_floats(framebuffer, kind, at, value);
 }
 
 static void spy_clear_uints(GLuint framebuffer, GLenum kind, GLint at, const GLuint *value)
 {
-    expect_attachments(framebuffer, "glClearNamedFramebufferuiv");
+    for_attachments(framebuffer, "glClearNamedFramebufferuiv", expect_attached);
     clear_uints(framebuffer, kind, at, value);
 }
 
