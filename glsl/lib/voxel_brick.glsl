@@ -12,7 +12,7 @@
 
 layout(local_size_x = VOXEL_BRICK_LANES * LSF_VOXEL_GROUP_BRICKS) in;
 
-/* Those that write define it otherwise. */
+/* Shaders that write to the block define it as restrict. */
 #ifndef VOXEL_BRICK_ACCESS
 #define VOXEL_BRICK_ACCESS readonly
 #endif

@@ -15,7 +15,7 @@ struct voxelize_draw {
     uint first_triangle, triangles;    /* among all */
 };
 
-/* Those that write define it as coherent. */
+/* Shaders that write to the blocks define it as coherent. */
 #ifndef VOXELIZE_LIST_ACCESS
 #define VOXELIZE_LIST_ACCESS readonly
 #endif

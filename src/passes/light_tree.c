@@ -149,7 +149,7 @@ static void clear_tree(const lsf_light_tree *pass)
     const struct lsf_light_tree_data none = {
         .root = LSF_LIGHT_TREE_NONE, .low_x = UINT32_MAX, .low_y = UINT32_MAX, .low_z = UINT32_MAX};
     const uint32_t *words = (const uint32_t *)&none;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* shaders have written the last tree */
     for (size_t at = 0; at < sizeof none; at += 4 * sizeof *words)
         glClearNamedBufferSubData(pass->outputs.tree, GL_RGBA32UI, (GLintptr)at, 4 * sizeof *words,
                                   GL_RGBA_INTEGER, GL_UNSIGNED_INT, words + at / sizeof *words);

@@ -85,6 +85,7 @@ void lsf_voxel_draw_run(lsf_voxel_draw *pass, const lsf_iteration *iteration,
     lsf_timer_begin(pass->timer);
     lsf_voxels_bind(voxels);
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, radiance);
+    /* The sums and the list of the last run may still be in use. */
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(pass->bricks, GL_R32F, GL_RED, GL_FLOAT, NULL);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, voxels->bricks);

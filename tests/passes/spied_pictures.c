@@ -13,14 +13,7 @@ enum { SIZE = 16 };
 static lsf_scene *rich_scene(void)
 {
     lsf_scene *scene = build_scene();
-    build_corner(scene);
-    lsf_material *lamp = build_material(scene, 0.5f, 0.5f, 0.5f);
-    lamp->emission[0] = lamp->emission[1] = lamp->emission[2] = 4.0f;
-    build_quad(scene, lsf_f3(-1, 2, -1), lsf_f3(0, 2, -1), lsf_f3(0, 2, 0), lsf_f3(-1, 2, 0));
-    build_glass(scene, 0.9f, 0.2f, 0.0f);
-    build_quad(scene, lsf_f3(-1.5f, 0, 0.5f), lsf_f3(0, 0, 0.5f), lsf_f3(0, 1, 0.5f),
-               lsf_f3(-1.5f, 1, 0.5f));
-    build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
+    build_lit_corner(scene);
     build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0), lsf_f3(-0.4f, -0.8f, -0.5f), 1.0f);
     build_environment(scene, 1.0f);
     finish_gl_scene(scene);

@@ -159,7 +159,7 @@ static void compilation_is_not_rendering(void **unused)
     };
     lsf_scene *scene = lit_scene();
     lsf_context *context = gl_test_context(gl_test_backend(), NULL);
-    if (!lsf_context_get_info(context).software) { /* GPUs compile before they render */
+    if (!lsf_context_get_info(context).software) { /* else no time is allowed for */
         lsf_context_destroy(context);
         destroy_scene(scene);
         skip();

@@ -411,6 +411,18 @@ void build_corner(lsf_scene *scene)
     build_box(scene, lsf_f3(0.2f, 0, -1), lsf_f3(1.1f, 0.9f, -0.1f), false);
 }
 
+void build_lit_corner(lsf_scene *scene)
+{
+    build_corner(scene);
+    lsf_material *lamp = build_material(scene, 0.5f, 0.5f, 0.5f);
+    lamp->emission[0] = lamp->emission[1] = lamp->emission[2] = 4.0f;
+    build_quad(scene, lsf_f3(-1, 2, -1), lsf_f3(0, 2, -1), lsf_f3(0, 2, 0), lsf_f3(-1, 2, 0));
+    build_glass(scene, 0.9f, 0.2f, 0.0f);
+    build_quad(scene, lsf_f3(-1.5f, 0, 0.5f), lsf_f3(0, 0, 0.5f), lsf_f3(0, 1, 0.5f),
+               lsf_f3(-1.5f, 1, 0.5f));
+    build_light(scene, LSF_LIGHT_POINT, lsf_f3(1, 2, 1), lsf_f3(0, -1, 0), 5.0f);
+}
+
 uint32_t build_texture(lsf_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
                        const uint8_t *texels, bool srgb)
 {

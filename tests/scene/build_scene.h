@@ -54,6 +54,9 @@ lsf_material *build_glass(lsf_scene *scene, float base, float roughness, float i
 /* A corner of three walls with a glossy box in it. */
 void build_corner(lsf_scene *scene);
 
+/* The same with a lamp, a pane of rough glass and a point light. */
+void build_lit_corner(lsf_scene *scene);
+
 /* A texture of `channels` bytes a texel; returns its index. */
 uint32_t build_texture(lsf_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
                        const uint8_t *texels, bool srgb);
