@@ -39,7 +39,9 @@ typedef struct lsf_scene_params {
                             * maps */
     bool show_back_faces;  /* show single-sided materials from behind, too; glTF hides their back
                             * faces from cameras. For light they are two-sided either way */
-    bool lenient;          /* ignore required extensions that affect appearance alone */
+    bool lenient;          /* ignore required extensions that affect appearance alone, leave out
+                            * images whose files do not exist, and clamp factors to 0 to 1, with
+                            * notes; else these are errors, but for factors beyond by rounding */
     uint64_t memory_limit; /* bytes that loading may use at any moment: document, buffers,
                             * geometry, decoded images, and temporary memory */
     const char *name; /* of a scene from memory, in messages and descriptions; NULL: "memory" */

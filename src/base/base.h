@@ -75,6 +75,9 @@ char *lsf_file_read_start(const char *path, uint64_t most, size_t *length, lsf_e
 /* The rest of standard input, of at most `limit` bytes; else as lsf_file_read. */
 char *lsf_file_read_standard_input(uint64_t limit, size_t *length, lsf_error *error);
 
+/* Whether there is no file `relative` below `folder`; false for paths that lead out of it. */
+bool lsf_path_is_absent(const char *folder, const char *relative);
+
 /* The real path of `relative` below `folder`, for files that a file names: absolute paths, ".."
  * and symbolic links that lead out of the folder are refused. malloc'ed; NULL on failure. */
 char *lsf_path_confine(const char *folder, const char *relative, lsf_error *error);

@@ -154,6 +154,16 @@ static bool climbs(const char *path)
     return false;
 }
 
+bool lsf_path_is_absent(const char *folder, const char *relative)
+{
+    if (relative[0] == '\0' || relative[0] == '/' || climbs(relative))
+        return false;
+    char *joined = lsf_format("%s/%s", folder, relative);
+    bool absent = joined && access(joined, F_OK) != 0 && errno == ENOENT;
+    free(joined);
+    return absent;
+}
+
 char *lsf_path_confine(const char *folder, const char *relative, lsf_error *error)
 {
     if (relative[0] == '\0' || relative[0] == '/' || climbs(relative)) {

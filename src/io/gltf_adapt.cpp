@@ -54,7 +54,7 @@ static bool name_no_nodes(json &root)
     return any;
 }
 
-void adapt_document(json &root, gltf_checked &checked)
+void adapt_document(json &root, bool changed, gltf_checked &checked)
 {
     bool placeholders = false;
     auto buffers = root.find("buffers");
@@ -67,7 +67,7 @@ void adapt_document(json &root, gltf_checked &checked)
     }
     take_out_indices(root, checked);
     bool nodeless = name_no_nodes(root);
-    if (!placeholders && !nodeless && checked.indices_without_view.empty())
+    if (!changed && !placeholders && !nodeless && checked.indices_without_view.empty())
         return;
     for (size_t i = 0; i < checked.buffers.size(); i++) {
         json &buffer = (*buffers)[i];

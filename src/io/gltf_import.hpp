@@ -134,6 +134,7 @@ struct gltf_checked {
         int accessor;
     };
     std::vector<indices> indices_without_view;
+    uint64_t shares_clamped = 0; /* factors beyond 0 to 1 */
 };
 bool extension_is_supported(const std::string &name);
 gltf_checked gltf_schema_check(std::string_view json, bool lenient, memory_budget &budget);
@@ -147,6 +148,9 @@ std::string uri_data(const std::string &uri, const std::string &location);
 /* Path of a file below `folder`; refuses schemes, absolute paths and ways out of the folder, and
  * every path without a folder. */
 std::string uri_to_path(const std::string &folder, const std::string &uri,
+                        const std::string &location);
+/* Whether it names a file that does not exist. */
+bool uri_file_is_absent(const std::string &folder, const std::string &uri,
                         const std::string &location);
 /* The whole file; fails when it is not a regular one or longer than what is left of the budget. */
 struct file_content {
@@ -165,7 +169,8 @@ struct gltf_repairs {
     uint64_t weights_scaled = 0, joints_missing = 0, weights_animated = 0;
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
-    uint64_t textures_without_image = 0, negative_colors = 0;
+    uint64_t textures_without_image = 0, images_absent = 0, negative_colors = 0;
+    uint64_t shares_clamped = 0;
 };
 
 /* The property that a channel of an animation changes. */

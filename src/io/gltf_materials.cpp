@@ -32,6 +32,7 @@ class texture_importer
     void finish();
 
   private:
+    bool is_absent(size_t image);
     uint32_t add_image(size_t image);
     void decode(size_t image, lsf_texture_image &decoded);
 
@@ -40,6 +41,7 @@ class texture_importer
     std::map<size_t, uint32_t> known_images_;
     std::vector<lsf_texture> textures_;
     std::vector<size_t> images_;
+    std::set<size_t> absent_;
 
     /* Images that are made of others; the image of their textures is set when all others are
      * known. */
@@ -74,6 +76,23 @@ static bool is_ktx2(const tinygltf::Image &image)
            (!uri_is_data(uri) && uri.size() > 5 && uri.compare(uri.size() - 5, 5, ".ktx2") == 0);
 }
 
+/* Whether it is left out because its file does not exist. */
+bool texture_importer::is_absent(size_t image)
+{
+    std::string location = location_of("images", image) + "/uri";
+    const std::string &uri = import_.model.images[image].uri;
+    if (!uri_file_is_absent(import_.folder, uri, location))
+        return false;
+    if (!import_.params->lenient)
+        fail("IO_ERROR", location,
+             "%s/%s: cannot be found; put the file there, correct the path, or load the scene "
+             "leniently to see how it looks without",
+             import_.folder.c_str(), uri.c_str());
+    if (absent_.insert(image).second)
+        import_.repairs.images_absent++;
+    return true;
+}
+
 uint32_t texture_importer::add(int index, bool srgb)
 {
     auto found = known_.find({index, srgb});
@@ -90,6 +109,8 @@ uint32_t texture_importer::add(int index, bool srgb)
         import_.repairs.textures_without_image++;
         return known_[{index, srgb}] = LSF_NONE;
     }
+    if (is_absent((size_t)image))
+        return known_[{index, srgb}] = LSF_NONE;
     lsf_texture texture = {};
     texture.srgb = srgb;
     texture.image = add_image((size_t)image);

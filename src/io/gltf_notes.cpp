@@ -53,6 +53,10 @@ void gltf_notes_add(gltf_import &import)
                              " of vertex colours below 0: set to 0");
     lsf_scene_add_count_note(import.scene, repairs.textures_without_image, "texture",
                              " without a PNG, JPEG or WebP image: materials are shown without");
+    lsf_scene_add_count_note(import.scene, repairs.images_absent, "image file",
+                             " that cannot be found: materials are shown without");
+    lsf_scene_add_count_note(import.scene, repairs.shares_clamped, "factor",
+                             " beyond 0 to 1: the nearest of the two is used");
     note_left_out(import, repairs.point_primitives, repairs.points, "points");
     note_left_out(import, repairs.line_primitives, repairs.lines, "lines");
     lsf_scene_add_count_note(import.scene, repairs.no_position, "primitive",

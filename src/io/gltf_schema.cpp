@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cinttypes>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -13,6 +14,10 @@ namespace lsf
 {
 
 using nlohmann::json;
+
+/* Conversions of colours leave shares this far outside 0 to 1: NASA's Ingenuity.glb has 1.00000012.
+ */
+static const double ROUNDING = 1e-5;
 
 /* Nothing that is read nests deeper than 10; extras may, within reason. */
 static const uint64_t DEPTH_MAX = 64;
@@ -134,7 +139,7 @@ static void parse(std::string_view text, memory_budget &budget, json &root)
 class checker
 {
   public:
-    explicit checker(const json &root) : root_(root)
+    checker(json &root, bool lenient) : root_(root), lenient_(lenient)
     {
         for (auto &member : root.items())
             if (member.value().is_array())
@@ -143,7 +148,16 @@ class checker
         count_in_extension("variants", "/extensions/KHR_materials_variants/variants");
     }
 
-    void check_object(const json &value, const schema &rules, bool extension = false);
+    void check_object(json &value, const schema &rules, bool extension = false);
+    /* Numbers in the document that were replaced by the nearest in range. */
+    uint64_t rounded() const
+    {
+        return rounded_;
+    }
+    uint64_t clamped() const
+    {
+        return clamped_;
+    }
 
     uint64_t count(const char *array) const
     {
@@ -158,19 +172,22 @@ class checker
         if (root_.contains(pointer) && root_[pointer].is_array())
             counts_[array] = root_[pointer].size();
     }
-    void check(const json &value, const rule &rule, bool extension);
+    void check(json &value, const rule &rule, bool extension);
     void check_integer(const json &value, double low, double high);
-    void check_number(const json &value, double low, double high, bool extension);
+    void check_number(json &value, double low, double high, bool extension);
+    void check_share(json &value);
     void check_code(const json &value, const char *names);
     void check_name(const json &value, const char *names);
     void check_reference(const json &value, const char *array);
     void expect(bool holds, const json &value, const char *wanted);
     /* Runs `each` on all entries with the location extended by their index. */
-    template <class Each> void check_entries(const json &value, Each each);
+    template <class Each> void check_entries(json &value, Each each);
     /* The same for the members of an object. */
-    template <class Each> void check_members(const json &value, Each each);
+    template <class Each> void check_members(json &value, Each each);
 
-    const json &root_;
+    json &root_;
+    bool lenient_;
+    uint64_t rounded_ = 0, clamped_ = 0;
     std::map<std::string, uint64_t> counts_;
     std::string location_; /* a JSON pointer, extended and cut while descending */
 };
@@ -190,7 +207,7 @@ void checker::expect(bool holds, const json &value, const char *wanted)
         fail("TYPE_MISMATCH", location_, "%s is not %s", shown(value).c_str(), wanted);
 }
 
-template <class Each> void checker::check_entries(const json &value, Each each)
+template <class Each> void checker::check_entries(json &value, Each each)
 {
     expect(value.is_array(), value, "an array");
     size_t length = location_.size();
@@ -211,9 +228,26 @@ void checker::check_integer(const json &value, double low, double high)
              low, high);
 }
 
-void checker::check_number(const json &value, double low, double high, bool extension)
+/* A factor from 0 to 1. */
+void checker::check_share(json &value)
+{
+    double number = value.get<double>(), nearest = number > 1.0 ? 1.0 : 0.0;
+    if (number >= 0.0 && number <= 1.0)
+        return;
+    bool rounding = std::fabs(number - nearest) <= ROUNDING;
+    if (!rounding && !lenient_)
+        fail("VALUE_NOT_IN_RANGE", location_,
+             "%s is not within 0 to 1; correct it, or load the file leniently to use %.0f",
+             shown(value).c_str(), nearest);
+    *(rounding ? &rounded_ : &clamped_) += 1;
+    value = nearest;
+}
+
+void checker::check_number(json &value, double low, double high, bool extension)
 {
     expect(value.is_number(), value, "a number");
+    if (low == 0.0 && high == 1.0)
+        return check_share(value);
     double number = value.get<double>();
     if (!(number >= low && number <= high))
         fail("VALUE_NOT_IN_RANGE", location_, "%s is not within %.9g to %.9g", shown(value).c_str(),
@@ -260,18 +294,18 @@ void checker::check_reference(const json &value, const char *array)
              count(array));
 }
 
-template <class Each> void checker::check_members(const json &value, Each each)
+template <class Each> void checker::check_members(json &value, Each each)
 {
     expect(value.is_object(), value, "an object");
     size_t length = location_.size();
-    for (auto &member : value.items()) {
+    for (auto member : value.items()) {
         location_ += "/" + member.key();
         each(member.value());
         location_.resize(length);
     }
 }
 
-void checker::check(const json &value, const rule &rule, bool extension)
+void checker::check(json &value, const rule &rule, bool extension)
 {
     switch (rule.kind) {
     case shape::boolean:
@@ -295,7 +329,7 @@ void checker::check(const json &value, const rule &rule, bool extension)
             fail("ARRAY_LENGTH_NOT_IN_LIST", location_, "%zu entries instead of %zu", value.size(),
                  rule.entries);
         return check_entries(
-            value, [&](const json &entry) { check_number(entry, rule.low, rule.high, extension); });
+            value, [&](json &entry) { check_number(entry, rule.low, rule.high, extension); });
     case shape::reference:
         return check_reference(value, rule.names);
     case shape::integers:
@@ -306,13 +340,13 @@ void checker::check(const json &value, const rule &rule, bool extension)
     case shape::object:
         return check_object(value, *rule.child, extension);
     case shape::objects:
-        return check_entries(
-            value, [&](const json &entry) { check_object(entry, *rule.child, extension); });
+        return check_entries(value,
+                             [&](json &entry) { check_object(entry, *rule.child, extension); });
     case shape::attributes:
         return check_members(value,
                              [&](const json &member) { check_reference(member, "accessors"); });
     case shape::targets:
-        return check_entries(value, [&](const json &entry) {
+        return check_entries(value, [&](json &entry) {
             check_members(entry, [&](const json &member) { check_reference(member, "accessors"); });
         });
     case shape::extensions:
@@ -320,7 +354,7 @@ void checker::check(const json &value, const rule &rule, bool extension)
     }
 }
 
-void checker::check_object(const json &value, const schema &schema, bool extension)
+void checker::check_object(json &value, const schema &schema, bool extension)
 {
     expect(value.is_object(), value, "an object");
     size_t length = location_.size();
@@ -487,7 +521,7 @@ gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budge
     json_document document;
     json &root = document.root;
     parse(text, budget, root);
-    checker checker(root);
+    checker checker(root, lenient);
     /* Checked first: data missing from such a file may be what the extension brings. */
     check_required_extensions(root, lenient);
 
@@ -499,7 +533,8 @@ gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budge
     check_choices(root);
 
     gltf_checked checked;
-    adapt_document(root, checked);
+    checked.shares_clamped = checker.clamped();
+    adapt_document(root, checker.rounded() + checker.clamped() > 0, checked);
     return checked;
 }
 

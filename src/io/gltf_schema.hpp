@@ -18,7 +18,7 @@ enum class shape {
     one_of,     /* a string among `names`, separated by '|' */
     integer,    /* low..high */
     code,       /* an integer among `names`, separated by '|' */
-    number,     /* low..high, finite as a float */
+    number,     /* low..high, finite as a float; 0..1 with a margin for rounding */
     numbers,    /* `entries` numbers; 0: any count */
     reference,  /* an index into the root array `names` */
     references, /* an array of them */
@@ -52,8 +52,9 @@ extern const schema gltf_root_schema;
 /* gltf_adapt.cpp */
 struct gltf_checked;
 bool is_placeholder(const nlohmann::json &buffer);
-/* Fills `checked`; changes the document, which has been checked, where tinygltf needs it. */
-void adapt_document(nlohmann::json &root, gltf_checked &checked);
+/* Fills `checked`; changes the document, which has been checked, where tinygltf needs it.
+ * `changed`: whether it is not the file's any more. */
+void adapt_document(nlohmann::json &root, bool changed, gltf_checked &checked);
 
 } // namespace lsf
 

@@ -126,6 +126,14 @@ std::string uri_to_path(const std::string &folder, const std::string &uri,
     return path.get();
 }
 
+bool uri_file_is_absent(const std::string &folder, const std::string &uri,
+                        const std::string &location)
+{
+    if (uri.empty() || uri_is_data(uri) || folder.empty() || has_scheme(uri))
+        return false;
+    return lsf_path_is_absent(folder.c_str(), percent_decode(uri, location).c_str());
+}
+
 file_content file_read(const std::string &path, const memory_budget &budget)
 {
     lsf_error error;

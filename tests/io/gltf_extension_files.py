@@ -97,6 +97,19 @@ for name in ('KHR_materials_nothing', 'EXT_nothing'):
     changed('require_%s.gltf' % name, name, lambda f: f.json.update(
         extensionsUsed=[name], extensionsRequired=[name]))
 
+# --- what --lenient shows all the same ----------------------------------------------------------
+
+for name, expected, material, more in [
+        ('factors', 'VALUE_NOT_IN_RANGE at /materials/0/pbrMetallicRoughness/metallicFactor',
+         {'metallicFactor': 1.5, 'roughnessFactor': -0.25}, {}),
+        ('rounding', 'ok', {'baseColorFactor': [1.00000012, 0.5, -1e-9, 1]}, {}),
+        ('absent', 'cannot be found', {'baseColorTexture': {'index': 0},
+                                       'metallicRoughnessTexture': {'index': 1}},
+         {'images': [{'uri': 'none.png'}], 'textures': [{'source': 0}, {'source': 0}]})]:
+    changed('%s.gltf' % name, expected, lambda f: (
+        f.json.update(materials=[{'pbrMetallicRoughness': material}], **more),
+        f.json['meshes'][0]['primitives'][0].update(material=0)), 2 if expected == 'ok' else '')
+
 # --- files of other formats ---------------------------------------------------------------------
 
 for name, content, what in [

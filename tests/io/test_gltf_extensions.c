@@ -237,6 +237,41 @@ static void test_lenient(void **state)
     free(path);
 }
 
+static const lsf_material *first_material(const lsf_scene *scene)
+{
+    return &scene->materials[scene->primitives[0].material];
+}
+
+static void test_factors_beyond_their_range(void **state)
+{
+    (void)state;
+    lsf_scene *scene = load("rounding.gltf", NULL);
+    const float rounded[] = {1.0f, 0.5f, 0.0f, 1.0f};
+    assert_memory_equal(first_material(scene)->base_color, rounded, sizeof rounded);
+    assert_int_equal(lsf_scene_note_count(scene), 1); /* that nothing lights it */
+    lsf_scene_destroy(scene);
+
+    lsf_scene_params params = {LSF_SCENE_PARAMS_DEFAULTS};
+    params.lenient = true;
+    scene = load("factors.gltf", &params);
+    assert_true(has_note(scene, "2 factors beyond 0 to 1"));
+    assert_true(first_material(scene)->metallic == 1.0f);
+    assert_true(first_material(scene)->roughness == 0.0f);
+    lsf_scene_destroy(scene);
+}
+
+static void test_absent_images(void **state)
+{
+    (void)state;
+    lsf_scene_params params = {LSF_SCENE_PARAMS_DEFAULTS};
+    params.lenient = true;
+    lsf_scene *scene = load("absent.gltf", &params);
+    assert_true(has_note(scene, "1 image file that cannot be found"));
+    assert_true(first_material(scene)->base_color_texture.texture == LSF_NONE);
+    assert_int_equal(scene->image_count, 0);
+    lsf_scene_destroy(scene);
+}
+
 int main(void)
 {
     static size_t cases_min = 30;
@@ -250,6 +285,8 @@ int main(void)
         cmocka_unit_test(test_instancing),
         cmocka_unit_test(test_glossiness),
         cmocka_unit_test(test_lenient),
+        cmocka_unit_test(test_factors_beyond_their_range),
+        cmocka_unit_test(test_absent_images),
     };
     return cmocka_run_group_tests_name("gltf extensions", tests, make_gltf_folder,
                                        remove_gltf_folder);
