@@ -401,7 +401,7 @@ static const char *remedy_for(const std::string &extension)
  * the scene has the same shapes in the same positions. */
 static bool changes_look_alone(const std::string &extension)
 {
-    for (const char *part : {"_materials_", "_texture_", "_lights_", "_xmp"})
+    for (const char *part : {"_materials_", "_technique", "_texture_", "_lights_", "_xmp"})
         if (extension.find(part) != std::string::npos)
             return true;
     return false;
