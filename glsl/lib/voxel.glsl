@@ -6,7 +6,8 @@
  * voxelize.shading R32UI   the shading normal, likewise | rotation of the tangent about the plane's normal << 24
  * voxelize.point R32UI     a point of the surface in the voxel, 3 x 10 bits | emits on both sides << 30 |
  *                          unlit << 31
- * voxelize.emission R32UI  three 9-bit mantissas with one 5-bit exponent, in units of the grid's radiance
+ * voxelize.emission R32UI  mantissas of 9, 9 and 8 bits with one 5-bit exponent, in units of the grid's radiance; at the
+ *                          border of an emitting surface << 18
  * voxelize.specular_params R32UI     roughness along tangent and bitangent, (n - 1) / (n + 1) of the refractive
  *                          index n, metallic; 8 bits each
  * voxelize.transmission R32UI  as specular_params.z of lib/gbuffer.glsl, seen from the front
@@ -162,7 +163,10 @@ float voxel_transmission(uint bits)
     return float(bits & 255u) / 255.0;
 }
 
-/* Shared exponent as in GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), a format that images cannot have. */
+/* Shared exponent as in GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), a format that images cannot have, but for the lowest bit
+ * of blue: the border. */
+#define VOXEL_EMISSION_BORDER (1u << 18)
+
 uint voxel_emission_pack(vec3 emission)
 {
     vec3 c = clamp(emission, 0.0, 65408.0);
@@ -170,13 +174,14 @@ uint voxel_emission_pack(vec3 emission)
     int exponent = largest > 0.0 ? max(-16, int(floor(log2(largest)))) + 16 : 0;
     if (largest * exp2(float(24 - exponent)) + 0.5 >= 512.0)
         exponent++;
-    uvec3 mantissa = uvec3(c * exp2(float(24 - exponent)) + 0.5);
-    return mantissa.r | (mantissa.g << 9) | (mantissa.b << 18) | (uint(exponent) << 27);
+    uvec2 mantissa = uvec2(c.rg * exp2(float(24 - exponent)) + 0.5);
+    uint blue = min(uint(c.b * exp2(float(23 - exponent)) + 0.5), 255u);
+    return mantissa.r | (mantissa.g << 9) | (blue << 19) | (uint(exponent) << 27);
 }
 
 vec3 voxel_emission_unpack(uint bits)
 {
-    vec3 mantissa = vec3(uvec3(bits, bits >> 9, bits >> 18) & 511u);
+    vec3 mantissa = vec3(uvec3(bits, bits >> 9, bits >> 18) & uvec3(511u, 511u, 510u));
     return mantissa * exp2(float(int(bits >> 27)) - 24.0);
 }
 

@@ -90,13 +90,13 @@ cone_end cone_end_at(vec3 point, vec3 direction, ivec3 cell, float density)
 {
     cone_end end = cone_end(vec3(0.0), cone_meet(cell, direction));
 #if LSF_EMITTERS
-    uint bits = texelFetch(voxel_point, cell, 0).r;
     vec3 n = voxel_normal_unpack(texelFetch(voxel_normal, cell, 0).r);
     end.emission = voxel_emission_drawn(cell, cone_slice(cell, direction));
     end.rest = max(end.rest - end.emission, 0.0);
     if (end.emission != vec3(0.0)) {
-        float drawn = emitter_density_met(point, direction, vec3(cell) + voxel_point_unpack(bits),
-                                          faceforward(n, direction, n), bits, grid.unit.x * end.emission);
+        vec3 q = vec3(cell) + voxel_point_unpack(texelFetch(voxel_point, cell, 0).r);
+        float drawn = emitter_density_met(point, direction, cell, q, faceforward(n, direction, n),
+                                          grid.unit.x * end.emission);
         end.emission *= emitter_share(density, emitters.y * drawn);
     }
 #endif

@@ -22,13 +22,26 @@ float emitter_share(float own, float other)
     return 1.0 / (1.0 + ratio * ratio);
 }
 
+/* To rays an emitter is as large as the voxels that it touches: a strip half a voxel wide is three times too bright. Where
+ * this matters, at its border, they count for the weights as if they were this much rarer; where points alone are too
+ * rare, in mirrors, they still find the light. */
+#define EMITTER_BORDER_CHANCE (1.0 / 64.0)
+
+/* Factor on the density of rays that hit a voxel's emission, for weights. */
+float emitter_chance(ivec3 cell)
+{
+    return (texelFetch(voxel_emission, cell, 0).r & VOXEL_EMISSION_BORDER) != 0u ? EMITTER_BORDER_CHANCE : 1.0;
+}
+
 /* A point on an emitter, seen from a vertex. */
 struct emitter_view {
     vec3 position, normal; /* [voxels]; unit, towards the vertex */
     vec3 direction;        /* unit, to the point */
     vec3 radiance;         /* times `density` over the density with which it was drawn */
     float density;         /* density of this direction, for weights [1/sr] */
+    float chance;          /* factor on the density of rays that hit it, for weights */
 };
+
 
 /* Density by solid angle of a point drawn with `by_area`; the squared distance is in voxels. */
 float emitter_density(float by_area, float distance2, float cosine)
@@ -65,6 +78,10 @@ bool emitter_view_from(vec3 position, vec3 normal, vec2 u, out emitter_view e)
     float by_area = emitter_point_luminance(e.position, point.radiance.rgb) * emitters.x;
     e.density = emitter_density(by_area * point.radiance.w, distance2, cosine);
     e.radiance = point.radiance.rgb * (by_area / point.normal.w);
+    /* Rays start above the voxels of their own surface (voxel_start), and miss what faces it from within them. */
+    vec3 start = abs(dot(e.normal, normal)) < VOXEL_EDGE ? position + voxel_lift(normal)
+                                                         : voxel_start_along(position, normal, e.direction);
+    e.chance = dot(e.normal, start - e.position) <= 0.0 ? 0.0 : emitter_chance(ivec3(floor(e.position)));
     return e.density > 0.0;
 }
 
@@ -80,9 +97,10 @@ bool emitter_seen_from(vec3 position, vec3 geometric_normal, vec3 normal, vec2 u
 }
 
 /* For a ray from `position` that hits a voxel with the point q and the unit normal n: density with which the
- * direction would have been drawn by emitter_view_from. `bits`: the voxel's in voxelize.point. */
-float emitter_density_met(vec3 position, vec3 direction, vec3 q, vec3 n, uint bits, vec3 emission)
+ * direction would have been drawn by emitter_view_from, over the factor on that of rays. */
+float emitter_density_met(vec3 position, vec3 direction, ivec3 cell, vec3 q, vec3 n, vec3 emission)
 {
+    uint bits = texelFetch(voxel_point, cell, 0).r;
     if (voxel_unlit(bits))
         return 0.0; /* such surfaces are not drawn */
 
@@ -90,7 +108,7 @@ float emitter_density_met(vec3 position, vec3 direction, vec3 q, vec3 n, uint bi
     float along = -dot(n, q - position) / cosine; /* to the voxel's plane */
     if (!(cosine > 0.0 && along > 0.0))
         return 0.0;
-    float by_area = emitter_luminance(emission) * emitters.x;
+    float by_area = emitter_luminance(emission) * emitters.x / emitter_chance(cell);
     return emitter_density(voxel_emits_both(bits) ? 2.0 * by_area : by_area, along * along, cosine);
 }
 

@@ -221,12 +221,22 @@ bool voxel_ray_meet(inout voxel_ray ray, float end, bool corners, out ivec3 met)
     return found;
 }
 
+/* The lift of a point of a surface with the unit normal n, towards one of another surface. Where two face each other, both
+ * lifts together are at most as high as what is between, or the ends would have passed each other. */
+vec3 voxel_lift_towards(vec3 point, vec3 n, vec3 other, vec3 other_n)
+{
+    vec3 lift = voxel_lift(n);
+    float height = dot(n, other - point), facing = max(-dot(n, other_n), 0.0);
+    float most = height > 0.0 ? min(height / (length(lift) + length(voxel_lift(other_n))), 1.0) : 1.0;
+    return mix(1.0, most, facing) * lift;
+}
+
 /* Whether one surface point sees another [voxels]; with their unit normals. True where the lifted ends have passed
  * each other: the grid does not resolve what is between. */
 bool voxel_sees(vec3 from, vec3 from_normal, vec3 to, vec3 to_normal)
 {
-    vec3 start = from + voxel_lift(from_normal);
-    vec3 span = to + voxel_lift(to_normal) - start;
+    vec3 start = from + voxel_lift_towards(from, from_normal, to, to_normal);
+    vec3 span = to + voxel_lift_towards(to, to_normal, from, from_normal) - start;
     float end = length(span);
     voxel_ray ray;
     if (dot(span, to - from) <= 0.0 || !voxel_ray_begin(start, span / end, ray))

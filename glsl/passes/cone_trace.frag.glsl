@@ -187,12 +187,12 @@ void add_emitters(surface s, vec3 point, vec3 to_viewer)
         if (!cone_emitter(emitter_number(i), point, s.geometric_normal, s.normal, e))
             continue;
         float cosine = dot(s.normal, e.direction), density = emitters.y * e.density;
-        float share = emitter_share(density, cosine / LSF_PI);
+        float share = emitter_share(density, e.chance * cosine / LSF_PI);
         reflect_light(s, to_viewer, e.direction, cosine, cosine / density * share * e.radiance);
 #if LSF_SPECULAR
         float pdf = brdf_pdf(lobe_sampler(s, to_viewer), e.direction);
         specular_out.rgb += lobe_reflects(s, to_viewer, e.direction, cosine) * e.radiance *
-                            (emitter_share(density, pdf) / density);
+                            (emitter_share(density, e.chance * pdf) / density);
 #endif
     }
 }

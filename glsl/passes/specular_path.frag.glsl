@@ -184,7 +184,7 @@ vec3 emitters_at(path_vertex v, bool lobe, vec3 absorption, path_random_key key,
         brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
         vec3 reflected = lobe ? f.specular : brdf_sum(v.s, f);
         vec3 left = left_after(absorption_along(v, e.direction, absorption), e.position - v.position);
-        sum += reflected * e.radiance * left * (cosine / density * emitter_share(density, brdf_pdf(p, e.direction)));
+        sum += reflected * e.radiance * left * (cosine / density * emitter_share(density, e.chance * brdf_pdf(p, e.direction)));
     }
     return sum;
 }
@@ -197,8 +197,8 @@ vec3 emission_met(path_vertex v, vec3 direction, float pdf, ivec3 cell, int side
     vec3 emission = voxel_emission_at(cell, side);
 #if LSF_EMITTERS
     if (pdf > 0.0) {
-        float drawn = emitter_density_met(v.position, direction, met.position, met.s.geometric_normal,
-                                          texelFetch(voxel_point, cell, 0).r, grid.unit.x * emission);
+        float drawn = emitter_density_met(v.position, direction, cell, met.position, met.s.geometric_normal,
+                                          grid.unit.x * emission);
         emission *= emitter_share(pdf, emitters.y * drawn);
     }
 #endif

@@ -71,7 +71,7 @@ vec3 gather(reflector material, ivec3 cell, vec3 position, vec3 n, vec3 shading)
         if (!cone_emitter(number, position, n, shading, e))
             continue;
         float cosine = dot(shading, e.direction), density = emitters.y * e.density;
-        float share = emitter_share(density, cosine / LSF_PI);
+        float share = emitter_share(density, e.chance * cosine / LSF_PI);
         sum += reflectance(material, cosine) * (cosine / LSF_PI * share / density) * (grid.unit.y * e.radiance);
     }
 #endif

@@ -110,7 +110,7 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
             continue;
         float density = emitters.y * e.density;
         float weight = cosine / density *
-                       emitter_share(density, brdf_pdf(sampler_of_v, e.direction));
+                       emitter_share(density, e.chance * brdf_pdf(sampler_of_v, e.direction));
         brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
         vec3 radiance = e.radiance;
 #if LSF_ABSORPTION
@@ -123,8 +123,8 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
 /* Weight of the emission of a voxel that a direction drawn from v with density `pdf` hits. */
 float met_share(path_vertex v, vec3 direction, float pdf, ivec3 cell, path_vertex met, vec3 emission)
 {
-    float drawn = emitter_density_met(v.position, direction, met.position, met.s.geometric_normal,
-                                      texelFetch(voxel_point, cell, 0).r, grid.unit.x * emission);
+    float drawn = emitter_density_met(v.position, direction, cell, met.position, met.s.geometric_normal,
+                                      grid.unit.x * emission);
     return emitter_share(pdf, emitters.y * drawn);
 }
 #endif

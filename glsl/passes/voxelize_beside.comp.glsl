@@ -1,5 +1,5 @@
 /* Precomputed bits that save rays work: those of each voxel about its neighbours, VOXEL_BESIDE and VOXEL_EDGE in
- * lib/voxel.glsl, and those of bricks that hold emitting voxels. Switch LSF_EMISSION. */
+ * lib/voxel.glsl, those of bricks that hold emitting voxels, and VOXEL_EMISSION_BORDER. Switch LSF_EMISSION. */
 #include "lib/voxel_brick.glsl"
 #include "lib/voxel_trace.glsl"
 
@@ -7,7 +7,7 @@ layout(binding = 0, r32ui) uniform uimage3D normal_image;
 layout(binding = LSF_UNIT_VOXEL_POINT) uniform usampler3D voxel_point;
 #if LSF_EMISSION
 layout(binding = 1, r32ui) uniform uimage3D shining_image;
-layout(binding = LSF_UNIT_VOXEL_EMISSION) uniform usampler3D voxel_emission;
+layout(binding = 2, r32ui) uniform uimage3D emission_image;
 #endif
 
 /* Voxels of one plane have equal normals, and points rounded to 2^-11 along each axis. */
@@ -65,6 +65,29 @@ uint look_beside(ivec3 cell, uint normal)
     return seen << VOXEL_BESIDE_SHIFT | edge_of(cell, q, edges, same) << VOXEL_EDGE_SHIFT;
 }
 
+#if LSF_EMISSION
+/* Emitting voxels among the 27 around one within an emitting surface, at least: a plane along two axes has nine, and six
+ * at a straight border. */
+#define EMITTING_WITHIN 8
+
+bool emits(ivec3 cell)
+{
+    return voxel_emission_unpack(imageLoad(emission_image, cell).r) != vec3(0.0);
+}
+
+/* Sets the bit of an emitting voxel. Other invocations read the word meanwhile, but only the bits of the emission. */
+void mark_border(ivec3 cell)
+{
+    int count = 0;
+    for (int i = 0; i < 27; i++) {
+        ivec3 there = cell + ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+        count += voxel_inside(there) && voxel_occupied(there) && emits(there) ? 1 : 0;
+    }
+    uint bits = imageLoad(emission_image, cell).r & ~VOXEL_EMISSION_BORDER;
+    imageStore(emission_image, cell, uvec4(count < EMITTING_WITHIN ? bits | VOXEL_EMISSION_BORDER : bits));
+}
+#endif
+
 void main()
 {
     uint at;
@@ -79,7 +102,10 @@ void main()
         uint normal = imageLoad(normal_image, cell).r & VOXEL_NORMAL_BITS;
         imageStore(normal_image, cell, uvec4(normal | look_beside(cell, normal)));
 #if LSF_EMISSION
-        shines = shines || voxel_emission_unpack(texelFetch(voxel_emission, cell, 0).r) != vec3(0.0);
+        if (emits(cell)) {
+            shines = true;
+            mark_border(cell);
+        }
 #endif
     }
 #if LSF_EMISSION

@@ -317,9 +317,10 @@ static void look_beside(lsf_voxelize *pass)
     bind_image(0, o->normal);
     if (o->shining)
         bind_image(1, o->shining);
+    if (o->emission)
+        bind_image(2, o->emission);
     lsf_bind_texture(LSF_UNIT_VOXEL_OCCUPANCY, o->occupancy[0]);
     lsf_bind_texture(LSF_UNIT_VOXEL_POINT, o->point);
-    lsf_bind_texture(LSF_UNIT_VOXEL_EMISSION, o->emission);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BRICKS, o->bricks);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, o->bricks);
     glUseProgram(pass->beside_program);

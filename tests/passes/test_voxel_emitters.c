@@ -120,6 +120,38 @@ static void quads_over_a_plane(void **state)
         }
 }
 
+/* Lamps that face the floor from so near that rays start above them, and strips that are narrower
+ * than a voxel, which look three times as wide to rays. The picture shows the floor below them. */
+static void lamps_close_to_a_plane(void **state)
+{
+    const char *technique = *state;
+    static const char *const options[MAX_OPTIONS] = {"voxel.resolution=66"};
+    const struct {
+        const char *name;
+        float height, half_width, half_length;
+        double allowed;
+    } cases[] = {
+        {"half a voxel above", 0.03f, 0.1f, 0.1f, 0.02},
+        {"a strip, a voxel and a half above", 0.094f, 0.016f, 0.6f, 0.02},
+        {"a strip, three voxels above", 0.19f, 0.016f, 0.6f, 0.01},
+    };
+    const lsf_float3 point = lsf_f3(0, 0, 0), up = lsf_f3(0, 1, 0);
+    for (size_t i = 0; i < LSF_COUNT(cases); i++) {
+        lsf_float3 corners[4];
+        lamp_corners(lsf_f3(0, cases[i].height, 0), lsf_f3(cases[i].half_width, 0, 0),
+                     lsf_f3(0, 0, cases[i].half_length), corners);
+        lsf_scene *scene = floor_and_lamp(corners, false, 0.0f);
+        lsf_image *image = render(scene, technique, 16, 64, 0, lsf_f3(1.5f, 0.2f, 0), point, 0.002f,
+                                  options);
+        double expected = 0.5 / (double)LSF_PI * polygon_irradiance(corners, 4, point, up);
+        double found = mean_of(image, 1);
+        print_message("%s: %.4e, expected %.4e\n", cases[i].name, found, expected);
+        assert_true(fabs(found - expected) <= cases[i].allowed * expected);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+}
+
 enum { PLAIN = 0, BOTH_SIDES = 1, TEXTURED = 2, LARGE = 4, UNLIT = 8 };
 
 /* A corner with a lamp: a small one that hangs, or a large one for a ceiling. */
@@ -204,6 +236,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         {"quads over a plane, paths", quads_over_a_plane, NULL, NULL, techniques[0].technique},
         {"quads over a plane, cones", quads_over_a_plane, NULL, NULL, techniques[1].technique},
+        {"lamps close to a plane, paths", lamps_close_to_a_plane, NULL, NULL,
+         techniques[0].technique},
+        {"lamps close to a plane, cones", lamps_close_to_a_plane, NULL, NULL,
+         techniques[1].technique},
         {"strategies agree, paths", strategies_agree, NULL, NULL, &techniques[0]},
         {"strategies agree, cones", strategies_agree, NULL, NULL, &techniques[1]},
     };
