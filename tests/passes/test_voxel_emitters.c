@@ -141,8 +141,8 @@ static void lamps_close_to_a_plane(void **state)
         lamp_corners(lsf_f3(0, cases[i].height, 0), lsf_f3(cases[i].half_width, 0, 0),
                      lsf_f3(0, 0, cases[i].half_length), corners);
         lsf_scene *scene = floor_and_lamp(corners, false, 0.0f);
-        lsf_image *image = render(scene, technique, 16, 64, 0, lsf_f3(1.5f, 0.2f, 0), point, 0.002f,
-                                  options);
+        lsf_image *image =
+            render(scene, technique, 16, 64, 0, lsf_f3(1.5f, 0.2f, 0), point, 0.002f, options);
         double expected = 0.5 / (double)LSF_PI * polygon_irradiance(corners, 4, point, up);
         double found = mean_of(image, 1);
         print_message("%s: %.4e, expected %.4e\n", cases[i].name, found, expected);
