@@ -110,8 +110,8 @@ vec3 voxel_passed(voxel_passage p)
 /* Transmittance between two surface points, with visibility as in voxel_sees. */
 vec3 voxel_seen(vec3 from, vec3 from_normal, vec3 to, vec3 to_normal)
 {
-    vec3 start = from + voxel_lift(from_normal);
-    vec3 span = to + voxel_lift(to_normal) - start;
+    vec3 start = from + voxel_lift_towards(from, from_normal, to, to_normal);
+    vec3 span = to + voxel_lift_towards(to, to_normal, from, from_normal) - start;
     float end = length(span);
     voxel_ray ray;
     if (dot(span, to - from) <= 0.0 || !voxel_ray_begin(start, span / end, ray))
