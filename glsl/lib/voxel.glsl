@@ -163,10 +163,11 @@ float voxel_transmission(uint bits)
     return float(bits & 255u) / 255.0;
 }
 
-/* Shared exponent as in GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), a format that images cannot have, but for the lowest bit
- * of blue: the border. */
+/* Bit of a texel of voxelize.emission: the voxel is at the border of an emitting surface. */
 #define VOXEL_EMISSION_BORDER (1u << 18)
 
+/* Shared exponent as in GL_RGB9_E5 (OpenGL 4.5, section 8.5.2), a format that images cannot have; the lowest bit of blue
+ * is left free, for the border. */
 uint voxel_emission_pack(vec3 emission)
 {
     vec3 c = clamp(emission, 0.0, 65408.0);

@@ -42,7 +42,6 @@ struct emitter_view {
     float chance;          /* factor on the density of rays that hit it, for weights */
 };
 
-
 /* Density by solid angle of a point drawn with `by_area`; the squared distance is in voxels. */
 float emitter_density(float by_area, float distance2, float cosine)
 {

@@ -184,7 +184,8 @@ vec3 emitters_at(path_vertex v, bool lobe, vec3 absorption, path_random_key key,
         brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
         vec3 reflected = lobe ? f.specular : brdf_sum(v.s, f);
         vec3 left = left_after(absorption_along(v, e.direction, absorption), e.position - v.position);
-        sum += reflected * e.radiance * left * (cosine / density * emitter_share(density, e.chance * brdf_pdf(p, e.direction)));
+        float share = emitter_share(density, e.chance * brdf_pdf(p, e.direction));
+        sum += reflected * e.radiance * left * (cosine / density * share);
     }
     return sum;
 }

@@ -143,9 +143,11 @@ char *lsf_file_read_standard_input(uint64_t limit, size_t *length, lsf_error *er
     return NULL;
 }
 
-/* True when some component of the path is "..". */
-static bool climbs(const char *path)
+/* Whether the path is empty or absolute, or some component of it is "..". */
+static bool leads_out(const char *path)
 {
+    if (path[0] == '\0' || path[0] == '/')
+        return true;
     for (const char *part = path; part; part = strchr(part, '/')) {
         part += *part == '/';
         if (part[0] == '.' && part[1] == '.' && (part[2] == '/' || part[2] == '\0'))
@@ -156,7 +158,7 @@ static bool climbs(const char *path)
 
 bool lsf_path_is_absent(const char *folder, const char *relative)
 {
-    if (relative[0] == '\0' || relative[0] == '/' || climbs(relative))
+    if (leads_out(relative))
         return false;
     char *joined = lsf_format("%s/%s", folder, relative);
     bool absent = joined && access(joined, F_OK) != 0 && errno == ENOENT;
@@ -166,7 +168,7 @@ bool lsf_path_is_absent(const char *folder, const char *relative)
 
 char *lsf_path_confine(const char *folder, const char *relative, lsf_error *error)
 {
-    if (relative[0] == '\0' || relative[0] == '/' || climbs(relative)) {
+    if (leads_out(relative)) {
         lsf_error_set(error, LSF_ERROR_FILE,
                       "%s: leads out of the folder %s; use a path relative to that folder, without "
                       "\"..\"",

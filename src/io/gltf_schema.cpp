@@ -15,7 +15,7 @@ namespace lsf
 
 using nlohmann::json;
 
-/* Conversions of colours leave shares this far outside 0 to 1: NASA's Ingenuity.glb has 1.00000012.
+/* How far exporters may exceed 0 to 1 by rounding: NASA's Ingenuity.glb has a colour of 1.00000012.
  */
 static const double ROUNDING = 1e-5;
 
@@ -149,10 +149,11 @@ class checker
     }
 
     void check_object(json &value, const schema &rules, bool extension = false);
-    /* Numbers in the document that were replaced by the nearest in range. */
-    uint64_t rounded() const
+    /* Whether numbers in the document were replaced by the nearest in range; how many of them were
+     * beyond it by more than rounding. */
+    bool changed() const
     {
-        return rounded_;
+        return changed_;
     }
     uint64_t clamped() const
     {
@@ -187,7 +188,8 @@ class checker
 
     json &root_;
     bool lenient_;
-    uint64_t rounded_ = 0, clamped_ = 0;
+    bool changed_ = false;
+    uint64_t clamped_ = 0;
     std::map<std::string, uint64_t> counts_;
     std::string location_; /* a JSON pointer, extended and cut while descending */
 };
@@ -239,8 +241,9 @@ void checker::check_share(json &value)
         fail("VALUE_NOT_IN_RANGE", location_,
              "%s is not within 0 to 1; correct it, or load the file leniently to use %.0f",
              shown(value).c_str(), nearest);
-    *(rounding ? &rounded_ : &clamped_) += 1;
     value = nearest;
+    changed_ = true;
+    clamped_ += !rounding;
 }
 
 void checker::check_number(json &value, double low, double high, bool extension)
@@ -298,7 +301,7 @@ template <class Each> void checker::check_members(json &value, Each each)
 {
     expect(value.is_object(), value, "an object");
     size_t length = location_.size();
-    for (auto member : value.items()) {
+    for (auto &member : value.items()) {
         location_ += "/" + member.key();
         each(member.value());
         location_.resize(length);
@@ -534,7 +537,7 @@ gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budge
 
     gltf_checked checked;
     checked.shares_clamped = checker.clamped();
-    adapt_document(root, checker.rounded() + checker.clamped() > 0, checked);
+    adapt_document(root, checker.changed(), checked);
     return checked;
 }
 

@@ -308,9 +308,8 @@ static const lsf_command_option options[] = {
      "show the backs of single-sided materials to the camera, which glTF hides; light reaches "
      "both sides in any case"},
     {"lenient", 0, NULL, SCENES, "Scene", LSF_VALUE_FLAG, AT(lenient), 0, 0, NULL, NULL,
-     "ignore required extensions that only change the look, show materials without image files "
-     "that "
-     "cannot be found, and take factors beyond 0 to 1 for the nearest of the two, with warnings"},
+     "ignore required extensions that only change the look, leave out images whose files cannot be "
+     "found, and take factors beyond 0 to 1 for the nearest of the two, with warnings"},
     {"memory-limit", 0, "GIB", SCENES, "Scene", LSF_VALUE_DOUBLE, AT(memory_limit), 0.001, 1e6,
      NULL, "8", "refuse a scene that needs more memory than this at any moment of loading, in GiB"},
     {"scene", 0, "NAME|INDEX", SCENES, "Scene", LSF_VALUE_TEXT, AT(scene), 0, 0, NULL, NULL,

@@ -93,7 +93,7 @@ case('instanced_many.gltf', 'MEMORY_LIMIT')
 
 # --- required extensions, ignored by --lenient --------------------------------------------------
 
-for name in ('KHR_materials_nothing', 'EXT_nothing'):
+for name in ('KHR_materials_nothing', 'KHR_techniques_webgl', 'EXT_nothing'):
     changed('require_%s.gltf' % name, name, lambda f: f.json.update(
         extensionsUsed=[name], extensionsRequired=[name]))
 

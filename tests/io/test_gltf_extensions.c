@@ -223,6 +223,9 @@ static void test_lenient(void **state)
     lsf_scene *scene = load("require_KHR_materials_nothing.gltf", &params);
     assert_true(has_note(scene, "KHR_materials_nothing is ignored, though the file requires it"));
     lsf_scene_destroy(scene);
+    scene = load("require_KHR_techniques_webgl.gltf", &params);
+    assert_true(has_note(scene, "KHR_techniques_webgl is ignored, though the file requires it"));
+    lsf_scene_destroy(scene);
 
     lsf_error error = {0};
     char *path = lsf_format("%s/require_KHR_materials_nothing.gltf", gltf_folder);
