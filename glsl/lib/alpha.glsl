@@ -6,7 +6,7 @@
 
 #include "shared/scene_data.h"
 
-#if LSF_BLEND || LSF_STRAIGHT
+#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
 #include "lib/chance.glsl"
 #endif
 
@@ -14,7 +14,7 @@
  * the side that is seen where a surface folds at that vertex. */
 uint layer_key(uint instance, uint vertex, bool front)
 {
-#if LSF_BLEND || LSF_STRAIGHT
+#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
     return hash(uvec3(instance, vertex, front)).x;
 #else
     return 0u;

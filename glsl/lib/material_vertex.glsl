@@ -40,7 +40,7 @@ flat out vec4 vertex_base_color_row_0, vertex_base_color_row_1;
 #if LSF_ANISOTROPY
 flat out vec4 vertex_anisotropy;
 #endif
-#if LSF_BLEND || LSF_STRAIGHT
+#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
 flat out uvec2 vertex_layer; /* instance, vertex */
 #endif
 
@@ -78,7 +78,7 @@ void material_vertex(vec3 p)
 #if LSF_ANISOTROPY
     vertex_anisotropy = materials[material].anisotropy;
 #endif
-#if LSF_BLEND || LSF_STRAIGHT
+#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
     vertex_layer = uvec2(instance_number(), gl_VertexID);
 #endif
 }

@@ -61,6 +61,14 @@ float straight_chance(vec3 transmittance)
     return min(max(transmittance.r, max(transmittance.g, transmittance.b)), STRAIGHT_MOST);
 }
 
+/* The same where the eye sees through the surface: at most 7/8, because what a pane reflects may be much brighter than
+ * what is behind it, and at least 1/8, for the same reason on a dark pane. */
+float seen_through_chance(vec3 transmittance)
+{
+    float passes = straight_chance(transmittance);
+    return passes > 0.0 ? clamp(passes, 0.125, 0.875) : 0.0;
+}
+
 /* Tint of light that passes an absent surface. */
 vec3 straight_tint(surface s, vec3 to_viewer)
 {

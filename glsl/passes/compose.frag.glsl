@@ -58,7 +58,7 @@ layout(location = LSF_COVERAGE) out vec4 coverage_out;
  * background. */
 bool covered(ivec2 pixel, float depth)
 {
-#if LSF_STRAIGHT
+#ifdef LSF_SEEN_THROUGH
     if (texelFetch(tint_texture, pixel, 0).a == 0.0)
         return true;
 #endif
@@ -136,7 +136,7 @@ void main()
 #if LSF_ALL_DIRECT
     direct_out = vec4(direct * left, 1.0);
 #endif
-#if LSF_STRAIGHT
+#ifdef LSF_SEEN_THROUGH
     lost *= dot(left, vec3(0.2126, 0.7152, 0.0722));
 #endif
     radiance_out = vec4((seen + direct + indirect) * left, lost);

@@ -57,6 +57,13 @@ void lsf_scene_gpu_media_switch(lsf_plan *plan)
         lsf_plan_switch_add(plan, "LSF_ABSORPTION", true, "there are media");
 }
 
+void lsf_scene_gpu_seen_through_switch(lsf_plan *plan)
+{
+    if (plan->seen_through)
+        lsf_plan_switch_add(plan, "LSF_SEEN_THROUGH", true,
+                            "surfaces that transmit are seen through by chance");
+}
+
 void lsf_scene_gpu_scatter_switch(lsf_plan *plan)
 {
     if (plan->scattered)

@@ -62,6 +62,8 @@ void lsf_scene_gpu_fold_lobes(lsf_plan *plan);
 void lsf_scene_gpu_lobe_switches(lsf_plan *plan, bool specular_params);
 /* Adds the switch of media that light goes straight through, where there are such. */
 void lsf_scene_gpu_media_switch(lsf_plan *plan);
+/* Adds the switch of surfaces that the camera sees through, where there are such. */
+void lsf_scene_gpu_seen_through_switch(lsf_plan *plan);
 /* Adds the switch of rough thin walls, where the camera sees some that scatter light. */
 void lsf_scene_gpu_scatter_switch(lsf_plan *plan);
 /* The same with the switches that it needs, for a pass that handles no other transmission. */

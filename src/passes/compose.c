@@ -54,8 +54,7 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
         lsf_scene_gpu_scatter_switch(plan);
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
-    lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight,
-                        "light comes through materials that transmit");
+    lsf_scene_gpu_seen_through_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", lsf_plan_media_absorb(plan),
                         "there are media, which are looked through");
     lsf_scene_gpu_environment_switches(plan, "an environment is seen");
@@ -67,11 +66,11 @@ void lsf_compose_plan(lsf_plan *plan, const lsf_compose_use *use)
     plan_layer(plan, use->indirect && (plan->aovs & LSF_AOV_INDIRECT_DIFFUSE),
                "LSF_INDIRECT_DIFFUSE", INDIRECT_DIFFUSE, &target);
     plan_layer(plan,
-               (use->split_direct || plan->straight || plan->sky_split) &&
+               (use->split_direct || plan->seen_through || plan->sky_split) &&
                    (plan->aovs & LSF_AOV_DIRECT),
                "LSF_ALL_DIRECT", DIRECT, &target);
     plan_layer(plan,
-               plan->straight && use->indirect && r->specular &&
+               plan->seen_through && use->indirect && r->specular &&
                    (plan->aovs & LSF_AOV_INDIRECT_SPECULAR),
                "LSF_INDIRECT_SPECULAR", INDIRECT_SPECULAR, &target);
     plan_layer(plan, plan->background.coverage, "LSF_COVERAGE", COVERAGE, &target);

@@ -46,12 +46,15 @@ static void plan_switches(lsf_plan *plan)
     if (motion)
         lsf_plan_switch_add(plan, "LSF_MOTION_TARGET", target++,
                             "its colour attachment is numbered");
-    if (plan->straight) {
+    lsf_scene_gpu_seen_through_switch(plan);
+    if (plan->seen_through) {
         lsf_plan_switch_add(plan, "LSF_TINT_TARGET", target++, "its colour attachment is numbered");
         lsf_plan_switch_add(plan, "LSF_ABSORPTION", lsf_plan_media_absorb(plan),
                             "there are media, which are looked through");
-        lsf_plan_switch_add(plan, "LSF_REFRACTED", plan->refracted,
+        lsf_plan_switch_add(plan, "LSF_REFRACTED", plan->refracted || !plan->straight,
                             "refracted paths show what is behind media");
+        lsf_plan_switch_add(plan, "LSF_WALLS_TRACED", lsf_plan_walls_traced(plan),
+                            "paths go on through rough walls");
     }
 }
 
@@ -59,7 +62,7 @@ static void plan_switches(lsf_plan *plan)
 static void plan_transmittance(lsf_plan *plan)
 {
     uint32_t w = plan->seen_width, h = plan->seen_height;
-    if (!plan->straight)
+    if (!plan->seen_through)
         return;
     lsf_plan_texture_add(plan, "gbuffer.tint", GL_RGBA16F, w, h,
                          "light comes through materials that transmit");

@@ -34,6 +34,7 @@ void lsf_light_mean_plan(lsf_plan *plan, const lsf_light_mean_use *use)
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
+    lsf_scene_gpu_seen_through_switch(plan);
     lsf_plan_switch_add(plan, "LSF_STRAIGHT", plan->straight, "it goes straight on");
     lsf_plan_switch_add(plan, "LSF_REFRACTED", plan->refracted,
                         "refracted paths show what is behind media");

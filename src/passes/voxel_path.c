@@ -88,6 +88,7 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     lsf_scene_gpu_lobe_switches(plan, specular_params);
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,
                         "light passes materials that transmit");
+    lsf_scene_gpu_scatter_switch(plan);
     lsf_plan_switch_add(plan, "LSF_ABSORPTION", plan->transmission && r->refractive,
                         "some material is the surface of a medium");
     lsf_plan_switch_add(plan, "LSF_EMISSION", lsf_plan_surfaces_shine(plan),
@@ -175,6 +176,8 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
                 p->max_samples);
     glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_PATH));
+    if (iteration->plan->scattered)
+        glUniform1f(LSF_LOCATION_LOBE_ANGLE, pass->lobe_angle);
     if (pass->emitters.upload.buffer) {
         lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
         lsf_emitter_points_bind(&pass->emitters, p->emitters);

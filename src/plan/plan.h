@@ -72,6 +72,8 @@ struct lsf_plan {
                         * cannot refract it */
     bool voxel_chance; /* ... and through voxels, which are there by chance: cones march and cannot
                         * go on behind one */
+    bool seen_through; /* surfaces that transmit are absent by chance where the camera sees them:
+                        * all where light goes straight through them, else thin walls alone */
     bool refracted;    /* what media transmit to the eye comes by refracted paths */
     bool scattered; /* rough thin walls that are seen scatter the light that comes through them */
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
@@ -101,6 +103,8 @@ struct lsf_plan {
 bool lsf_plan_surfaces_shine(const lsf_plan *plan);
 /* Whether media absorb light on its straight way to the eye. */
 bool lsf_plan_media_absorb(const lsf_plan *plan);
+/* Whether rough thin walls are seen that paths go on through; other walls are seen through. */
+bool lsf_plan_walls_traced(const lsf_plan *plan);
 /* Whether the G-buffer holds motion. */
 bool lsf_plan_measures_motion(const lsf_plan *plan);
 /* Whether lit surfaces differ in roughness, metallic, f0 or what they transmit. */

@@ -120,6 +120,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     plan->requirements = setup->scene->requirements;
     plan->transmission = plan->requirements.transmissive;
     plan->straight = plan->transmission && technique && !technique->refracts;
+    plan->seen_through = plan->straight || (technique && plan->requirements.thin_walls);
     plan->scattered = plan->transmission && technique && plan->requirements.rough_walls;
     plan->width = params->width;
     plan->height = params->height;

@@ -107,7 +107,7 @@ static void white_world(void **unused)
     const lsf_float3 eye = {0.6f, 0.8f, 0};
     for (size_t k = 0; k < 2 * LSF_COUNT(techniques); k++) {
         bool smooth = k % 2 == 0;
-        float roughness = smooth ? 0.15f : 0.8f, f0 = smooth ? 0.0f : 0.04f;
+        float roughness = smooth ? 0.08f : 0.8f, f0 = smooth ? 0.0f : 0.04f;
         float transmission = smooth ? 1.0f : 0.2f;
         lsf_scene *scene = build_scene();
         lsf_material *glass = build_glass(scene, 0.9f, roughness, 0.0f);

@@ -65,6 +65,35 @@ static void lamps_shine_through_panes(void **unused)
     }
 }
 
+/* A glowing floor under two panes that are closer than a voxel and reflect nothing. */
+static void floors_glow_through_panes(void **unused)
+{
+    (void)unused;
+    static const char *const techniques[] = {"direct", "bidirectional", "cone", "voxel_path",
+                                             "substitute_tree"};
+    static const double tint[3] = {0.9, 0.5, 0.2};
+    for (size_t k = 0; k < LSF_COUNT(techniques); k++) {
+        lsf_scene *scene = build_scene();
+        lsf_material *glowing = build_material(scene, 0, 0, 0);
+        glowing->emission[0] = glowing->emission[1] = glowing->emission[2] = 1.0f;
+        glowing->ior = 1.0f;
+        build_floor(scene, 0.0f, 4.0f);
+        lsf_material *glass = build_glass(scene, 1.0f, 0.0f, 0.0f);
+        glass->ior = 1.0f;
+        for (int c = 0; c < 3; c++)
+            glass->base_color[c] = (float)tint[c];
+        for (int pane = 0; pane < 2; pane++)
+            build_floor(scene, 1.0f + 0.01f * (float)pane, 4.0f);
+        finish_gl_scene(scene);
+        double rgb[3], expected[3];
+        look(scene, techniques[k], 32, lsf_f3(0, 3, 0.1f), lsf_f3(0, 0, 0), rgb);
+        for (int c = 0; c < 3; c++)
+            expected[c] = tint[c] * tint[c];
+        assert_seen(techniques[k], rgb, expected, 0.02);
+        destroy_scene(scene);
+    }
+}
+
 /* The diffuse part of a pane that transmits half, before a black floor. */
 static void panes_reflect(void **unused)
 {
@@ -299,6 +328,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_shine_through_panes),
+        cmocka_unit_test(floors_glow_through_panes),
         cmocka_unit_test(panes_reflect),
         cmocka_unit_test(slabs_absorb),
         cmocka_unit_test(bundles_and_vpls_pass),
