@@ -18,7 +18,7 @@ vec3 specular_albedo(surface s, vec3 view)
 #endif
     vec3 albedo = lobe_albedo(f0, f90, dot(s.normal, view), pow(s.roughness, 4.0));
 #if LSF_TRANSMISSION && (!LSF_STRAIGHT || LSF_REFRACTED)
-    if (LSF_STRAIGHT == 0 || s.volume)
+    if (s.volume)
         albedo += (1.0 - largest(albedo)) * s.transmission * (1.0 - s.metallic) * s.base_color;
 #endif
     return albedo;

@@ -225,10 +225,6 @@ void main()
         /* No strategy finds the light of a lamp that goes straight on, so that the scattered share stands for all
          * of it. */
         irradiance /= scattered_share(s);
-    } else if (LSF_STRAIGHT == 0 && s.transmission > 0.0 && dot(s.normal, direction) < 0.0 &&
-               scattered_share(s) > 0.0) {
-        surface_look_through(s); /* other light from there is found by paths */
-        view_direction = surface_view(s, view_direction);
     }
 #endif
     sum = reflected(s, position, view_direction, direction, irradiance, 0.0, 0.0);

@@ -1,5 +1,4 @@
-/* Switches LSF_SEEN_THROUGH: surfaces that transmit are there by chance; LSF_REFRACTED: those of media always;
- * LSF_WALLS_TRACED: and rough walls as far as they scatter, because paths go on through them. */
+/* Switches LSF_SEEN_THROUGH: surfaces that transmit are there by chance; LSF_REFRACTED: those of media always. */
 #include "lib/chance.glsl"
 #include "passes/gbuffer_fragment.glsl"
 #include "lib/straight.glsl"
@@ -33,11 +32,7 @@ void main()
     if (!material_evaluate(to_viewer, s, emission, front))
         discard;
 #ifdef LSF_SEEN_THROUGH
-    vec3 transmittance = straight_transmittance(s, to_viewer);
-#if LSF_WALLS_TRACED
-    transmittance *= 1.0 - scattered_share(s);
-#endif
-    float passes = seen_through_chance(transmittance);
+    float passes = seen_through_chance(straight_transmittance(s, to_viewer));
 #if LSF_REFRACTED
     if (s.volume)
         passes = 0.0; /* refracted paths begin there */
@@ -45,12 +40,12 @@ void main()
     /* The random number is another than the one that decides whether a blended surface is present. */
     uint layer = ~layer_key(vertex_layer.x, vertex_layer.y, front);
     float number = chance_even_number(uvec3(layer, uvec2(gl_FragCoord.xy)));
-#if LSF_SCATTER && !LSF_WALLS_TRACED
+#if LSF_SCATTER
     float share = scattered_share(s), scattered = scattered_chance(share);
     passes = look_through_chance(passes, share);
 #endif
     tint_out = vec4(vec3(1.0 / (1.0 - passes)), 1.0);
-#if LSF_SCATTER && !LSF_WALLS_TRACED
+#if LSF_SCATTER
     if (number >= passes * (1.0 - scattered) && number < passes) {
         surface_look_through(s);
         emission = vec3(0.0); /* the surface itself is seen in other iterations */

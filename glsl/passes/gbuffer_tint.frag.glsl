@@ -21,11 +21,8 @@ void main()
     if (!present || gl_FragCoord.z <= seen)
         discard;
     vec3 transmittance = straight_transmittance(s, to_viewer);
-#if LSF_WALLS_TRACED
-    transmittance *= 1.0 - scattered_share(s);
-#endif
     float passes = seen_through_chance(transmittance);
-#if LSF_SCATTER && !LSF_WALLS_TRACED
+#if LSF_SCATTER
     float share = scattered_share(s);
     transmittance *= (1.0 - share) / max(1.0 - scattered_chance(share), 1e-6);
     passes = look_through_chance(passes, share);

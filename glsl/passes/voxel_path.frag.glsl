@@ -1,6 +1,6 @@
 /* Unidirectional paths from visible points through the voxels; see src/passes/voxel_path.md. Switches LSF_ENVIRONMENT,
- * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_SPECULAR_PARAMS, LSF_TRANSMISSION, LSF_SEEN_THROUGH, LSF_ABSORPTION (there
- * are media), LSF_VOXEL_MIRRORS and those of the libraries. */
+ * LSF_SPLIT_DIRECT, LSF_RANDOM_TEXTURE, LSF_SPECULAR_PARAMS, LSF_TRANSMISSION, LSF_ABSORPTION (there are media), LSF_VOXEL_MIRRORS
+ * and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
@@ -8,7 +8,6 @@
 #include "lib/pixel_tile.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
-#include "lib/straight.glsl"
 #include "lib/voxel_vertex.glsl"
 #if LSF_VOXEL_DRAW
 #include "lib/voxel_draw.glsl"
@@ -55,19 +54,6 @@ void add_light(light_parts through, vec3 radiance, bool is_direct)
     indirect.irradiance += through.irradiance * radiance;
     indirect.specular += through.specular * radiance;
 }
-
-#if LSF_TRANSMISSION
-/* Share of what the visible surface transmits that paths bring to the eye: of a thin wall what it scatters, because
- * the eye sees the rest where the wall is absent. */
-float traced_share(surface s)
-{
-#if LSF_SCATTER
-    return s.volume ? 1.0 : scattered_share(s);
-#else
-    return s.volume ? 1.0 : 0.0;
-#endif
-}
-#endif
 
 /* Transmission from which the diffuse lobe counts for nothing. */
 #define CLEAR_LEAST 0.99
@@ -220,7 +206,6 @@ bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segmen
 #if LSF_TRANSMISSION
     vec3 weight;
     if (brdf_pass(sampler_of_v, v.s, u, direction, weight)) {
-        weight *= segment == 0 ? traced_share(v.s) : 1.0;
         through.irradiance *= segment == 0 ? vec3(0.0) : weight;
         through.specular *= weight;
         return weight != vec3(0.0) && dot(v.s.geometric_normal, direction) < 0.0;
@@ -260,8 +245,9 @@ void add_path(path_vertex v, seen_body body, path_random_key key, uint index, in
     for (int segment = 0; segment < lengths.y; segment++) {
         brdf_sampler sampler_of_v = brdf_sampler_of(v.s, v.view, segment == 0);
 #if LSF_TRANSMISSION
-        if (segment == 0)
-            sampler_of_v.passing *= traced_share(v.s);
+        /* What a thin wall transmits to the eye is seen where the wall is absent, or scatters it. */
+        if (segment == 0 && !v.s.volume)
+            sampler_of_v.passing = 0.0;
 #endif
 #if LSF_EMITTERS
         add_emitters(through, v, sampler_of_v, absorption, key, index, segment);
@@ -348,11 +334,11 @@ void main()
         vec3 position = position_from_depth(ndc, depth);
         path_vertex v;
         v.position = voxel_from_position(position);
-        v.view = -normalize(view_ray_direction(ndc));
         v.s = surface_unpack(surface_texel);
 #if LSF_SPECULAR_PARAMS
         specular_params_unpack(texelFetch(specular_params_texture, texel, 0), v.s);
 #endif
+        v.view = surface_view(v.s, -normalize(view_ray_direction(ndc)));
         seen_body body = seen_body_none();
 #if LSF_ABSORPTION
         body = seen_body_of(v, position_pixel(texel), ndc);

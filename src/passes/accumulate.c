@@ -10,7 +10,7 @@ void lsf_accumulate_plan(lsf_plan *plan, uint32_t layer_count, const char *const
     if (plan->aovs & (LSF_AOV_ALBEDO | LSF_AOV_NORMAL | LSF_AOV_DEPTH | LSF_AOV_MOTION))
         lsf_plan_reads(plan, "gbuffer");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    if ((plan->aovs & LSF_AOV_NORMAL) && plan->straight)
+    if ((plan->aovs & LSF_AOV_NORMAL) && plan->seen_through)
         lsf_scene_gpu_scatter_switch(plan);
     lsf_sparse_grid_pixel_switch(plan);
     for (uint32_t i = 0; i < layer_count; i++) {

@@ -53,8 +53,6 @@ static void plan_switches(lsf_plan *plan)
                             "there are media, which are looked through");
         lsf_plan_switch_add(plan, "LSF_REFRACTED", plan->refracted || !plan->straight,
                             "refracted paths show what is behind media");
-        lsf_plan_switch_add(plan, "LSF_WALLS_TRACED", lsf_plan_walls_traced(plan),
-                            "paths go on through rough walls");
     }
 }
 

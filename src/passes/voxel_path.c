@@ -176,8 +176,6 @@ void lsf_voxel_path_run(lsf_voxel_path *pass, const lsf_iteration *iteration,
     glUniform4i(0, (GLint)iteration->plan->bounces, (GLint)pass->segments, p->min_samples,
                 p->max_samples);
     glUniform2ui(1, iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_VOXEL_PATH));
-    if (iteration->plan->scattered)
-        glUniform1f(LSF_LOCATION_LOBE_ANGLE, pass->lobe_angle);
     if (pass->emitters.upload.buffer) {
         lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_VOXEL_EMITTER);
         lsf_emitter_points_bind(&pass->emitters, p->emitters);

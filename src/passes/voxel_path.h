@@ -54,7 +54,6 @@ typedef struct lsf_voxel_path {
     lsf_voxel_path_params params;
     lsf_voxel_path_outputs outputs;
     uint32_t segments;
-    float lobe_angle;            /* as in the G-buffer; may change every iteration */
     lsf_emitter_points emitters; /* points that its vertices are joined to */
     GLuint random;               /* 0 with Sobol points */
     GLuint framebuffer, program;

@@ -24,11 +24,6 @@ bool lsf_plan_media_absorb(const lsf_plan *plan)
     return plan->straight && plan->requirements.refractive && !plan->refracted;
 }
 
-bool lsf_plan_walls_traced(const lsf_plan *plan)
-{
-    return plan->scattered && !plan->straight;
-}
-
 bool lsf_plan_measures_motion(const lsf_plan *plan)
 {
     return plan->temporal || (plan->aovs & LSF_AOV_MOTION);

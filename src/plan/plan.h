@@ -103,8 +103,6 @@ struct lsf_plan {
 bool lsf_plan_surfaces_shine(const lsf_plan *plan);
 /* Whether media absorb light on its straight way to the eye. */
 bool lsf_plan_media_absorb(const lsf_plan *plan);
-/* Whether rough thin walls are seen that paths go on through; other walls are seen through. */
-bool lsf_plan_walls_traced(const lsf_plan *plan);
 /* Whether the G-buffer holds motion. */
 bool lsf_plan_measures_motion(const lsf_plan *plan);
 /* Whether lit surfaces differ in roughness, metallic, f0 or what they transmit. */

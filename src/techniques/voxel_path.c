@@ -129,7 +129,6 @@ static void run_paths(voxel_path *v, const lsf_iteration *iteration, lsf_light_p
     const lsf_surface_maps *seen = &v->chain.direct.gbuffer.outputs.seen;
     const lsf_path_inputs inputs =
         lsf_voxel_chain_paths(&v->chain, lsf_sparse_chain_split(&v->sparse, iteration, seen));
-    v->path.lobe_angle = v->chain.direct.gbuffer.lobe_angle;
     if (v->draw.list) {
         lsf_voxel_draw_begin(&v->draw);
         lsf_voxel_draw_run(&v->draw, iteration, v->chain.voxels, v->chain.light.radiance);
@@ -143,7 +142,7 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
                            lsf_technique_outputs *outputs)
 {
     voxel_path *v = self;
-    /* Paths show what is behind a rough wall by voxels; narrower lobes show no more. */
+    /* As with cones: lobes narrower than a voxel show no more. */
     float voxel = 2.0f / (float)v->chain.grid.resolution;
     v->chain.direct.gbuffer.lobe_angle = voxel * voxel;
     lsf_voxel_chain_run(&v->chain, iteration);
