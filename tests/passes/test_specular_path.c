@@ -38,7 +38,8 @@ static lsf_scene *white_world(void)
     return scene;
 }
 
-/* Smooth white glass in a white world cannot be seen, but for paths that end within it. */
+/* Smooth white glass in a white world cannot be seen, but for paths that end within it. Thin walls
+ * are in the picture by chance, which takes more iterations. */
 static void white_glass(void **unused)
 {
     (void)unused;
@@ -50,7 +51,8 @@ static void white_glass(void **unused)
             build_sphere(scene, 4, false);
             finish_gl_scene(scene);
             double rgb[3];
-            look(scene, techniques[t], 2, 16, 12, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0), rgb);
+            look(scene, techniques[t], k == 0 ? 16 : 2, 16, 12, lsf_f3(0, 0, 3), lsf_f3(0, 0, 0),
+                 rgb);
             print_message("%s, ior %.1f: %.5f\n", techniques[t], (double)iors[k], rgb[0]);
             assert_true(fabs(rgb[0] - 1.0) < 0.01);
             lsf_scene_destroy(scene);
