@@ -61,12 +61,16 @@ float straight_chance(vec3 transmittance)
     return min(max(transmittance.r, max(transmittance.g, transmittance.b)), STRAIGHT_MOST);
 }
 
-/* The same where the eye sees through the surface: at most 7/8, because what a pane reflects may be much brighter than
- * what is behind it, and at least 1/8, for the same reason on a dark pane. */
-float seen_through_chance(vec3 transmittance)
+/* The same where the eye sees through the surface: the share of what passes among all that comes from there in a world
+ * that is equally bright everywhere, so that dark panes are absent more often than light passes. */
+float seen_through_chance(surface s, vec3 to_viewer, vec3 transmittance)
 {
-    float passes = straight_chance(transmittance);
-    return passes > 0.0 ? clamp(passes, 0.125, 0.875) : 0.0;
+    float cosine = clamp(abs(dot(s.normal, normalize(to_viewer))), LSF_COSINE_MIN, 1.0);
+    float f0 = largest(mix(surface_f0(s), s.base_color, s.metallic)), f90 = mix(surface_f90(s), 1.0, s.metallic);
+    float reflects = lsf_fresnel_schlick_to(f0, f90, cosine) +
+                     (1.0 - s.transmission) * (1.0 - s.metallic) * largest(s.base_color);
+    float passes = largest(transmittance);
+    return min(passes / max(passes + reflects, 1e-6), STRAIGHT_MOST);
 }
 
 /* Tint of light that passes an absent surface. */

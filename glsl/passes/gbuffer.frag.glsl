@@ -32,7 +32,7 @@ void main()
     if (!material_evaluate(to_viewer, s, emission, front))
         discard;
 #ifdef LSF_SEEN_THROUGH
-    float passes = seen_through_chance(straight_transmittance(s, to_viewer));
+    float passes = seen_through_chance(s, to_viewer, straight_transmittance(s, to_viewer));
 #if LSF_REFRACTED
     if (s.volume)
         passes = 0.0; /* refracted paths begin there */

@@ -21,7 +21,7 @@ void main()
     if (!present || gl_FragCoord.z <= seen)
         discard;
     vec3 transmittance = straight_transmittance(s, to_viewer);
-    float passes = seen_through_chance(transmittance);
+    float passes = seen_through_chance(s, to_viewer, transmittance);
 #if LSF_SCATTER
     float share = scattered_share(s);
     transmittance *= (1.0 - share) / max(1.0 - scattered_chance(share), 1e-6);
