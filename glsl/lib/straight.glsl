@@ -61,16 +61,16 @@ float straight_chance(vec3 transmittance)
     return min(max(transmittance.r, max(transmittance.g, transmittance.b)), STRAIGHT_MOST);
 }
 
-/* The same where the eye sees through the surface: the share of what passes among all that comes from there in a world
- * that is equally bright everywhere, so that dark panes are absent more often than light passes. */
+/* The same where the eye sees through the surface. Dark panes are absent more often, up to one half: by the share of what
+ * passes among all that comes from there in a world that is equally bright everywhere. */
 float seen_through_chance(surface s, vec3 to_viewer, vec3 transmittance)
 {
     float cosine = clamp(abs(dot(s.normal, normalize(to_viewer))), LSF_COSINE_MIN, 1.0);
     float f0 = largest(mix(surface_f0(s), s.base_color, s.metallic)), f90 = mix(surface_f90(s), 1.0, s.metallic);
     float reflects = lsf_fresnel_schlick_to(f0, f90, cosine) +
                      (1.0 - s.transmission) * (1.0 - s.metallic) * largest(s.base_color);
-    float passes = largest(transmittance);
-    return min(passes / max(passes + reflects, 1e-6), STRAIGHT_MOST);
+    float passes = straight_chance(transmittance);
+    return max(passes, min(passes / max(passes + reflects, 1e-6), 0.5));
 }
 
 /* Tint of light that passes an absent surface. */
