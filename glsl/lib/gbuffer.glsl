@@ -15,7 +15,7 @@
  *   the first of y, z, w that is free holds a clear coat: factor unorm5 | roughness unorm9 << 5 |
  *   normal, octahedral 2 x unorm9 << 14 (KHR_materials_clearcoat)
  *   the next one that is free a sheen: roots of the color 3 x unorm8 | roughness unorm8 (KHR_materials_sheen)
- * gbuffer.tint RGBA16F, only where light passes straight through surfaces: transmittance between surface and eye, over
+ * gbuffer.tint RGBA16F, only where surfaces are seen through: transmittance between surface and eye, over
  *   the probability of seeing this surface (lib/straight.glsl)
  * gbuffer.absorption RGBA32F, only with media: optical depth between surface and eye
  * Switches LSF_TRANSMISSION, LSF_STRAIGHT, LSF_SCATTER (rough thin walls scatter), LSF_SPECULAR_TINT, LSF_COAT and

@@ -1,8 +1,8 @@
 /* Light that passes straight through transmitting surfaces: thin walls, and the interfaces of media as if their
  * index were that of air. A surface transmits T = (1 - metallic) (1 - F) t base of the light along a line. It is
  * present in an iteration with probability 1 - max T. Where it is present, its reflection is weighted by 1 / (1 -
- * max T); where it is absent, light passes with the tint T / max T, which is at most 1. Switch LSF_STRAIGHT: the
- * pass transmits light in this way. With LSF_SCATTER light that rough walls transmit to the eye is scattered,
+ * max T); where it is absent, light passes with the tint T / max T, which is at most 1. (To the eye the probability is
+ * another: seen_through_chance.) Switch LSF_STRAIGHT: the pass transmits light in this way. With LSF_SCATTER light that rough walls transmit to the eye is scattered,
  * except for a share of narrow lobes. */
 #ifndef LSF_LIB_STRAIGHT
 #define LSF_LIB_STRAIGHT
@@ -58,11 +58,12 @@ vec3 straight_transmittance(surface s, vec3 to_viewer)
 /* Probability that the surface is absent and light passes. */
 float straight_chance(vec3 transmittance)
 {
-    return min(max(transmittance.r, max(transmittance.g, transmittance.b)), STRAIGHT_MOST);
+    return min(largest(transmittance), STRAIGHT_MOST);
 }
 
-/* The same where the eye sees through the surface. Dark panes are absent more often, up to one half: by the share of what
- * passes among all that comes from there in a world that is equally bright everywhere. */
+/* The same where the eye sees through the surface. A pane that absorbs most light is absent more often: with the share of
+ * the light that passes in all that comes from the pane, if the world is equally bright everywhere; but at most half the
+ * time, because it may be dark behind the pane. */
 float seen_through_chance(surface s, vec3 to_viewer, vec3 transmittance)
 {
     float cosine = clamp(abs(dot(s.normal, normalize(to_viewer))), LSF_COSINE_MIN, 1.0);
@@ -111,7 +112,7 @@ float scattered_chance(float share)
     return share > 0.0 ? max(share, 0.125) : 0.0;
 }
 
-/* Probability that the eye looks through, straight or scattered, where `passes` is straight_chance. It is raised
+/* Probability that the eye looks through, straight or scattered, where `passes` is seen_through_chance. It is raised
  * up to one half, because light behind a shade may be much brighter than the shade. */
 float look_through_chance(float passes, float share)
 {

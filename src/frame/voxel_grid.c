@@ -203,15 +203,20 @@ void lsf_voxel_lamps_switch(lsf_plan *plan, bool lamps)
     lsf_plan_switch_add(plan, "LSF_VOXEL_LAMPS", lamps, "voxels of smooth metal mirror lamps");
 }
 
+float lsf_voxel_solid_angle(const lsf_voxel_grid *grid)
+{
+    float angle = 2.0f / (float)grid->resolution;
+    return angle * angle;
+}
+
 /* A kernel k widens lobes to alpha^2 = k / (4 pi) where all light is reflected; here to the angle
  * of a voxel seen over half the scene's extent. */
 void lsf_voxel_lamps_bind(const lsf_iteration *iteration, const lsf_voxel_grid *grid, GLuint lamps,
                           bool lit)
 {
-    float angle = 2.0f / (float)grid->resolution;
     lsf_bind_texture(LSF_UNIT_VOXEL_LAMP, lamps);
     glUniform2f(LSF_LOCATION_VOXEL_LAMP, lit ? lsf_iteration_kernel(iteration) : -1.0f,
-                4.0f * LSF_PI * angle * angle);
+                4.0f * LSF_PI * lsf_voxel_solid_angle(grid));
 }
 
 void lsf_voxel_chance_switch(lsf_plan *plan)

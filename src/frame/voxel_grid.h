@@ -99,6 +99,8 @@ void lsf_voxel_lamps_switch(lsf_plan *plan, bool lamps);
  * light of voxels that is read contains that of lamps. */
 void lsf_voxel_lamps_bind(const lsf_iteration *iteration, const lsf_voxel_grid *grid, GLuint lamps,
                           bool lit);
+/* Solid angle of a voxel seen over half the scene's extent [sr]. */
+float lsf_voxel_solid_angle(const lsf_voxel_grid *grid);
 /* Adds the switch of surfaces that transmit and are there by chance, where cones march. */
 void lsf_voxel_chance_switch(lsf_plan *plan);
 /* Whether rays go on through voxels of materials that transmit. */

@@ -272,8 +272,8 @@ static void run_cone(void *self, const lsf_iteration *iteration, lsf_technique_o
     lsf_split_light light = {0};
     /* The roughness whose lobe is as narrow as a voxel seen over half the scene's extent:
      * narrower ones show no more. */
-    float voxel = c->variant.traced ? 2.0f / (float)c->chain.grid.resolution : 0.0f;
-    c->chain.direct.gbuffer.lobe_angle = voxel * voxel;
+    c->chain.direct.gbuffer.lobe_angle =
+        c->variant.traced ? lsf_voxel_solid_angle(&c->chain.grid) : 0.0f;
     if (c->variant.traced)
         light = trace(c, iteration);
     else

@@ -142,9 +142,8 @@ static void run_voxel_path(void *self, const lsf_iteration *iteration,
                            lsf_technique_outputs *outputs)
 {
     voxel_path *v = self;
-    /* As with cones: lobes narrower than a voxel show no more. */
-    float voxel = 2.0f / (float)v->chain.grid.resolution;
-    v->chain.direct.gbuffer.lobe_angle = voxel * voxel;
+    /* As with cones: narrower lobes show no more. */
+    v->chain.direct.gbuffer.lobe_angle = lsf_voxel_solid_angle(&v->chain.grid);
     lsf_voxel_chain_run(&v->chain, iteration);
     lsf_light_parts parts = lsf_direct_chain_parts(&v->chain.direct);
     if (v->traced)
