@@ -9,7 +9,8 @@
 layout(binding = 2) uniform sampler2D light_textures[1 + LSF_LOBE]; /* A: variance, below 0: unknown */
 layout(binding = 4) uniform sampler2D lone_texture;
 layout(location = 1) uniform int stride;
-layout(location = 2) uniform float tolerance; /* differences of luminance that count as noise [standard deviations] */
+layout(location = 2) uniform vec2 tolerances; /* differences of luminance that count as noise [standard deviations]:
+                                               * of a pixel that shows one surface, and of one that an edge crosses */
 layout(location = 4) uniform float correlation; /* of the noise of neighbours, which earlier steps have mixed */
 layout(location = 0) out vec4 light_out[1 + LSF_LOBE];
 
@@ -29,7 +30,7 @@ struct tally {
     float beside_squares;
 };
 
-void add(inout tally t, vec4 own, vec4 light, float w)
+void add(inout tally t, vec4 own, vec4 light, float w, float tolerance)
 {
     if (light.a < 0.0)
         return;
@@ -60,6 +61,7 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy), size = textureSize(guide_texture, 0);
     light_guide g = light_guide_at(pixel);
+    float tolerance = mix(tolerances.y, tolerances.x, g.alike * g.alike);
     vec4 own[1 + LSF_LOBE];
     tally tallies[1 + LSF_LOBE];
     for (int part = 0; part <= LSF_LOBE; part++) {
@@ -80,7 +82,7 @@ void main()
             bvec2 lone = lone_at(at);
             for (int part = 0; part <= LSF_LOBE; part++)
                 if (!lone[part])
-                    add(tallies[part], own[part], texelFetch(light_textures[part], at, 0), w[part]);
+                    add(tallies[part], own[part], texelFetch(light_textures[part], at, 0), w[part], tolerance);
         }
     for (int part = 0; part <= LSF_LOBE; part++) {
         tally t = tallies[part];

@@ -81,4 +81,6 @@ void main()
     float alike = min(dot(mean.xyz, mean.xyz), 1.0);
     alike *= alike;
     slope_out = vec4(slope, spread, alike * alike);
+    /* Beside an edge within the pixel normals differ as much, but not because the surface is curved. */
+    curvature_out *= slope_out.w;
 }

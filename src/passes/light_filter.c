@@ -226,6 +226,10 @@ static float first_tolerance(const lsf_plan *plan, float iterations)
     return 7.0f * (unknown ? 1.0f + sqrtf(uncertainty_of(iterations, KURTOSIS)) : 1.0f);
 }
 
+/* Tolerance of pixels that an edge crosses, relative to light_filter.tolerance: jitter has its part
+ * in their variance. */
+#define LSF_EDGE_TOLERANCE 3.0f
+
 /* Steps that stay among pixels of the same noise: light of points that are several pixels apart is
  * spread over the pixels between. */
 static int32_t steps_of_points(const lsf_iteration *iteration)
@@ -248,8 +252,9 @@ static void run_steps(lsf_light_filter *pass, const lsf_iteration *iteration, fl
         begin(plan, pass->ping_pong_framebuffers[i % 2], pass->step);
         set_guide(pass);
         glUniform1i(1, 1 << i);
-        glUniform1f(2,
-                    i < 2 + within ? fmaxf(pass->params.tolerance, first) : pass->params.tolerance);
+        float tolerance = pass->params.tolerance;
+        float most = i < 2 + within ? fmaxf(tolerance, first) : tolerance;
+        glUniform2f(2, most, fminf(most, LSF_EDGE_TOLERANCE * tolerance));
         glUniform1f(4, i < within ? 1.0f : correlation_before(i - within));
         bind_parts(2, light);
         lsf_bind_texture(4, pass->lone);
