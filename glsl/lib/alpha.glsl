@@ -6,7 +6,9 @@
 
 #include "shared/scene_data.h"
 
+/* Surfaces may be present by chance, so that each layer of them needs a key. */
 #if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
+#define LSF_LAYERS 1
 #include "lib/chance.glsl"
 #endif
 
@@ -14,7 +16,7 @@
  * the side that is seen where a surface folds at that vertex. */
 uint layer_key(uint instance, uint vertex, bool front)
 {
-#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
+#if LSF_LAYERS
     return hash(uvec3(instance, vertex, front)).x;
 #else
     return 0u;

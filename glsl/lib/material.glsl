@@ -32,7 +32,7 @@ flat in vec4 vertex_base_color_row_0, vertex_base_color_row_1;
 #if LSF_ANISOTROPY
 flat in vec4 vertex_anisotropy;
 #endif
-#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
+#if LSF_LAYERS
 flat in uvec2 vertex_layer; /* instance, vertex */
 #endif
 

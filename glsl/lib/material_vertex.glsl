@@ -2,6 +2,7 @@
 #ifndef LSF_LIB_MATERIAL_VERTEX
 #define LSF_LIB_MATERIAL_VERTEX
 
+#include "lib/alpha.glsl"
 #include "lib/instance.glsl"
 #include "lib/scene.glsl"
 
@@ -40,7 +41,7 @@ flat out vec4 vertex_base_color_row_0, vertex_base_color_row_1;
 #if LSF_ANISOTROPY
 flat out vec4 vertex_anisotropy;
 #endif
-#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
+#if LSF_LAYERS
 flat out uvec2 vertex_layer; /* instance, vertex */
 #endif
 
@@ -78,7 +79,7 @@ void material_vertex(vec3 p)
 #if LSF_ANISOTROPY
     vertex_anisotropy = materials[material].anisotropy;
 #endif
-#if LSF_BLEND || LSF_STRAIGHT || defined(LSF_SEEN_THROUGH)
+#if LSF_LAYERS
     vertex_layer = uvec2(instance_number(), gl_VertexID);
 #endif
 }

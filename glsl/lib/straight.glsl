@@ -2,8 +2,8 @@
  * index were that of air. A surface transmits T = (1 - metallic) (1 - F) t base of the light along a line. It is
  * present in an iteration with probability 1 - max T. Where it is present, its reflection is weighted by 1 / (1 -
  * max T); where it is absent, light passes with the tint T / max T, which is at most 1. (To the eye the probability is
- * another: seen_through_chance.) Switch LSF_STRAIGHT: the pass transmits light in this way. With LSF_SCATTER light that rough walls transmit to the eye is scattered,
- * except for a share of narrow lobes. */
+ * another: seen_through_chance.) Switch LSF_STRAIGHT: the pass transmits light in this way. With LSF_SCATTER light that
+ * rough walls transmit to the eye is scattered, except for a share of narrow lobes. */
 #ifndef LSF_LIB_STRAIGHT
 #define LSF_LIB_STRAIGHT
 
