@@ -4,6 +4,7 @@
 #ifndef LSF_LIB_BRDF
 #define LSF_LIB_BRDF
 
+#include "lib/branch.glsl"
 #include "lib/gbuffer.glsl"
 #include "shared/albedo.h"
 #if LSF_SHEEN
@@ -195,7 +196,7 @@ float coat_reflects(surface s, vec3 view_direction, vec3 light, float nl, float 
     float reflects = s.coat * lsf_fresnel_schlick(LSF_COAT_F0, clamp(dot(view, h), 0.0, 1.0));
     float spread = sqrt(mix(nv * nv, 1.0, alpha * alpha));
     float wide = kernel_alpha(kernel, s.coat * lsf_fresnel_schlick(LSF_COAT_F0, nv), spread);
-    if (wide > alpha) {
+    BRANCH(kernel > 0.0 && wide > alpha) {
         reflects *= lsf_specular_albedo(LSF_COAT_F0, 1.0, nv, sqrt(alpha)) /
                     lsf_specular_albedo(LSF_COAT_F0, 1.0, nv, sqrt(wide));
         alpha = wide;
@@ -299,7 +300,7 @@ brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kerne
 #else
         vec3 mirrored = surface_specular_fresnel(s, l.nv);
         float wide = kernel_alpha(kernel, largest(mirrored), mirror_spread(l, alpha_t, alpha));
-        if (wide > min(alpha, alpha_t)) {
+        BRANCH(kernel > 0.0 && wide > min(alpha, alpha_t)) {
             vec3 narrow_albedo = lobe_albedo(f0, f90, l.nv, alpha * alpha_t);
             alpha = max(alpha, wide);
             alpha_t = max(alpha_t, wide);

@@ -14,6 +14,7 @@
 #ifndef LSF_LIB_SHADOW
 #define LSF_LIB_SHADOW
 
+#include "lib/branch.glsl"
 #include "shared/scene_data.h"
 #if LSF_SHADOW_SKY
 #include "lib/sky_map.glsl"
@@ -240,7 +241,7 @@ float shadow_visibility(vec3 position, vec3 normal, bool transmits)
     shadow_receiver r = shadow_project(position, normal);
     int order = shadow_order(r, r.at);
 #if !LSF_SHADOW_HEMISPHERE
-    if (order < 0 && !transmits) {
+    BRANCH(order < 0 && !transmits) {
         ivec2 last = ivec2(shadow_texels(r) - 1);
         ivec2 step_to = ivec2(r.texel.x - float(r.at.x) >= 0.5 ? 1 : -1,
                               r.texel.y - float(r.at.y) >= 0.5 ? 1 : -1);

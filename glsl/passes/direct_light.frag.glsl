@@ -92,6 +92,7 @@ layout(binding = 3) uniform sampler2D open_irradiance_texture;
 layout(binding = 4) uniform sampler2D open_specular_texture;
 #endif
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
+layout(early_fragment_tests) in; /* else background would run because of the image */
 /* Statistics of the directions of both sequences: sums in two layers, the largest squares in a third. */
 layout(binding = 0, rgba32f) uniform image2DArray control_image;
 #endif
@@ -129,6 +130,13 @@ void add_direction(surface s, vec3 position, vec3 view_direction, inout sky_part
     part.open.specular += specular;
     part.lit.irradiance += diffuse * left;
     part.open.irradiance += diffuse;
+}
+
+void take_turns(inout sky_part parts[2])
+{
+    sky_part first = parts[0];
+    parts[0] = parts[1];
+    parts[1] = first;
 }
 
 /* Control variate: the directions' light, less the share of their unoccluded light, plus that share of the
@@ -179,8 +187,6 @@ void main()
     radiance_out = vec4(0.0);
 #endif
     float depth = texelFetch(depth_texture, pixel, 0).r;
-    if (depth == 0.0)
-        return;
     surface s = surface_unpack(texelFetch(surface_texture, pixel, 0));
     if (s.unlit)
         return;
@@ -195,15 +201,13 @@ void main()
 #if LSF_SHADOW_SKY
 #if LSF_SKY_CONTROL
     light_parts nothing = light_parts(vec3(0.0), vec3(0.0));
-    sky_part parts[2];
+    sky_part parts[2]; /* of the sequence whose turn it is, and of the other */
     parts[0] = parts[1] = sky_part(nothing, nothing, sky_found_nothing());
 #endif
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
 #if LSF_SKY_CONTROL
-        if (((sequence + shadow_sky_map) & 1) == 0)
-            add_direction(s, position, view_direction, parts[0]);
-        else
-            add_direction(s, position, view_direction, parts[1]);
+        add_direction(s, position, view_direction, parts[0]);
+        take_turns(parts);
 #else
         light_parts r = reflected(s, position, view_direction, sky_maps[shadow_sky_map].to_sky.xyz,
                                   sky_maps[shadow_sky_map].irradiance.rgb, sky_maps[shadow_sky_map].to_sky.w,
@@ -213,6 +217,8 @@ void main()
 #endif
     }
 #if LSF_SKY_CONTROL
+    if (((sequence + sky_map_count) & 1) != 0)
+        take_turns(parts); /* now in their order */
     int others = (sky_map_count + sequence) / 2; /* directions of the second sequence */
     sum = controlled_sum(pixel, parts, ivec2(sky_map_count - others, others));
 #endif

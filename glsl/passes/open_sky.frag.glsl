@@ -116,9 +116,6 @@ void main()
 #if LSF_SPECULAR
     specular_out = vec4(0.0);
 #endif
-    float depth = texelFetch(depth_texture, pixel, 0).r;
-    if (depth == 0.0)
-        return;
     s = surface_unpack(texelFetch(surface_texture, pixel, 0));
     if (s.unlit)
         return;

@@ -38,6 +38,13 @@ void lsf_begin_fullscreen(GLuint framebuffer, uint32_t width, uint32_t height, G
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 
+void lsf_skip_background(void)
+{
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS); /* the triangle's 0 against the depth of a surface, which is greater */
+    glDepthMask(GL_FALSE);
+}
+
 void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program)
 {
     set_plain_state(width, height, program);

@@ -136,6 +136,10 @@ void lsf_draw_fullscreen_indirect(lsf_context *context, GLuint buffer);
 /* Draws triangles of `count` vertices that the vertex shader makes from gl_VertexID alone. */
 void lsf_draw_vertices(lsf_context *context, uint32_t count);
 
+/* To be called after lsf_begin_fullscreen, where the framebuffer holds the depth of surfaces:
+ * texels without a surface are neither shaded nor written. The depth may be sampled. */
+void lsf_skip_background(void);
+
 /* To be called before surfaces are drawn: the nearest surface in a texel stays. Depth is
  * reversed: the greater, the nearer. The caller binds the framebuffer. */
 void lsf_begin_surfaces(uint32_t width, uint32_t height, GLuint program);

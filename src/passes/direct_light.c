@@ -71,7 +71,8 @@ static bool create_program(lsf_context *context, const lsf_plan *plan, const cha
     return *timer != NULL;
 }
 
-static bool create_sky(lsf_direct_light *pass, const lsf_plan *plan, lsf_error *error)
+static bool create_sky(lsf_direct_light *pass, const lsf_plan *plan, GLuint seen_depth,
+                       lsf_error *error)
 {
     if (!lsf_plan_create_texture_if_planned(plan, pass->context, "direct_light.control",
                                             &pass->control, error))
@@ -86,21 +87,25 @@ static bool create_sky(lsf_direct_light *pass, const lsf_plan *plan, lsf_error *
     const lsf_framebuffer_desc desc = {.label = "sky_light",
                                        .color_count = 2,
                                        .colors = {pass->sky.irradiance, pass->sky.specular},
+                                       .depth = seen_depth,
                                        .layer = -1};
     pass->sky_framebuffer = lsf_framebuffer_create(pass->context, &desc, error);
     return pass->sky_framebuffer != 0;
 }
 
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
-                             const lsf_direct_light_use *use, lsf_error *error)
+                             const lsf_direct_light_use *use, GLuint seen_depth, lsf_error *error)
 {
     *pass = (lsf_direct_light){.context = context, .use = *use};
     if (!lsf_plan_create_texture(plan, context, "direct_light.radiance", &pass->radiance, error))
         return false;
-    lsf_framebuffer_desc desc = {
-        .label = "direct_light", .color_count = 1, .colors = {pass->radiance}, .layer = -1};
+    lsf_framebuffer_desc desc = {.label = "direct_light",
+                                 .color_count = 1,
+                                 .colors = {pass->radiance},
+                                 .depth = seen_depth,
+                                 .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
-    return pass->framebuffer && create_sky(pass, plan, error) &&
+    return pass->framebuffer && create_sky(pass, plan, seen_depth, error) &&
            create_program(context, plan, "direct_light", &pass->program, &pass->timer, error) &&
            create_program(context, plan, "sky_light", &pass->sky_program, &pass->sky_timer, error);
 }
@@ -141,6 +146,7 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
     lsf_begin_fullscreen(split ? pass->sky_framebuffer : pass->framebuffer,
                          iteration->plan->seen_width, iteration->plan->seen_height,
                          sky ? pass->sky_program : pass->program);
+    lsf_skip_background();
     lsf_blend_add(split && pass->sky.specular ? 2 : 1);
     lsf_surface_maps_bind(inputs->seen);
     lsf_shadow_bind(inputs->shadow);

@@ -37,7 +37,7 @@ typedef struct lsf_direct_light {
 /* Plans `lights` punctual lights, and the plan's directions of the environment. */
 void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_light_use *use);
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
-                             const lsf_direct_light_use *use, lsf_error *error);
+                             const lsf_direct_light_use *use, GLuint seen_depth, lsf_error *error);
 void lsf_direct_light_clear(lsf_direct_light *pass);
 /* Adds the light of the shadow: a punctual light's, or that of the directions. */
 void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration,

@@ -38,7 +38,7 @@ void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)
 }
 
 bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_plan *plan,
-                         const lsf_sky_use *use, lsf_error *error)
+                         const lsf_sky_use *use, GLuint seen_depth, lsf_error *error)
 {
     static const char *const files[5] = {"lib/fullscreen.vert.glsl", "passes/open_sky.frag.glsl"};
     *pass = (lsf_open_sky){.context = context, .use = *use};
@@ -50,6 +50,7 @@ bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_pla
     const lsf_framebuffer_desc desc = {.label = "open_sky",
                                        .color_count = 2,
                                        .colors = {pass->light.irradiance, pass->light.specular},
+                                       .depth = seen_depth,
                                        .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "open_sky", files, error);
@@ -86,6 +87,7 @@ void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
     draw_directions(pass, iteration);
     lsf_begin_fullscreen(pass->framebuffer, iteration->plan->seen_width,
                          iteration->plan->seen_height, pass->program);
+    lsf_skip_background();
     lsf_surface_maps_bind(seen);
     lsf_bind_texture(3, control);
     lsf_scene_gpu_bind_environment(iteration->scene);

@@ -23,7 +23,7 @@ typedef struct lsf_open_sky {
  * iteration, are 0. `use` is that of the light that they share. */
 void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use);
 bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_plan *plan,
-                         const lsf_sky_use *use, lsf_error *error);
+                         const lsf_sky_use *use, GLuint seen_depth, lsf_error *error);
 /* `control`: lsf_direct_light's. */
 void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
                       const lsf_surface_maps *seen, GLuint control);

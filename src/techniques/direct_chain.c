@@ -68,9 +68,10 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
             lsf_shadow_map_create(&chain->shadow_map, context, plan, error)) &&
            (!lsf_plan_find_pass(plan, "sky_map") ||
             lsf_sky_map_create(&chain->sky_map, context, plan, scene, error)) &&
-           lsf_open_sky_create(&chain->open_sky, context, plan, &light.sky, error) &&
-           (!chain->lit ||
-            lsf_direct_light_create(&chain->direct_light, context, plan, &light, error));
+           lsf_open_sky_create(&chain->open_sky, context, plan, &light.sky,
+                               chain->gbuffer.outputs.seen.depth, error) &&
+           (!chain->lit || lsf_direct_light_create(&chain->direct_light, context, plan, &light,
+                                                   chain->gbuffer.outputs.seen.depth, error));
 }
 
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration)
