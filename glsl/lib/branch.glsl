@@ -1,6 +1,6 @@
-/* A branch that costs nothing where no invocation takes it. Software GL executes what stands behind `if` in any case,
- * for no lane if need be; only loops end with their last lane. It pays for what is dear and seldom needed. `break` and
- * `continue` behind it would leave this loop. */
+/* BRANCH(condition) { } is an `if` whose body is skipped where no invocation takes it. Software GL executes the body of
+ * an `if` in any case, if need be for no lane; only loops end with their last lane. For expensive code that is seldom
+ * needed: compilers optimise across an `if` better. `break` and `continue` in the body would leave this loop. */
 #ifndef LSF_LIB_BRANCH
 #define LSF_LIB_BRANCH
 
