@@ -263,7 +263,8 @@ vec3 lobe_albedo(vec3 f0, float f90, float nv, float alpha2)
  * m = m' F V nl of them, must not exceed d / m (Tokuyoshi and Ogaki 2012, equation 9). For GGX, whose peak is
  * 1 / (pi alpha_t alpha_b), the roughness is raised until that holds, with F V nl of the view's mirror image, so that
  * all samples of a density see the same lobe; the lobe is then scaled to the directional albedo of the narrow one.
- * With LSF_CLAMP_RADIANCE, D is clamped to the bound instead. 0: exact light. */
+ * With LSF_CLAMP_RADIANCE, D is clamped to the bound instead. 0: exact light; where it is a constant, compilers leave
+ * the widening out. */
 brdf_value brdf_evaluate(surface s, vec3 view_direction, vec3 light, float kernel)
 {
     brdf_value f;

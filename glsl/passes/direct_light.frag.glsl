@@ -2,7 +2,7 @@
  * instead of one light, a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: other strategies
  * that find the environment, and share its light; LSF_SKY_SPLIT: light of these directions stays split;
  * LSF_SKY_CONTROL, lsf_sky_control: the directions estimate only the difference from the light of an unoccluded sky,
- * which is known. */
+ * which is known. Texels without a surface are not drawn (lsf_skip_background). */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/luminance.glsl"
@@ -92,7 +92,8 @@ layout(binding = 3) uniform sampler2D open_irradiance_texture;
 layout(binding = 4) uniform sampler2D open_specular_texture;
 #endif
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
-layout(early_fragment_tests) in; /* else background would run because of the image */
+/* Background fails the depth test. Because of the image, that test would else come after this shader. */
+layout(early_fragment_tests) in;
 /* Statistics of the directions of both sequences: sums in two layers, the largest squares in a third. */
 layout(binding = 0, rgba32f) uniform image2DArray control_image;
 #endif
@@ -132,6 +133,7 @@ void add_direction(surface s, vec3 position, vec3 view_direction, inout sky_part
     part.open.irradiance += diffuse;
 }
 
+/* Puts the sums of the other sequence first. */
 void take_turns(inout sky_part parts[2])
 {
     sky_part first = parts[0];
@@ -218,7 +220,7 @@ void main()
     }
 #if LSF_SKY_CONTROL
     if (((sequence + sky_map_count) & 1) != 0)
-        take_turns(parts); /* now in their order */
+        take_turns(parts); /* back in the order of the sequences */
     int others = (sky_map_count + sequence) / 2; /* directions of the second sequence */
     sum = controlled_sum(pixel, parts, ivec2(sky_map_count - others, others));
 #endif

@@ -1,6 +1,6 @@
 /* Light of the environment that visible points would reflect to the eye without occlusion; see
- * src/passes/open_sky.md. Switches LSF_ENVIRONMENT_MAP, LSF_SKY_CHANCE, LSF_SPECULAR_PARAMS, LSF_SPECULAR, LSF_TRANSMISSION
- * and those of the libraries. */
+ * src/passes/open_sky.md. Texels without a surface are not drawn (lsf_skip_background). Switches LSF_ENVIRONMENT_MAP,
+ * LSF_SKY_CHANCE, LSF_SPECULAR_PARAMS, LSF_SPECULAR, LSF_TRANSMISSION and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"

@@ -36,6 +36,7 @@ typedef struct lsf_direct_light {
 
 /* Plans `lights` punctual lights, and the plan's directions of the environment. */
 void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_light_use *use);
+/* `seen_depth`: the depth of the visible points, a texture that outlives the pass. */
 bool lsf_direct_light_create(lsf_direct_light *pass, lsf_context *context, const lsf_plan *plan,
                              const lsf_direct_light_use *use, GLuint seen_depth, lsf_error *error);
 void lsf_direct_light_clear(lsf_direct_light *pass);

@@ -22,6 +22,7 @@ typedef struct lsf_open_sky {
 /* Nothing without directions of the environment, or where `samples`, of each kind in a pixel and
  * iteration, are 0. `use` is that of the light that they share. */
 void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use);
+/* `seen_depth`: the depth of the visible points, a texture that outlives the pass. */
 bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_plan *plan,
                          const lsf_sky_use *use, GLuint seen_depth, lsf_error *error);
 /* `control`: lsf_direct_light's. */
