@@ -91,7 +91,7 @@ int find_entry(int start, int count, inout float u)
 {
     float wanted = u * sums[start + count - 1];
     int low = 0, high = count - 1;
-    for (int i = 0; i < 32 && low < high; i++) {
+    while (low < high) {
         int middle = (low + high) / 2;
         if (sums[start + middle] > wanted)
             high = middle;
@@ -170,15 +170,13 @@ ivec2 find_texel(ray r, out met_plane met)
     ivec2 own = clamp(ivec2(floor(r.texel)), ivec2(0), last);
     ivec2 step_to = ivec2(r.texel.x - float(own.x) >= 0.5 ? 1 : -1,
                           r.texel.y - float(own.y) >= 0.5 ? 1 : -1);
-    met_plane own_plane = plane_at(r.face, own);
-    met = own_plane;
-    if (!met.exists)
-        return own;
+    met = plane_at(r.face, own);
     ray center = ray_of_center(r.face, own);
-    float own_at_center = dot(own_plane.point - center.origin, center.direction);
-    float nearest = distance_to(r, own_plane) * (1.0 - 2e-5); /* anything closer is the same plane */
+    float own_at_center = dot(met.point - center.origin, center.direction);
+    float nearest = distance_to(r, met) * (1.0 - 2e-5); /* anything closer is the same plane */
     ivec2 found = own;
-    for (int i = 1; i < 4; i++) {
+    int end = met.exists ? 4 : 0; /* not a constant, for which compilers would copy the body */
+    for (int i = 1; i < end; i++) {
         ivec2 at = own + step_to * ivec2(i & 1, i >> 1);
         met_plane p = plane_at(r.face, at);
         float here = distance_to(r, p);

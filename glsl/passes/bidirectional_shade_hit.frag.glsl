@@ -44,13 +44,17 @@ layout(location = VERTEX_TARGET + 3) out uvec4 specular_params_out;
 #endif
 #endif
 
+/* Radiance along the bundle that reaches the vertex, and the kernel of suppression for it (brdf_evaluate). */
+struct arriving_light {
+    vec3 radiance;
+    float kernel;
+};
+
 #if LSF_PUNCTUAL
-/* Light of x0 that x2 reflects to the vertex, weighted against VPLs; both parts. */
-light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3, vec3 position,
-                            surface x2, light_parts through)
+/* Light of x0 that x2 reflects to the vertex, weighted against VPLs, and the kernel of suppression at the vertex. */
+arriving_light reflected_light(vec3 direction, float distance2_3, vec3 position, surface x2)
 {
-    light_parts r;
-    r.irradiance = r.specular = vec3(0.0);
+    arriving_light r = arriving_light(vec3(0.0), 0.0);
     vec3 irradiance;
     float distance2_0;
     vec3 to_light = light_direction(position, irradiance, distance2_0);
@@ -79,34 +83,25 @@ light_parts reflected_light(shading_vertex v, vec3 direction, float distance2_3,
                          ? suppression_kernel(density, cosine_0, distance2_0)
                          : 0.0;
     brdf_value f_2 = brdf_evaluate(x2, -direction, to_light, kernel_0 + kernel_3);
-#if LSF_SPECULAR
-    through = vertex_reflect(v, direction, kernel_3 + suppression.z);
-#endif
-    vec3 radiance = irradiance * brdf_sum(x2, f_2) *
-                    (shading_cosine_0 * mis_weight(p.bundle, p.vpl) * strategy.w /
-                     (bundle.forward.w * suppression.w));
-    r.irradiance = through.irradiance * radiance;
-    r.specular = through.specular * radiance;
+    r.radiance = irradiance * brdf_sum(x2, f_2) *
+                 (shading_cosine_0 * mis_weight(p.bundle, p.vpl) * strategy.w / (bundle.forward.w * suppression.w));
+    r.kernel = kernel_3;
     return r;
 }
 #endif
 
 #if LSF_EMITTERS
 /* Weights the emission of x2 against VPLs placed on it; both strategies suppress the lobe equally. */
-void weigh_emission(shading_vertex v, vec3 direction, float distance2_3, surface x2,
-                    inout vec3 emission, inout light_parts through)
+void weigh_emission(vec3 direction, float distance2_3, surface x2, inout arriving_light emission)
 {
-    float luminance = dot(emission, vec3(0.2126, 0.7152, 0.0722));
+    float luminance = dot(emission.radiance, vec3(0.2126, 0.7152, 0.0722));
     float cosine_3 = -dot(x2.geometric_normal, direction);
     if (luminance <= 0.0)
         return;
     path_density p =
         emitter_density_at(added.w * luminance, cosine_3, distance2_3, bundle_pdf(direction));
-    emission *= mis_weight(p.bundle, p.vpl);
-#if LSF_SPECULAR
-    float kernel_3 = suppression_kernel(p.vpl + p.bundle, cosine_3, distance2_3);
-    through = vertex_reflect(v, direction, kernel_3 + suppression.z);
-#endif
+    emission.radiance *= mis_weight(p.bundle, p.vpl);
+    emission.kernel = suppression_kernel(p.vpl + p.bundle, cosine_3, distance2_3);
 }
 #endif
 
@@ -147,21 +142,18 @@ void main()
     if (hit.y == LSF_NO_NODE)
         v.lobe_left = 1.0;
 #endif
-    light_parts through = vertex_reflect(v, direction, kernel + suppression.z);
-    vec3 arriving = vec3(0.0); /* emission */
-    light_parts through_emission = through;
-    light_parts reflected;
-    reflected.irradiance = reflected.specular = vec3(0.0);
+    arriving_light emitted = arriving_light(vec3(0.0), kernel), reflected = emitted;
+    bool goes_on = false;
 #if LSF_STRAIGHT
     /* Transmittance on the way from the hit, over the probability that the hit is present. */
     vec3 left = bundle_tint(v.position, direction, hit.y == LSF_NO_NODE ? 1e30 : uintBitsToFloat(hit.x));
 #endif
     if (hit.y == LSF_NO_NODE) {
 #if LSF_ENVIRONMENT
-        arriving = environment_radiance(direction) * (along ? sky.x : sky.y);
+        emitted.radiance = environment_radiance(direction) * (along ? sky.x : sky.y);
 #endif
     } else {
-        surface x2 = bundle_surface(hit.y, direction, arriving);
+        surface x2 = bundle_surface(hit.y, direction, emitted.radiance);
 #if LSF_STRAIGHT
         left *= straight_weight(x2, direction);
 #endif
@@ -169,47 +161,71 @@ void main()
         float distance_3 = distance(position, v.position);
 #if LSF_EMITTERS
         if (!x2.unlit && added.w > 0.0)
-            weigh_emission(v, direction, distance_3 * distance_3, x2, arriving, through_emission);
+            weigh_emission(direction, distance_3 * distance_3, x2, emitted);
 #endif
 #if LSF_PUNCTUAL
         if (added.y != 0.0)
-            reflected = reflected_light(v, direction, distance_3 * distance_3, position, x2, through);
+            reflected = reflected_light(direction, distance_3 * distance_3, position, x2);
 #endif
 #if LSF_CONTINUE
         if (!x2.unlit) {
-            light_parts t;
-            t.irradiance = through.irradiance / p_r;
-            t.specular = through.specular / p_r;
-#if LSF_STRAIGHT
-            t.irradiance *= left;
-            t.specular *= left;
-#endif
+            goes_on = true;
             position_out = vec4(position, max(bundle_raster_error(x2.geometric_normal), 1e-9)); /* 0: no vertex */
             surface_out = surface_pack(x2);
-            throughput_out = uvec4(throughput_pack(t), 0u);
 #if LSF_SPECULAR_PARAMS
             specular_params_out = specular_params_pack(x2);
 #endif
         }
 #endif
     }
+    emitted.radiance *= added.x * (strategy.w / p_r);
 #if LSF_STRAIGHT
-    reflected.irradiance *= left;
-    reflected.specular *= left;
-    arriving *= left;
+    emitted.radiance *= left;
+    reflected.radiance *= left;
 #endif
-    vec3 emitted = added.x != 0.0 ? arriving * (strategy.w / p_r) : vec3(0.0);
-#if LSF_SPLIT_DIRECT
-    direct_irradiance_out.rgb = through_emission.irradiance * emitted;
+    light_parts of_next, of_emitted, of_reflected;
 #if LSF_SPECULAR
-    direct_specular_out.rgb = through_emission.specular * emitted;
-#endif
+    /* What the vertex reflects of each differs by the kernel. One copy of the code evaluates them, as often as there
+     * is light: software GL would execute all copies. */
+    of_next.irradiance = of_next.specular = vec3(0.0);
+    of_emitted = of_reflected = of_next;
+    uint wanted = (goes_on ? 1u : 0u) | (emitted.radiance != vec3(0.0) ? 2u : 0u) |
+                  (reflected.radiance != vec3(0.0) ? 4u : 0u);
+    for (; wanted != 0u; wanted &= wanted - 1u) {
+        int which = findLSB(wanted);
+        float own = which == 0 ? kernel : which == 1 ? emitted.kernel : reflected.kernel;
+        light_parts r = vertex_reflect(v, direction, own + suppression.z);
+        if (which == 0)
+            of_next = r;
+        else if (which == 1)
+            of_emitted = r;
+        else
+            of_reflected = r;
+    }
 #else
-    reflected.irradiance += through_emission.irradiance * emitted;
-    reflected.specular += through_emission.specular * emitted;
+    of_next = of_emitted = of_reflected = vertex_reflect(v, direction, 0.0);
 #endif
-    irradiance_out.rgb = reflected.irradiance;
+#if LSF_CONTINUE
+    of_next.irradiance /= p_r;
+    of_next.specular /= p_r;
+#if LSF_STRAIGHT
+    of_next.irradiance *= left;
+    of_next.specular *= left;
+#endif
+    throughput_out = uvec4(throughput_pack(of_next), 0u);
+#endif
+    irradiance_out.rgb = of_reflected.irradiance * reflected.radiance;
+#if LSF_SPLIT_DIRECT
+    direct_irradiance_out.rgb = of_emitted.irradiance * emitted.radiance;
+#else
+    irradiance_out.rgb += of_emitted.irradiance * emitted.radiance;
+#endif
 #if LSF_SPECULAR
-    specular_out.rgb = reflected.specular;
+    specular_out.rgb = of_reflected.specular * reflected.radiance;
+#if LSF_SPLIT_DIRECT
+    direct_specular_out.rgb = of_emitted.specular * emitted.radiance;
+#else
+    specular_out.rgb += of_emitted.specular * emitted.radiance;
+#endif
 #endif
 }

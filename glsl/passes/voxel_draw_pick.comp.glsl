@@ -10,7 +10,7 @@ layout(location = 0) uniform uint seed; /* of the iteration */
 uint brick_at(float place)
 {
     uint first = 0u, end = 1u << (3 * LSF_VOXEL_DRAW_BITS);
-    for (int i = 0; i < 32 && end - first > 1u; i++) {
+    while (end - first > 1u) {
         uint middle = (first + end) / 2u;
         bool before = brick_sums[middle] <= place;
         first = before ? middle : first;

@@ -39,7 +39,7 @@ uint winner(ivec3 cell)
 uint draw_of(uint triangle)
 {
     uint low = 0u, high = list_sizes.x;
-    for (int i = 0; i < 32 && high - low > 1u; i++) {
+    while (high - low > 1u) {
         uint middle = (low + high) / 2u;
         if (draws[middle].first_triangle <= triangle)
             low = middle;
