@@ -391,15 +391,6 @@ void lsf_scene_gpu_destroy(lsf_scene_gpu *gpu)
     memset(gpu, 0, sizeof *gpu);
 }
 
-static void bind_slot(const lsf_scene_gpu *gpu, GLuint unit, const lsf_texture_slot *slot,
-                      bool point)
-{
-    if (slot->texture == LSF_NONE)
-        return;
-    glBindTextureUnit(unit, gpu->textures[gpu->texture_of[slot->texture]]);
-    glBindSampler(unit, lsf_texture_upload_sampler(gpu, slot->texture, point));
-}
-
 static bool shades(lsf_draw_mode mode)
 {
     return mode == LSF_DRAW_SHADING || mode == LSF_DRAW_SEEN || mode == LSF_DRAW_POINTWISE ||
@@ -410,26 +401,18 @@ static void bind_material(const lsf_scene_gpu *gpu, const lsf_material *material
                           lsf_draw_mode mode)
 {
     bool point = mode == LSF_DRAW_POINTWISE;
-    if (shades(mode) || material->alpha_mode != LSF_ALPHA_OPAQUE)
-        bind_slot(gpu, LSF_UNIT_BASE_COLOR, &material->base_color_texture, point);
-    if (!shades(mode))
-        return;
-    bind_slot(gpu, LSF_UNIT_METALLIC_ROUGHNESS, &material->metallic_roughness_texture, point);
-    bind_slot(gpu, LSF_UNIT_NORMAL, &material->normal_texture, point);
-    bind_slot(gpu, LSF_UNIT_EMISSIVE, &material->emissive_texture, point);
-    bind_slot(gpu, LSF_UNIT_ANISOTROPY, &material->anisotropy_texture, point);
-    if (gpu->transmission)
-        bind_slot(gpu, LSF_UNIT_TRANSMISSION, &material->transmission_texture, point);
-    if (!gpu->lobe_table)
-        return;
-    lsf_bind_texture(LSF_UNIT_LOBES, gpu->lobe_table);
-    bind_slot(gpu, LSF_UNIT_SPECULAR, &material->specular_texture, point);
-    bind_slot(gpu, LSF_UNIT_SPECULAR_COLOR, &material->specular_color_texture, point);
-    bind_slot(gpu, LSF_UNIT_COAT, &material->coat_texture, point);
-    bind_slot(gpu, LSF_UNIT_SHEEN_COLOR, &material->sheen_color_texture, point);
-    bind_slot(gpu, LSF_UNIT_SHEEN_ROUGHNESS, &material->sheen_roughness_texture, point);
-    bind_slot(gpu, LSF_UNIT_COAT_ROUGHNESS, &material->coat_roughness_texture, point);
-    bind_slot(gpu, LSF_UNIT_COAT_NORMAL, &material->coat_normal_texture, point);
+    lsf_texture_read textures[LSF_MATERIAL_TEXTURES];
+    uint32_t count = lsf_texture_upload_read_by(material, gpu->transmission, textures);
+    for (uint32_t i = 0; i < count; i++) {
+        const lsf_texture_read *t = &textures[i];
+        bool cuts = t->unit == LSF_UNIT_BASE_COLOR && material->alpha_mode != LSF_ALPHA_OPAQUE;
+        if (!shades(mode) && !cuts)
+            continue;
+        glBindTextureUnit(t->unit, gpu->textures[gpu->texture_of[t->slot->texture]]);
+        glBindSampler(t->unit, lsf_texture_upload_sampler(gpu, t->slot->texture, t->filter, point));
+    }
+    if (shades(mode) && gpu->lobe_table)
+        lsf_bind_texture(LSF_UNIT_LOBES, gpu->lobe_table);
 }
 
 static bool takes_part(const lsf_scene_gpu *gpu, const lsf_material *material, lsf_draw_mode mode)

@@ -27,7 +27,7 @@ typedef struct lsf_scene_gpu {
     GLuint *textures;         /* one for each image and colour space in use */
     uint32_t gl_texture_count;
     uint32_t *texture_of;  /* index into `textures` for each texture of the scene */
-    GLuint samplers[27];   /* wrap s, wrap t, linear, nearest or point: 3 x 3 x 3; 0: not needed */
+    GLuint samplers[45];   /* wrap s, wrap t, filter: 3 x 3 x 5; 0: not needed */
     GLuint shading_array;  /* vertex array with every stream */
     GLuint position_array; /* positions (and UVs where masks need them) */
     lsf_clusters clusters;

@@ -41,33 +41,60 @@ static uint32_t level_count(uint32_t width, uint32_t height)
     return levels;
 }
 
+uint32_t lsf_texture_upload_read_by(const lsf_material *m, bool transmission,
+                                    lsf_texture_read out[LSF_MATERIAL_TEXTURES])
+{
+    const lsf_texture_read all[LSF_MATERIAL_TEXTURES] = {
+        {LSF_UNIT_BASE_COLOR, &m->base_color_texture, LSF_TEXTURE_MEAN},
+        {LSF_UNIT_METALLIC_ROUGHNESS, &m->metallic_roughness_texture, LSF_TEXTURE_FINEST},
+        {LSF_UNIT_NORMAL, &m->normal_texture, LSF_TEXTURE_FINEST},
+        {LSF_UNIT_EMISSIVE, &m->emissive_texture, LSF_TEXTURE_MEAN},
+        {LSF_UNIT_ANISOTROPY, &m->anisotropy_texture, LSF_TEXTURE_FINEST},
+        {LSF_UNIT_SPECULAR, &m->specular_texture, LSF_TEXTURE_MEAN},
+        {LSF_UNIT_SPECULAR_COLOR, &m->specular_color_texture, LSF_TEXTURE_MEAN},
+        {LSF_UNIT_COAT, &m->coat_texture, LSF_TEXTURE_MEAN},
+        {LSF_UNIT_COAT_ROUGHNESS, &m->coat_roughness_texture, LSF_TEXTURE_FINEST},
+        {LSF_UNIT_COAT_NORMAL, &m->coat_normal_texture, LSF_TEXTURE_FINEST},
+        {LSF_UNIT_SHEEN_COLOR, &m->sheen_color_texture, LSF_TEXTURE_MEAN},
+        {LSF_UNIT_SHEEN_ROUGHNESS, &m->sheen_roughness_texture, LSF_TEXTURE_FINEST},
+        {LSF_UNIT_TRANSMISSION, &m->transmission_texture, LSF_TEXTURE_MEAN}};
+    uint32_t count = 0;
+    for (size_t i = 0; i < LSF_COUNT(all); i++)
+        if (all[i].slot->texture != LSF_NONE &&
+            (transmission || all[i].unit != LSF_UNIT_TRANSMISSION))
+            out[count++] = all[i];
+    return count;
+}
+
+/* A distinct pair of image and colour space, by one of the textures that need it. */
+typedef struct image_use {
+    uint32_t texture;
+    bool filtered; /* some material reads it by lsf_texture_filter LSF_TEXTURE_MEAN */
+} image_use;
+
 /* Numbers the distinct pairs of image and colour space that materials in use read, and counts them;
- * false without memory. `of` (per scene texture, LSF_NONE when unused; NULL allowed) and
- * `representative` (per pair, a scene texture) are filled in. */
+ * false without memory. `of` (per scene texture, LSF_NONE when unused; NULL allowed) and `uses`
+ * (one for each scene texture suffices) are filled in. */
 static bool number_textures(const lsf_scene *scene, const lsf_plan *plan, uint32_t *of,
-                            uint32_t *representative, uint32_t *count)
+                            image_use *uses, uint32_t *count)
 {
     *count = 0;
     uint32_t *pair_of = lsf_alloc((uint64_t)scene->image_count * 2, sizeof *pair_of);
     bool *used = lsf_alloc(scene->texture_count, sizeof *used);
-    bool good = pair_of && used;
+    bool *filtered = lsf_alloc(scene->texture_count, sizeof *filtered);
+    bool good = pair_of && used && filtered;
     if (!good)
         goto done;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const lsf_material *m =
             &scene->materials[scene->primitives[scene->instances[i].primitive].material];
-        const lsf_texture_slot *slots[] = {
-            &m->base_color_texture,     &m->metallic_roughness_texture,
-            &m->normal_texture,         &m->emissive_texture,
-            &m->anisotropy_texture,     &m->specular_texture,
-            &m->specular_color_texture, &m->coat_texture,
-            &m->coat_roughness_texture, &m->coat_normal_texture,
-            &m->sheen_color_texture,    &m->sheen_roughness_texture,
-            &m->transmission_texture};
-        size_t count_read = LSF_COUNT(slots) - !plan->transmission;
-        for (size_t s = 0; s < count_read; s++)
-            if (slots[s]->texture != LSF_NONE)
-                used[slots[s]->texture] = true;
+        lsf_texture_read textures[LSF_MATERIAL_TEXTURES];
+        uint32_t count_read = lsf_texture_upload_read_by(m, plan->transmission, textures);
+        for (uint32_t s = 0; s < count_read; s++) {
+            uint32_t t = textures[s].slot->texture;
+            used[t] = true;
+            filtered[t] |= textures[s].filter == LSF_TEXTURE_MEAN;
+        }
     }
     for (uint32_t t = 0; t < scene->texture_count; t++) {
         if (of)
@@ -76,15 +103,17 @@ static bool number_textures(const lsf_scene *scene, const lsf_plan *plan, uint32
             continue;
         uint32_t *pair = &pair_of[2 * scene->textures[t].image + scene->textures[t].srgb];
         if (*pair == 0) {
-            representative[*count] = t;
+            uses[*count] = (image_use){t, false};
             *pair = ++*count; /* one-based; 0 is "not numbered yet" */
         }
+        uses[*pair - 1].filtered |= filtered[t];
         if (of)
             of[t] = *pair - 1;
     }
 done:
     free(pair_of);
     free(used);
+    free(filtered);
     return good;
 }
 
@@ -95,12 +124,12 @@ static void texture_name(char name[64], uint32_t index)
 
 void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
 {
-    uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
+    image_use *uses = lsf_alloc(scene->texture_count, sizeof *uses);
     uint32_t count = 0;
-    if (!representative || !number_textures(scene, plan, NULL, representative, &count))
+    if (!uses || !number_textures(scene, plan, NULL, uses, &count))
         plan->failed = true;
     for (uint32_t i = 0; i < count; i++) {
-        const lsf_texture *texture = &scene->textures[representative[i]];
+        const lsf_texture *texture = &scene->textures[uses[i].texture];
         const lsf_texture_image *image = &scene->images[texture->image];
         lsf_texture_desc desc = {NULL,
                                  GL_TEXTURE_2D,
@@ -108,13 +137,13 @@ void lsf_texture_upload_plan(lsf_plan *plan, const lsf_scene *scene)
                                  image->width,
                                  image->height,
                                  1,
-                                 level_count(image->width, image->height)};
+                                 uses[i].filtered ? level_count(image->width, image->height) : 1};
         char name[64];
         texture_name(name, i);
         lsf_plan_texture_desc_add(plan, name, &desc, "%.100s%s", image->name,
                                   texture->srgb ? ", sRGB" : "");
     }
-    free(representative);
+    free(uses);
     if (scene->environment.present && scene->environment.width)
         lsf_plan_texture_add(plan, "scene.environment", GL_RGB32F, scene->environment.width,
                              scene->environment.height, "the environment map, lat-long");
@@ -181,10 +210,11 @@ static void *convert_texels(const lsf_texture_image *image, storage s)
     return out;
 }
 
-static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index,
-                   const lsf_texture *texture, lsf_error *error)
+static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index, image_use use,
+                   lsf_error *error)
 {
     static const GLenum layouts[] = {0, GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    const lsf_texture *texture = &gpu->scene->textures[use.texture];
     const lsf_texture_image *image = &gpu->scene->images[texture->image];
     storage s = choose_storage(image, texture->srgb);
     char name[64];
@@ -204,7 +234,8 @@ static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index,
         GLint swizzle[] = {GL_RED, GL_RED, GL_RED, s.channels == 2 ? GL_GREEN : GL_ONE};
         glTextureParameteriv(gpu->textures[index], GL_TEXTURE_SWIZZLE_RGBA, swizzle);
     }
-    glGenerateTextureMipmap(gpu->textures[index]);
+    if (use.filtered)
+        glGenerateTextureMipmap(gpu->textures[index]);
     return true;
 }
 
@@ -237,51 +268,62 @@ static bool upload_environment(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_err
     return true;
 }
 
-enum { LINEAR, NEAREST, POINT, FILTERS };
+enum { LINEAR, NEAREST, POINT, FINEST_LINEAR, FINEST_NEAREST, FILTERS };
 
-static uint32_t sampler_index(const lsf_texture *texture, bool point)
+static uint32_t sampler_index(const lsf_texture *texture, lsf_texture_filter filter, bool point)
 {
     uint32_t wraps = (uint32_t)texture->wrap_s * 3 + (uint32_t)texture->wrap_t;
-    int filter = point ? POINT : texture->nearest ? NEAREST : LINEAR;
-    return wraps * FILTERS + (uint32_t)filter;
+    int index;
+    if (filter == LSF_TEXTURE_FINEST)
+        index = point || texture->nearest ? FINEST_NEAREST : FINEST_LINEAR;
+    else
+        index = point ? POINT : texture->nearest ? NEAREST : LINEAR;
+    return wraps * FILTERS + (uint32_t)index;
 }
 
-static void create_sampler(lsf_scene_gpu *gpu, const lsf_texture *texture, bool point)
+static void create_sampler(lsf_scene_gpu *gpu, const lsf_texture *texture,
+                           lsf_texture_filter filter, bool point)
 {
     static const GLint wraps[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
-    bool nearest = point || texture->nearest;
-    GLuint *sampler = &gpu->samplers[sampler_index(texture, point)];
+    static const GLint minified[FILTERS] = {GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST_MIPMAP_LINEAR,
+                                            GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR, GL_NEAREST};
+    uint32_t index = sampler_index(texture, filter, point);
+    GLuint *sampler = &gpu->samplers[index];
     if (*sampler)
         return;
     glCreateSamplers(1, sampler);
     glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_S, wraps[texture->wrap_s]);
     glSamplerParameteri(*sampler, GL_TEXTURE_WRAP_T, wraps[texture->wrap_t]);
-    glSamplerParameteri(*sampler, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
-    glSamplerParameteri(*sampler, GL_TEXTURE_MIN_FILTER,
-                        point     ? GL_NEAREST_MIPMAP_NEAREST
-                        : nearest ? GL_NEAREST_MIPMAP_LINEAR
-                                  : GL_LINEAR_MIPMAP_LINEAR);
+    glSamplerParameteri(*sampler, GL_TEXTURE_MAG_FILTER,
+                        point || texture->nearest ? GL_NEAREST : GL_LINEAR);
+    glSamplerParameteri(*sampler, GL_TEXTURE_MIN_FILTER, minified[index % FILTERS]);
+}
+
+static void create_samplers(lsf_scene_gpu *gpu, const lsf_texture *texture)
+{
+    for (int point = 0; point < 2; point++) {
+        create_sampler(gpu, texture, LSF_TEXTURE_MEAN, point != 0);
+        create_sampler(gpu, texture, LSF_TEXTURE_FINEST, point != 0);
+    }
 }
 
 bool lsf_texture_upload_create(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_error *error)
 {
     const lsf_scene *scene = gpu->scene;
-    uint32_t *representative = lsf_alloc(scene->texture_count, sizeof *representative);
+    image_use *uses = lsf_alloc(scene->texture_count, sizeof *uses);
     gpu->texture_of = lsf_alloc(scene->texture_count, sizeof *gpu->texture_of);
     gpu->textures = lsf_alloc(scene->texture_count, sizeof *gpu->textures);
-    bool ok = representative && gpu->texture_of && gpu->textures &&
-              number_textures(scene, plan, gpu->texture_of, representative, &gpu->gl_texture_count);
+    bool ok = uses && gpu->texture_of && gpu->textures &&
+              number_textures(scene, plan, gpu->texture_of, uses, &gpu->gl_texture_count);
     if (!ok)
         lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u textures",
                       scene->texture_count);
     for (uint32_t i = 0; ok && i < gpu->gl_texture_count; i++)
-        ok = upload(gpu, plan, i, &scene->textures[representative[i]], error);
+        ok = upload(gpu, plan, i, uses[i], error);
     for (uint32_t t = 0; ok && t < scene->texture_count; t++)
-        if (gpu->texture_of[t] != LSF_NONE) {
-            create_sampler(gpu, &scene->textures[t], false);
-            create_sampler(gpu, &scene->textures[t], true);
-        }
-    free(representative);
+        if (gpu->texture_of[t] != LSF_NONE)
+            create_samplers(gpu, &scene->textures[t]);
+    free(uses);
     return ok && upload_environment(gpu, plan, error);
 }
 
@@ -295,9 +337,10 @@ void lsf_texture_upload_destroy(lsf_scene_gpu *gpu)
     free(gpu->texture_of);
 }
 
-GLuint lsf_texture_upload_sampler(const lsf_scene_gpu *gpu, uint32_t texture, bool point)
+GLuint lsf_texture_upload_sampler(const lsf_scene_gpu *gpu, uint32_t texture,
+                                  lsf_texture_filter filter, bool point)
 {
-    return gpu->samplers[sampler_index(&gpu->scene->textures[texture], point)];
+    return gpu->samplers[sampler_index(&gpu->scene->textures[texture], filter, point)];
 }
 
 void lsf_texture_upload_set_lod_bias(const lsf_scene_gpu *gpu, float bias)
