@@ -7,7 +7,7 @@
 #include "plan/option.h"
 
 typedef struct lsf_gbuffer_params {
-    float texture_lod_bias; /* added to the level that the iteration count gives */
+    float texture_lod_bias; /* added to the level of colours that the iteration count gives */
     float frame_time;       /* seconds; motion is measured from this much earlier */
     int32_t side; /* sample points along a pixel's side: one more than the logarithm; 0: by
                    * the plan */

@@ -216,6 +216,55 @@ static uint32_t build_bumps(lsf_scene *scene)
     return build_texture(scene, SIZE, SIZE, 3, texels, false);
 }
 
+/* A metal, smooth and rough in turn along u. */
+static uint32_t build_scratches(lsf_scene *scene)
+{
+    uint8_t texels[32 * 3];
+    for (int i = 0; i < 32; i++) {
+        texels[3 * i] = texels[3 * i + 2] = 255;
+        texels[3 * i + 1] = i % 4 < 2 ? 80 : 255;
+    }
+    return build_texture(scene, 32, 1, 3, texels, false);
+}
+
+/* Few samples of bumps and of scratches much smaller than a pixel, on metal. The mean of their
+ * normals would be a plane that reflects the sun elsewhere, and the mean of their roughness a lobe
+ * that is neither narrow nor wide. */
+static void small_details(void **unused)
+{
+    (void)unused;
+    for (int rough = 0; rough < 2; rough++) {
+        static const float position[3] = {0, 4, 0.5f}, target[3] = {0, -1, 0};
+        lsf_scene *scene = build_scene();
+        uint32_t map = rough ? build_scratches(scene) : build_bumps(scene);
+        lsf_material *material = build_material(scene, 0.9f, 0.7f, 0.5f);
+        material->metallic = 1.0f;
+        material->roughness = rough ? 1.0f : 0.4f;
+        lsf_texture_slot *slot =
+            rough ? &material->metallic_roughness_texture : &material->normal_texture;
+        slot->texture = map;
+        slot->transform[0] = slot->transform[4] = 301.0f;
+        build_floor(scene, -1.0f, 5.0f);
+        build_light(scene, LSF_LIGHT_DIRECTIONAL, lsf_f3(0, 0, 0),
+                    rough ? lsf_f3(0, -1, -0.1f) : lsf_f3(-1, -1, 0), 3.0f);
+        add_streams(scene);
+        finish_gl_scene(scene);
+        lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
+        params.technique = "direct";
+        params.bounces = 0;
+        params.width = params.height = 64;
+        params.samples = 16;
+        params.camera_position = position;
+        params.camera_target = target;
+        const char *name = rough ? "small_scratches" : "small_bumps";
+        against_reference pictures = against_reference_render(name, scene, &params);
+        /* All pixels share their sample points, which fall into few phases of such a pattern. */
+        against_reference_check(name, &pictures, "R", INFINITY, 0.1, 0.5);
+        against_reference_destroy(&pictures);
+        destroy_scene(scene);
+    }
+}
+
 /* Quadrilaterals with either sign of the bitangent, plain, mirrored, seen from behind, and
  * anisotropic. */
 static void normal_maps(void **unused)
@@ -445,7 +494,7 @@ int main(void)
         cmocka_unit_test(anisotropy),     cmocka_unit_test(normal_maps),
         cmocka_unit_test(textures),       cmocka_unit_test(specular),
         cmocka_unit_test(clear_coat),     cmocka_unit_test(sheen),
-        cmocka_unit_test(unlit),
+        cmocka_unit_test(unlit),          cmocka_unit_test(small_details),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
