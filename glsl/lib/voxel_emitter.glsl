@@ -40,6 +40,7 @@ struct emitter_view {
     vec3 radiance;         /* times `density` over the density with which it was drawn */
     float density;         /* density of this direction, for weights [1/sr] */
     float chance;          /* factor on the density of rays that hit it, for weights */
+    float resolved;        /* factor on the radiance where the vertex is a voxel */
 };
 
 /* Density by solid angle of a point drawn with `by_area`; the squared distance is in voxels. */
@@ -67,6 +68,10 @@ bool emitter_view_from(vec3 position, vec3 normal, vec2 u, out emitter_view e)
     vec3 to = e.position - position;
     float distance2 = dot(to, to);
     e.direction = to * inversesqrt(max(distance2, 1.0 / VOXEL_FAR));
+    /* A voxel's point stands for all its surface, so that how near an emitter in reach of a voxel is to it is not
+     * known. Its light, as 1 / d^2, is that from a voxel away: rays do not find it there to bound it, and a lamp just
+     * below a ceiling gave single samples a thousand times the light of all others. */
+    e.resolved = min(distance2, 1.0);
     float cosine = -dot(e.normal, e.direction);
     if (point.radiance.w > 1.0 && cosine < 0.0) { /* the other side emits as well */
         e.normal = -e.normal;

@@ -185,7 +185,8 @@ vec3 emitters_at(path_vertex v, bool lobe, vec3 absorption, path_random_key key,
         vec3 reflected = lobe ? f.specular : brdf_sum(v.s, f);
         vec3 left = left_after(absorption_along(v, e.direction, absorption), e.position - v.position);
         float share = emitter_share(density, e.chance * brdf_pdf(p, e.direction));
-        sum += reflected * e.radiance * left * (cosine / density * share);
+        vec3 radiance = segment == 0 ? e.radiance : e.resolved * e.radiance;
+        sum += reflected * radiance * left * (cosine / density * share);
     }
     return sum;
 }

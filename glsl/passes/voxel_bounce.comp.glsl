@@ -72,7 +72,7 @@ vec3 gather(reflector material, ivec3 cell, vec3 position, vec3 n, vec3 shading)
             continue;
         float cosine = dot(shading, e.direction), density = emitters.y * e.density;
         float share = emitter_share(density, e.chance * cosine / LSF_PI);
-        sum += reflectance(material, cosine) * (cosine / LSF_PI * share / density) * (grid.unit.y * e.radiance);
+        sum += reflectance(material, cosine) * (cosine / LSF_PI * share / density) * (grid.unit.y * e.resolved * e.radiance);
     }
 #endif
     return sum;

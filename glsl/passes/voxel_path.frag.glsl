@@ -112,7 +112,7 @@ void add_emitters(light_parts through, path_vertex v, brdf_sampler sampler_of_v,
         float weight = cosine / density *
                        emitter_share(density, e.chance * brdf_pdf(sampler_of_v, e.direction));
         brdf_value f = brdf_evaluate(v.s, v.view, e.direction, 0.0);
-        vec3 radiance = e.radiance;
+        vec3 radiance = segment == 0 ? e.radiance : e.resolved * e.radiance;
 #if LSF_ABSORPTION
         radiance *= left_after(absorption_along(v, e.direction, absorption), e.position - v.position);
 #endif

@@ -152,6 +152,45 @@ static void lamps_close_to_a_plane(void **state)
     }
 }
 
+static double most_of(const lsf_image *image, uint32_t channel)
+{
+    double most = 0.0;
+    for (uint64_t i = 0; i < (uint64_t)image->width * image->height; i++)
+        most = fmax(most, (double)image->pixels[i * image->channel_count + channel]);
+    return most;
+}
+
+/* A lamp a twelfth of a voxel below the ceiling of a room. What its upper side sends to the ceiling
+ * goes out through the gap alone, which is 1/40 of the lamp's width. */
+static void lamp_below_a_ceiling(void **state)
+{
+    const char *technique = *state;
+    static const char *const options[MAX_OPTIONS] = {"voxel.resolution=66"};
+    double light[2], most[2];
+    for (int both = 0; both < 2; both++) {
+        lsf_scene *scene = build_scene();
+        build_material(scene, 0.5f, 0.5f, 0.5f);
+        build_box(scene, lsf_f3(-2, -1, -2), lsf_f3(2, 1, 2), true);
+        lsf_material *lamp = build_material(scene, 0.0f, 0.0f, 0.0f);
+        lamp->double_sided = both;
+        for (int c = 0; c < 3; c++)
+            lamp->emission[c] = 1.0f;
+        build_quad(scene, lsf_f3(-0.1f, 0.995f, -0.1f), lsf_f3(0.1f, 0.995f, -0.1f),
+                   lsf_f3(0.1f, 0.995f, 0.1f), lsf_f3(-0.1f, 0.995f, 0.1f));
+        finish_gl_scene(scene);
+        lsf_image *image = render(scene, technique, 32, 32, 1, lsf_f3(1.8f, 0.5f, 1.8f),
+                                  lsf_f3(0, -1, 0), 60.0f, options);
+        light[both] = mean_of(image, 1);
+        most[both] = most_of(image, 1);
+        lsf_image_destroy(image);
+        lsf_scene_destroy(scene);
+    }
+    print_message("down: %.5f, at most %.4f; up, too: %.5f, at most %.4f\n", light[0], most[0],
+                  light[1], most[1]);
+    assert_true(fabs(light[1] / light[0] - 1.0) <= 0.03);
+    assert_true(most[1] <= 5.0 * most[0]);
+}
+
 enum { PLAIN = 0, BOTH_SIDES = 1, TEXTURED = 2, LARGE = 4, UNLIT = 8 };
 
 /* A corner with a lamp: a small one that hangs, or a large one for a ceiling. */
@@ -240,6 +279,8 @@ int main(void)
          techniques[0].technique},
         {"lamps close to a plane, cones", lamps_close_to_a_plane, NULL, NULL,
          techniques[1].technique},
+        {"lamp below a ceiling, paths", lamp_below_a_ceiling, NULL, NULL, techniques[0].technique},
+        {"lamp below a ceiling, cones", lamp_below_a_ceiling, NULL, NULL, techniques[1].technique},
         {"strategies agree, paths", strategies_agree, NULL, NULL, &techniques[0]},
         {"strategies agree, cones", strategies_agree, NULL, NULL, &techniques[1]},
     };
