@@ -68,9 +68,8 @@ bool emitter_view_from(vec3 position, vec3 normal, vec2 u, out emitter_view e)
     vec3 to = e.position - position;
     float distance2 = dot(to, to);
     e.direction = to * inversesqrt(max(distance2, 1.0 / VOXEL_FAR));
-    /* A voxel's point stands for all its surface, so that how near an emitter in reach of a voxel is to it is not
-     * known. Its light, as 1 / d^2, is that from a voxel away: rays do not find it there to bound it, and a lamp just
-     * below a ceiling gave single samples a thousand times the light of all others. */
+    /* The point of a voxel stands for its whole surface, so that a distance below one voxel is not known. The light is
+     * then that from one voxel away: 1 / d^2 would have no bound, because rays do not find such emitters (`chance`). */
     e.resolved = min(distance2, 1.0);
     float cosine = -dot(e.normal, e.direction);
     if (point.radiance.w > 1.0 && cosine < 0.0) { /* the other side emits as well */

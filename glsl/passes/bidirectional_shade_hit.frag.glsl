@@ -203,6 +203,7 @@ void main()
             of_reflected = r;
     }
 #else
+    /* A diffuse vertex has no lobe to widen, so that one kernel serves all. */
     of_next = of_emitted = of_reflected = vertex_reflect(v, direction, 0.0);
 #endif
 #if LSF_CONTINUE

@@ -11,7 +11,7 @@
 const lsf_option_row lsf_gbuffer_options[LSF_GBUFFER_OPTION_COUNT] = {
     {"gbuffer.texture_lod_bias", LSF_OPTION_FLOAT, offsetof(lsf_gbuffer_params, texture_lod_bias),
      -16.0, 16.0, NULL, "levels",
-     "added to the mipmap level of colors; below 0 sharper and noisier, above 0 blurrier"},
+     "added to the mipmap level of color textures; below 0 sharper and noisier, above 0 blurrier"},
     {"gbuffer.frame_time", LSF_OPTION_FLOAT, offsetof(lsf_gbuffer_params, frame_time), 0.0, 1e6,
      NULL, "s", "time between a frame and the one before it, for motion vectors"},
     {"gbuffer.side", LSF_OPTION_ENUM, offsetof(lsf_gbuffer_params, side), 0, 0, "auto|1|2|4",

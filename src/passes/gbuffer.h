@@ -7,10 +7,11 @@
 #include "plan/option.h"
 
 typedef struct lsf_gbuffer_params {
-    float texture_lod_bias; /* added to the level of colours that the iteration count gives */
-    float frame_time;       /* seconds; motion is measured from this much earlier */
-    int32_t side; /* sample points along a pixel's side: one more than the logarithm; 0: by
-                   * the plan */
+    float
+        texture_lod_bias; /* added to the level of colour textures that the iteration count gives */
+    float frame_time;     /* seconds; motion is measured from this much earlier */
+    int32_t side;         /* sample points along a pixel's side: one more than the logarithm; 0: by
+                           * the plan */
 } lsf_gbuffer_params;
 
 #define LSF_GBUFFER_PARAMS_DEFAULTS .texture_lod_bias = 0.0f, .frame_time = 1.0f / 60.0f, .side = 0
