@@ -1,5 +1,6 @@
 #include "io/gltf_import.hpp"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstring>
@@ -179,7 +180,8 @@ void accessors_check(const gltf_import &import)
     }
 }
 
-void accessor_read_floats(const gltf_import &import, int index, std::vector<float> &values)
+/* Appends count * width floats, whatever they are, and returns the width. */
+static uint64_t read_any_floats(const gltf_import &import, int index, std::vector<float> &values)
 {
     const tinygltf::Accessor &accessor = import.model.accessors[(size_t)index];
     std::string location = location_of("accessors", (size_t)index);
@@ -200,11 +202,26 @@ void accessor_read_floats(const gltf_import &import, int index, std::vector<floa
             import, accessor, size, location, [&](uint64_t element, element_span value) {
                 convert_any(value, accessor, 1, width, &values[first + element * width]);
             });
-    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-        for (uint64_t i = 0; i < accessor.count * width; i++)
-            if (!std::isfinite(values[first + i]))
-                fail("ACCESSOR_INVALID_FLOAT", location,
-                     "element %" PRIu64 " holds NaN or infinity; export the file again", i / width);
+    return width;
+}
+
+void accessor_read_floats(const gltf_import &import, int index, std::vector<float> &values)
+{
+    size_t first = values.size();
+    uint64_t width = read_any_floats(import, index, values);
+    for (size_t i = first; i < values.size(); i++)
+        if (!std::isfinite(values[i]))
+            fail("ACCESSOR_INVALID_FLOAT", location_of("accessors", (size_t)index),
+                 "element %zu holds NaN or infinity; export the file again", (i - first) / width);
+}
+
+void accessor_read_directions(const gltf_import &import, int index, std::vector<float> &values)
+{
+    size_t first = values.size();
+    uint64_t width = read_any_floats(import, index, values);
+    for (size_t i = first; i < values.size(); i++)
+        if (!std::isfinite(values[i]))
+            std::fill_n(&values[i - (i - first) % width], width, 0.0f);
 }
 
 void accessor_read_indices(const gltf_import &import, int index, uint64_t limit,

@@ -246,8 +246,12 @@ void set_trs(gltf_import &import, const double translation[3], const double rota
 
 /* Checks that every accessor lies within its buffer view. */
 void accessors_check(const gltf_import &import);
-/* Appends count * width floats; normalised integers become -1..1 or 0..1. */
+/* Appends count * width floats; normalised integers become -1..1 or 0..1. Fails at NaN and
+ * infinity. */
 void accessor_read_floats(const gltf_import &import, int accessor, std::vector<float> &values);
+/* The same for normals and tangents, which exporters leave undefined where triangles have no area:
+ * an element that holds NaN or infinity becomes zeros. */
+void accessor_read_directions(const gltf_import &import, int accessor, std::vector<float> &values);
 /* Appends unsigned indices of any width; each must be below `limit`. */
 void accessor_read_indices(const gltf_import &import, int accessor, uint64_t limit,
                            std::vector<uint32_t> &values);

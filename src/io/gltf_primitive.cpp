@@ -108,16 +108,17 @@ struct attribute {
     const char *name;
     int type, other_type; /* TINYGLTF_TYPE_VEC3, ... */
     unsigned formats;
+    bool direction;
 };
-static const attribute position_attribute = {"POSITION", TINYGLTF_TYPE_VEC3, 0, ANY_FORMAT};
+static const attribute position_attribute = {"POSITION", TINYGLTF_TYPE_VEC3, 0, ANY_FORMAT, false};
 static const attribute normal_attribute = {"NORMAL", TINYGLTF_TYPE_VEC3, 0,
-                                           FLOAT | SIGNED_NORMALIZED};
+                                           FLOAT | SIGNED_NORMALIZED, true};
 static const attribute tangent_attribute = {"TANGENT", TINYGLTF_TYPE_VEC4, 0,
-                                            FLOAT | SIGNED_NORMALIZED};
-static const attribute uv0_attribute = {"TEXCOORD_0", TINYGLTF_TYPE_VEC2, 0, ANY_FORMAT};
-static const attribute uv1_attribute = {"TEXCOORD_1", TINYGLTF_TYPE_VEC2, 0, ANY_FORMAT};
+                                            FLOAT | SIGNED_NORMALIZED, true};
+static const attribute uv0_attribute = {"TEXCOORD_0", TINYGLTF_TYPE_VEC2, 0, ANY_FORMAT, false};
+static const attribute uv1_attribute = {"TEXCOORD_1", TINYGLTF_TYPE_VEC2, 0, ANY_FORMAT, false};
 static const attribute color_attribute = {"COLOR_0", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4,
-                                          FLOAT | UNSIGNED_NORMALIZED};
+                                          FLOAT | UNSIGNED_NORMALIZED, false};
 
 static bool read_attribute(gltf_import &import, const tinygltf::Primitive &primitive,
                            const attribute &wanted, uint64_t count, const std::string &location,
@@ -136,7 +137,7 @@ static bool read_attribute(gltf_import &import, const tinygltf::Primitive &primi
     if (accessor.count != count)
         fail("MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", where,
              "accessor %d has %zu elements, POSITION has %" PRIu64, index, accessor.count, count);
-    accessor_read_floats(import, index, values);
+    (wanted.direction ? accessor_read_directions : accessor_read_floats)(import, index, values);
     return true;
 }
 

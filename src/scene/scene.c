@@ -87,10 +87,11 @@ void lsf_scene_note_frames(lsf_scene *scene, const lsf_frame_repairs *repairs)
                              " without normals: shaded flat");
     lsf_scene_add_count_note(scene, repairs->normals_scaled, "normal",
                              " not of unit length: scaled");
-    lsf_scene_add_count_note(scene, repairs->normals_zero, "normal",
-                             " without length: replaced by those of the triangles around");
+    lsf_scene_add_count_note(
+        scene, repairs->normals_zero, "normal",
+        " without length, or not a number: replaced by those of the triangles around");
     lsf_scene_add_count_note(scene, repairs->tangents_scaled, "tangent",
-                             " not of unit length, or without a sign: repaired");
+                             " not of unit length, without a sign, or not a number: repaired");
     lsf_scene_add_count_note(
         scene, repairs->tangents_without_uv, "primitive",
         " without the texture coordinates that tangents need: arbitrary tangents are used");

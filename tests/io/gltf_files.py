@@ -58,6 +58,8 @@ changed('rotation.gltf', 'ok', lambda f: f.json['nodes'][0].update(rotation=[0, 
         'a unit quaternion')
 quad(normals=[(0, 0, 0), (0, 0, 3), (0, 0, 1), (0, 0, 1)]).gltf('normals.gltf')
 case('normals.gltf', 'ok', 2, 'without length')
+quad(normals=[(0, 0, 1), (math.nan, 0, 1), (0, 0, 1), (0, math.inf, 0)]).gltf('normals_nan.gltf')
+case('normals_nan.gltf', 'ok', 2, '2 normals without length, or not a number')
 file = quad()
 file.json['nodes'] = [{'children': [1, 2]}, {'mesh': 0}, {'mesh': 0, 'translation': [3, 0, 0]}]
 file.gltf('instances.gltf')
