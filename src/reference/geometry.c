@@ -18,6 +18,7 @@ typedef struct ray_context {
     struct RTCIntersectContext embree;
     const lsf_reference_geometry *geometry;
     lsf_reference_chance chance;
+    lsf_reference_hit seen; /* by a ray from the camera, so far */
 } ray_context;
 
 /* A number below 1, so that surfaces of alpha 1 are always present; the same however often
@@ -53,32 +54,46 @@ static void reject_cut_out(const struct RTCFilterFunctionNArguments *arguments)
     }
 }
 
-/* As reject_cut_out, for packets. In the arrays of rays, the direction comes after origin and
- * near; in those of hits, the geometry comes after the triangle. */
-static void reject_hidden_backs(const struct RTCFilterFunctionNArguments *arguments)
+/* Whether triangle `a` is drawn before `b`: instances are drawn material by material. */
+static bool is_drawn_before(const lsf_state *state, const lsf_reference_hit *a,
+                            const lsf_reference_hit *b)
 {
-    const lsf_reference_geometry *geometry = ((const ray_context *)arguments->context)->geometry;
-    const lsf_scene *scene = geometry->scene;
-    const float *rays = (const float *)arguments->ray;
-    const unsigned *numbers = (const unsigned *)arguments->hit;
-    size_t count = arguments->N;
-    for (size_t i = 0; i < count; i++) {
-        if (arguments->valid[i] == 0)
-            continue;
-        uint32_t index = numbers[6 * count + i];
-        const lsf_instance_state *instance = &geometry->state->instances[index];
-        if (!lsf_material_hides_back(scene,
-                                     &geometry->state->animated.materials[instance->material]))
-            continue;
-        lsf_float3 direction =
-            lsf_f3(rays[4 * count + i], rays[5 * count + i], rays[6 * count + i]);
-        lsf_float3 corners[3];
-        lsf_reference_corners(geometry, index, numbers[5 * count + i], corners);
-        lsf_float3 normal =
-            lsf_f3_cross(lsf_f3_sub(corners[1], corners[0]), lsf_f3_sub(corners[2], corners[0]));
-        if ((lsf_f3_dot(normal, direction) > 0.0f) != instance->mirrored)
-            arguments->valid[i] = 0;
-    }
+    uint32_t material_a = state->instances[a->instance].material;
+    uint32_t material_b = state->instances[b->instance].material;
+    if (material_a != material_b)
+        return material_a < material_b;
+    return a->instance != b->instance ? a->instance < b->instance : a->triangle < b->triangle;
+}
+
+static bool hides_back(const lsf_reference_geometry *geometry, const lsf_reference_hit *hit,
+                       lsf_float3 direction)
+{
+    const lsf_instance_state *instance = &geometry->state->instances[hit->instance];
+    if (!lsf_material_hides_back(geometry->scene,
+                                 &geometry->state->animated.materials[instance->material]))
+        return false;
+    lsf_float3 corners[3];
+    lsf_reference_corners(geometry, hit->instance, hit->triangle, corners);
+    lsf_float3 normal =
+        lsf_f3_cross(lsf_f3_sub(corners[1], corners[0]), lsf_f3_sub(corners[2], corners[0]));
+    return (lsf_f3_dot(normal, direction) > 0.0f) != instance->mirrored;
+}
+
+/* For single rays from the camera: hidden back faces are not seen, and of surfaces at the same
+ * distance the one that is drawn first is, as with GL_LESS. */
+static void reject_unseen(const struct RTCFilterFunctionNArguments *arguments)
+{
+    ray_context *context = (ray_context *)arguments->context;
+    const struct RTCRay *ray = (const struct RTCRay *)arguments->ray;
+    const struct RTCHit *at = (const struct RTCHit *)arguments->hit;
+    lsf_reference_hit hit = {at->geomID, at->primID, at->u, at->v, ray->tfar};
+    lsf_reference_hit *seen = &context->seen;
+    bool behind =
+        hit.distance == seen->distance && !is_drawn_before(context->geometry->state, &hit, seen);
+    if (behind || hides_back(context->geometry, &hit, lsf_f3(ray->dir_x, ray->dir_y, ray->dir_z)))
+        arguments->valid[0] = 0;
+    else
+        *seen = hit;
 }
 
 static bool transform_positions(lsf_reference_mesh *mesh, const lsf_scene *scene,
@@ -267,9 +282,9 @@ bool lsf_reference_see(const lsf_reference_geometry *geometry, lsf_float3 origin
 {
     if (!within_range(origin) || !within_range(direction))
         return false;
-    ray_context context = {.geometry = geometry, .chance = chance};
+    ray_context context = {.geometry = geometry, .chance = chance, .seen.distance = INFINITY};
     rtcInitIntersectContext(&context.embree);
-    context.embree.filter = reject_hidden_backs;
+    context.embree.filter = reject_unseen;
     return nearest(&context, make_ray(origin, direction, near, INFINITY), hit);
 }
 

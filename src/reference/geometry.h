@@ -51,7 +51,7 @@ typedef struct lsf_reference_chance {
 
 /* Nearest hit with near < t < far. Triangles that an alpha mask cuts out are not hit, blended
  * ones with the probability of their alpha. A ray from the camera does not see hidden back
- * faces. */
+ * faces, and of coincident triangles it sees the one that techniques draw first. */
 bool lsf_reference_see(const lsf_reference_geometry *geometry, lsf_float3 origin,
                        lsf_float3 direction, float near, lsf_reference_chance chance,
                        lsf_reference_hit *hit);

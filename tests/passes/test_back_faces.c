@@ -1,5 +1,5 @@
-/* What the camera sees of single-sided materials: their fronts alone, as glTF asks; light meets
- * both sides. By the G-buffer and by the path tracer. */
+/* What the camera sees: of single-sided materials their fronts alone, as glTF asks, though light
+ * meets both sides; of coincident surfaces one. By the G-buffer and by the path tracer. */
 #include "render_gl.h"
 
 typedef struct sheet {
@@ -88,11 +88,35 @@ static void backs_cast_shadows(void **unused)
     }
 }
 
+/* Of coincident sheets, which exporters write by mistake, both show the one of the first material,
+ * whichever the file names first. */
+static void coincident_sheets_agree(void **unused)
+{
+    (void)unused;
+    for (uint32_t first = 0; first < 2; first++)
+        for (int reference = 0; reference < 2; reference++) {
+            lsf_scene *scene = build_scene();
+            build_material(scene, 1, 0, 0)->unlit = true;
+            build_floor(scene, 0.0f, 1.0f);
+            build_material(scene, 0, 1, 0)->unlit = true;
+            build_floor(scene, 0.0f, 1.0f);
+            scene->primitives[0].material = first;
+            scene->primitives[1].material = 1 - first;
+            finish_gl_scene(scene);
+            double rgb[3];
+            look_down(scene, reference, rgb);
+            if (rgb[0] != 1.0 || rgb[1] != 0.0)
+                fail_msg("first %u, reference %d: %g, %g", first, reference, rgb[0], rgb[1]);
+            destroy_scene(scene);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(backs_are_hidden),
         cmocka_unit_test(backs_cast_shadows),
+        cmocka_unit_test(coincident_sheets_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
