@@ -23,6 +23,12 @@ sky_found sky_found_both(sky_found a, sky_found b)
     return sky_found(a.lit + b.lit, a.whole + b.whole, max(a.most, b.most));
 }
 
+/* What paths along a narrow lobe have found of the environment: sums of the luminance that arrived, and that would
+ * arrive unoccluded. */
+struct sky_lobe {
+    float lit, whole;
+};
+
 /* The share of diffuse light to use, from directions that are independent of those that use it: their regression,
  * with one more direction added that is as bright as the largest of them and of which nothing arrives. */
 float sky_control_diffuse(sky_found found)

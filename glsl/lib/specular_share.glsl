@@ -40,6 +40,17 @@ float specular_paths_share(surface s, vec3 view)
 #endif
     return share;
 }
+
+/* Share that paths have of the environment's specular light that no surface reflects before: the same, but for thin
+ * walls that transmit. These are in the picture at random, and what paths find there is not what they find behind it. */
+float specular_paths_sky_share(surface s, vec3 view)
+{
+#if LSF_TRANSMISSION
+    if (s.transmission > 0.0 && !s.volume)
+        return 0.0;
+#endif
+    return specular_paths_share(s, view);
+}
 #endif
 
 #endif

@@ -52,15 +52,21 @@ vec3 voxel_start_along(vec3 point, vec3 n, vec3 direction)
     return point + rise + voxel_lift(n) - dot(n, rise) * n;
 }
 
+/* Whether a ray from a point of a surface with the unit normal n passes no other surface before it is as far above this
+ * one as its voxels reach. If not, voxels may miss what it meets there. */
+bool voxel_starts_alone(vec3 point, vec3 n, vec3 direction)
+{
+    voxel_ray ray;
+    return voxel_ray_begin(point, direction, ray) &&
+           voxel_leaves_alone(ray, n, length(voxel_rise(n, direction)) + 1.0);
+}
+
 /* The start of a ray from a point of a surface with the unit normal n, as far above it as its voxels reach. It lies
  * on the ray, because straight above the point the light is that of another place; but straight above it where the
  * ray may pass other surfaces on the way. */
 vec3 voxel_start(vec3 point, vec3 n, vec3 direction)
 {
-    voxel_ray ray;
-    bool alone = voxel_ray_begin(point, direction, ray) &&
-                 voxel_leaves_alone(ray, n, length(voxel_rise(n, direction)) + 1.0);
-    return alone ? voxel_start_along(point, n, direction) : point + voxel_lift(n);
+    return voxel_starts_alone(point, n, direction) ? voxel_start_along(point, n, direction) : point + voxel_lift(n);
 }
 
 /* Moves the ray out of the voxels in which it starts, except one whose surface lies ahead. False: it leaves the

@@ -2,13 +2,15 @@
  * instead of one light, a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: other strategies
  * that find the environment, and share its light; LSF_SKY_SPLIT: light of these directions stays split;
  * LSF_SKY_CONTROL, lsf_sky_control: the directions estimate only the difference from the light of an unoccluded sky,
- * which is known. Texels without a surface are not drawn (lsf_skip_background). */
+ * which is known; LSF_SPECULAR_PATHS: paths have told how much of it narrow lobes reflect. Texels without a surface
+ * are not drawn (lsf_skip_background). */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/luminance.glsl"
 #include "lib/shadow.glsl"
 #include "lib/sky_chance.glsl"
 #include "lib/sky_control.glsl"
+#include "lib/specular_share.glsl"
 #if !LSF_SHADOW_SKY
 #include "lib/light.glsl"
 #endif
@@ -152,28 +154,39 @@ light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2
 }
 
 /* The sum over the batch. Each sequence uses the share of diffuse light that the other one has found, which is
- * independent of it. */
-light_parts controlled_sum(ivec2 pixel, sky_part parts[2], ivec2 directions)
+ * independent of it. Of narrow lobes, paths of earlier iterations have their share. */
+light_parts controlled_sum(surface s, vec3 view_direction, ivec2 pixel, sky_part parts[2], ivec2 directions)
 {
     light_parts open_sky = light_parts(texelFetch(open_irradiance_texture, pixel, 0).rgb, vec3(0.0));
 #if LSF_SPECULAR
     open_sky.specular = texelFetch(open_specular_texture, pixel, 0).rgb;
 #endif
+    sky_lobe lobe = sky_lobe(0.0, 0.0);
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
-    vec2 most = imageLoad(control_image, ivec3(pixel, 2)).xy;
+    vec4 others = imageLoad(control_image, ivec3(pixel, 2));
+    vec2 most = others.xy;
+    lobe = sky_lobe(others.z, others.w);
     for (int i = 0; i < 2; i++) {
         vec4 sums = imageLoad(control_image, ivec3(pixel, i));
         parts[i].found = sky_found_both(parts[i].found, sky_found(sums.xy, sums.zw, most[i]));
         imageStore(control_image, ivec3(pixel, i), vec4(parts[i].found.lit, parts[i].found.whole));
     }
-    imageStore(control_image, ivec3(pixel, 2), vec4(parts[0].found.most, parts[1].found.most, 0.0, 0.0));
+    imageStore(control_image, ivec3(pixel, 2), vec4(parts[0].found.most, parts[1].found.most, others.zw));
 #endif
     float specular = sky_control_specular(sky_found_both(parts[0].found, parts[1].found));
     light_parts one =
         controlled(parts[0], directions.x, open_sky, vec2(sky_control_diffuse(parts[1].found), specular));
     light_parts other =
         controlled(parts[1], directions.y, open_sky, vec2(sky_control_diffuse(parts[0].found), specular));
-    return light_parts(one.irradiance + other.irradiance, one.specular + other.specular);
+    light_parts sum = light_parts(one.irradiance + other.irradiance, one.specular + other.specular);
+#if LSF_SPECULAR_PATHS
+    if (lobe.whole > 0.0) {
+        vec3 open_part = control.x * float(directions.x + directions.y) * open_sky.specular;
+        sum.specular = mix(sum.specular, lobe.lit / lobe.whole * open_part,
+                           specular_paths_sky_share(s, view_direction));
+    }
+#endif
+    return sum;
 }
 #endif
 
@@ -222,7 +235,7 @@ void main()
     if (((sequence + sky_map_count) & 1) != 0)
         take_turns(parts); /* back in the order of the sequences */
     int others = (sky_map_count + sequence) / 2; /* directions of the second sequence */
-    sum = controlled_sum(pixel, parts, ivec2(sky_map_count - others, others));
+    sum = controlled_sum(s, view_direction, pixel, parts, ivec2(sky_map_count - others, others));
 #endif
 #else
     vec3 irradiance;

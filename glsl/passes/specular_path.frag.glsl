@@ -1,14 +1,17 @@
 /* Specular light of visible points by paths through voxels: what media transmit, refracted, and what narrow lobes reflect;
- * see src/passes/specular_path.md. Switches LSF_ABSORPTION (there are media), LSF_SPECULAR_PATHS (narrow lobes), LSF_EMITTERS
- * (points are drawn on emitters; only with LSF_SPECULAR_PATHS), LSF_SPLIT_DIRECT, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS,
- * LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels are lit directly: paths go on from all) and those of the libraries. */
+ * see src/passes/specular_path.md. Switches LSF_ABSORPTION (there are media), LSF_SPECULAR_PATHS (narrow lobes),
+ * LSF_SKY_CONTROL (what these find of the environment is kept), LSF_EMITTERS (points are drawn on emitters; only with
+ * LSF_SPECULAR_PATHS), LSF_SPLIT_DIRECT, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels
+ * are lit directly: paths go on from all) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/interleave.glsl"
+#include "lib/luminance.glsl"
 #include "lib/path_random.glsl"
 #include "lib/reflectance.glsl"
 #include "lib/sky.glsl"
+#include "lib/sky_control.glsl"
 #include "lib/sparse.glsl"
 #include "lib/specular_share.glsl"
 #include "lib/straight.glsl"
@@ -17,6 +20,11 @@
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance; /* two slices along z, one for each side */
 layout(location = 0) uniform ivec2 lengths;   /* paths of a point, most segments of a path */
 layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
+
+#if LSF_SKY_CONTROL
+/* direct_light.control; what paths find of the environment is added to the third layer. */
+layout(binding = 0, rgba32f) uniform image2DArray control_image;
+#endif
 
 layout(location = 0) out vec4 specular_out; /* added */
 #if LSF_SPLIT_DIRECT
@@ -207,11 +215,20 @@ vec3 emission_met(path_vertex v, vec3 direction, float pdf, ivec3 cell, int side
     return grid.unit.x * emission;
 }
 
-/* Light of a path that begins at the visible point v: through the surface of a medium, that body, or along
- * the specular lobes, of which it has a share. `direct`: the emission that these show. */
-vec3 path_light(path_vertex v, seen_body body, float share, path_random_key key, uint index, out vec3 direct)
+/* What paths find: light; emission that lobes of visible points show; and how much of the environment's light arrives
+ * there, which is left to its directions. */
+struct path_finds {
+    vec3 light, direct;
+    sky_lobe sky;
+};
+
+/* Adds what a path finds that begins at the visible point v: through the surface of a medium, that body, or along the
+ * specular lobes, of which it has a share. `unsure`: the part of the environment's light that counts as arriving where
+ * voxels may have missed a surface. */
+void add_path(path_vertex v, seen_body body, float share, float unsure, path_random_key key, uint index,
+              inout path_finds finds)
 {
-    vec3 sum = direct = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
+    vec3 sum = vec3(0.0), direct = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool medium = is_medium(v.s);
     if (!medium)
         through = vec3(share);
@@ -221,6 +238,7 @@ vec3 path_light(path_vertex v, seen_body body, float share, path_random_key key,
      * straight through media, as voxels are lit. */
     float spread = 0.0;
     float sky_part = 1.0; /* part of the environment's light along the path that nothing else finds */
+    float arrives = 0.0;  /* part of the other light that counts as arriving if the path leaves the scene */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf = 0.0;
@@ -245,6 +263,10 @@ vec3 path_light(path_vertex v, seen_body body, float share, path_random_key key,
             if (!leave_by_lobe(v, u, through, direction, pdf))
                 break;
             sky_part = 0.0;
+#if LSF_SKY_CONTROL
+            finds.sky.whole += luminance(through * environment_radiance(direction));
+            arrives = voxel_starts_alone(v.position, v.s.geometric_normal, direction) ? 1.0 : unsure;
+#endif
         }
 #endif
 #if LSF_TRANSMISSION
@@ -276,8 +298,12 @@ vec3 path_light(path_vertex v, seen_body body, float share, path_random_key key,
 #endif
         if (!meets) {
 #if LSF_ENVIRONMENT
-            vec3 sky = environment_radiance(direction) * sky_part;
-            sum += through * (spread > 0.0 ? sky_left(sky, spread) : sky);
+            vec3 sky = environment_radiance(direction);
+            sum += through * sky_part * (spread > 0.0 ? sky_left(sky, spread) : sky);
+#endif
+#if LSF_SKY_CONTROL
+            if (sky_part == 0.0)
+                finds.sky.lit += arrives * luminance(through * sky);
 #endif
             break;
         }
@@ -303,8 +329,20 @@ vec3 path_light(path_vertex v, seen_body body, float share, path_random_key key,
             break;
         v = met;
     }
-    return sum;
+    finds.light += sum;
+    finds.direct += direct;
 }
+
+#if LSF_SKY_CONTROL
+/* Of the environment's specular light, the part that its directions have found so far. */
+float sky_found_before(ivec2 pixel)
+{
+    vec4 one = imageLoad(control_image, ivec3(pixel, 0)), other = imageLoad(control_image, ivec3(pixel, 1));
+    vec2 most = imageLoad(control_image, ivec3(pixel, 2)).xy;
+    return sky_control_specular(
+        sky_found_both(sky_found(one.xy, one.zw, most.x), sky_found(other.xy, other.zw, most.y)));
+}
+#endif
 
 /* The pixel of a point, whose order may be that of an interleaving pattern. */
 ivec2 point_pixel(ivec2 point)
@@ -348,16 +386,23 @@ void main()
     path_random_key key;
     key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
-    vec3 direct_sum = vec3(0.0);
-    for (int i = 0; i < lengths.x; i++) {
-        vec3 direct;
-        uint index = iteration.x * uint(lengths.x) + uint(i);
-        specular_out.rgb += weight * path_light(v, body, share, key, index, direct);
-        direct_sum += weight * direct;
-    }
+    path_finds finds = path_finds(vec3(0.0), vec3(0.0), sky_lobe(0.0, 0.0));
+    float unsure = 0.0;
+#if LSF_SKY_CONTROL
+    unsure = sky_found_before(pixel);
+#endif
+    for (int i = 0; i < lengths.x; i++)
+        add_path(v, body, share, unsure, key, iteration.x * uint(lengths.x) + uint(i), finds);
+    specular_out.rgb = weight * finds.light;
 #if LSF_SPLIT_DIRECT
-    direct_specular_out.rgb = direct_sum;
+    direct_specular_out.rgb = weight * finds.direct;
 #else
-    specular_out.rgb += direct_sum;
+    specular_out.rgb += weight * finds.direct;
+#endif
+#if LSF_SKY_CONTROL
+    if (specular_paths_sky_share(v.s, v.view) > 0.0) {
+        vec4 sums = imageLoad(control_image, ivec3(pixel, 2));
+        imageStore(control_image, ivec3(pixel, 2), sums + vec4(0.0, 0.0, finds.sky.lit, finds.sky.whole));
+    }
 #endif
 }

@@ -42,6 +42,9 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
     if (plan->sky_lights > 0)
         lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", (int)use->sky.control,
                             "their light is told by the open sky's");
+    if (plan->sky_lights > 0)
+        lsf_plan_switch_add(plan, "LSF_SPECULAR_PATHS", use->sky.lobes,
+                            "paths gather narrow lobes");
     if (use->sky.control == LSF_SKY_CONTROL_SHARE) {
         const lsf_texture_desc desc = {
             NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, plan->seen_width, plan->seen_height, 3, 1};
@@ -156,6 +159,8 @@ void lsf_direct_light_run(lsf_direct_light *pass, const lsf_iteration *iteration
         glUniform1f(LSF_LOCATION_LOBE_ANGLE, inputs->lobe_angle);
     if (sky && pass->use.sky.chance != LSF_SKY_CHANCE_NONE)
         glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.sky.paths);
+    if (sky && pass->use.sky.lobes)
+        glUniform1f(LSF_LOCATION_SPECULAR_SHARE, lsf_iteration_sky_angle(iteration));
     if (sky && inputs->open)
         set_control(pass, iteration, inputs);
     lsf_draw_fullscreen(pass->context);

@@ -88,7 +88,7 @@ static bool create_chain(bidirectional *b, lsf_context *context, const lsf_plan 
                          const lsf_pass_params *params, const lsf_scene_gpu *scene,
                          const lsf_state *state, lsf_error *error)
 {
-    lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(plan, state);
+    lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(plan, params, state);
     return b->sampling.specular_paths ? lsf_voxel_chain_create(&b->chain, context, plan, params,
                                                                scene, state, &voxels, error)
                                       : lsf_direct_chain_create(&b->chain.direct, context, plan,
@@ -148,7 +148,8 @@ static lsf_update update_bidirectional(void *self, const lsf_pass_params *params
     if ((changes->moved || changes->materials) &&
         !lsf_specular_path_follow(&b->paths, changes->materials))
         return LSF_UPDATE_FAILED;
-    lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(iteration->plan, iteration->state);
+    lsf_voxel_chain_use voxels =
+        lsf_specular_path_chain_voxels(iteration->plan, params, iteration->state);
     return lsf_voxel_chain_update(&b->chain, params, iteration, &voxels, changes);
 }
 

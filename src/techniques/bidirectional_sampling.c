@@ -149,7 +149,7 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     bool indirect = s.vpl_light || s.vpl_emitter || s.segments > 0;
     plan->refracted = s.specular_paths && lsf_specular_path_media(plan, &params->specular_path);
     if (s.specular_paths) {
-        lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(plan, state);
+        lsf_voxel_chain_use voxels = lsf_specular_path_chain_voxels(plan, params, state);
         lsf_voxel_chain_plan(plan, params, state, &voxels);
     } else {
         lsf_direct_chain_plan(plan, params, state, NULL);

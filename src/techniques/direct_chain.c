@@ -32,6 +32,9 @@ static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_param
         light.sky.chance = use->chance;
         light.sky.paths[0] = use->paths[0];
         light.sky.paths[1] = use->paths[1];
+        /* What is learnt of a blended surface would count for what is behind it, too. */
+        light.sky.lobes =
+            use->lobes && light.sky.control == LSF_SKY_CONTROL_SHARE && !plan->requirements.blended;
     }
     return light;
 }

@@ -22,6 +22,7 @@ typedef struct lsf_direct_chain {
 typedef struct lsf_direct_chain_use {
     lsf_sky_chance chance;
     float paths[2]; /* as in lsf_direct_light_use */
+    bool lobes;     /* as in lsf_sky_use */
 } lsf_direct_chain_use;
 
 void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,

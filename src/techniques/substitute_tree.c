@@ -21,7 +21,7 @@ static lsf_voxel_chain_use chain_use(const lsf_plan *plan, const lsf_pass_params
                                      const lsf_state *state)
 {
     return lsf_specular_path_chain_needed(plan, params)
-               ? lsf_specular_path_chain_voxels(plan, state)
+               ? lsf_specular_path_chain_voxels(plan, params, state)
                : (lsf_voxel_chain_use){0};
 }
 

@@ -178,7 +178,8 @@ lsf_path_inputs lsf_voxel_chain_paths(const lsf_voxel_chain *chain, const lsf_su
                              .voxels = chain->voxels,
                              .grid = &chain->grid,
                              .radiance = chain->light.radiance,
-                             .lamps = chain->light.lamps};
+                             .lamps = chain->light.lamps,
+                             .control = chain->direct.direct_light.control};
 }
 
 lsf_voxel_view_outputs lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration)
