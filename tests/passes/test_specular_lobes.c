@@ -81,6 +81,35 @@ static void mirrors_show_where_things_are(void **unused)
                 check_border(techniques[t], emits, right);
 }
 
+/* The same with a black half, and nothing beyond its border but the sky. */
+static void check_skyline(const char *technique, bool open)
+{
+    const double voxel = 4.0 / 32.0;
+    double expected = open ? 0.9 + 0.1 * pow(0.2, 5.0) : 0.0, rgb[3];
+    lsf_scene *scene = build_scene();
+    build_material(scene, 0, 0, 0)->specular = 0.0f;
+    float edge = 0.75f + (float)((open ? 1.5 : -1.5) * voxel);
+    build_quad(scene, lsf_f3(edge, 1, -2), lsf_f3(2, 1, -2), lsf_f3(2, 1, 2), lsf_f3(edge, 1, 2));
+    /* A strip at the other end makes voxels as wide as before. */
+    build_quad(scene, lsf_f3(-2, 1, -2), lsf_f3(-1.9f, 1, -2), lsf_f3(-1.9f, 1, 2),
+               lsf_f3(-2, 1, 2));
+    build_metal(scene, 0.05f, 0.2f);
+    build_environment(scene, 1.0f);
+    finish_gl_scene(scene);
+    look(scene, technique, 32, 0, rgb);
+    print_message("%s, sky: %.4f, expected %.4f\n", technique, rgb[0], expected);
+    assert_true(fabs(rgb[0] - expected) < 0.05);
+    lsf_scene_destroy(scene);
+}
+
+static void mirrors_show_the_sky_where_it_is(void **unused)
+{
+    (void)unused;
+    for (size_t t = 0; t < LSF_COUNT(techniques); t++)
+        for (int open = 0; open < 2; open++)
+            check_skyline(techniques[t], open);
+}
+
 /* A metal inside a lamp that shines from all sides. */
 static lsf_scene *metal_in_light(float roughness, bool layered)
 {
@@ -147,6 +176,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mirrors_show_where_things_are),
+        cmocka_unit_test(mirrors_show_the_sky_where_it_is),
         cmocka_unit_test(lobes_reflect_their_albedo),
         cmocka_unit_test(layers_reflect_as_with_voxel_path),
     };
