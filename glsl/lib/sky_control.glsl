@@ -23,10 +23,10 @@ sky_found sky_found_both(sky_found a, sky_found b)
     return sky_found(a.lit + b.lit, a.whole + b.whole, max(a.most, b.most));
 }
 
-/* What paths along a narrow lobe have found of the environment: sums of the luminance that arrived, and that would
- * arrive unoccluded. */
+/* How much of a narrow lobe sees the environment, by paths along it: sums of the luminance of what the lobe reflects,
+ * over those that see it; over those that see it unless voxels missed a surface; and over all. */
 struct sky_lobe {
-    float lit, whole;
+    float lit, unsure, whole;
 };
 
 /* The share of diffuse light to use, from directions that are independent of those that use it: their regression,

@@ -154,24 +154,22 @@ light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2
 }
 
 /* The sum over the batch. Each sequence uses the share of diffuse light that the other one has found, which is
- * independent of it. Of narrow lobes, paths of earlier iterations have their share. */
+ * independent of it. Of narrow lobes, paths of earlier iterations have their share, but for what they were unsure
+ * of. */
 light_parts controlled_sum(surface s, vec3 view_direction, ivec2 pixel, sky_part parts[2], ivec2 directions)
 {
     light_parts open_sky = light_parts(texelFetch(open_irradiance_texture, pixel, 0).rgb, vec3(0.0));
 #if LSF_SPECULAR
     open_sky.specular = texelFetch(open_specular_texture, pixel, 0).rgb;
 #endif
-    sky_lobe lobe = sky_lobe(0.0, 0.0);
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
-    vec4 others = imageLoad(control_image, ivec3(pixel, 2));
-    vec2 most = others.xy;
-    lobe = sky_lobe(others.z, others.w);
+    vec2 most = imageLoad(control_image, ivec3(pixel, 2)).xy;
     for (int i = 0; i < 2; i++) {
         vec4 sums = imageLoad(control_image, ivec3(pixel, i));
         parts[i].found = sky_found_both(parts[i].found, sky_found(sums.xy, sums.zw, most[i]));
         imageStore(control_image, ivec3(pixel, i), vec4(parts[i].found.lit, parts[i].found.whole));
     }
-    imageStore(control_image, ivec3(pixel, 2), vec4(parts[0].found.most, parts[1].found.most, others.zw));
+    imageStore(control_image, ivec3(pixel, 2), vec4(parts[0].found.most, parts[1].found.most, 0.0, 0.0));
 #endif
     float specular = sky_control_specular(sky_found_both(parts[0].found, parts[1].found));
     light_parts one =
@@ -180,10 +178,11 @@ light_parts controlled_sum(surface s, vec3 view_direction, ivec2 pixel, sky_part
         controlled(parts[1], directions.y, open_sky, vec2(sky_control_diffuse(parts[0].found), specular));
     light_parts sum = light_parts(one.irradiance + other.irradiance, one.specular + other.specular);
 #if LSF_SPECULAR_PATHS
-    if (lobe.whole > 0.0) {
+    vec3 lobe = imageLoad(control_image, ivec3(pixel, 3)).xyz; /* a sky_lobe */
+    if (lobe.z > 0.0) {
         vec3 open_part = control.x * float(directions.x + directions.y) * open_sky.specular;
-        sum.specular = mix(sum.specular, lobe.lit / lobe.whole * open_part,
-                           specular_paths_sky_share(s, view_direction));
+        vec3 by_paths = lobe.x / lobe.z * open_part + lobe.y / lobe.z * sum.specular;
+        sum.specular = mix(sum.specular, by_paths, specular_paths_sky_share(s, view_direction));
     }
 #endif
     return sum;

@@ -88,10 +88,10 @@ void add_reflected(vec3 u)
 float share_before(ivec2 pixel, int sequence)
 {
     vec4 sums = texelFetch(control_texture, ivec3(pixel, sequence), 0);
-    vec4 others = texelFetch(control_texture, ivec3(pixel, 2), 0);
+    float most = texelFetch(control_texture, ivec3(pixel, 2), 0)[sequence];
     if (sums.z + sums.w == 0.0)
         return 1.0; /* nothing is known yet */
-    sky_found found = sky_found(sums.xy, sums.zw, others[sequence]);
+    sky_found found = sky_found(sums.xy, sums.zw, most);
     return max(sky_control_diffuse(found), sky_control_specular(found));
 }
 #endif

@@ -22,7 +22,7 @@ layout(location = 0) uniform ivec2 lengths;   /* paths of a point, most segments
 layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
 
 #if LSF_SKY_CONTROL
-/* direct_light.control; what paths find of the environment is added to the third layer. */
+/* direct_light.control; what paths find of the environment is added to the fourth layer. */
 layout(binding = 0, rgba32f) uniform image2DArray control_image;
 #endif
 
@@ -215,18 +215,16 @@ vec3 emission_met(path_vertex v, vec3 direction, float pdf, ivec3 cell, int side
     return grid.unit.x * emission;
 }
 
-/* What paths find: light; emission that lobes of visible points show; and how much of the environment's light arrives
- * there, which is left to its directions. */
+/* What paths find: light; emission that lobes of visible points show; and how much of these lobes sees the environment,
+ * whose light is left to its directions. */
 struct path_finds {
     vec3 light, direct;
     sky_lobe sky;
 };
 
 /* Adds what a path finds that begins at the visible point v: through the surface of a medium, that body, or along the
- * specular lobes, of which it has a share. `unsure`: the part of the environment's light that counts as arriving where
- * voxels may have missed a surface. */
-void add_path(path_vertex v, seen_body body, float share, float unsure, path_random_key key, uint index,
-              inout path_finds finds)
+ * specular lobes, of which it has a share. */
+void add_path(path_vertex v, seen_body body, float share, path_random_key key, uint index, inout path_finds finds)
 {
     vec3 sum = vec3(0.0), direct = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool medium = is_medium(v.s);
@@ -238,7 +236,8 @@ void add_path(path_vertex v, seen_body body, float share, float unsure, path_ran
      * straight through media, as voxels are lit. */
     float spread = 0.0;
     float sky_part = 1.0; /* part of the environment's light along the path that nothing else finds */
-    float arrives = 0.0;  /* part of the other light that counts as arriving if the path leaves the scene */
+    bool told = false; /* the path tells whether its lobe sees the environment, and */
+    bool sure = true;  /* voxels miss no surface where it starts */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf = 0.0;
@@ -264,8 +263,9 @@ void add_path(path_vertex v, seen_body body, float share, float unsure, path_ran
                 break;
             sky_part = 0.0;
 #if LSF_SKY_CONTROL
-            finds.sky.whole += luminance(through * environment_radiance(direction));
-            arrives = voxel_starts_alone(v.position, v.s.geometric_normal, direction) ? 1.0 : unsure;
+            finds.sky.whole += luminance(through);
+            sure = voxel_starts_alone(v.position, v.s.geometric_normal, direction);
+            told = true;
 #endif
         }
 #endif
@@ -302,8 +302,11 @@ void add_path(path_vertex v, seen_body body, float share, float unsure, path_ran
             sum += through * sky_part * (spread > 0.0 ? sky_left(sky, spread) : sky);
 #endif
 #if LSF_SKY_CONTROL
-            if (sky_part == 0.0)
-                finds.sky.lit += arrives * luminance(through * sky);
+            if (told && sky_part == 0.0) {
+                float reflected = luminance(through);
+                finds.sky.lit += sure ? reflected : 0.0;
+                finds.sky.unsure += sure ? 0.0 : reflected;
+            }
 #endif
             break;
         }
@@ -332,17 +335,6 @@ void add_path(path_vertex v, seen_body body, float share, float unsure, path_ran
     finds.light += sum;
     finds.direct += direct;
 }
-
-#if LSF_SKY_CONTROL
-/* Of the environment's specular light, the part that its directions have found so far. */
-float sky_found_before(ivec2 pixel)
-{
-    vec4 one = imageLoad(control_image, ivec3(pixel, 0)), other = imageLoad(control_image, ivec3(pixel, 1));
-    vec2 most = imageLoad(control_image, ivec3(pixel, 2)).xy;
-    return sky_control_specular(
-        sky_found_both(sky_found(one.xy, one.zw, most.x), sky_found(other.xy, other.zw, most.y)));
-}
-#endif
 
 /* The pixel of a point, whose order may be that of an interleaving pattern. */
 ivec2 point_pixel(ivec2 point)
@@ -386,13 +378,9 @@ void main()
     path_random_key key;
     key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
-    path_finds finds = path_finds(vec3(0.0), vec3(0.0), sky_lobe(0.0, 0.0));
-    float unsure = 0.0;
-#if LSF_SKY_CONTROL
-    unsure = sky_found_before(pixel);
-#endif
+    path_finds finds = path_finds(vec3(0.0), vec3(0.0), sky_lobe(0.0, 0.0, 0.0));
     for (int i = 0; i < lengths.x; i++)
-        add_path(v, body, share, unsure, key, iteration.x * uint(lengths.x) + uint(i), finds);
+        add_path(v, body, share, key, iteration.x * uint(lengths.x) + uint(i), finds);
     specular_out.rgb = weight * finds.light;
 #if LSF_SPLIT_DIRECT
     direct_specular_out.rgb = weight * finds.direct;
@@ -401,8 +389,9 @@ void main()
 #endif
 #if LSF_SKY_CONTROL
     if (specular_paths_sky_share(v.s, v.view) > 0.0) {
-        vec4 sums = imageLoad(control_image, ivec3(pixel, 2));
-        imageStore(control_image, ivec3(pixel, 2), sums + vec4(0.0, 0.0, finds.sky.lit, finds.sky.whole));
+        vec4 sums = imageLoad(control_image, ivec3(pixel, 3));
+        imageStore(control_image, ivec3(pixel, 3),
+                   sums + vec4(finds.sky.lit, finds.sky.unsure, finds.sky.whole, 0.0));
     }
 #endif
 }

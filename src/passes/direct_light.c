@@ -46,8 +46,13 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
         lsf_plan_switch_add(plan, "LSF_SPECULAR_PATHS", use->sky.lobes,
                             "paths gather narrow lobes");
     if (use->sky.control == LSF_SKY_CONTROL_SHARE) {
-        const lsf_texture_desc desc = {
-            NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, plan->seen_width, plan->seen_height, 3, 1};
+        const lsf_texture_desc desc = {NULL,
+                                       GL_TEXTURE_2D_ARRAY,
+                                       GL_RGBA32F,
+                                       plan->seen_width,
+                                       plan->seen_height,
+                                       use->sky.lobes ? 4 : 3,
+                                       1};
         lsf_plan_texture_desc_add(plan, "direct_light.control", &desc,
                                   "what directions of the environment have found");
     }
