@@ -23,8 +23,8 @@ sky_found sky_found_both(sky_found a, sky_found b)
     return sky_found(a.lit + b.lit, a.whole + b.whole, max(a.most, b.most));
 }
 
-/* How much of a narrow lobe sees the environment, by paths along it: sums of the luminance of what the lobe reflects,
- * over those that see it; over those that see it unless voxels missed a surface; and over all. */
+/* How much of a narrow lobe sees the environment: sums of the luminance that paths along it carry, over those that leave
+ * the scene; over those that leave it unless voxels missed a surface close to their start; and over all. */
 struct sky_lobe {
     float lit, unsure, whole;
 };

@@ -41,8 +41,9 @@ float specular_paths_share(surface s, vec3 view)
     return share;
 }
 
-/* Share that paths have of the environment's specular light that no surface reflects before: the same, but for thin
- * walls that transmit. These are in the picture at random, and what paths find there is not what they find behind it. */
+/* Share that paths have of the environment's light that a visible point's specular lobes reflect: the same, but none of
+ * that of thin walls that transmit. These are in the picture at random: a pixel would count what paths find at the wall
+ * together with what they find behind it. */
 float specular_paths_sky_share(surface s, vec3 view)
 {
 #if LSF_TRANSMISSION

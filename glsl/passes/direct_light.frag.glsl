@@ -178,10 +178,11 @@ light_parts controlled_sum(surface s, vec3 view_direction, ivec2 pixel, sky_part
         controlled(parts[1], directions.y, open_sky, vec2(sky_control_diffuse(parts[0].found), specular));
     light_parts sum = light_parts(one.irradiance + other.irradiance, one.specular + other.specular);
 #if LSF_SPECULAR_PATHS
-    vec3 lobe = imageLoad(control_image, ivec3(pixel, 3)).xyz; /* a sky_lobe */
-    if (lobe.z > 0.0) {
+    vec4 sums = imageLoad(control_image, ivec3(pixel, 3));
+    sky_lobe lobe = sky_lobe(sums.x, sums.y, sums.z);
+    if (lobe.whole > 0.0) {
         vec3 open_part = control.x * float(directions.x + directions.y) * open_sky.specular;
-        vec3 by_paths = lobe.x / lobe.z * open_part + lobe.y / lobe.z * sum.specular;
+        vec3 by_paths = (lobe.lit * open_part + lobe.unsure * sum.specular) / lobe.whole;
         sum.specular = mix(sum.specular, by_paths, specular_paths_sky_share(s, view_direction));
     }
 #endif

@@ -22,7 +22,7 @@ layout(location = 0) uniform ivec2 lengths;   /* paths of a point, most segments
 layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
 
 #if LSF_SKY_CONTROL
-/* direct_light.control; what paths find of the environment is added to the fourth layer. */
+/* direct_light.control; its fourth layer holds a sky_lobe, to which paths add. */
 layout(binding = 0, rgba32f) uniform image2DArray control_image;
 #endif
 
@@ -236,8 +236,8 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
      * straight through media, as voxels are lit. */
     float spread = 0.0;
     float sky_part = 1.0; /* part of the environment's light along the path that nothing else finds */
-    bool told = false; /* the path tells whether its lobe sees the environment, and */
-    bool sure = true;  /* voxels miss no surface where it starts */
+    bool told = false; /* the path began along a visible point's lobe, and tells whether that sees the environment */
+    bool sure = true;  /* voxels miss no surface close to its start */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf = 0.0;

@@ -38,21 +38,15 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
         lsf_plan_switch_add(plan, "LSF_SKY_CHANCE", (int)use->sky.chance,
                             "what else finds the environment");
         lsf_plan_switch_add(plan, "LSF_SKY_SPLIT", plan->sky_split, "their light is filtered");
-    }
-    if (plan->sky_lights > 0)
         lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", (int)use->sky.control,
                             "their light is told by the open sky's");
-    if (plan->sky_lights > 0)
         lsf_plan_switch_add(plan, "LSF_SPECULAR_PATHS", use->sky.lobes,
                             "paths gather narrow lobes");
+    }
     if (use->sky.control == LSF_SKY_CONTROL_SHARE) {
-        const lsf_texture_desc desc = {NULL,
-                                       GL_TEXTURE_2D_ARRAY,
-                                       GL_RGBA32F,
-                                       plan->seen_width,
-                                       plan->seen_height,
-                                       use->sky.lobes ? 4 : 3,
-                                       1};
+        uint32_t layers = use->sky.lobes ? 4 : 3, width = plan->seen_width;
+        const lsf_texture_desc desc = {
+            NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, width, plan->seen_height, layers, 1};
         lsf_plan_texture_desc_add(plan, "direct_light.control", &desc,
                                   "what directions of the environment have found");
     }

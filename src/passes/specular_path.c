@@ -65,7 +65,7 @@ void lsf_specular_path_plan(lsf_plan *plan, const lsf_specular_path_params *para
     if (emitters)
         lsf_emitter_points_plan(plan, emitter_name);
     lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", sky,
-                        "paths tell how much of the environment's light arrives");
+                        "paths tell how much of narrow lobes sees the environment");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
@@ -124,10 +124,8 @@ void lsf_specular_path_run(lsf_specular_path *pass, const lsf_iteration *iterati
         glUniform1f(LSF_LOCATION_SPECULAR_SHARE, pass->lobe_kernel);
     glUniform2ui(LOCATION_ITERATION, iteration->index,
                  lsf_iteration_seed(iteration, LSF_PURPOSE_SPECULAR_PATH));
-    if (pass->sky) {
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    if (pass->sky)
         glBindImageTexture(0, inputs->control, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);
-    }
     if (pass->emitters.upload.buffer) {
         lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_SPECULAR_PATH_EMITTER);
         lsf_emitter_points_bind(&pass->emitters, 1);

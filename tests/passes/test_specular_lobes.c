@@ -81,7 +81,8 @@ static void mirrors_show_where_things_are(void **unused)
                 check_border(techniques[t], emits, right);
 }
 
-/* The same with a black half, and nothing beyond its border but the sky. */
+/* A black ceiling that ends a voxel and a half to the right of what the view sees in the mirror, or
+ * to the left; beyond it is the sky. */
 static void check_skyline(const char *technique, bool open)
 {
     const double voxel = 4.0 / 32.0;
@@ -90,7 +91,7 @@ static void check_skyline(const char *technique, bool open)
     build_material(scene, 0, 0, 0)->specular = 0.0f;
     float edge = 0.75f + (float)((open ? 1.5 : -1.5) * voxel);
     build_quad(scene, lsf_f3(edge, 1, -2), lsf_f3(2, 1, -2), lsf_f3(2, 1, 2), lsf_f3(edge, 1, 2));
-    /* A strip at the other end makes voxels as wide as before. */
+    /* A strip at the other end makes the scene 4 wide. */
     build_quad(scene, lsf_f3(-2, 1, -2), lsf_f3(-1.9f, 1, -2), lsf_f3(-1.9f, 1, 2),
                lsf_f3(-2, 1, 2));
     build_metal(scene, 0.05f, 0.2f);
