@@ -8,13 +8,14 @@
 #define CONVERT "export the scene as glTF 2.0, or convert it (Blender reads most formats)"
 #define PICTURE "a scene is wanted here; `--environment` takes an .hdr or .exr"
 
+#define GIT_LFS_POINTER "version https://git-lfs"
+
 /* Beginnings that no other kind of file has. */
 static const struct {
     const char *magic;
     lsf_foreign_file file;
 } beginnings[] = {
-    {"version https://git-lfs",
-     {"a pointer of Git LFS, not the file itself", "run `git lfs pull`"}},
+    {GIT_LFS_POINTER, {"a pointer of Git LFS, not the file itself", "run `git lfs pull`"}},
     {"Kaydara FBX Binary", {"an Autodesk FBX file", CONVERT}},
     {"; FBX ", {"an Autodesk FBX file", CONVERT}},
     {"PXR-USDC", {"a USD file", CONVERT}},
@@ -71,6 +72,11 @@ static bool begins_with(const char *text, size_t length, const char *beginning)
 {
     size_t wanted = strlen(beginning);
     return length >= wanted && strncasecmp(text, beginning, wanted) == 0;
+}
+
+bool lsf_is_git_lfs_pointer(const void *bytes, size_t length)
+{
+    return begins_with(bytes, length, GIT_LFS_POINTER);
 }
 
 const lsf_foreign_file *lsf_foreign_file_find(const char *path, const void *bytes, size_t length)

@@ -2,6 +2,7 @@
 #ifndef LSF_IO_FOREIGN_FILE_H
 #define LSF_IO_FOREIGN_FILE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -15,6 +16,10 @@ typedef struct lsf_foreign_file {
 
 /* NULL when the file may be glTF. */
 const lsf_foreign_file *lsf_foreign_file_find(const char *path, const void *bytes, size_t length);
+
+/* Whether the bytes are what a repository holds in place of a file that Git LFS stores elsewhere.
+ */
+bool lsf_is_git_lfs_pointer(const void *bytes, size_t length);
 
 #ifdef __cplusplus
 }

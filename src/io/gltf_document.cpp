@@ -70,6 +70,10 @@ read_buffer_file(gltf_import &import, const gltf_buffer_source &source, const st
     file.bytes.reset(lsf_file_read_start(path.c_str(), source.byte_length, &file.length, &error));
     if (!file.bytes)
         throw failure(error.message);
+    if (lsf_is_git_lfs_pointer(file.bytes.get(), file.length))
+        fail("IO_ERROR", location + "/uri",
+             "%s: is a pointer of Git LFS, not the buffer itself; run `git lfs pull`",
+             path.c_str());
     check_length(file.length, source.byte_length, location);
     lsf_scene_add_content(import.scene, file.bytes.get(), file.length);
     return {file.bytes.get(), file.bytes.get() + file.length};

@@ -390,6 +390,17 @@ static void check_version(const json &root)
              "glTF version %s is not supported; export the file as glTF 2.0", wanted.c_str());
 }
 
+/* A file of glTF 1.0 may name no version, and keys its buffers by their names. */
+static void refuse_version_1(const json &root)
+{
+    const json version = root.value("/asset/version"_json_pointer, json());
+    bool stated = (version.is_string() && version.get<std::string>().compare(0, 2, "1.") == 0) ||
+                  (version.is_number() && version.get<double>() < 2);
+    if (stated || (version.is_null() && root.contains("buffers") && root["buffers"].is_object()))
+        fail("UNKNOWN_ASSET_MAJOR_VERSION", "/asset",
+             "glTF version 1.0 is not supported; export the file as glTF 2.0");
+}
+
 static const char *remedy_for(const std::string &extension)
 {
     if (extension == "KHR_meshopt_compression")
@@ -524,6 +535,7 @@ gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budge
     json_document document;
     json &root = document.root;
     parse(text, budget, root);
+    refuse_version_1(root);
     checker checker(root, lenient);
     /* Checked first: data missing from such a file may be what the extension brings. */
     check_required_extensions(root, lenient);

@@ -1,4 +1,6 @@
 #include "io/image_header.h"
+
+#include "io/foreign_file.h"
 #include "io/io.h"
 
 #include <stdio.h>
@@ -76,6 +78,10 @@ bool lsf_image_header_read(lsf_image_header *header, const void *data, size_t le
                              "the file with PNG, "
                              "JPEG or WebP textures",
                              name);
+    } else if (lsf_is_git_lfs_pointer(bytes, length)) {
+        return lsf_error_set(
+            error, LSF_ERROR_FILE,
+            "%s: is a pointer of Git LFS, not the image itself; run `git lfs pull`", name);
     } else {
         return lsf_error_set(error, LSF_ERROR_FILE,
                              "%s: is not a PNG, JPEG, WebP, HDR or EXR image; convert it to one",

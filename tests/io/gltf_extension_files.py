@@ -132,6 +132,23 @@ case('foreign/neither.txt', 'this is neither')
 write('foreign/nothing.obj', b'')
 case('foreign/nothing.obj', 'an empty file')
 
+pointer = b'version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1000\n'
+write('foreign/pointer.bin', pointer)
+write('foreign/pointer.png', pointer)
+changed('foreign/buffer_pointer.gltf', 'pointer.bin: is a pointer of Git LFS',
+        lambda f: f.json.update(buffers=[{'uri': 'pointer.bin', 'byteLength': 1000}]))
+changed('foreign/image_pointer.gltf', 'pointer.png: is a pointer of Git LFS', lambda f: (
+    f.json.update(images=[{'uri': 'pointer.png'}], textures=[{'source': 0}],
+                  materials=[{'pbrMetallicRoughness': {'baseColorTexture': {'index': 0}}}]),
+    f.json['meshes'][0]['primitives'][0].update(material=0)))
+
+# glTF 1.0 keys its buffers by name; its number of a version may be absent.
+for name, content in [('stated', b'{"asset": {"version": "1.0"}}'),
+                      ('number', b'{"asset": {"version": 1}}'),
+                      ('absent', b'{"buffers": {"box": {"byteLength": 0, "uri": "data:,"}}}')]:
+    write('version_1_%s.gltf' % name, content)
+    case('version_1_%s.gltf' % name, 'glTF version 1.0 is not supported')
+
 # --- KHR_materials_pbrSpecularGlossiness ----------------------------------------------------------
 
 
