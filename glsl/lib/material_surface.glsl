@@ -52,8 +52,15 @@ vec4 base_color(lsf_material_data material, material_point point)
 {
     vec4 color = material.base_color;
 #if LSF_BASE_COLOR_TEXTURE
-    if (slot_used(material.base_color_slot))
-        color *= slot_sample(base_color_texture, material.base_color_slot, point.uv);
+    if (slot_used(material.base_color_slot)) {
+        vec4 texel = slot_sample(base_color_texture, material.base_color_slot, point.uv);
+#if LSF_MASK
+        /* Where the mean of a mask falls below the cutoff, all of it would be absent. */
+        if (material.emission.w >= 0.0)
+            texel.a = slot_sample_finest(base_color_texture, material.base_color_slot, point.uv).a;
+#endif
+        color *= texel;
+    }
 #endif
 #if LSF_VERTEX_COLOR
     color *= point.color;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "frame/alpha_mipmaps.h"
 #include "shared/tonemap.h"
 
 /* How an image is stored. sRGB colour is decoded here, to half floats, which resolve 11 bits at
@@ -66,11 +67,53 @@ uint32_t lsf_texture_upload_read_by(const lsf_material *m, bool transmission,
     return count;
 }
 
+/* The index of channel `c` of R, G, B, A in a texel of `channels`; -1: it has none, and alpha is
+ * opaque. */
+static int source_channel(uint32_t channels, uint32_t c)
+{
+    if (c == 3)
+        return channels == 2 || channels == 4 ? (int)channels - 1 : -1;
+    return channels <= 2 ? 0 : (int)c;
+}
+
+/* How materials in use read a texture. */
+typedef struct texture_use {
+    bool used;
+    bool filtered; /* some material reads it by lsf_texture_filter LSF_TEXTURE_MEAN */
+    bool weighed;  /* its alpha masks or blends some material */
+} texture_use;
+
 /* A distinct pair of image and colour space, by one of the textures that need it. */
 typedef struct image_use {
     uint32_t texture;
-    bool filtered; /* some material reads it by lsf_texture_filter LSF_TEXTURE_MEAN */
+    bool filtered, weighed; /* as above, of any of the textures */
 } image_use;
+
+/* Whether alpha and colour are kept as floats, so that mipmaps can weigh one by the other. */
+static bool holds_blend_colors(const lsf_scene *scene, const lsf_texture *texture)
+{
+    const lsf_texture_image *image = &scene->images[texture->image];
+    return source_channel(image->channels, 3) >= 0 &&
+           choose_storage(image, texture->srgb).type == GL_FLOAT;
+}
+
+static void note_uses(texture_use *uses, const lsf_scene *scene, const lsf_plan *plan)
+{
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const lsf_material *m =
+            &scene->materials[scene->primitives[scene->instances[i].primitive].material];
+        lsf_texture_read textures[LSF_MATERIAL_TEXTURES];
+        uint32_t count = lsf_texture_upload_read_by(m, plan->transmission, textures);
+        for (uint32_t s = 0; s < count; s++) {
+            texture_use *use = &uses[textures[s].slot->texture];
+            const lsf_texture *texture = &scene->textures[textures[s].slot->texture];
+            use->used = true;
+            use->filtered |= textures[s].filter == LSF_TEXTURE_MEAN;
+            use->weighed |= textures[s].unit == LSF_UNIT_BASE_COLOR &&
+                            m->alpha_mode != LSF_ALPHA_OPAQUE && holds_blend_colors(scene, texture);
+        }
+    }
+}
 
 /* Numbers the distinct pairs of image and colour space that materials in use read, and counts them;
  * false without memory. `of` (per scene texture, LSF_NONE when unused; NULL allowed) and `uses`
@@ -80,40 +123,29 @@ static bool number_textures(const lsf_scene *scene, const lsf_plan *plan, uint32
 {
     *count = 0;
     uint32_t *pair_of = lsf_alloc((uint64_t)scene->image_count * 2, sizeof *pair_of);
-    bool *used = lsf_alloc(scene->texture_count, sizeof *used);
-    bool *filtered = lsf_alloc(scene->texture_count, sizeof *filtered);
-    bool good = pair_of && used && filtered;
+    texture_use *used = lsf_alloc(scene->texture_count, sizeof *used);
+    bool good = pair_of && used;
     if (!good)
         goto done;
-    for (uint32_t i = 0; i < scene->instance_count; i++) {
-        const lsf_material *m =
-            &scene->materials[scene->primitives[scene->instances[i].primitive].material];
-        lsf_texture_read textures[LSF_MATERIAL_TEXTURES];
-        uint32_t count_read = lsf_texture_upload_read_by(m, plan->transmission, textures);
-        for (uint32_t s = 0; s < count_read; s++) {
-            uint32_t t = textures[s].slot->texture;
-            used[t] = true;
-            filtered[t] |= textures[s].filter == LSF_TEXTURE_MEAN;
-        }
-    }
+    note_uses(used, scene, plan);
     for (uint32_t t = 0; t < scene->texture_count; t++) {
         if (of)
             of[t] = LSF_NONE;
-        if (!used[t])
+        if (!used[t].used)
             continue;
         uint32_t *pair = &pair_of[2 * scene->textures[t].image + scene->textures[t].srgb];
         if (*pair == 0) {
-            uses[*count] = (image_use){t, false};
+            uses[*count] = (image_use){.texture = t};
             *pair = ++*count; /* one-based; 0 is "not numbered yet" */
         }
-        uses[*pair - 1].filtered |= filtered[t];
+        uses[*pair - 1].filtered |= used[t].filtered;
+        uses[*pair - 1].weighed |= used[t].weighed;
         if (of)
             of[t] = *pair - 1;
     }
 done:
     free(pair_of);
     free(used);
-    free(filtered);
     return good;
 }
 
@@ -159,15 +191,6 @@ static float texel_value(const lsf_texture_image *image, uint64_t index)
     return ((const float *)image->texels)[index];
 }
 
-/* The index of channel `c` of R, G, B, A in a texel of `channels`; -1: it has none, and alpha is
- * opaque. */
-static int source_channel(uint32_t channels, uint32_t c)
-{
-    if (c == 3)
-        return channels == 2 || channels == 4 ? (int)channels - 1 : -1;
-    return channels <= 2 ? 0 : (int)c;
-}
-
 /* RGBA floats, decoded from sRGB where `s.decode`. */
 static void convert_to_float(float *out, const lsf_texture_image *image, storage s)
 {
@@ -210,6 +233,27 @@ static void *convert_texels(const lsf_texture_image *image, storage s)
     return out;
 }
 
+/* `texels`: level 0, RGBA floats. */
+static bool make_alpha_mipmaps(GLuint texture, const float *texels, const lsf_texture_image *image,
+                               lsf_error *error)
+{
+    float *levels = lsf_alpha_mipmaps_create(texels, image->width, image->height);
+    if (!levels)
+        return lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory for its mipmaps",
+                             image->name);
+    const float *next = levels;
+    uint32_t count = level_count(image->width, image->height);
+    for (uint32_t i = 1; i < count; i++) {
+        uint32_t width = image->width >> i ? image->width >> i : 1;
+        uint32_t height = image->height >> i ? image->height >> i : 1;
+        glTextureSubImage2D(texture, (GLint)i, 0, 0, (GLsizei)width, (GLsizei)height, GL_RGBA,
+                            GL_FLOAT, next);
+        next += 4 * (uint64_t)width * height;
+    }
+    free(levels);
+    return true;
+}
+
 static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index, image_use use,
                    lsf_error *error)
 {
@@ -226,15 +270,18 @@ static bool upload(lsf_scene_gpu *gpu, const lsf_plan *plan, uint32_t index, ima
     if (!direct && !converted)
         return lsf_error_set(error, LSF_ERROR_RENDER, "%s: out of memory for %ux%u texels",
                              image->name, image->width, image->height);
+    const void *texels = direct ? image->texels : converted;
     glTextureSubImage2D(gpu->textures[index], 0, 0, 0, (GLsizei)image->width,
-                        (GLsizei)image->height, layouts[s.channels], s.type,
-                        direct ? image->texels : converted);
+                        (GLsizei)image->height, layouts[s.channels], s.type, texels);
+    bool made = !use.weighed || make_alpha_mipmaps(gpu->textures[index], texels, image, error);
     free(converted);
+    if (!made)
+        return false;
     if (s.channels <= 2) {
         GLint swizzle[] = {GL_RED, GL_RED, GL_RED, s.channels == 2 ? GL_GREEN : GL_ONE};
         glTextureParameteriv(gpu->textures[index], GL_TEXTURE_SWIZZLE_RGBA, swizzle);
     }
-    if (use.filtered)
+    if (use.filtered && !use.weighed)
         glGenerateTextureMipmap(gpu->textures[index]);
     return true;
 }

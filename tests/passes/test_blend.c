@@ -212,12 +212,47 @@ static void alpha_one(void **unused)
     }
 }
 
+/* White, opaque texels in a check with black, transparent ones, far smaller than pixels, over an
+ * unlit ground: half of it is white in one iteration as in many. */
+static void fine_textures(void **unused)
+{
+    (void)unused;
+    static const uint8_t texels[8] = {255, 255, 0, 0, 0, 0, 255, 255}; /* grey, alpha */
+    static const uint32_t samples[] = {1, 16};
+    for (int masked = 0; masked < 2; masked++) {
+        lsf_scene *scene = build_scene();
+        build_material(scene, 0.2f, 0.2f, 0.2f)->unlit = true;
+        build_floor(scene, 0.0f, 2.0f);
+        lsf_material *leaves = build_blended(scene, 1.0f, 1.0f);
+        leaves->unlit = true;
+        leaves->alpha_mode = masked ? LSF_ALPHA_MASK : LSF_ALPHA_BLEND;
+        leaves->alpha_cutoff = 0.5f;
+        leaves->base_color_texture.texture = build_texture(scene, 2, 2, 2, texels, true);
+        scene->textures[0].nearest = true;
+        build_floor(scene, 0.5f, 2.0f);
+        scene->vertices.uv0 = calloc(2 * scene->vertices.count, sizeof(float));
+        for (uint64_t i = 0; i < scene->vertices.count; i++) {
+            scene->vertices.uv0[2 * i] = 101.3f * scene->vertices.position[3 * i];
+            scene->vertices.uv0[2 * i + 1] = 103.7f * scene->vertices.position[3 * i + 2];
+        }
+        finish_gl_scene(scene);
+        for (int i = 0; i < 2; i++) {
+            look above = {{0, 3, 0}, {0, 0, 0.01f}, 20.0f, 64, samples[i], 0, {NULL}};
+            for (size_t t = 0; t < LSF_COUNT(plain); t++)
+                check(masked ? "mask" : "blend", plain[t], mean_of(plain[t], scene, &above), 0.6,
+                      i ? 0.01 : 0.04);
+        }
+        lsf_scene_destroy(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stacked_layers), cmocka_unit_test(even_decisions),
         cmocka_unit_test(shadows),        cmocka_unit_test(shells),
         cmocka_unit_test(same_bits),      cmocka_unit_test(alpha_one),
+        cmocka_unit_test(fine_textures),
     };
     return cmocka_run_group_tests_name("passes blend", tests, NULL, NULL);
 }
