@@ -104,6 +104,17 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
     return p;
 }
 
+#if LSF_SPECULAR
+/* Lets it draw from the specular lobes alone. Sheen is as broad as a diffuse lobe, and is found by that. */
+void brdf_keep_lobes(inout brdf_sampler p)
+{
+    p.specular = LSF_SHEEN != 0 ? 1.0 - LOBE_LEAST : 1.0;
+#if LSF_TRANSMISSION
+    p.passing = 0.0;
+#endif
+}
+#endif
+
 /* The unit vector of the direction that has these coordinates in the sampler's frame. */
 vec3 brdf_from_frame(brdf_sampler p, vec3 local)
 {

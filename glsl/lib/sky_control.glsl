@@ -23,12 +23,6 @@ sky_found sky_found_both(sky_found a, sky_found b)
     return sky_found(a.lit + b.lit, a.whole + b.whole, max(a.most, b.most));
 }
 
-/* How much of a narrow lobe sees the environment: sums of the luminance that paths along it carry, over those that leave
- * the scene; over those that leave it unless voxels missed a surface close to their start; and over all. */
-struct sky_lobe {
-    float lit, unsure, whole;
-};
-
 /* The share of diffuse light to use, from directions that are independent of those that use it: their regression,
  * with one more direction added that is as bright as the largest of them and of which nothing arrives. */
 float sky_control_diffuse(sky_found found)

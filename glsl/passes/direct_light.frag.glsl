@@ -2,7 +2,7 @@
  * instead of one light, a batch of directions of the environment; LSF_SKY_CHANCE, lsf_sky_chance: other strategies
  * that find the environment, and share its light; LSF_SKY_SPLIT: light of these directions stays split;
  * LSF_SKY_CONTROL, lsf_sky_control: the directions estimate only the difference from the light of an unoccluded sky,
- * which is known; LSF_SPECULAR_PATHS: paths have told how much of it narrow lobes reflect. Texels without a surface
+ * which is known; LSF_SPECULAR_PATHS: rays have told how much of it narrow lobes reflect. Texels without a surface
  * are not drawn (lsf_skip_background). */
 #include "lib/brdf.glsl"
 #include "lib/gbuffer_textures.glsl"
@@ -93,6 +93,11 @@ layout(binding = 3) uniform sampler2D open_irradiance_texture;
 #if LSF_SPECULAR
 layout(binding = 4) uniform sampler2D open_specular_texture;
 #endif
+#if LSF_SPECULAR_PATHS
+layout(binding = 5) uniform sampler2D lobe_texture; /* as open_sky leaves it */
+layout(binding = 8) uniform sampler2D open_narrow_texture;
+float twice; /* lobe_widened_twice */
+#endif
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
 /* Background fails the depth test. Because of the image, that test would else come after this shader. */
 layout(early_fragment_tests) in;
@@ -107,6 +112,9 @@ layout(location = 4) uniform int sequence; /* sequence of the first direction, 0
 struct sky_part {
     light_parts lit, open; /* light that arrives, and light that would arrive unoccluded */
     sky_found found;
+#if LSF_SPECULAR_PATHS
+    vec3 narrow_lit, narrow_open; /* the specular light that rays along narrow lobes have a share of */
+#endif
 };
 
 /* Statistics of one direction; `left`: transmittance on the way. */
@@ -131,6 +139,11 @@ void add_direction(surface s, vec3 position, vec3 view_direction, inout sky_part
     part.found = sky_found_both(part.found, found_by(diffuse, specular, left));
     part.lit.specular += specular * left;
     part.open.specular += specular;
+#if LSF_SPECULAR_PATHS
+    float narrow = narrow_sky_share(twice, control.x * sky_maps[shadow_sky_map].to_sky.w);
+    part.narrow_lit += narrow * specular * left;
+    part.narrow_open += narrow * specular;
+#endif
     part.lit.irradiance += diffuse * left;
     part.open.irradiance += diffuse;
 }
@@ -154,8 +167,7 @@ light_parts controlled(sky_part part, int directions, light_parts open_sky, vec2
 }
 
 /* The sum over the batch. Each sequence uses the share of diffuse light that the other one has found, which is
- * independent of it. Of narrow lobes, paths of earlier iterations have their share, but for what they were unsure
- * of. */
+ * independent of it. Rays have their share of narrow lobes. */
 light_parts controlled_sum(surface s, vec3 view_direction, ivec2 pixel, sky_part parts[2], ivec2 directions)
 {
     light_parts open_sky = light_parts(texelFetch(open_irradiance_texture, pixel, 0).rgb, vec3(0.0));
@@ -178,13 +190,11 @@ light_parts controlled_sum(surface s, vec3 view_direction, ivec2 pixel, sky_part
         controlled(parts[1], directions.y, open_sky, vec2(sky_control_diffuse(parts[0].found), specular));
     light_parts sum = light_parts(one.irradiance + other.irradiance, one.specular + other.specular);
 #if LSF_SPECULAR_PATHS
-    vec4 sums = imageLoad(control_image, ivec3(pixel, 3));
-    sky_lobe lobe = sky_lobe(sums.x, sums.y, sums.z);
-    if (lobe.whole > 0.0) {
-        vec3 open_part = control.x * float(directions.x + directions.y) * open_sky.specular;
-        vec3 by_paths = (lobe.lit * open_part + lobe.unsure * sum.specular) / lobe.whole;
-        sum.specular = mix(sum.specular, by_paths, specular_paths_sky_share(s, view_direction));
-    }
+    vec2 leave = texelFetch(lobe_texture, pixel, 0).xy;
+    vec3 open_part = control.x * float(directions.x + directions.y) * texelFetch(open_narrow_texture, pixel, 0).rgb;
+    vec3 open_found = parts[0].narrow_open + parts[1].narrow_open;
+    vec3 found = parts[0].narrow_lit + parts[1].narrow_lit + specular * (open_part - open_found);
+    sum.specular += leave.x * open_part - (1.0 - leave.y) * found;
 #endif
     return sum;
 }
@@ -217,7 +227,13 @@ void main()
 #if LSF_SKY_CONTROL
     light_parts nothing = light_parts(vec3(0.0), vec3(0.0));
     sky_part parts[2]; /* of the sequence whose turn it is, and of the other */
-    parts[0] = parts[1] = sky_part(nothing, nothing, sky_found_nothing());
+    parts[0].lit = parts[0].open = nothing;
+    parts[0].found = sky_found_nothing();
+#if LSF_SPECULAR_PATHS
+    parts[0].narrow_lit = parts[0].narrow_open = vec3(0.0);
+    twice = lobe_widened_twice(s, view_direction);
+#endif
+    parts[1] = parts[0];
 #endif
     for (shadow_sky_map = 0; shadow_sky_map < sky_map_count; shadow_sky_map++) {
 #if LSF_SKY_CONTROL

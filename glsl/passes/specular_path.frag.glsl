@@ -1,17 +1,15 @@
 /* Specular light of visible points by paths through voxels: what media transmit, refracted, and what narrow lobes reflect;
  * see src/passes/specular_path.md. Switches LSF_ABSORPTION (there are media), LSF_SPECULAR_PATHS (narrow lobes),
- * LSF_SKY_CONTROL (what these find of the environment is kept), LSF_EMITTERS (points are drawn on emitters; only with
+ * LSF_EMITTERS (points are drawn on emitters; only with
  * LSF_SPECULAR_PATHS), LSF_SPLIT_DIRECT, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels
  * are lit directly: paths go on from all) and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
 #include "lib/interleave.glsl"
-#include "lib/luminance.glsl"
 #include "lib/path_random.glsl"
 #include "lib/reflectance.glsl"
 #include "lib/sky.glsl"
-#include "lib/sky_control.glsl"
 #include "lib/sparse.glsl"
 #include "lib/specular_share.glsl"
 #include "lib/straight.glsl"
@@ -21,22 +19,9 @@ layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance; /* t
 layout(location = 0) uniform ivec2 lengths;   /* paths of a point, most segments of a path */
 layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
 
-#if LSF_SKY_CONTROL
-/* direct_light.control; its fourth layer holds a sky_lobe, to which paths add. */
-layout(binding = 0, rgba32f) uniform image2DArray control_image;
-#endif
-
 layout(location = 0) out vec4 specular_out; /* added */
 #if LSF_SPLIT_DIRECT
 layout(location = 1) out vec4 direct_specular_out; /* added: emission that lobes show, but for those of media */
-#endif
-
-/* Probability with which a path along a visible point's lobes draws from the specular ones. Sheen is as broad as a diffuse
- * lobe, and is found by that. */
-#if LSF_SHEEN
-#define LOBES_SPECULAR 0.9
-#else
-#define LOBES_SPECULAR 1.0
 #endif
 
 /* Whether paths pass the surface, refracted. */
@@ -67,10 +52,7 @@ vec3 mirrored_at(brdf_sampler p, vec3 h, out float gain)
 brdf_sampler lobe_sampler(path_vertex v)
 {
     brdf_sampler p = brdf_sampler_of(v.s, v.view, true);
-    p.specular = LOBES_SPECULAR;
-#if LSF_TRANSMISSION
-    p.passing = 0.0;
-#endif
+    brdf_keep_lobes(p);
     return p;
 }
 
@@ -215,11 +197,9 @@ vec3 emission_met(path_vertex v, vec3 direction, float pdf, ivec3 cell, int side
     return grid.unit.x * emission;
 }
 
-/* What paths find: light; emission that lobes of visible points show; and how much of these lobes sees the environment,
- * whose light is left to its directions. */
+/* What paths find: light, and emission that lobes of visible points show. */
 struct path_finds {
     vec3 light, direct;
-    sky_lobe sky;
 };
 
 /* Adds what a path finds that begins at the visible point v: through the surface of a medium, that body, or along the
@@ -236,8 +216,6 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
      * straight through media, as voxels are lit. */
     float spread = 0.0;
     float sky_part = 1.0; /* part of the environment's light along the path that nothing else finds */
-    bool told = false; /* the path began along a visible point's lobe, and tells whether that sees the environment */
-    bool sure = true;  /* voxels miss no surface close to its start */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf = 0.0;
@@ -262,11 +240,6 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
             if (!leave_by_lobe(v, u, through, direction, pdf))
                 break;
             sky_part = 0.0;
-#if LSF_SKY_CONTROL
-            finds.sky.whole += luminance(through);
-            sure = voxel_starts_alone(v.position, v.s.geometric_normal, direction);
-            told = true;
-#endif
         }
 #endif
 #if LSF_TRANSMISSION
@@ -300,13 +273,6 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
 #if LSF_ENVIRONMENT
             vec3 sky = environment_radiance(direction);
             sum += through * sky_part * (spread > 0.0 ? sky_left(sky, spread) : sky);
-#endif
-#if LSF_SKY_CONTROL
-            if (told && sky_part == 0.0) {
-                float reflected = luminance(through);
-                finds.sky.lit += sure ? reflected : 0.0;
-                finds.sky.unsure += sure ? 0.0 : reflected;
-            }
 #endif
             break;
         }
@@ -378,7 +344,7 @@ void main()
     path_random_key key;
     key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
-    path_finds finds = path_finds(vec3(0.0), vec3(0.0), sky_lobe(0.0, 0.0, 0.0));
+    path_finds finds = path_finds(vec3(0.0), vec3(0.0));
     for (int i = 0; i < lengths.x; i++)
         add_path(v, body, share, key, iteration.x * uint(lengths.x) + uint(i), finds);
     specular_out.rgb = weight * finds.light;
@@ -386,12 +352,5 @@ void main()
     direct_specular_out.rgb = weight * finds.direct;
 #else
     specular_out.rgb += weight * finds.direct;
-#endif
-#if LSF_SKY_CONTROL
-    if (specular_paths_sky_share(v.s, v.view) > 0.0) {
-        vec4 sums = imageLoad(control_image, ivec3(pixel, 3));
-        imageStore(control_image, ivec3(pixel, 3),
-                   sums + vec4(finds.sky.lit, finds.sky.unsure, finds.sky.whole, 0.0));
-    }
 #endif
 }

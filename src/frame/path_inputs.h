@@ -13,7 +13,6 @@ typedef struct lsf_path_inputs {
     const lsf_voxel_grid *grid; /* of the voxels */
     GLuint radiance;            /* of voxels, two sides */
     GLuint lamps;               /* that smooth metals mirror; 0: none */
-    GLuint control;             /* direct_light.control; 0: there is none */
 } lsf_path_inputs;
 
 /* Binds them, the materials and the environment for the program in use. */

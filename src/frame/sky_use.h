@@ -25,7 +25,7 @@ typedef struct lsf_sky_use {
     lsf_sky_chance chance;
     float paths[2]; /* of chance: their number at roughness 0 and 1, rounded between */
     lsf_sky_control control;
-    bool lobes;            /* paths tell how much of its light arrives along narrow lobes */
+    bool lobes;            /* rays through voxels tell how much of its light narrow lobes reflect */
     uint32_t open_samples; /* of light without shadows, of each kind in a pixel and iteration,
                             * a power of two */
 } lsf_sky_use;

@@ -44,9 +44,8 @@ void lsf_direct_light_plan(lsf_plan *plan, uint32_t lights, const lsf_direct_lig
                             "paths gather narrow lobes");
     }
     if (use->sky.control == LSF_SKY_CONTROL_SHARE) {
-        uint32_t layers = use->sky.lobes ? 4 : 3, width = plan->seen_width;
         const lsf_texture_desc desc = {
-            NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, width, plan->seen_height, layers, 1};
+            NULL, GL_TEXTURE_2D_ARRAY, GL_RGBA32F, plan->seen_width, plan->seen_height, 3, 1};
         lsf_plan_texture_desc_add(plan, "direct_light.control", &desc,
                                   "what directions of the environment have found");
     }
@@ -130,6 +129,10 @@ static void set_control(const lsf_direct_light *pass, const lsf_iteration *itera
     glUniform1i(4, (GLint)lsf_iteration_sky_sequence(iteration, inputs->first));
     lsf_bind_texture(3, inputs->open->irradiance);
     lsf_bind_texture(4, inputs->open->specular);
+    if (pass->use.sky.lobes) {
+        lsf_bind_texture(5, inputs->lobes);
+        lsf_bind_texture(8, inputs->narrow);
+    }
     if (pass->control && iteration->done == 0 && inputs->first == 0)
         glClearTexImage(pass->control, 0, GL_RGBA, GL_FLOAT, NULL);
     if (pass->control) {

@@ -13,6 +13,7 @@ typedef struct lsf_direct_light_inputs {
     uint32_t directions;         /* number of the environment's directions in the shadow; 0: it
                                   * is a light's */
     const lsf_split_light *open; /* the environment's without shadows; NULL: nobody counts on it */
+    GLuint lobes, narrow;        /* lsf_open_sky's; 0: there is none */
     float lobe_angle;            /* as in the G-buffer */
 } lsf_direct_light_inputs;
 

@@ -16,6 +16,12 @@ static const lsf_texture_row textures[] = {
      "of the specular lobe"},
 };
 
+/* Where rays tell how much narrow lobes see. */
+static const lsf_texture_row lobe_textures[] = {
+    {"open_sky.narrow", GL_RGBA32F, AT(narrow), 0, "of narrow lobes, as far as rays have a share"},
+    {"open_sky.lobes", GL_RG16, AT(lobes), 0, "how much of such a lobe rays find it in"},
+};
+
 void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)
 {
     const lsf_requirements *r = &plan->requirements;
@@ -23,6 +29,8 @@ void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)
         return;
     lsf_plan_pass_add(plan, "open_sky", "the environment's light, were there no shadows");
     lsf_plan_reads(plan, "view gbuffer scene.environment direct_light.control");
+    if (use->lobes)
+        lsf_plan_reads(plan, "voxelize");
     lsf_sky_use_switches(plan);
     lsf_plan_switch_add(plan, "LSF_ENVIRONMENT_MAP", r->environment_map,
                         "the environment is a map");
@@ -31,8 +39,12 @@ void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)
     lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", (int)use->control,
                         "how much of this light is counted on");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", 0, "never: random numbers are computed");
+    lsf_plan_switch_add(plan, "LSF_SPECULAR_PATHS", use->lobes, "paths gather narrow lobes");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->seen_width,
                           plan->seen_height);
+    if (use->lobes)
+        lsf_plan_textures_add(plan, lobe_textures, LSF_COUNT(lobe_textures), 0, plan->seen_width,
+                              plan->seen_height);
     lsf_upload_plan(plan, "open_sky.drawn", LSF_OPEN_SKY_DRAWN * sizeof(lsf_open_sky_data),
                     "directions drawn by the environment's radiance");
 }
@@ -45,13 +57,16 @@ bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_pla
     if (!lsf_plan_find_pass(plan, "open_sky"))
         return true;
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
+        (use->lobes && !lsf_plan_create_textures(plan, context, lobe_textures,
+                                                 LSF_COUNT(lobe_textures), pass, error)) ||
         !lsf_upload_create(&pass->drawn, context, plan, "open_sky.drawn", error))
         return false;
-    const lsf_framebuffer_desc desc = {.label = "open_sky",
-                                       .color_count = 2,
-                                       .colors = {pass->light.irradiance, pass->light.specular},
-                                       .depth = seen_depth,
-                                       .layer = -1};
+    const lsf_framebuffer_desc desc = {
+        .label = "open_sky",
+        .color_count = 4,
+        .colors = {pass->light.irradiance, pass->light.specular, pass->narrow, pass->lobes},
+        .depth = seen_depth,
+        .layer = -1};
     pass->framebuffer = lsf_framebuffer_create(context, &desc, error);
     pass->program = lsf_plan_program(plan, context, "open_sky", files, error);
     pass->timer = pass->program ? lsf_timer_create(context, "open_sky", error) : NULL;
@@ -79,7 +94,7 @@ static void draw_directions(lsf_open_sky *pass, const lsf_iteration *iteration)
 }
 
 void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
-                      const lsf_surface_maps *seen, GLuint control)
+                      const lsf_surface_maps *seen, GLuint control, const lsf_voxels *voxels)
 {
     if (!pass->timer)
         return;
@@ -98,6 +113,10 @@ void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
     glUniform1ui(1, lsf_iteration_seed(iteration, LSF_PURPOSE_OPEN_SKY));
     if (pass->use.chance != LSF_SKY_CHANCE_NONE)
         glUniform2fv(LSF_LOCATION_SKY_CHANCE, 1, pass->use.paths);
+    if (pass->lobes) {
+        lsf_voxels_bind(voxels);
+        glUniform1f(LSF_LOCATION_SPECULAR_SHARE, lsf_iteration_sky_angle(iteration));
+    }
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->timer);
 }
@@ -108,6 +127,7 @@ void lsf_open_sky_destroy(lsf_open_sky *pass)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
+    lsf_textures_destroy(pass->context, lobe_textures, LSF_COUNT(lobe_textures), pass);
     lsf_upload_destroy(&pass->drawn, pass->context);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

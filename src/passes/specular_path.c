@@ -41,9 +41,6 @@ void lsf_specular_path_plan(lsf_plan *plan, const lsf_specular_path_params *para
                       lsf_plural(samples));
     lsf_plan_reads(plan, "view points|gbuffer voxelize");
     lsf_plan_reads(plan, use->reads);
-    bool sky = lsf_plan_switch_value(plan, "sky_light", "LSF_SPECULAR_PATHS");
-    if (sky)
-        lsf_plan_reads(plan, "direct_light.control");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave, "interleave.size");
@@ -64,8 +61,6 @@ void lsf_specular_path_plan(lsf_plan *plan, const lsf_specular_path_params *para
     lsf_plan_switch_add(plan, "LSF_EMITTERS", emitters, "some material emits, and paths bounce");
     if (emitters)
         lsf_emitter_points_plan(plan, emitter_name);
-    lsf_plan_switch_add(plan, "LSF_SKY_CONTROL", sky,
-                        "paths tell how much of narrow lobes sees the environment");
     lsf_plan_switch_add(plan, "LSF_SPLIT_DIRECT", use->split_direct,
                         "direct light is asked for apart");
     lsf_scene_gpu_environment_switches(plan, "paths may leave the scene");
@@ -87,7 +82,6 @@ bool lsf_specular_path_create(lsf_specular_path *pass, lsf_context *context, con
         .context = context,
         .samples = (uint32_t)params->samples * factor,
         .lobes = lsf_plan_switch_value(plan, "specular_path", "LSF_SPECULAR_PATHS"),
-        .sky = lsf_plan_switch_value(plan, "specular_path", "LSF_SKY_CONTROL"),
         .targets = targets->direct ? 2 : 1};
     if (lsf_plan_find(plan, emitter_name) &&
         !lsf_emitter_points_create(&pass->emitters, context, plan, emitter_name, scene, state,
@@ -124,15 +118,11 @@ void lsf_specular_path_run(lsf_specular_path *pass, const lsf_iteration *iterati
         glUniform1f(LSF_LOCATION_SPECULAR_SHARE, pass->lobe_kernel);
     glUniform2ui(LOCATION_ITERATION, iteration->index,
                  lsf_iteration_seed(iteration, LSF_PURPOSE_SPECULAR_PATH));
-    if (pass->sky)
-        glBindImageTexture(0, inputs->control, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);
     if (pass->emitters.upload.buffer) {
         lsf_emitter_points_draw(&pass->emitters, iteration, LSF_PURPOSE_SPECULAR_PATH_EMITTER);
         lsf_emitter_points_bind(&pass->emitters, 1);
     }
     lsf_draw_fullscreen(pass->context);
-    if (pass->sky)
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(pass->timer);
 }
 

@@ -40,7 +40,6 @@ typedef struct lsf_specular_path {
     uint32_t samples; /* paths of a point */
     uint32_t targets; /* number of textures that light is added to */
     bool lobes;
-    bool sky;          /* what they find of the environment is added to direct_light.control */
     float lobe_kernel; /* with lobes, as in lib/specular_share.glsl; to be set before each run */
     lsf_emitter_points emitters; /* no buffer: none are drawn */
     GLuint framebuffer, program;

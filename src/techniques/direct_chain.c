@@ -32,17 +32,14 @@ static lsf_direct_light_use light_use(const lsf_plan *plan, const lsf_pass_param
         light.sky.chance = use->chance;
         light.sky.paths[0] = use->paths[0];
         light.sky.paths[1] = use->paths[1];
-        /* What is learnt of a blended surface would count for what is behind it, too. */
-        light.sky.lobes =
-            use->lobes && light.sky.control == LSF_SKY_CONTROL_SHARE && !plan->requirements.blended;
+        light.sky.lobes = use->lobes && light.sky.control == LSF_SKY_CONTROL_SHARE;
     }
     return light;
 }
 
-void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
-                           const lsf_direct_chain_use *use)
+void lsf_direct_chain_plan_lights(lsf_plan *plan, const lsf_pass_params *params,
+                                  const lsf_state *state, const lsf_direct_chain_use *use)
 {
-    lsf_gbuffer_plan(plan);
     bool sky = plan->sky_lights > 0;
     if (state->light_count > 0)
         lsf_shadow_map_plan(plan, &params->shadow_map, state);
@@ -58,6 +55,13 @@ void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const 
         lsf_plan_omit(plan, "shadow_map", "no light but what surfaces emit");
         lsf_plan_omit(plan, "direct_light", "no light but what surfaces emit");
     }
+}
+
+void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
+                           const lsf_direct_chain_use *use)
+{
+    lsf_gbuffer_plan(plan);
+    lsf_direct_chain_plan_lights(plan, params, state, use);
 }
 
 bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, const lsf_plan *plan,
@@ -95,10 +99,11 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
 }
 
-void lsf_direct_chain_sky_begin(lsf_direct_chain *chain, const lsf_iteration *iteration)
+void lsf_direct_chain_sky_begin(lsf_direct_chain *chain, const lsf_iteration *iteration,
+                                const lsf_voxels *voxels)
 {
     lsf_open_sky_run(&chain->open_sky, iteration, &chain->gbuffer.outputs.seen,
-                     chain->direct_light.control);
+                     chain->direct_light.control, voxels);
     lsf_sky_map_begin(&chain->sky_map, iteration);
 }
 
@@ -110,6 +115,8 @@ bool lsf_direct_chain_sky_next(lsf_direct_chain *chain, const lsf_iteration *ite
     lsf_direct_light_inputs inputs = {.seen = &chain->gbuffer.outputs.seen,
                                       .shadow = &maps->shadow,
                                       .open = chain->open_sky.timer ? &chain->open_sky.light : NULL,
+                                      .lobes = chain->open_sky.lobes,
+                                      .narrow = chain->open_sky.narrow,
                                       .first = maps->first,
                                       .directions = maps->count};
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
@@ -123,7 +130,7 @@ void lsf_direct_chain_lights(lsf_direct_chain *chain, const lsf_iteration *itera
         lsf_direct_chain_light(chain, iteration, i);
     if (!chain->sky_map.timer)
         return;
-    lsf_direct_chain_sky_begin(chain, iteration);
+    lsf_direct_chain_sky_begin(chain, iteration, NULL);
     while (lsf_direct_chain_sky_next(chain, iteration))
         ;
 }

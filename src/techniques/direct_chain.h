@@ -27,6 +27,9 @@ typedef struct lsf_direct_chain_use {
 
 void lsf_direct_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const lsf_state *state,
                            const lsf_direct_chain_use *use);
+/* The same without the G-buffer, for a technique that has other passes between. */
+void lsf_direct_chain_plan_lights(lsf_plan *plan, const lsf_pass_params *params,
+                                  const lsf_state *state, const lsf_direct_chain_use *use);
 bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, const lsf_plan *plan,
                              const lsf_pass_params *params, const lsf_scene_gpu *scene,
                              const lsf_direct_chain_use *use, lsf_error *error);
@@ -36,7 +39,9 @@ void lsf_direct_chain_run(lsf_direct_chain *chain, const lsf_iteration *iteratio
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration);
 void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iteration,
                             uint32_t light);
-void lsf_direct_chain_sky_begin(lsf_direct_chain *chain, const lsf_iteration *iteration);
+/* `voxels`: of this iteration, where narrow lobes ask them; else NULL. */
+void lsf_direct_chain_sky_begin(lsf_direct_chain *chain, const lsf_iteration *iteration,
+                                const lsf_voxels *voxels);
 /* Light of the next batch of directions, whose maps are then in sky_map.outputs; false when there
  * is none. */
 bool lsf_direct_chain_sky_next(lsf_direct_chain *chain, const lsf_iteration *iteration);

@@ -44,7 +44,6 @@ static void plan_light(lsf_plan *plan, const lsf_pass_params *params, const lsf_
                               LSF_VOXEL_LIGHT_TEXELS * grid->resolution);
     if (plan->sky_lights > 0)
         lsf_sky_map_plan_scene(plan, LSF_VOXEL_LIGHT_SKY_TEXELS * grid->resolution);
-    lsf_voxelize_plan(plan, &params->voxelize, grid);
     lsf_voxel_light_plan(plan, grid, &light);
     if (lsf_voxel_view_needed(plan))
         lsf_voxel_view_plan(plan, use->sides);
@@ -54,9 +53,10 @@ void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const l
                           const lsf_voxel_chain_use *use)
 {
     bool lit = use->sides > 0;
-    lsf_direct_chain_plan(plan, params, state, &use->direct);
+    lsf_gbuffer_plan(plan);
     if (!lsf_voxel_chain_has_voxels(plan)) {
         lsf_plan_omit(plan, "voxelize", "the scene has no triangles");
+        lsf_direct_chain_plan_lights(plan, params, state, &use->direct);
         if (lit)
             lsf_plan_omit(plan, "voxel_light", "the scene has no triangles");
         return;
@@ -69,10 +69,10 @@ void lsf_voxel_chain_plan(lsf_plan *plan, const lsf_pass_params *params, const l
                                        .of = "grid",
                                        .option = "voxel.resolution",
                                        .instead = ", or take the bidirectional technique"};
+    lsf_voxelize_plan(plan, &params->voxelize, &grid);
+    lsf_direct_chain_plan_lights(plan, params, state, &use->direct);
     if (lit)
         plan_light(plan, params, state, use, &grid);
-    else
-        lsf_voxelize_plan(plan, &params->voxelize, &grid);
 }
 
 bool lsf_voxel_chain_create(lsf_voxel_chain *chain, lsf_context *context, const lsf_plan *plan,
@@ -143,7 +143,7 @@ void lsf_voxel_chain_emit(lsf_voxel_chain *chain)
 static void run_sky(lsf_voxel_chain *chain, const lsf_iteration *iteration, bool on_voxels)
 {
     lsf_sky_map *map = &chain->direct.sky_map;
-    lsf_direct_chain_sky_begin(&chain->direct, iteration);
+    lsf_direct_chain_sky_begin(&chain->direct, iteration, chain->voxels);
     while (lsf_direct_chain_sky_next(&chain->direct, iteration))
         if (on_voxels && map->outputs.whole > 0)
             lsf_voxel_light_add_sky(&chain->light, iteration, chain->voxels, &map->outputs.shadow,
@@ -178,8 +178,7 @@ lsf_path_inputs lsf_voxel_chain_paths(const lsf_voxel_chain *chain, const lsf_su
                              .voxels = chain->voxels,
                              .grid = &chain->grid,
                              .radiance = chain->light.radiance,
-                             .lamps = chain->light.lamps,
-                             .control = chain->direct.direct_light.control};
+                             .lamps = chain->light.lamps};
 }
 
 lsf_voxel_view_outputs lsf_voxel_chain_view(lsf_voxel_chain *chain, const lsf_iteration *iteration)

@@ -83,7 +83,7 @@ static void mirrors_show_where_things_are(void **unused)
 
 /* A black ceiling that ends a voxel and a half to the right of what the view sees in the mirror, or
  * to the left; beyond it is the sky. */
-static void check_skyline(const char *technique, bool open)
+static void check_skyline(const char *technique, bool open, uint32_t samples)
 {
     const double voxel = 4.0 / 32.0;
     double expected = open ? 0.9 + 0.1 * pow(0.2, 5.0) : 0.0, rgb[3];
@@ -97,8 +97,9 @@ static void check_skyline(const char *technique, bool open)
     build_metal(scene, 0.05f, 0.2f);
     build_environment(scene, 1.0f);
     finish_gl_scene(scene);
-    look(scene, technique, 32, 0, rgb);
-    print_message("%s, sky: %.4f, expected %.4f\n", technique, rgb[0], expected);
+    look(scene, technique, samples, 0, rgb);
+    print_message("%s, sky, %u iterations: %.4f, expected %.4f\n", technique, samples, rgb[0],
+                  expected);
     assert_true(fabs(rgb[0] - expected) < 0.05);
     lsf_scene_destroy(scene);
 }
@@ -108,7 +109,8 @@ static void mirrors_show_the_sky_where_it_is(void **unused)
     (void)unused;
     for (size_t t = 0; t < LSF_COUNT(techniques); t++)
         for (int open = 0; open < 2; open++)
-            check_skyline(techniques[t], open);
+            for (uint32_t samples = 1; samples <= 32; samples *= 32)
+                check_skyline(techniques[t], open, samples);
 }
 
 /* A metal inside a lamp that shines from all sides. */
