@@ -108,7 +108,11 @@ brdf_sampler brdf_sampler_of(surface s, vec3 view, bool both)
 /* Lets it draw from the specular lobes alone. Sheen is as broad as a diffuse lobe, and is found by that. */
 void brdf_keep_lobes(inout brdf_sampler p)
 {
-    p.specular = LSF_SHEEN != 0 ? 1.0 - LOBE_LEAST : 1.0;
+#if LSF_SHEEN
+    p.specular = 1.0 - LOBE_LEAST;
+#else
+    p.specular = 1.0;
+#endif
 #if LSF_TRANSMISSION
     p.passing = 0.0;
 #endif

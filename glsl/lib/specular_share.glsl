@@ -56,7 +56,7 @@ float specular_paths_share(surface s, vec3 view)
  * directions drawn uniformly. */
 float narrow_sky_share(float twice, float density)
 {
-    return narrow_share(twice * inversesqrt(4.0 * LSF_PI * density));
+    return narrow_share(twice * inversesqrt(4.0 * LSF_PI * max(density, 1e-30)));
 }
 #endif
 

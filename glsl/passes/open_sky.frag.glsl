@@ -57,8 +57,8 @@ float drawn_density(vec3 radiance)
     return sky_density(radiance) / sky_sampling.w;
 }
 
-/* `density`: of one direction drawn by the radiance; `weight`: the reciprocal of the density with which samples of both kinds find the direction; `radiance` may
- * already hold a part of it. */
+/* `density`: of one direction drawn by the radiance [1/sr]; `weight`: the reciprocal of the density with which samples
+ * of both kinds find the direction; `radiance` may already hold a part of it. */
 void add(vec3 direction, vec3 radiance, float density, float weight)
 {
     brdf_value f = brdf_evaluate(s, view_direction, direction, 0.0);

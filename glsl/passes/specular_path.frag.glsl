@@ -1,8 +1,8 @@
 /* Specular light of visible points by paths through voxels: what media transmit, refracted, and what narrow lobes reflect;
  * see src/passes/specular_path.md. Switches LSF_ABSORPTION (there are media), LSF_SPECULAR_PATHS (narrow lobes),
- * LSF_EMITTERS (points are drawn on emitters; only with
- * LSF_SPECULAR_PATHS), LSF_SPLIT_DIRECT, LSF_ENVIRONMENT, LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels
- * are lit directly: paths go on from all) and those of the libraries. */
+ * LSF_EMITTERS (points are drawn on emitters; only with LSF_SPECULAR_PATHS), LSF_SPLIT_DIRECT, LSF_ENVIRONMENT,
+ * LSF_VOXEL_MIRRORS, LSF_INTERLEAVE, LSF_PATHS_BOUNCE (voxels are lit directly: paths go on from all) and those of the
+ * libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer_textures.glsl"
