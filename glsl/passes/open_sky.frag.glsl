@@ -1,6 +1,6 @@
 /* Light of the environment that visible points would reflect to the eye without occlusion; see
  * src/passes/open_sky.md. Texels without a surface are not drawn (lsf_skip_background). Switches LSF_ENVIRONMENT_MAP,
- * LSF_SKY_CHANCE, LSF_SPECULAR_PATHS (rays through voxels tell how much of it narrow lobes reflect),
+ * LSF_SKY_CHANCE, LSF_SPECULAR_PATHS (LSF_LOBE_RAYS rays through voxels tell how much of it narrow lobes reflect),
  * LSF_SPECULAR_PARAMS, LSF_SPECULAR, LSF_TRANSMISSION and those of the libraries. */
 #include "lib/brdf_sample.glsl"
 #include "lib/environment.glsl"
@@ -131,7 +131,6 @@ int samples_of(ivec2 pixel)
 }
 
 #if LSF_SPECULAR_PATHS
-#define LOBE_RAYS 4
 #define LOBES_UNKNOWN vec2(0.0, 1.0)
 
 /* Whether a ray from a visible point leaves the scene. `sure`: voxels miss no surface close to its start, and none lets
@@ -162,8 +161,8 @@ vec2 ask_lobes(vec3 point, path_random_key key)
     float whole = 0.0;
     brdf_sampler lobes = p;
     brdf_keep_lobes(lobes);
-    for (int i = 0; i < LOBE_RAYS; i++) {
-        vec3 direction = brdf_draw(lobes, path_random(key, uint(counts.y * LOBE_RAYS + i), 1u));
+    for (int i = 0; i < LSF_LOBE_RAYS; i++) {
+        vec3 direction = brdf_draw(lobes, path_random(key, uint(counts.y * LSF_LOBE_RAYS + i), 1u));
         if (!above(direction))
             continue;
         vec3 f = brdf_evaluate(s, view_direction, direction, 0.0).specular;

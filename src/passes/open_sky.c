@@ -8,6 +8,9 @@
 #include "scene/environment.h"
 #include "shared/scene_data.h"
 
+/* Along the narrow lobes of a pixel, in each iteration. */
+#define PIXEL_RAYS 4
+
 #define AT(member) offsetof(lsf_open_sky, member)
 
 static const lsf_texture_row textures[] = {
@@ -40,6 +43,12 @@ void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)
                         "how much of this light is counted on");
     lsf_plan_switch_add(plan, "LSF_RANDOM_TEXTURE", 0, "never: random numbers are computed");
     lsf_plan_switch_add(plan, "LSF_SPECULAR_PATHS", use->lobes, "paths gather narrow lobes");
+    uint32_t points = plan->pixel_side * plan->pixel_side; /* of a pixel share its rays */
+    lsf_plan_switch_add(plan, "LSF_LOBE_RAYS",
+                        !use->lobes           ? 0
+                        : points < PIXEL_RAYS ? (int)(PIXEL_RAYS / points)
+                                              : 1,
+                        "rays of a point tell what its narrow lobes see");
     lsf_plan_textures_add(plan, textures, LSF_COUNT(textures), 0, plan->seen_width,
                           plan->seen_height);
     if (use->lobes)
