@@ -31,13 +31,11 @@ bool masked_out()
     float alpha = material.base_color.a;
 #if LSF_TEXTURED
     if (slot_used(material.base_color_slot)) {
-        /* Without a footprint: the finest level is read. */
-        texture_coordinates coordinates = texture_coordinates(vertex_uv0, vec2(0.0), vec2(0.0), vertex_uv0,
-                                            vec2(0.0), vec2(0.0));
+        vec2 uv1 = vertex_uv0;
 #if LSF_SECOND_UV
-        coordinates.uv1 = vertex_uv1;
+        uv1 = vertex_uv1;
 #endif
-        alpha *= slot_sample(base_color_texture, material.base_color_slot, coordinates).a;
+        alpha *= slot_sample_finest(base_color_texture, material.base_color_slot, vertex_uv0, uv1).a;
     }
 #endif
 #if LSF_VERTEX_COLOR

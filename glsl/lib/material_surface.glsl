@@ -57,7 +57,8 @@ vec4 base_color(lsf_material_data material, material_point point)
 #if LSF_MASK
         /* Where the mean of a mask falls below the cutoff, all of it would be absent. */
         if (material.emission.w >= 0.0)
-            texel.a = slot_sample_finest(base_color_texture, material.base_color_slot, point.uv).a;
+            texel.a =
+                slot_sample_finest(base_color_texture, material.base_color_slot, point.uv.uv0, point.uv.uv1).a;
 #endif
         color *= texel;
     }

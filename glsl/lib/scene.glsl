@@ -31,11 +31,10 @@ vec4 slot_sample(sampler2D image, lsf_texture_slot_data slot, texture_coordinate
     return textureGrad(image, uv, dx, dy);
 }
 
-/* The same at level 0. */
-vec4 slot_sample_finest(sampler2D image, lsf_texture_slot_data slot, texture_coordinates coordinates)
+/* The same without a footprint: the finest level is read. */
+vec4 slot_sample_finest(sampler2D image, lsf_texture_slot_data slot, vec2 uv0, vec2 uv1)
 {
-    return slot_sample(image, slot, texture_coordinates(coordinates.uv0, vec2(0.0), vec2(0.0), coordinates.uv1,
-                                                        vec2(0.0), vec2(0.0)));
+    return slot_sample(image, slot, texture_coordinates(uv0, vec2(0.0), vec2(0.0), uv1, vec2(0.0), vec2(0.0)));
 }
 
 #endif

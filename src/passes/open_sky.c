@@ -21,8 +21,8 @@ static const lsf_texture_row textures[] = {
 
 /* Where rays tell how much narrow lobes see. */
 static const lsf_texture_row lobe_textures[] = {
-    {"open_sky.narrow", GL_RGBA32F, AT(narrow), 0, "of narrow lobes, as far as rays have a share"},
-    {"open_sky.lobes", GL_RG16, AT(lobes), 0, "how much of such a lobe rays find it in"},
+    {"open_sky.narrow", GL_RGBA32F, AT(narrow), 0, "of narrow lobes, the part that rays decide on"},
+    {"open_sky.lobes", GL_RG16, AT(lobes), 0, "how much of such lobes sees it"},
 };
 
 void lsf_open_sky_plan(lsf_plan *plan, const lsf_sky_use *use)

@@ -14,7 +14,7 @@ typedef struct lsf_open_sky {
     lsf_context *context;
     lsf_split_light light; /* output: of the iteration */
     GLuint lobes;          /* output: how much of narrow lobes leaves the scene; 0: nobody asks */
-    GLuint narrow;         /* output: the part of specular light that they have a share of */
+    GLuint narrow;         /* output: specular light, the part that those rays decide on */
     lsf_upload drawn;      /* LSF_OPEN_SKY_DRAWN directions */
     uint32_t samples;      /* of each kind */
     lsf_sky_use use;

@@ -24,8 +24,8 @@ static void assert_texel(const float *texel, float color, float alpha)
     assert_true(fabsf(texel[3] - alpha) < 1e-6f);
 }
 
-/* Left half: 0.5 with alpha 1 beside 0 with alpha 0; right half: transparent, whatever its colour.
- */
+/* The left half has 0.5 with alpha 1 twice, 1 with alpha 1/4 and a transparent 0, the right half
+ * transparent 0.9. */
 static void alpha_weighs(void **unused)
 {
     (void)unused;

@@ -142,7 +142,7 @@ changed('foreign/image_pointer.gltf', 'pointer.png: is a pointer of Git LFS', la
                   materials=[{'pbrMetallicRoughness': {'baseColorTexture': {'index': 0}}}]),
     f.json['meshes'][0]['primitives'][0].update(material=0)))
 
-# glTF 1.0 keys its buffers by name; its number of a version may be absent.
+# A file of glTF 1.0 keys its buffers by name, and may leave out its version.
 for name, content in [('stated', b'{"asset": {"version": "1.0"}}'),
                       ('number', b'{"asset": {"version": 1}}'),
                       ('absent', b'{"buffers": {"box": {"byteLength": 0, "uri": "data:,"}}}')]:
