@@ -49,11 +49,16 @@ float mis_weight(float density, float other)
 }
 
 /* m'/d towards a vertex: as x_j moves over its surface with this density by area, its direction sweeps a solid
- * angle of cosine / distance2 per area. At x3 that is the whole kernel; at x_j the kernels of its two sides add up
- * (equations 13 and 15 to 17). */
+ * angle of cosine / distance2 per area. At x3 that is the whole kernel. */
 float suppression_kernel(float density, float cosine, float distance2)
 {
     return density > 0.0 ? suppression.x * cosine / (distance2 * density) : 0.0;
+}
+
+/* The kernel at x_j, where those of its two sides add up (equations 13 and 15 to 17). */
+float hidden_kernel(float kernel_0, float kernel_3)
+{
+    return (kernel_0 + kernel_3) * LSF_HIDDEN_KERNEL;
 }
 
 #endif

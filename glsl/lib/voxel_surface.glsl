@@ -76,8 +76,8 @@ bool voxel_mirrors(surface s, float density)
 
 #if LSF_VOXEL_LAMPS
 layout(binding = LSF_UNIT_VOXEL_LAMP) uniform usampler3D voxel_lamps;
-/* x: m' over the iterations that the picture will have, below 0: the light of voxels is without that of lamps;
- * y: the least kernel of a lobe, because voxels show no finer detail. */
+/* x: m' of lobes that light other surfaces, over the iterations that the picture will have; below 0: the light of
+ * voxels is without that of lamps; y: the least kernel of a lobe, because voxels show no finer detail. */
 layout(location = LSF_LOCATION_VOXEL_LAMP) uniform vec2 lamp_kernel;
 
 /* What the side of a voxel that faces a ray reflects of its lamp towards the ray's start `from`, in the grid's unit.

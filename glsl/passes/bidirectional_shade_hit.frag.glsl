@@ -82,7 +82,7 @@ arriving_light reflected_light(vec3 direction, float distance2_3, vec3 position,
     float kernel_0 = light_projection_perspective()
                          ? suppression_kernel(density, cosine_0, distance2_0)
                          : 0.0;
-    brdf_value f_2 = brdf_evaluate(x2, -direction, to_light, kernel_0 + kernel_3);
+    brdf_value f_2 = brdf_evaluate(x2, -direction, to_light, hidden_kernel(kernel_0, kernel_3));
     r.radiance = irradiance * brdf_sum(x2, f_2) *
                  (shading_cosine_0 * mis_weight(p.bundle, p.vpl) * strategy.w / (bundle.forward.w * suppression.w));
     r.kernel = kernel_3;

@@ -71,7 +71,7 @@ vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, floa
     float kernel_0 = vpl.base_color.w != 0.0
                          ? 0.0
                          : suppression_kernel(density, cosine_0, vpl.to_light.w);
-    brdf_value f_1 = brdf_evaluate(x1, -direction, vpl.to_light.xyz, kernel_0 + l.kernel_3);
+    brdf_value f_1 = brdf_evaluate(x1, -direction, vpl.to_light.xyz, hidden_kernel(kernel_0, l.kernel_3));
     /* Its density by area is p_e cosine_0 / d0^2, the light's irradiance I shading_cosine_0 / d0^2. */
     l.power = vpl.intensity.rgb * brdf_sum(x1, f_1) *
               (shading_cosine_0 / cosine_0 * mis_weight(p.vpl, p.bundle) / p_e);

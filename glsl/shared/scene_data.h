@@ -102,6 +102,10 @@ struct lsf_lobe_data {
 /* Locations of bidirectional_shade; see lib/mis.glsl and lib/shading_vertex.glsl. */
 #define LSF_LOCATION_STRATEGY 12
 #define LSF_LOCATION_SUPPRESSION 13
+/* Kernel of suppression of a lobe that lights other surfaces, relative to that of one that is seen.
+ * A spike of it lights what it reaches evenly, and shows no highlight for each sample: a sixteenth
+ * of the samples are enough (src/passes/bidirectional_shade.md). */
+#define LSF_HIDDEN_KERNEL (1.0f / 16.0f)
 #define LSF_LOCATION_ARRIVAL 14
 #define LSF_LOCATION_VPL 15
 #define LSF_LOCATION_ADDED 16

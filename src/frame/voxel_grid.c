@@ -215,7 +215,8 @@ void lsf_voxel_lamps_bind(const lsf_iteration *iteration, const lsf_voxel_grid *
                           bool lit)
 {
     lsf_bind_texture(LSF_UNIT_VOXEL_LAMP, lamps);
-    glUniform2f(LSF_LOCATION_VOXEL_LAMP, lit ? lsf_iteration_kernel(iteration) : -1.0f,
+    glUniform2f(LSF_LOCATION_VOXEL_LAMP,
+                lit ? lsf_iteration_kernel(iteration) * LSF_HIDDEN_KERNEL : -1.0f,
                 4.0f * LSF_PI * lsf_voxel_solid_angle(grid));
 }
 

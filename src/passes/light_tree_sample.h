@@ -42,7 +42,7 @@ typedef struct lsf_light_tree_sample_params {
 
 #define LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS                                                      \
     .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .cut = 0.5f, .samples = 4, .bound = 4.0f,   \
-    .kernel_samples = 16.0f, .lobe_alpha = 0.5f, .sight = LSF_LIGHT_TREE_VOXELS
+    .kernel_samples = 16.0f, .lobe_alpha = 0.35f, .sight = LSF_LIGHT_TREE_VOXELS
 
 #define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 8
 extern const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT];
