@@ -34,15 +34,17 @@ float variance_of(float own, vec4 window)
 
 /* What the 8 neighbours of a pixel say of a part of its light. */
 struct neighbours {
-    float alike; /* sum of weights of the first step, 3 where all are on the pixel's surface */
+    float alike;   /* sum of weights of the first step, 3 where all are on the pixel's surface and in its lobe */
+    float surface; /* the same without the lobe */
     float count, difference; /* whatever they show: number; difference of luminance, summed */
+    float similar; /* number of those that have half of the pixel's luminance or more */
 };
 
 void look_around(light_guide g, ivec2 pixel, out neighbours around[1 + LSF_LOBE])
 {
     ivec2 size = textureSize(guide_texture, 0);
     for (int part = 0; part <= LSF_LOBE; part++)
-        around[part] = neighbours(0.0, 0.0, 0.0);
+        around[part] = neighbours(0.0, 0.0, 0.0, 0.0, 0.0);
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++) {
             ivec2 at = pixel + ivec2(i, j);
@@ -53,16 +55,20 @@ void look_around(light_guide g, ivec2 pixel, out neighbours around[1 + LSF_LOBE]
                 vec4 light = texelFetch(light_textures[part], at, 0);
                 if (light.a < 0.0)
                     continue;
+                float theirs = luminance(light.rgb), own = luminance(light_out[part].rgb);
                 around[part].alike += w[part];
+                around[part].surface += w.x;
                 around[part].count += 1.0;
-                around[part].difference += luminance(light.rgb) - luminance(light_out[part].rgb);
+                around[part].difference += theirs - own;
+                around[part].similar += float(theirs > 0.5 * own);
             }
         }
 }
 
-/* Whether few neighbours are on the pixel's surface, and whether it is lone: these are darker, and less than two samples
- * bring its light. If m of n samples bring equal parts, the mean's square is m times its variance. A mirror does not
- * share its light. */
+/* Whether few neighbours are on the pixel's surface and in its lobe, and whether it is lone: these are darker, and less
+ * than two samples bring its light. If m of n samples bring equal parts, the mean's square is m times its variance. A
+ * mirror does not share its light. Where only the lobe is narrow, two neighbours that have found as much show that it
+ * is the reflection of something bright. */
 float lone_of(light_guide g, int part, vec4 light, neighbours around)
 {
 #if LSF_LOBE
@@ -72,7 +78,8 @@ float lone_of(light_guide g, int part, vec4 light, neighbours around)
     float own = luminance(light.rgb);
     if (around.alike >= 1.5)
         return 0.0;
-    return around.difference < 0.0 && own * own < 2.0 * light.a ? LONE : APART;
+    bool reflection = around.surface >= 1.5 && around.similar >= 2.0;
+    return !reflection && around.difference < 0.0 && own * own < 2.0 * light.a ? LONE : APART;
 }
 
 void main()
