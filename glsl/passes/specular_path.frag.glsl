@@ -16,7 +16,7 @@
 #include "lib/voxel_vertex.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance; /* two slices along z, one for each side */
-layout(location = 0) uniform ivec2 lengths;   /* paths of a point, most segments of a path */
+layout(location = 0) uniform ivec2 lengths;   /* most paths of a point, most segments of a path */
 layout(location = 1) uniform uvec2 iteration; /* iteration, seed */
 
 layout(location = 0) out vec4 specular_out; /* added */
@@ -202,9 +202,23 @@ struct path_finds {
     vec3 light, direct;
 };
 
-/* Adds what a path finds that begins at the visible point v: through the surface of a medium, that body, or along the
- * specular lobes, of which it has a share. */
-void add_path(path_vertex v, seen_body body, float share, path_random_key key, uint index, inout path_finds finds)
+/* Number of paths of a visible point: all at media, else by the part that the lobes have of the light which the surface
+ * reflects. */
+uint paths_of(path_vertex v)
+{
+    if (is_medium(v.s))
+        return uint(lengths.x);
+    brdf_sampler p = brdf_sampler_of(v.s, v.view, true);
+    float lobes = p.specular;
+#if LSF_COAT
+    lobes = mix(lobes, 1.0, p.coat);
+#endif
+    return uint(ceil(float(lengths.x) * lobes));
+}
+
+/* Adds what one of `paths` paths finds that begins at the visible point v: through the surface of a medium, that body, or
+ * along the specular lobes, of which it has a share. */
+void add_path(path_vertex v, seen_body body, float share, path_random_key key, uint index, uint paths, inout path_finds finds)
 {
     vec3 sum = vec3(0.0), direct = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
     bool medium = is_medium(v.s);
@@ -293,7 +307,7 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
         else
             sum += emission;
         if (!last)
-            sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, float(lengths.x) * pdf, mirrors, straight);
+            sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, float(paths) * pdf, mirrors, straight);
         if (met.s.unlit || (!transmits(met.s) && !mirrors && !spreads))
             break;
         v = met;
@@ -330,7 +344,7 @@ void main()
     vec2 ndc = sample_ndc(vec2(pixel) + 0.5);
     v.position = voxel_from_position(position_from_depth(ndc, depth));
     v.view = -normalize(view_ray_direction(ndc));
-    float share = 0.0, weight = 1.0 / float(lengths.x);
+    float share = 0.0;
     seen_body body = seen_body_none();
 #if LSF_SPECULAR_PATHS
     share = specular_paths_share(v.s, v.view);
@@ -345,8 +359,10 @@ void main()
     key.pixel = uint(pixel.x) | (uint(pixel.y) << 16);
     key.seed = iteration.y;
     path_finds finds = path_finds(vec3(0.0), vec3(0.0));
-    for (int i = 0; i < lengths.x; i++)
-        add_path(v, body, share, key, iteration.x * uint(lengths.x) + uint(i), finds);
+    uint paths = paths_of(v);
+    for (uint i = 0u; i < paths; i++)
+        add_path(v, body, share, key, iteration.x * paths + i, paths, finds);
+    float weight = 1.0 / float(paths);
     specular_out.rgb = weight * finds.light;
 #if LSF_SPLIT_DIRECT
     direct_specular_out.rgb = weight * finds.direct;
