@@ -32,8 +32,10 @@ const lsf_option_row lsf_light_tree_sample_options[LSF_LIGHT_TREE_SAMPLE_OPTION_
      NULL, "rad",
      "samples begin at nodes of the tree whose lights' standard deviation subtends at most this "
      "angle at the point; smaller: slower, with fewer bright pixels; 0: all begin at the root"},
-    {"light_tree.samples", LSF_OPTION_INT, offsetof(lsf_light_tree_sample_params, samples), 1,
-     LSF_LIGHT_TREE_SAMPLE_MOST, NULL, "samples", "samples of the cloud per point and iteration"},
+    {"light_tree.samples", LSF_OPTION_INT, offsetof(lsf_light_tree_sample_params, samples), 0,
+     LSF_LIGHT_TREE_SAMPLE_MOST, NULL, "samples",
+     "samples of the cloud per point and iteration; 0: 4, or fewer where a time limit leaves "
+     "software OpenGL too little time for them"},
     {"light_tree.bound", LSF_OPTION_FLOAT, offsetof(lsf_light_tree_sample_params, bound), 0.0, 1e6,
      NULL, "disc radii",
      "smallest distance of virtual point lights from what they light, relative to the disc of the "

@@ -27,7 +27,7 @@ typedef struct lsf_light_tree_sample_params {
     float angle;     /* largest angle under which a node that stands for VPLs may be seen [rad];
                       * 0: any */
     float cut;       /* under which nodes where ways begin are seen, at most [rad]; 0: any */
-    int32_t samples; /* samples of a point in an iteration */
+    int32_t samples; /* samples of a point in an iteration; 0: 4, or those that fit into the time */
     float bound;     /* least distance that VPLs count with [radii of their discs]; 0: the true
                       * distance */
     float kernel_samples; /* least number of samples that a glossy lobe is spread over; 0: it is
@@ -41,7 +41,7 @@ typedef struct lsf_light_tree_sample_params {
 #define LSF_LIGHT_TREE_SAMPLE_MOST 32
 
 #define LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS                                                      \
-    .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .cut = 0.5f, .samples = 4, .bound = 4.0f,   \
+    .node = LSF_LIGHT_TREE_SUBSTITUTE, .angle = 0.25f, .cut = 0.5f, .samples = 0, .bound = 4.0f,   \
     .kernel_samples = 16.0f, .lobe_alpha = 0.35f, .sight = LSF_LIGHT_TREE_VOXELS
 
 #define LSF_LIGHT_TREE_SAMPLE_OPTION_COUNT 8

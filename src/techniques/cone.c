@@ -332,6 +332,7 @@ const lsf_technique lsf_technique_cone = {
     .groups = groups,
     .bounces = true,
     .draws_lobes = true,
+    .traces_pixels = true,
     .points_per_second = 0x1p18f,
     .voxels_in_a_second = 64,
     .plan = plan_cone,

@@ -116,11 +116,22 @@ void lsf_default_points(lsf_setup *setup)
         params->sparse.interleave = choose_interleave(setup);
 }
 
+void lsf_default_tree_samples(lsf_setup *setup)
+{
+    enum { MOST = 4 };
+    int32_t *samples = &setup->pass_params.light_tree_sample.samples;
+    if (*samples != 0)
+        return;
+    double pixels = (double)setup->params.width * setup->params.height;
+    double points = pixels / exp2(2.0 * (setup->pass_params.sparse.grid - 1));
+    *samples = (int32_t)fmin(fmax(pixels_in_time(setup) / points, 1.0), MOST);
+}
+
 /* Whether each pixel traces light of its own, so that there is no pattern of samples to remove. */
 static bool traces_pixels(const lsf_setup *setup)
 {
     const lsf_technique *technique = lsf_technique_find(setup->params.technique);
-    return technique && technique->points_per_second > 0.0f;
+    return technique && technique->traces_pixels;
 }
 
 void lsf_default_filter_steps(lsf_setup *setup)
@@ -151,7 +162,7 @@ static bool points_pay(const lsf_setup *setup, const lsf_technique *technique)
 {
     enum { FEW = 2, FEW_TRACED = 8, MOST_PIXELS = 1 << 20 }; /* a pixel takes 0.3 KiB more */
     const lsf_render_params *params = &setup->params;
-    bool traced = technique->points_per_second > 0.0f;
+    bool traced = technique->traces_pixels;
     if (!technique->bounces || (uint64_t)params->width * params->height > MOST_PIXELS)
         return false;
     return isfinite(params->time_limit) ? traced : params->samples <= (traced ? FEW_TRACED : FEW);

@@ -118,8 +118,9 @@ typedef struct lsf_technique {
                        * better than directions drawn by its radiance */
     bool draws_alone; /* each pixel draws samples of its own whatever interleave.size is, and
                        * finds the environment by its directions */
-    float points_per_second; /* that two cores trace, with some of the time left for all else; 0:
-                              * most of an iteration is spent on other things */
+    bool traces_pixels; /* each pixel traces light of its own, which takes most of an iteration */
+    float points_per_second; /* at which two cores gather light that bounces, with some of the time
+                              * left for all else; 0: it gathers none */
     uint32_t voxels_in_a_second; /* along the scene's longest side, in software with a time limit of
                                   * 1 s and voxel.resolution=0; 0: a time limit changes nothing */
     bool maps_scene; /* draws maps that hold all of the scene, for which its empty regions matter */

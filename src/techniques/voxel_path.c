@@ -191,6 +191,7 @@ const lsf_technique lsf_technique_voxel_path = {
     .bounces = true,
     .refracts = true,
     .draws_lobes = true,
+    .traces_pixels = true,
     .points_per_second = 0x1p17f, /* 1 to 6 paths each took 4 to 12 us of a core */
     .voxels_in_a_second = 64,
     .plan = plan_voxel_path,
