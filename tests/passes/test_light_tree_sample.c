@@ -425,7 +425,7 @@ static void test_scaled(void **state)
     enum { COUNT = 2000 };
     static float light[2][2][PIXELS][4];
     const lsf_light_tree_sample_params params = {LSF_LIGHT_TREE_SAMPLE_PARAMS_DEFAULTS,
-                                                 .sight = LSF_LIGHT_TREE_OPEN};
+                                                 .samples = 4, .sight = LSF_LIGHT_TREE_OPEN};
     for (int i = 0; i < 2; i++) {
         struct lsf_vpl_record *records = cloud_make(CLOUD_ROOM, COUNT, 5);
         for (uint32_t k = 0; k < COUNT && i == 1; k++)
