@@ -15,8 +15,10 @@
 const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT] = {
     {"voxel_path.min_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, min_samples), 1,
      LSF_VOXEL_PATH_MOST, NULL, "paths", "paths that begin at a pixel of roughness 0"},
-    {"voxel_path.max_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, max_samples), 1,
-     LSF_VOXEL_PATH_MOST, NULL, "paths", "paths that begin at a pixel of roughness 1, or of glass"},
+    {"voxel_path.max_samples", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, max_samples), 0,
+     LSF_VOXEL_PATH_MOST, NULL, "paths",
+     "paths that begin at a pixel of roughness 1, or of glass; 0: 4, or fewer where there is no "
+     "glass and a time limit leaves software OpenGL too little time for them"},
     {"voxel_path.emitters", LSF_OPTION_INT, offsetof(lsf_voxel_path_params, emitters), 0, 16, NULL,
      "points",
      "points sampled on emissive surfaces at each vertex of a path; 0: paths find these by chance"},

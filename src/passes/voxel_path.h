@@ -12,7 +12,8 @@ typedef enum lsf_voxel_path_sequence {
 } lsf_voxel_path_sequence;
 
 typedef struct lsf_voxel_path_params {
-    int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1 */
+    int32_t min_samples, max_samples; /* paths of a pixel, at roughness 0 and at roughness 1; the
+                                       * latter 0: 4, or those that fit into the time */
     int32_t emitters; /* points on emissive surfaces that each vertex is joined to; 0: none */
     int32_t draws;    /* sides of voxels drawn by their radiance at each vertex; 0: none */
     int32_t sequence; /* lsf_voxel_path_sequence */
@@ -23,7 +24,7 @@ typedef struct lsf_voxel_path_params {
 #define LSF_VOXEL_PATH_MOST 64
 
 #define LSF_VOXEL_PATH_PARAMS_DEFAULTS                                                             \
-    .min_samples = 1, .max_samples = 4, .emitters = 1, .draws = 1, .sequence = LSF_VOXEL_PATH_SOBOL
+    .min_samples = 1, .max_samples = 0, .emitters = 1, .draws = 1, .sequence = LSF_VOXEL_PATH_SOBOL
 
 #define LSF_VOXEL_PATH_OPTION_COUNT 5
 extern const lsf_option_row lsf_voxel_path_options[LSF_VOXEL_PATH_OPTION_COUNT];

@@ -14,11 +14,11 @@ bool lsf_hurries(const lsf_setup *setup);
 uint32_t lsf_default_voxels(const lsf_setup *setup);
 /* Sets the option bundle.resolution, if it was left out, from the number of iterations. */
 void lsf_default_bundles(lsf_setup *setup);
-/* Sets the option light_tree.samples, if it was left out, to as many as fit into the time limit;
- * after lsf_default_points. */
-void lsf_default_tree_samples(lsf_setup *setup);
 /* Sets the options of sample points that were left out. */
 void lsf_default_points(lsf_setup *setup);
+/* Sets light_tree.samples and voxel_path.max_samples, if they were left out, to as many as fit into
+ * the time limit; after lsf_default_points. */
+void lsf_default_point_samples(lsf_setup *setup);
 /* Leaves light_filter.steps those that fit into the picture: their neighbours are at most a
  * sixteenth of it apart. Two remove what repeats every 4 pixels, and points of a grid of 2^n pixels
  * need n + 1. */

@@ -114,7 +114,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
     lsf_default_bundles(setup);
     lsf_default_points(setup);
-    lsf_default_tree_samples(setup);
+    lsf_default_point_samples(setup);
     lsf_default_filter_steps(setup);
     plan->hurried = lsf_hurries(setup);
     plan->voxels = lsf_default_voxels(setup);
