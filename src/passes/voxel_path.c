@@ -76,8 +76,8 @@ void lsf_voxel_path_plan(lsf_plan *plan, const lsf_voxel_path_params *params,
     bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     bool texture = params->sequence == LSF_VOXEL_PATH_TEXTURE;
     uint32_t size[2];
-    lsf_plan_pass_add(plan, "voxel_path", "%d to %d paths of %u segment%s through the voxels",
-                      params->min_samples, params->max_samples, use->segments,
+    lsf_plan_pass_add(plan, "voxel_path", "up to %d path%s of %u segment%s through the voxels",
+                      params->max_samples, lsf_plural((uint64_t)params->max_samples), use->segments,
                       lsf_plural(use->segments));
     lsf_plan_reads(plan, "view points|gbuffer voxelize voxel_light voxel_draw");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");

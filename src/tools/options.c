@@ -196,9 +196,10 @@ static const lsf_command_option options[] = {
      "the command line overrides them; reference ignores technique and samples in it"},
     {"technique", 't', "NAME", SHOWING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TECHNIQUE,
      AT(technique), 0, 0, NULL, "bidirectional",
-     "rendering technique; see --list-techniques. With a --time-limit below 4 ms a pixel the "
-     "default is voxel_path, which has less error after such a time, unless -D or --raw is "
-     "given"},
+     "rendering technique; see --list-techniques. With a --time-limit below 4 ms a pixel, in "
+     "software OpenGL, the default is voxel_path, which has less error after such a time, unless "
+     "-s, -D or "
+     "--raw is given"},
     {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,
      NULL, "1024,768", "width and height in pixels; also accepts 1024x768"},
     {"resolution", 'r', "W,H", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_RESOLUTION,

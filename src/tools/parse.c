@@ -248,18 +248,6 @@ static bool read_preset(lsf_settings *settings, int argc, char **argv, const cha
     return !view || lsf_view_read(settings, view, error);
 }
 
-/* Paths through voxels have less error than `bidirectional` as long as noise is most of it: on the
- * scenes measured, up to 4 ms a pixel and more (docs/measure.md). Options may be those of the other
- * technique, and raw light is asked for without bias. */
-static void choose_technique(lsf_settings *settings)
-{
-    const double noisy = 0.004; /* s a pixel */
-    const uint32_t *size = settings->resolution;
-    bool left = !lsf_settings_given(settings, "technique") && settings->defines.count == 0;
-    if (left && !settings->raw && settings->time_limit < noisy * size[0] * size[1])
-        settings->technique = "voxel_path";
-}
-
 bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, char **argv,
                         lsf_error *error)
 {
@@ -299,7 +287,6 @@ bool lsf_settings_parse(lsf_settings *settings, lsf_command_bit bit, int argc, c
     if (settings->view_scene && settings->operands.count == 0 &&
         !lsf_list_append(&settings->operands, settings->view_scene))
         return lsf_error_set(error, LSF_ERROR_RENDER, "%s: no memory left", settings->view_scene);
-    choose_technique(settings);
     return check_operands(settings, error);
 }
 
@@ -337,6 +324,20 @@ bool lsf_settings_print_json(const lsf_settings *settings)
 }
 
 /* --- what the library takes --- */
+
+/* Paths through voxels have less error than `bidirectional` as long as noise is most of it: on the
+ * scenes measured, in software on two cores, up to 4 ms a pixel and more (docs/measure.md). Options
+ * may be those of the other technique, raw light is asked for without bias, and beside a number of
+ * samples a limit is one for the unexpected. */
+void lsf_settings_choose_technique(lsf_settings *settings, bool software)
+{
+    const double noisy = 0.004; /* s a pixel */
+    const uint32_t *size = settings->resolution;
+    bool left = !lsf_settings_given(settings, "technique") && settings->defines.count == 0 &&
+                settings->samples == 0 && !settings->raw;
+    if (left && software && settings->time_limit < noisy * size[0] * size[1])
+        settings->technique = "voxel_path";
+}
 
 lsf_render_params lsf_settings_render_params(const lsf_settings *settings)
 {

@@ -319,6 +319,7 @@ class WithoutGl(CommandTest):
         self.assertEqual(planned("--time-limit", "21"), "bidirectional")
         self.assertEqual(planned("--time-limit", "1", "-t", "cone"), "cone")
         self.assertEqual(planned("--time-limit", "1", "-t", "bidirectional"), "bidirectional")
+        self.assertEqual(planned("--time-limit", "1", "-s", "64"), "bidirectional")
         self.assertEqual(planned("--time-limit", "1", "--raw"), "bidirectional")
         self.assertEqual(planned("--time-limit", "1", "-D", "vpl.count=2"), "bidirectional")
 
