@@ -335,7 +335,8 @@ static void points_where_they_pay(void **unused)
         {"voxel_path", INFINITY, 4096, false, NULL, 1},
         {"voxel_path", 1.0, 1024, true, NULL, 1},
         {"voxel_path", 1.0, 1024, false, "sparse.grid=1", 1},
-        {"bidirectional", 1.0, 1024, false, NULL, 1},
+        {"bidirectional", 1.0, 1024, false, NULL, 4},
+        {"bidirectional", 8.0, 1024, false, NULL, 1},
         {"bidirectional", INFINITY, 64, true, "sparse.grid=16", 16},
         {"direct", 1.0, 1024, false, "sparse.grid=16", 1},
     };
@@ -393,7 +394,7 @@ static void coarse_shadows_where_time_is_short(void **unused)
 {
     (void)unused;
     uint64_t fine = shadow_map_bytes(INFINITY, 1024, false, NULL);
-    assert_int_equal(shadow_map_bytes(4.0, 1024, false, NULL), fine);
+    assert_int_equal(shadow_map_bytes(8.0, 1024, false, NULL), fine);
     assert_int_equal(shadow_map_bytes(1.0, 1024, true, NULL), fine);
     assert_int_equal(shadow_map_bytes(1.0, 1024, false, "shadow.texels_per_pixel=16"), fine);
     uint64_t coarse = shadow_map_bytes(1.0, 1024, false, NULL);
