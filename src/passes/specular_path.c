@@ -13,7 +13,7 @@
 const lsf_option_row lsf_specular_path_options[LSF_SPECULAR_PATH_OPTION_COUNT] = {
     {"specular_path.samples", LSF_OPTION_INT, offsetof(lsf_specular_path_params, samples), 0, 16,
      NULL, "paths",
-     "paths of each pixel that shows a medium or a narrow lobe, four times as many with cone; 0: "
+     "most paths of a pixel that shows a medium or a narrow lobe, four times as many with cone; 0: "
      "light goes straight through media, and other samples gather all lobes"},
 };
 
@@ -37,7 +37,7 @@ void lsf_specular_path_plan(lsf_plan *plan, const lsf_specular_path_params *para
     const lsf_requirements *r = &plan->requirements;
     uint32_t samples = (uint32_t)params->samples * use->factor;
     lsf_plan_pass_add(plan, "specular_path",
-                      "%u path%s of each visible point of a medium or a narrow lobe", samples,
+                      "up to %u path%s of each visible point of a medium or a narrow lobe", samples,
                       lsf_plural(samples));
     lsf_plan_reads(plan, "view points|gbuffer voxelize");
     lsf_plan_reads(plan, use->reads);

@@ -116,26 +116,28 @@ void lsf_default_points(lsf_setup *setup)
         params->sparse.interleave = choose_interleave(setup);
 }
 
-/* Samples of a point in an iteration, of which the second and further ones take up to half of the
- * time limit's. */
+/* Samples of a point in an iteration without a time limit. */
+enum { POINT_SAMPLES = 4 };
+
+/* The same with one. A point of pixels_in_time has one sample; further samples may take half of
+ * the time of such points. */
 static int32_t samples_in_time(const lsf_setup *setup)
 {
-    enum { MOST = 4 };
     double pixels = (double)setup->params.width * setup->params.height;
     double points = pixels / exp2(2.0 * (setup->pass_params.sparse.grid - 1));
-    return (int32_t)fmin(fmax(0.5 * pixels_in_time(setup) / points, 1.0), MOST);
+    return (int32_t)fmin(fmax(0.5 * pixels_in_time(setup) / points, 1.0), POINT_SAMPLES);
 }
 
 /* Paths through glass cannot be fewer: they choose at each surface where to go on. */
 void lsf_default_point_samples(lsf_setup *setup)
 {
-    enum { GLASS = 4 };
     int32_t *cloud = &setup->pass_params.light_tree_sample.samples;
     lsf_voxel_path_params *paths = &setup->pass_params.voxel_path;
     if (*cloud == 0)
         *cloud = samples_in_time(setup);
     if (paths->max_samples == 0) {
-        int32_t most = setup->scene->requirements.transmissive ? GLASS : samples_in_time(setup);
+        int32_t most =
+            setup->scene->requirements.transmissive ? POINT_SAMPLES : samples_in_time(setup);
         paths->max_samples = most > paths->min_samples ? most : paths->min_samples;
     }
 }

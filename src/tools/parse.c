@@ -331,11 +331,11 @@ bool lsf_settings_print_json(const lsf_settings *settings)
  * samples a limit is one for the unexpected. */
 void lsf_settings_choose_technique(lsf_settings *settings, bool software)
 {
-    const double noisy = 0.004; /* s a pixel */
+    const double short_time = 0.004; /* s a pixel */
     const uint32_t *size = settings->resolution;
     bool left = !lsf_settings_given(settings, "technique") && settings->defines.count == 0 &&
                 settings->samples == 0 && !settings->raw;
-    if (left && software && settings->time_limit < noisy * size[0] * size[1])
+    if (left && software && settings->time_limit < short_time * size[0] * size[1])
         settings->technique = "voxel_path";
 }
 
