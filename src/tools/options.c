@@ -194,14 +194,8 @@ static const lsf_command_option options[] = {
      0, NULL, NULL,
      "read options from a file, one per line as name=value, as measure --save-preset writes them; "
      "the command line overrides them; reference ignores technique and samples in it"},
-    {"technique", 't', "NAME", LSF_COMMAND_RENDER | LSF_COMMAND_PLAN, "Picture",
-     LSF_VALUE_TECHNIQUE, AT(technique), 0, 0, NULL, "bidirectional",
-     "rendering technique; see --list-techniques. In software OpenGL a --time-limit below 4 ms a "
-     "pixel makes voxel_path the default, unless -s, -D or --raw is given: it has less error "
-     "after so short a time"},
-    {"technique", 't', "NAME", LSF_COMMAND_REFERENCE | LSF_COMMAND_VIEW | LSF_COMMAND_SANDBOX,
-     "Picture", LSF_VALUE_TECHNIQUE, AT(technique), 0, 0, NULL, "bidirectional",
-     "rendering technique; see --list-techniques"},
+    {"technique", 't', "NAME", SHOWING | LSF_COMMAND_SANDBOX, "Picture", LSF_VALUE_TECHNIQUE,
+     AT(technique), 0, 0, NULL, "bidirectional", "rendering technique; see --list-techniques"},
     {"resolution", 'r', "W,H", PLANNING, "Picture", LSF_VALUE_RESOLUTION, AT(resolution), 1, 65535,
      NULL, "1024,768", "width and height in pixels; also accepts 1024x768"},
     {"resolution", 'r', "W,H", LSF_COMMAND_BENCH, "Measurement", LSF_VALUE_RESOLUTION,

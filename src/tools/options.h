@@ -225,9 +225,6 @@ void lsf_settings_note(lsf_settings *settings, const lsf_command_option *option,
 
 /* Whether the option of that long name was on the command line. */
 bool lsf_settings_given(const lsf_settings *settings, const char *name);
-/* Sets the technique, if it was left out, to one that suits a short time limit. `software`: OpenGL
- * runs on the processor. */
-void lsf_settings_choose_technique(lsf_settings *settings, bool software);
 
 /* Whether JSON goes to standard output, where text would go else. */
 bool lsf_settings_print_json(const lsf_settings *settings);

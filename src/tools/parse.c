@@ -325,20 +325,6 @@ bool lsf_settings_print_json(const lsf_settings *settings)
 
 /* --- what the library takes --- */
 
-/* Paths through voxels have less error than `bidirectional` as long as noise is most of it: on the
- * scenes measured, in software on two cores, up to 4 ms a pixel and more (docs/measure.md). Options
- * may be those of the other technique, raw light is asked for without bias, and beside a number of
- * samples a limit is one for the unexpected. */
-void lsf_settings_choose_technique(lsf_settings *settings, bool software)
-{
-    const double short_time = 0.004; /* s a pixel */
-    const uint32_t *size = settings->resolution;
-    bool left = !lsf_settings_given(settings, "technique") && settings->defines.count == 0 &&
-                settings->samples == 0 && !settings->raw;
-    if (left && software && settings->time_limit < short_time * size[0] * size[1])
-        settings->technique = "voxel_path";
-}
-
 lsf_render_params lsf_settings_render_params(const lsf_settings *settings)
 {
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS};

@@ -101,11 +101,9 @@ int lsf_tool_plan(int argc, char **argv)
 {
     lsf_settings settings;
     int status = lsf_tool_begin(&settings, LSF_COMMAND_PLAN, argc, argv);
-    if (status == LSF_GO_ON) {
-        lsf_settings_choose_technique(&settings, true); /* as for all that a time limit changes */
+    if (status == LSF_GO_ON)
         status = lsf_tool_for_each_scene(&settings, settings.sandbox ? print_sandbox : print_plan,
                                          &settings);
-    }
     lsf_settings_finish(&settings);
     return status;
 }

@@ -246,10 +246,7 @@ static bool render_scene(void *user, uint32_t index, const char *path, lsf_json 
                       .scene_path = path,
                       .start = run->start};
     const lsf_sequence sequence = lsf_sequence_of(&run->settings);
-    bool good = load(&job, error) && start_gl(&job, error);
-    if (good)
-        lsf_settings_choose_technique(&run->settings, lsf_context_get_info(job.context).software);
-    good = good && start_renderer(&job, error);
+    bool good = load(&job, error) && start_gl(&job, error) && start_renderer(&job, error);
     if (good && sequence.wanted) {
         good = render_sequence(&job, &sequence, json, error);
     } else if (good) {

@@ -217,7 +217,7 @@ class Progress(CommandTest):
         self.assertIn("left", seen)
         bar_end = seen.rindex("samples\x1b[K") if "samples\x1b[K" in seen else seen.rindex("left\x1b[K")
         self.assertIn("\r\x1b[K", seen[bar_end:])
-        self.assertRegex(seen.splitlines()[-1], r"lightsheaf: a\.exr: 64x48, \d+ samples of voxel_path")
+        self.assertRegex(seen.splitlines()[-1], r"lightsheaf: a\.exr: 64x48, \d+ samples of bidirectional")
 
     def test_quiet(self):
         self.assertEqual(self.run_at_terminal("render", self.scene(), "-o", "a.exr", *SMALL), "")
@@ -308,20 +308,6 @@ class WithoutGl(CommandTest):
         self.assertIn("as many iterations as the time limit allows",
                       self.run_without_gl(*words).stdout.decode())
         self.assertIsNone(json.loads(self.run_without_gl(*words, "--json", "-").stdout)["samples"])
-
-    def test_technique_for_a_time(self):
-        def planned(*words):
-            done = self.run_without_gl("plan", self.scene(), "-r", "100,50", "--json", "-", *words)
-            return json.loads(done.stdout)["technique"]
-
-        self.assertEqual(planned(), "bidirectional")
-        self.assertEqual(planned("--time-limit", "19"), "voxel_path")
-        self.assertEqual(planned("--time-limit", "21"), "bidirectional")
-        self.assertEqual(planned("--time-limit", "1", "-t", "cone"), "cone")
-        self.assertEqual(planned("--time-limit", "1", "-t", "bidirectional"), "bidirectional")
-        self.assertEqual(planned("--time-limit", "1", "-s", "64"), "bidirectional")
-        self.assertEqual(planned("--time-limit", "1", "--raw"), "bidirectional")
-        self.assertEqual(planned("--time-limit", "1", "-D", "vpl.count=2"), "bidirectional")
 
     def test_bounces_that_materials_need(self):
         def planned(name, *words):
