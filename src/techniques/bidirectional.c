@@ -455,6 +455,8 @@ static void run_samples(bidirectional *b, const lsf_iteration *iteration,
          i++)
         lsf_ray_bundle_build(b->bundle, iteration, i);
     if (s->vpl_light || s->bundle_light) {
+        lsf_light_picks_follow(&b->light_picks, iteration->state->light_count,
+                               lsf_light_importance_read(&b->chain.direct.importance, iteration));
         pick_lights(b, iteration, count);
         for (uint32_t light = 0; light < iteration->light_count && lsf_iteration_goes_on(iteration);
              light++)

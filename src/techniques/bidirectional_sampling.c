@@ -156,14 +156,16 @@ void lsf_bidirectional_plan(lsf_plan *plan, const lsf_pass_params *params, const
     }
     if (indirect)
         lsf_sparse_chain_plan_split(plan, params, s.interleave);
-    if (s.vpl_light || s.bundle_light)
+    if (s.vpl_light || s.bundle_light) {
+        lsf_light_importance_plan(plan, state->light_count);
         lsf_reflective_shadow_map_plan(
             plan, &params->reflective_shadow_map, state,
             &(lsf_reflective_shadow_map_use){.sky = plan->sky_lights > 0 &&
                                                     plan->requirements.environment_map,
                                              .few_vpls = true});
-    else
+    } else {
         lsf_plan_omit(plan, "reflective_shadow_map", "no punctual light bounces");
+    }
     if (s.vpl_light || s.vpl_emitter)
         lsf_vpl_plan(plan, &vpl, &(lsf_vpl_use){.lights = s.vpl_light, .emitters = s.vpl_emitter});
     else

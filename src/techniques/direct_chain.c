@@ -78,7 +78,9 @@ bool lsf_direct_chain_create(lsf_direct_chain *chain, lsf_context *context, cons
            lsf_open_sky_create(&chain->open_sky, context, plan, &light.sky,
                                chain->gbuffer.outputs.seen.depth, error) &&
            (!chain->lit || lsf_direct_light_create(&chain->direct_light, context, plan, &light,
-                                                   chain->gbuffer.outputs.seen.depth, error));
+                                                   chain->gbuffer.outputs.seen.depth, error)) &&
+           (!lsf_plan_find_pass(plan, "light_importance") ||
+            lsf_light_importance_create(&chain->importance, context, plan, error));
 }
 
 void lsf_direct_chain_begin(lsf_direct_chain *chain, const lsf_iteration *iteration)
@@ -97,6 +99,7 @@ void lsf_direct_chain_light(lsf_direct_chain *chain, const lsf_iteration *iterat
         .lobe_angle = chain->gbuffer.lobe_angle,
     };
     lsf_direct_light_run(&chain->direct_light, iteration, &inputs);
+    lsf_light_importance_run(&chain->importance, iteration, light, chain->direct_light.radiance);
 }
 
 void lsf_direct_chain_sky_begin(lsf_direct_chain *chain, const lsf_iteration *iteration,
@@ -150,6 +153,7 @@ lsf_light_parts lsf_direct_chain_parts(const lsf_direct_chain *chain)
 
 void lsf_direct_chain_destroy(lsf_direct_chain *chain)
 {
+    lsf_light_importance_destroy(&chain->importance);
     lsf_direct_light_destroy(&chain->direct_light);
     lsf_shadow_map_destroy(&chain->shadow_map);
     lsf_sky_map_destroy(&chain->sky_map);
@@ -165,6 +169,7 @@ uint32_t lsf_direct_chain_report(lsf_direct_chain *chain, lsf_pass_report *repor
     const lsf_pass_report candidates[] = {
         {chain->shadow_map.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, chain->shadow_map.counts},
         {.timer = chain->direct_light.timer},
+        {.timer = chain->importance.timer},
         {.timer = chain->open_sky.timer},
         {chain->sky_map.timer, LSF_DRAW_COUNTS, lsf_draw_count_names, chain->sky_map.counts},
         {.timer = chain->direct_light.sky_timer},

@@ -4,6 +4,7 @@
 
 #include "passes/direct_light.h"
 #include "passes/gbuffer.h"
+#include "passes/light_importance.h"
 #include "passes/open_sky.h"
 #include "passes/shadow_map.h"
 #include "passes/sky_map.h"
@@ -15,7 +16,8 @@ typedef struct lsf_direct_chain {
     lsf_sky_map sky_map;
     lsf_open_sky open_sky;
     lsf_direct_light direct_light;
-    bool lit; /* there are lights, punctual or of the environment */
+    lsf_light_importance importance; /* empty unless the plan has it */
+    bool lit;                        /* there are lights, punctual or of the environment */
 } lsf_direct_chain;
 
 /* The ways in which a technique finds the environment besides this chain; NULL: none. */

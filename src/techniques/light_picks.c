@@ -1,5 +1,6 @@
 #include "techniques/light_picks.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,12 +42,32 @@ void lsf_light_picks_update(lsf_light_picks *picks, const lsf_plan *plan, const 
         picks->sky_probability += (float)lsf_distribution_probability(&picks->distribution, i);
 }
 
+void lsf_light_picks_follow(lsf_light_picks *picks, uint32_t count, const float *importance)
+{
+    double sum = 0.0, shares = 0.0;
+    for (uint32_t i = 0; importance && i < count; i++) {
+        sum += (double)importance[i];
+        shares += (double)picks->weights[i];
+    }
+    if (!(sum > 0.0) || !isfinite(sum))
+        return;
+    memcpy(picks->followed, picks->weights, picks->distribution.count * sizeof *picks->followed);
+    for (uint32_t i = 0; i < count; i++)
+        if (picks->weights[i] > 0.0f)
+            picks->followed[i] =
+                0.5f * picks->weights[i] + (float)(0.5 * shares * (double)importance[i] / sum);
+    lsf_distribution_set(&picks->distribution, picks->followed);
+}
+
 bool lsf_light_picks_init(lsf_light_picks *picks, const lsf_plan *plan, const lsf_scene *scene,
                           const lsf_state *state, bool sky, lsf_error *error)
 {
     uint32_t count = state->light_count + plan->sky_lights;
-    *picks = (lsf_light_picks){.sky = sky, .weights = lsf_alloc(count, sizeof *picks->weights)};
-    if (!picks->weights || !lsf_distribution_init(&picks->distribution, picks->weights, count))
+    *picks = (lsf_light_picks){.sky = sky,
+                               .weights = lsf_alloc(count, sizeof *picks->weights),
+                               .followed = lsf_alloc(count, sizeof *picks->followed)};
+    if (!picks->weights || !picks->followed ||
+        !lsf_distribution_init(&picks->distribution, picks->weights, count))
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u lights", count);
     lsf_light_picks_update(picks, plan, scene, state);
     return true;
@@ -56,5 +77,6 @@ void lsf_light_picks_finish(lsf_light_picks *picks)
 {
     lsf_distribution_finish(&picks->distribution);
     free(picks->weights);
+    free(picks->followed);
     memset(picks, 0, sizeof *picks);
 }

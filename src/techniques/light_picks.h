@@ -8,7 +8,8 @@
 
 typedef struct lsf_light_picks {
     lsf_distribution distribution; /* over the iteration's lights, those of the environment last */
-    float *weights;                /* the weights that it was made of */
+    float *weights;                /* by power and evenly */
+    float *followed;               /* the same, once the importance of lights is known */
     float power;                   /* sum over all lights, as lsf_light_power gives it */
     float sky_probability;         /* probability that a picked light stands for the environment */
     bool sky;                      /* lights of the environment are among them */
@@ -20,6 +21,9 @@ bool lsf_light_picks_init(lsf_light_picks *picks, const lsf_plan *plan, const ls
 /* Follows lights that were edited; as many as before. */
 void lsf_light_picks_update(lsf_light_picks *picks, const lsf_plan *plan, const lsf_scene *scene,
                             const lsf_state *state);
+/* Goes half by `importance`, of the first `count` lights: the state's (passes/light_importance.h).
+ * NULL, or all 0: it stays as it is. No light that shines has less than half of what it had. */
+void lsf_light_picks_follow(lsf_light_picks *picks, uint32_t count, const float *importance);
 void lsf_light_picks_finish(lsf_light_picks *picks);
 
 #endif
