@@ -49,8 +49,10 @@ void lsf_light_picks_follow(lsf_light_picks *picks, uint32_t count, const float 
         sum += (double)importance[i];
         shares += (double)picks->weights[i];
     }
-    if (!(sum > 0.0) || !isfinite(sum))
+    if (!(sum > 0.0) || !isfinite(sum)) {
+        lsf_distribution_set(&picks->distribution, picks->weights);
         return;
+    }
     memcpy(picks->followed, picks->weights, picks->distribution.count * sizeof *picks->followed);
     for (uint32_t i = 0; i < count; i++)
         if (picks->weights[i] > 0.0f)

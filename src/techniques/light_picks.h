@@ -22,7 +22,7 @@ bool lsf_light_picks_init(lsf_light_picks *picks, const lsf_plan *plan, const ls
 void lsf_light_picks_update(lsf_light_picks *picks, const lsf_plan *plan, const lsf_scene *scene,
                             const lsf_state *state);
 /* Goes half by `importance`, of the first `count` lights: the state's (passes/light_importance.h).
- * NULL, or all 0: it stays as it is. No light that shines has less than half of what it had. */
+ * NULL, or all 0: by power and evenly. No light that shines has less than half of what it had. */
 void lsf_light_picks_follow(lsf_light_picks *picks, uint32_t count, const float *importance);
 void lsf_light_picks_finish(lsf_light_picks *picks);
 
