@@ -5,8 +5,8 @@
 #include "base/base.h"
 #include "shared/scene_data.h"
 
-/* Sampled pixels along each side of the picture, and invocations that share them. */
-enum { SIDE = 32, GROUP = 256 };
+/* Sampled pixels along each side of the picture. */
+enum { SIDE = 32 };
 
 /* Software renders a command before it takes the next: there a measurement is known at once. A GPU
  * is given this many iterations, or frames, until the host waits for it. */
@@ -22,7 +22,6 @@ void lsf_light_importance_plan(lsf_plan *plan, uint32_t light_count)
     lsf_plan_pass_add(plan, "light_importance", "lights are chosen by what they do in view");
     lsf_plan_reads(plan, "direct_light");
     lsf_plan_switch_add(plan, "LSF_LIGHT_IMPORTANCE_SIDE", SIDE, "pixels along a side");
-    lsf_plan_switch_add(plan, "LSF_LIGHT_IMPORTANCE_GROUP", GROUP, "invocations");
     lsf_plan_buffer_add(plan, "light_importance.before", SIDE * SIDE * sizeof(float),
                         "luminance of sampled pixels, without the light in turn");
     lsf_plan_buffer_add(plan, "light_importance.sums", bytes, "light in view, of each light");
@@ -63,8 +62,8 @@ void lsf_light_importance_run(lsf_light_importance *pass, const lsf_iteration *i
     lsf_timer_begin(pass->timer);
     glUseProgram(pass->program);
     glUniform1ui(0, light);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pass->before);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pass->sums);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, pass->before);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, pass->sums);
     lsf_bind_texture(0, radiance);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchCompute(1, 1, 1);
