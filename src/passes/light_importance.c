@@ -8,14 +8,15 @@
 /* Sampled pixels along each side of the picture. */
 enum { SIDE = 32 };
 
-/* Software renders a command before it takes the next: there a measurement is known at once. A GPU
- * is given this many iterations, or frames, until the host waits for it. */
+/* Iterations of a frame, or frames, that a GPU has before the host waits for a measurement. To wait
+ * for software, which renders on the same processor, costs nothing. */
 enum { LAG = LSF_LIGHT_IMPORTANCE_SLOTS - 1 };
 
 void lsf_light_importance_plan(lsf_plan *plan, uint32_t light_count)
 {
     if (light_count < 2) {
-        lsf_plan_omit(plan, "light_importance", "there are no punctual lights to choose from");
+        lsf_plan_omit(plan, "light_importance",
+                      "fewer than two punctual lights: there is no choice");
         return;
     }
     uint64_t bytes = (uint64_t)light_count * sizeof(float);
@@ -37,8 +38,6 @@ bool lsf_light_importance_create(lsf_light_importance *pass, lsf_context *contex
     const uint64_t bytes = lsf_plan_find(plan, "light_importance.readback")->bytes;
     *pass = (lsf_light_importance){.context = context};
     pass->light_count = (uint32_t)(bytes / (LSF_LIGHT_IMPORTANCE_SLOTS * sizeof(float)));
-    for (uint32_t i = 0; i < LSF_LIGHT_IMPORTANCE_SLOTS; i++)
-        pass->parts[i] = i;
     if (!lsf_plan_create_buffer(plan, context, "light_importance.before", NULL, 0, &pass->before,
                                 error) ||
         !lsf_plan_create_buffer(plan, context, "light_importance.sums", NULL, 0, &pass->sums,
@@ -70,24 +69,24 @@ void lsf_light_importance_run(lsf_light_importance *pass, const lsf_iteration *i
     lsf_timer_end(pass->timer);
 }
 
-/* Sends the sums to the host, into the part of the oldest measurement; those of the same iteration
- * where it is run again. */
+/* The slot of the frame that came `frames` before the newest. */
+static uint32_t slot_before(const lsf_light_importance *pass, uint32_t frames)
+{
+    return (pass->newest + LSF_LIGHT_IMPORTANCE_SLOTS - frames) % LSF_LIGHT_IMPORTANCE_SLOTS;
+}
+
+/* Sends the sums to the host. An iteration that is run again keeps its slot. */
 static void send(lsf_light_importance *pass, uint32_t serial)
 {
-    lsf_light_importance_slot *newest = &pass->slots[0];
     const GLsizeiptr bytes = (GLsizeiptr)(pass->light_count * sizeof(float));
-    if (!newest->measured || newest->serial != serial) {
-        uint32_t part = pass->parts[LAG];
-        glDeleteSync(pass->slots[LAG].sent);
-        memmove(pass->slots + 1, pass->slots, LAG * sizeof *pass->slots);
-        memmove(pass->parts + 1, pass->parts, LAG * sizeof *pass->parts);
-        pass->parts[0] = part;
-        *newest = (lsf_light_importance_slot){.serial = serial, .measured = true};
-    }
-    glDeleteSync(newest->sent);
+    if (pass->slots[pass->newest].serial != serial)
+        pass->newest = (pass->newest + 1) % LSF_LIGHT_IMPORTANCE_SLOTS;
+    lsf_light_importance_slot *slot = &pass->slots[pass->newest];
+    glDeleteSync(slot->sent); /* NULL is ignored */
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glCopyNamedBufferSubData(pass->sums, pass->readback, 0, pass->parts[0] * bytes, bytes);
-    newest->sent = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glCopyNamedBufferSubData(pass->sums, pass->readback, 0, (GLintptr)pass->newest * bytes, bytes);
+    slot->sent = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    slot->serial = serial;
 }
 
 static void wait_for(lsf_light_importance_slot *slot)
@@ -107,11 +106,11 @@ const float *lsf_light_importance_read(lsf_light_importance *pass, const lsf_ite
     if (iteration->done == 0)
         send(pass, iteration->serial);
     uint32_t lag = lsf_context_get_info(pass->context).software ? 0 : LAG;
-    uint32_t which = iteration->done >= lag ? 0 : lag;
-    if (!pass->slots[which].measured)
+    uint32_t slot = slot_before(pass, iteration->done >= lag ? 0 : lag);
+    if (pass->slots[slot].serial == 0)
         return NULL;
-    wait_for(&pass->slots[which]);
-    return pass->read + (size_t)pass->parts[which] * pass->light_count;
+    wait_for(&pass->slots[slot]);
+    return pass->read + (size_t)slot * pass->light_count;
 }
 
 void lsf_light_importance_destroy(lsf_light_importance *pass)

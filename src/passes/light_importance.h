@@ -5,13 +5,13 @@
 
 #include "frame/iteration.h"
 
-/* Measurements that may be on their way to the host. */
+/* Frames whose measurements the host may read. */
 #define LSF_LIGHT_IMPORTANCE_SLOTS 3
 
+/* The measurement of a frame. */
 typedef struct lsf_light_importance_slot {
-    GLsync sent;     /* its copy has arrived; NULL: it has been waited for, or there is none */
-    uint32_t serial; /* of the iteration that measured it */
-    bool measured;
+    GLsync sent;     /* is signalled once its copy has arrived; NULL: nobody needs to wait */
+    uint32_t serial; /* of the iteration that measured it, counted from 1; 0: there is none */
 } lsf_light_importance_slot;
 
 typedef struct lsf_light_importance {
@@ -21,8 +21,8 @@ typedef struct lsf_light_importance {
     GLuint readback;
     const float *read; /* mapped: the sums of each slot */
     uint32_t light_count;
-    lsf_light_importance_slot slots[LSF_LIGHT_IMPORTANCE_SLOTS]; /* the newest first */
-    uint32_t parts[LSF_LIGHT_IMPORTANCE_SLOTS];                  /* of `read` that belong to them */
+    lsf_light_importance_slot slots[LSF_LIGHT_IMPORTANCE_SLOTS]; /* frames in turn */
+    uint32_t newest;                                             /* of the slots */
     GLuint program;
     lsf_timer *timer;
 } lsf_light_importance;

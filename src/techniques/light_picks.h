@@ -9,7 +9,7 @@
 typedef struct lsf_light_picks {
     lsf_distribution distribution; /* over the iteration's lights, those of the environment last */
     float *weights;                /* by power and evenly */
-    float *followed;               /* the same, once the importance of lights is known */
+    float *followed;               /* half of them by importance: of lsf_light_picks_follow */
     float power;                   /* sum over all lights, as lsf_light_power gives it */
     float sky_probability;         /* probability that a picked light stands for the environment */
     bool sky;                      /* lights of the environment are among them */

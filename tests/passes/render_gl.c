@@ -22,6 +22,19 @@ lsf_image *render_gl(lsf_backend backend, const lsf_scene *scene, const lsf_rend
     return image;
 }
 
+lsf_image *render_gl_in(lsf_context *context, const lsf_scene *scene,
+                        const lsf_render_params *params)
+{
+    lsf_error error = {0};
+    lsf_renderer *renderer = lsf_renderer_create(context, scene, params, &error);
+    bool good = renderer && lsf_renderer_run(renderer, &error);
+    lsf_image *image = good ? lsf_renderer_read(renderer, &error) : NULL;
+    if (!image)
+        fail_msg("%s", error.message);
+    lsf_renderer_destroy(renderer);
+    return image;
+}
+
 lsf_image *render_gl_from(const lsf_scene *scene, lsf_render_params params, uint32_t size,
                           lsf_float3 eye, lsf_float3 target)
 {

@@ -10,6 +10,10 @@
 /* Renders on a context of `backend`; skips the test where there is none. */
 lsf_image *render_gl(lsf_backend backend, const lsf_scene *scene, const lsf_render_params *params);
 
+/* The same on a context that stays, and keeps its compiled programs. */
+lsf_image *render_gl_in(lsf_context *context, const lsf_scene *scene,
+                        const lsf_render_params *params);
+
 /* A square picture of `size` pixels a side that looks from `eye` at `target`. */
 lsf_image *render_gl_from(const lsf_scene *scene, lsf_render_params params, uint32_t size,
                           lsf_float3 eye, lsf_float3 target);

@@ -25,7 +25,6 @@ static spread render_runs(const lsf_scene *scene, const char *const options[3], 
                           lsf_float3 eye, lsf_float3 target)
 {
     double values[RUNS], sum = 0.0, squares = 0.0;
-    lsf_error error = {0};
     lsf_context *context = gl_test_context(gl_test_backend(), NULL); /* keeps compiled programs */
     lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
     params.technique = "direct";
@@ -39,15 +38,10 @@ static spread render_runs(const lsf_scene *scene, const char *const options[3], 
     params.option_count = 3;
     for (uint32_t run = 0; run < RUNS; run++) {
         params.seed = run + 1;
-        lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
-        bool good = renderer && lsf_renderer_run(renderer, &error);
-        lsf_image *image = good ? lsf_renderer_read(renderer, &error) : NULL;
-        if (!image)
-            fail_msg("%s", error.message);
+        lsf_image *image = render_gl_in(context, scene, &params);
         values[run] = (double)image->pixels[0];
         sum += values[run] / RUNS;
         lsf_image_destroy(image);
-        lsf_renderer_destroy(renderer);
     }
     lsf_context_destroy(context);
     for (uint32_t run = 0; run < RUNS; run++)
