@@ -8,13 +8,18 @@
 #include "shared/scene_data.h"
 #include "shared/vpl_data.h"
 
+/* Slots are multiples of a uniform buffer's alignment: LSF_VPL_STRIDE, and 512 bytes. */
 struct vpl_map_slot {
     lsf_light_data map;
-    vec4 unused; /* pads to a multiple of a uniform buffer's alignment */
+    vec4 unused;
 };
-layout(std430, binding = LSF_BINDING_VPL) writeonly buffer lsf_vpl_block
+struct vpl_slot {
+    lsf_vpl_data vpl;
+    vec4 unused[9];
+};
+layout(std430, binding = 1) writeonly buffer lsf_vpl_block
 {
-    lsf_vpl_data vpls[];
+    vpl_slot vpls[];
 };
 layout(std430, binding = 2) writeonly buffer lsf_vpl_map_block
 {

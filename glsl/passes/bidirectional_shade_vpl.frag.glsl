@@ -10,11 +10,10 @@
 #include "shared/light.h"
 #include "shared/vpl_data.h"
 
-layout(std430, binding = LSF_BINDING_VPL) readonly buffer lsf_vpl_block
+layout(std140, binding = LSF_BINDING_VPL) uniform lsf_vpl_block
 {
-    lsf_vpl_data vpls[];
+    lsf_vpl_data vpl;
 };
-layout(location = LSF_LOCATION_VPL) uniform uint vpl_index;
 
 layout(location = 0) out vec4 irradiance_out;
 #if LSF_SPECULAR
@@ -30,7 +29,7 @@ struct vpl_light {
 };
 
 #if LSF_PUNCTUAL
-surface vpl_surface(lsf_vpl_data vpl)
+surface vpl_surface()
 {
     surface s;
     s.geometric_normal = vpl.geometric_normal.xyz;
@@ -50,13 +49,13 @@ surface vpl_surface(lsf_vpl_data vpl)
     return s;
 }
 
-vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float distance2)
+vpl_light reflected_power(vec3 direction, float cosine_3, float distance2)
 {
     vpl_light l;
     l.power = vec3(0.0);
     l.kernel_3 = 0.0;
     l.density = 1.0;
-    surface x1 = vpl_surface(vpl);
+    surface x1 = vpl_surface();
     float cosine_0 = dot(x1.geometric_normal, vpl.to_light.xyz);
     float shading_cosine_0 = dot(x1.normal, vpl.to_light.xyz);
     if (cosine_0 <= 0.0 || shading_cosine_0 <= 0.0)
@@ -80,7 +79,7 @@ vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, floa
 #endif
 
 #if LSF_EMITTERS
-vpl_light emitted_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float distance2)
+vpl_light emitted_power(vec3 direction, float cosine_3, float distance2)
 {
     path_density p =
         emitter_density_at(vpl.intensity.w, cosine_3, distance2, bundle_pdf(direction));
@@ -94,7 +93,6 @@ vpl_light emitted_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float 
 
 void main()
 {
-    lsf_vpl_data vpl = vpls[vpl_index];
     shading_vertex v;
     if (vpl.position.w == LSF_VPL_DARK || !vertex_load(v))
         discard;
@@ -111,13 +109,13 @@ void main()
 #if LSF_PUNCTUAL && LSF_EMITTERS
     vpl_light l;
     if (vpl.position.w == LSF_VPL_EMITS)
-        l = emitted_power(vpl, direction, cosine_3, distance2);
+        l = emitted_power(direction, cosine_3, distance2);
     else
-        l = reflected_power(vpl, direction, cosine_3, distance2);
+        l = reflected_power(direction, cosine_3, distance2);
 #elif LSF_EMITTERS
-    vpl_light l = emitted_power(vpl, direction, cosine_3, distance2);
+    vpl_light l = emitted_power(direction, cosine_3, distance2);
 #else
-    vpl_light l = reflected_power(vpl, direction, cosine_3, distance2);
+    vpl_light l = reflected_power(direction, cosine_3, distance2);
 #endif
 
     /* Seen from x3, an area covers the solid angle cosine_3 / distance2 per unit. */

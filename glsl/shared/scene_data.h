@@ -107,7 +107,6 @@ struct lsf_lobe_data {
  * of the samples are enough (src/passes/bidirectional_shade.md). */
 #define LSF_HIDDEN_KERNEL (1.0f / 16.0f)
 #define LSF_LOCATION_ARRIVAL 14
-#define LSF_LOCATION_VPL 15
 #define LSF_LOCATION_ADDED 16
 /* Texture unit of the pixels at which light is gathered; see lib/sparse.glsl. */
 #define LSF_UNIT_POSITION_PIXELS 17
@@ -147,9 +146,9 @@ struct lsf_lobe_data {
 #define LSF_BINDING_LIGHT 1 /* the current light, or the current VPL as a light with a map */
 #define LSF_BINDING_BUNDLE 2
 #define LSF_BINDING_VOXEL 3
+#define LSF_BINDING_VPL 4 /* the current VPL */
 
 /* Storage buffers. */
-#define LSF_BINDING_VPL 1           /* the VPLs of an iteration */
 #define LSF_BINDING_SPARSE_COUNTS 7 /* pixels that no point of the grid represents */
 #define LSF_BINDING_BUNDLE_NODES 2  /* 2 to 7: the nodes of the current bundle */
 
