@@ -1,6 +1,7 @@
 /* The tree over a cloud of VPLs: its buffers, and the nodes that links lead to. Switches LSF_SPECULAR (VPLs may have
  * lobes), LSF_LIGHT_TREE_COVARIANCE. Shaders that build the tree define LIGHT_TREE_ACCESS as empty, because they write
- * it. */
+ * it; those that sample it define LIGHT_TREE_FETCH as 1 and read buffer textures, which software GL fetches for all
+ * lanes at once, and storage buffers lane by lane. */
 #ifndef LSF_LIB_LIGHT_TREE
 #define LSF_LIB_LIGHT_TREE
 
@@ -14,18 +15,49 @@
 #define LIGHT_TREE_ACCESS readonly
 #endif
 
-layout(std430, binding = LSF_BINDING_CLOUD) readonly buffer lsf_cloud_block
-{
-    lsf_vpl_record cloud[];
-};
 layout(std430, binding = LSF_BINDING_LIGHT_TREE) LIGHT_TREE_ACCESS buffer lsf_light_tree_block
 {
     lsf_light_tree_data tree;
+};
+#if LIGHT_TREE_FETCH
+layout(binding = LSF_UNIT_LIGHT_TREE_CLOUD) uniform usamplerBuffer cloud_fetch;
+layout(binding = LSF_UNIT_LIGHT_TREE_NODES) uniform usamplerBuffer node_fetch;
+
+lsf_vpl_record light_record_at(uint record)
+{
+    uvec4 place = texelFetch(cloud_fetch, int(2u * record)), light = texelFetch(cloud_fetch, int(2u * record + 1u));
+    return lsf_vpl_record(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(light.xyz), light.w);
+}
+
+lsf_light_tree_node light_inner_node(uint index)
+{
+    uvec4 t[6];
+    for (int i = 0; i < 6; i++)
+        t[i] = texelFetch(node_fetch, int(6u * index) + i);
+    return lsf_light_tree_node(uintBitsToFloat(t[0].xyz), uintBitsToFloat(t[0].w), uintBitsToFloat(t[1].xyz), t[1].w,
+                               uintBitsToFloat(t[2].xyz), t[2].w, uintBitsToFloat(t[3].xyz), t[3].w,
+                               uintBitsToFloat(t[4].xyz), t[4].w, uintBitsToFloat(t[5].xyz), t[5].w);
+}
+#else
+layout(std430, binding = LSF_BINDING_CLOUD) readonly buffer lsf_cloud_block
+{
+    lsf_vpl_record cloud[];
 };
 layout(std430, binding = LSF_BINDING_LIGHT_TREE_NODES) LIGHT_TREE_ACCESS buffer lsf_light_tree_node_block
 {
     lsf_light_tree_node nodes[];
 };
+
+lsf_vpl_record light_record_at(uint record)
+{
+    return cloud[record];
+}
+
+lsf_light_tree_node light_inner_node(uint index)
+{
+    return nodes[index];
+}
+#endif
 
 bool light_is_leaf(uint link)
 {
@@ -41,17 +73,18 @@ uint light_record(uint link)
 lsf_light_tree_node light_leaf(uint record)
 {
     lsf_light_tree_node leaf;
-    leaf.position = leaf.low = leaf.high = cloud[record].position;
-    leaf.intensity = cloud[record].intensity;
-    leaf.normal = cloud[record].normal;
+    lsf_vpl_record vpl = light_record_at(record);
+    leaf.position = leaf.low = leaf.high = vpl.position;
+    leaf.intensity = vpl.intensity;
+    leaf.normal = vpl.normal;
     leaf.similarity = 1.0;
     leaf.variance = leaf.covariance = vec3(0.0);
     leaf.left = leaf.right = LSF_LIGHT_TREE_NONE;
     leaf.count = 1u;
     leaf.usable = LSF_LIGHT_TREE_USABLE;
 #if LSF_SPECULAR
-    if (vpl_has_lobe(cloud[record])) {
-        vpl_lobe lobe = vpl_lobe_unpack(cloud[record]);
+    if (vpl_has_lobe(vpl)) {
+        vpl_lobe lobe = vpl_lobe_unpack(vpl);
         leaf.normal = octahedral_encode(vpl_lobe_axis(octahedral_decode(leaf.normal), lobe));
         leaf.similarity = vpl_lobe_mean_cosine(lsf_alpha_from_roughness(lobe.roughness));
         leaf.usable = LSF_LIGHT_TREE_LOBES;
@@ -64,7 +97,7 @@ lsf_light_tree_node light_node(uint link)
 {
     if (light_is_leaf(link))
         return light_leaf(light_record(link));
-    return nodes[link];
+    return light_inner_node(link);
 }
 
 #if LSF_LIGHT_TREE_COVARIANCE

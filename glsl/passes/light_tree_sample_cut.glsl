@@ -62,19 +62,21 @@ uint light_cut(light_receiver r, bvec2 lobes)
     float most = luminance(light_node(tree.root).intensity);
     while (top >= 0) {
         uint link = stack[top--];
-        if (!light_is_leaf(link) && opened < CUT_MOST) {
-            vec3 to_node = nodes[link].position - r.position;
-            if (light_variance(nodes[link]) > cut_bound * dot(to_node, to_node)) {
-                stack[++top] = nodes[link].right;
-                stack[++top] = nodes[link].left;
-                opened++;
-                continue;
-            }
+        for (; !light_is_leaf(link) && opened < CUT_MOST; opened++) {
+            lsf_light_tree_node node = light_inner_node(link);
+            vec3 to_node = node.position - r.position;
+            if (!(light_variance(node) > cut_bound * dot(to_node, to_node)))
+                break;
+            stack[++top] = node.right;
+            link = node.left;
         }
+        vec2 weights = light_weights(r, link, most, lobes.y);
         if (lobes.x)
-            pick_among(link, light_weight(r, link, most, false), 0);
+            pick_among(link, weights.x, 0);
+#if LSF_SPECULAR
         if (lobes.y)
-            pick_among(link, light_weight(r, link, most, true), 1);
+            pick_among(link, weights.y, 1);
+#endif
     }
     return opened;
 }

@@ -25,15 +25,17 @@ light_walk_end light_walk(light_receiver r, bool specular, uint link, float prob
                           uint index)
 {
     light_walk_end end = light_walk_end(link, probability, 0u);
+    int lobe = specular ? 1 : 0;
     for (; end.steps < WALK_DEPTH && end.link != LSF_LIGHT_TREE_NONE && !light_is_leaf(end.link); end.steps++) {
-        lsf_light_tree_node node = nodes[end.link];
+        lsf_light_tree_node node = light_inner_node(end.link);
 #if LSF_LIGHT_TREE_SUBSTITUTE
         vec3 to_node = node.position - r.position;
         if (!specular && node.usable == LSF_LIGHT_TREE_USABLE && light_variance(node) <= spread_bound * dot(to_node, to_node))
             break;
 #endif
         float most = luminance(node.intensity);
-        float left = light_weight(r, node.left, most, specular), right = light_weight(r, node.right, most, specular);
+        float left = light_weights(r, node.left, most, specular)[lobe];
+        float right = light_weights(r, node.right, most, specular)[lobe];
         if (!(left + right > 0.0)) {
             end.link = LSF_LIGHT_TREE_NONE;
             break;
@@ -86,8 +88,8 @@ light_point light_point_at(uint link, vec4 u)
     light_point p = light_point(node.position, octahedral_decode(node.normal), node.intensity, 0.0, LSF_LIGHT_TREE_NONE);
     if (light_is_leaf(link)) {
         p.record = light_record(link);
-        p.normal = octahedral_decode(cloud[p.record].normal);
-        p.disc2 = discs2[p.record];
+        p.normal = octahedral_decode(light_record_at(p.record).normal);
+        p.disc2 = light_record_disc2(p.record);
         return p;
     }
     mat3 frame = light_tree_frame(p.normal);

@@ -4,6 +4,7 @@
 #ifndef LSF_PASSES_LIGHT_TREE_SAMPLE_WEIGHT
 #define LSF_PASSES_LIGHT_TREE_SAMPLE_WEIGHT
 
+#define LIGHT_TREE_FETCH 1
 #include "lib/brdf.glsl"
 #include "lib/light_tree.glsl"
 #include "shared/light.h"
@@ -11,10 +12,12 @@
 /* Depth of the tree: no more than the bits of a code. */
 #define WALK_DEPTH 64
 
-layout(std430, binding = LSF_BINDING_LIGHT_TREE_AREAS) readonly buffer lsf_light_tree_area_block
+layout(binding = LSF_UNIT_LIGHT_TREE_AREAS) uniform samplerBuffer area_fetch;
+
+float light_record_disc2(uint record)
 {
-    float discs2[]; /* by record */
-};
+    return texelFetch(area_fetch, int(record)).r;
+}
 
 /* x: squared distance below which 1/d^2 is clamped, relative to the squared radius of those discs: no VPL is
  * closer than that. y: suppression's m'/d [sr] at unit distance, relative to the same. z: least alpha of the lobes of
@@ -104,8 +107,9 @@ float height_above(float mean, float variance)
 float light_lobe(uint record, vec3 normal, vec3 direction, float kernel)
 {
 #if LSF_SPECULAR
-    if (vpl_has_lobe(cloud[record]) && dot(normal, direction) > 0.0) {
-        vpl_lobe lobe = vpl_lobe_unpack(cloud[record]);
+    lsf_vpl_record vpl = light_record_at(record);
+    if (vpl_has_lobe(vpl) && dot(normal, direction) > 0.0) {
+        vpl_lobe lobe = vpl_lobe_unpack(vpl);
         float nv = dot(normal, lobe.from), alpha = lsf_alpha_from_roughness(lobe.roughness);
         alpha = max(max(alpha, disc_scale.z), kernel_alpha(kernel, 1.0, sqrt(mix(nv * nv, 1.0, alpha * alpha))));
         return vpl_lobe_towards(normal, lobe.from, direction, alpha);
@@ -146,10 +150,11 @@ light_geometry light_geometry_to(light_receiver r, uint link, lsf_light_tree_nod
     w.distance2 = max(dot(to_node, to_node), LSF_LIGHT_DISTANCE2_MIN);
     if (light_is_leaf(link)) {
         uint record = light_record(link);
-        vec3 back = -to_node * inversesqrt(w.distance2), normal = octahedral_decode(cloud[record].normal);
+        vec3 back = -to_node * inversesqrt(w.distance2), normal = octahedral_decode(light_record_at(record).normal);
         w.leaves = max(dot(normal, back), 0.0);
-        w.distance2 = max(w.distance2, light_bound2(discs2[record]));
-        w.kernel = light_kernel(discs2[record], w.leaves / w.distance2);
+        float disc2 = light_record_disc2(record);
+        w.distance2 = max(w.distance2, light_bound2(disc2));
+        w.kernel = light_kernel(disc2, w.leaves / w.distance2);
         w.leaves *= light_lobe(record, normal, back, w.kernel);
         return w;
     }
@@ -176,8 +181,9 @@ light_geometry light_geometry_to(light_receiver r, uint link, lsf_light_tree_nod
     return w;
 }
 
-/* Estimate of the contribution of all VPLs below a link, whose total luminance is `most`. */
-float light_weight(light_receiver r, uint link, float most, bool specular)
+/* Estimates of what all VPLs below a link contribute to the diffuse and, if asked for, to the specular lobe; `most`: the
+ * largest luminance of a link's light. */
+vec2 light_weights(light_receiver r, uint link, float most, bool specular)
 {
     lsf_light_tree_node node = light_node(link);
     float weight = luminance(node.intensity) / most;
@@ -188,10 +194,10 @@ float light_weight(light_receiver r, uint link, float most, bool specular)
     weight *= w.arrives * geometry;
 #if LSF_SPECULAR
     if (specular && weight > 0.0)
-        weight *= specular_bound(r, center, extent, w.kernel);
+        return weight * vec2(1.0, specular_bound(r, center, extent, w.kernel));
 #endif
 #endif
-    return weight;
+    return vec2(weight);
 }
 
 #endif

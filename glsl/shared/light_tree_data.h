@@ -65,6 +65,11 @@ struct lsf_light_tree_node {
  * which is at most the bits of a code. */
 #define LSF_LIGHT_TREE_DISPATCHES 64
 
+/* Texture units of what samples the tree: buffer textures. */
+#define LSF_UNIT_LIGHT_TREE_CLOUD 45 /* RGBA32UI */
+#define LSF_UNIT_LIGHT_TREE_NODES 46 /* RGBA32UI */
+#define LSF_UNIT_LIGHT_TREE_AREAS 47 /* R32F */
+
 /* Storage buffers. */
 #define LSF_BINDING_CLOUD 1
 #define LSF_BINDING_LIGHT_TREE 2
