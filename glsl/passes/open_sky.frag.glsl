@@ -18,10 +18,8 @@
 #endif
 #include "shared/open_sky_data.h"
 
-layout(std430, binding = LSF_BINDING_OPEN_SKY) readonly buffer lsf_open_sky_block
-{
-    lsf_open_sky_data drawn[LSF_OPEN_SKY_DRAWN];
-};
+/* Pixels read different directions: software GL fetches texels for all lanes at once, storage buffers lane by lane. */
+layout(binding = LSF_UNIT_OPEN_SKY) uniform samplerBuffer drawn_fetch;
 #if LSF_SKY_CONTROL == LSF_SKY_CONTROL_SHARE
 layout(binding = 3) uniform sampler2DArray control_texture;
 #endif
@@ -80,12 +78,14 @@ bool above(vec3 direction)
 
 void add_drawn(int index)
 {
-    vec3 direction = drawn[index].direction.xyz;
-    float density = drawn[index].direction.w;
+    lsf_open_sky_data drawn =
+        lsf_open_sky_data(texelFetch(drawn_fetch, 2 * index), texelFetch(drawn_fetch, 2 * index + 1));
+    vec3 direction = drawn.direction.xyz;
+    float density = drawn.direction.w;
     if (!above(direction) || density <= 0.0)
         return;
     float both = density + brdf_pdf(p, direction);
-    add(direction, drawn[index].radiance.rgb, density, density / (float(count) * both));
+    add(direction, drawn.radiance.rgb, density, density / (float(count) * both));
 }
 
 void add_reflected(vec3 u)

@@ -5,7 +5,7 @@
 #include "shared/shared.h"
 
 #define LSF_OPEN_SKY_DRAWN 1024 /* in an iteration; a power of two */
-#define LSF_BINDING_OPEN_SKY 3  /* storage buffer */
+#define LSF_UNIT_OPEN_SKY 22    /* buffer texture, RGBA32F: two texels for each direction */
 
 struct lsf_open_sky_data {
     vec4 direction; /* xyz: unit; w: density by the radiance alone [1/sr], as in lsf_sky_density */

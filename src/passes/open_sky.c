@@ -70,6 +70,8 @@ bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_pla
                                                  LSF_COUNT(lobe_textures), pass, error)) ||
         !lsf_upload_create(&pass->drawn, context, plan, "open_sky.drawn", error))
         return false;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &pass->drawn_fetch);
+    glTextureBuffer(pass->drawn_fetch, GL_RGBA32F, pass->drawn.buffer);
     const lsf_framebuffer_desc desc = {
         .label = "open_sky",
         .color_count = 4,
@@ -116,7 +118,7 @@ void lsf_open_sky_run(lsf_open_sky *pass, const lsf_iteration *iteration,
     lsf_bind_texture(3, control);
     lsf_scene_gpu_bind_environment(iteration->scene);
     lsf_iteration_bind_sky(iteration);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_OPEN_SKY, pass->drawn.buffer);
+    lsf_bind_texture(LSF_UNIT_OPEN_SKY, pass->drawn_fetch);
     glUniform2i(0, (GLint)pass->use.open_samples, (GLint)iteration->index);
     glUniform1i(2, iteration->done > 0);
     glUniform1ui(1, lsf_iteration_seed(iteration, LSF_PURPOSE_OPEN_SKY));
@@ -137,6 +139,7 @@ void lsf_open_sky_destroy(lsf_open_sky *pass)
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
     lsf_textures_destroy(pass->context, lobe_textures, LSF_COUNT(lobe_textures), pass);
+    glDeleteTextures(1, &pass->drawn_fetch);
     lsf_upload_destroy(&pass->drawn, pass->context);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);
