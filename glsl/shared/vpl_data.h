@@ -1,6 +1,7 @@
-/* A virtual point light: x1 of the paper, lit by the light at x0; or a point of an emissive surface.
- * Normalised space. A storage buffer holds all of an iteration, uniform buffer LSF_BINDING_VPL is
- * the current one: llvmpipe reads a storage buffer's element for each pixel anew. */
+/* A virtual point light: x1 of the paper, lit by the light at x0; or a point of an emissive
+ * surface. Normalised space. A storage buffer holds all of an iteration, uniform buffer
+ * LSF_BINDING_VPL is the current one: llvmpipe reads a storage buffer's element for each pixel
+ * anew. */
 #ifndef LSF_SHARED_VPL_DATA_H
 #define LSF_SHARED_VPL_DATA_H
 

@@ -16,7 +16,7 @@ typedef struct lsf_open_sky {
     GLuint lobes;          /* output: how much of narrow lobes leaves the scene; 0: nobody asks */
     GLuint narrow;         /* output: specular light, the part that those rays decide on */
     lsf_upload drawn;      /* LSF_OPEN_SKY_DRAWN directions */
-    GLuint drawn_fetch; /* buffer texture of the same */
+    GLuint drawn_fetch;    /* buffer texture of the same */
     uint32_t samples;      /* of each kind */
     lsf_sky_use use;
     GLuint framebuffer, program;
