@@ -1,9 +1,35 @@
 #include "frame/light_tree_buffers.h"
 
+#include "base/base.h"
+
 void lsf_light_tree_bind(const lsf_light_tree_buffers *buffers)
 {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_CLOUD, buffers->cloud);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE, buffers->tree);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_NODES, buffers->nodes);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_AREAS, buffers->areas);
+}
+
+void lsf_light_tree_fetch_create(lsf_light_tree_fetch *fetch)
+{
+    glCreateTextures(GL_TEXTURE_BUFFER, LSF_COUNT(fetch->textures), fetch->textures);
+}
+
+void lsf_light_tree_fetch_bind(const lsf_light_tree_fetch *fetch,
+                               const lsf_light_tree_buffers *buffers)
+{
+    const GLenum formats[LSF_COUNT(fetch->textures)] = {GL_RGBA32UI, GL_RGBA32UI, GL_R32F};
+    const GLuint names[LSF_COUNT(fetch->textures)] = {buffers->cloud, buffers->nodes,
+                                                      buffers->areas};
+    for (GLuint i = 0; i < LSF_COUNT(names); i++) {
+        glTextureBuffer(fetch->textures[i], formats[i], names[i]);
+        lsf_bind_texture(LSF_UNIT_LIGHT_TREE_CLOUD + i, fetch->textures[i]);
+    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE, buffers->tree);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void lsf_light_tree_fetch_destroy(lsf_light_tree_fetch *fetch)
+{
+    glDeleteTextures(LSF_COUNT(fetch->textures), fetch->textures);
 }

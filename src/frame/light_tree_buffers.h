@@ -18,4 +18,15 @@ typedef struct lsf_light_tree_buffers {
 /* Binds them for lib/light_tree.glsl. */
 void lsf_light_tree_bind(const lsf_light_tree_buffers *buffers);
 
+/* Buffer textures of the cloud, the nodes and the areas. */
+typedef struct lsf_light_tree_fetch {
+    GLuint textures[3];
+} lsf_light_tree_fetch;
+
+void lsf_light_tree_fetch_create(lsf_light_tree_fetch *fetch);
+/* Binds a finished tree for LIGHT_TREE_FETCH of lib/light_tree.glsl. */
+void lsf_light_tree_fetch_bind(const lsf_light_tree_fetch *fetch,
+                               const lsf_light_tree_buffers *buffers);
+void lsf_light_tree_fetch_destroy(lsf_light_tree_fetch *fetch);
+
 #endif

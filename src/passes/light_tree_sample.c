@@ -154,7 +154,7 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
         !lsf_plan_create_buffer(plan, context, "light_tree_sample.counts", NULL, 0,
                                 &pass->count_buffer, error))
         return false;
-    glCreateTextures(GL_TEXTURE_BUFFER, LSF_COUNT(pass->fetches), pass->fetches);
+    lsf_light_tree_fetch_create(&pass->fetch);
     glClearNamedBufferData(pass->count_buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     lsf_framebuffer_desc desc = {.label = "light_tree_sample",
                                  .color_count = out->specular ? 2 : 1,
@@ -182,18 +182,6 @@ static void set_disc_scale(const lsf_light_tree_sample *pass, const lsf_iteratio
 static float square_or_any(float angle)
 {
     return angle > 0.0f ? angle * angle : INFINITY;
-}
-
-static void bind_tree(const lsf_light_tree_sample *pass, const lsf_light_tree_buffers *tree)
-{
-    const GLenum formats[] = {GL_RGBA32UI, GL_RGBA32UI, GL_R32F};
-    const GLuint buffers[] = {tree->cloud, tree->nodes, tree->areas};
-    for (GLuint i = 0; i < LSF_COUNT(buffers); i++) {
-        glTextureBuffer(pass->fetches[i], formats[i], buffers[i]);
-        lsf_bind_texture(LSF_UNIT_LIGHT_TREE_CLOUD + i, pass->fetches[i]);
-    }
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE, tree->tree);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 static void bind_sight(const lsf_light_tree_sample *pass, const lsf_iteration *iteration,
@@ -226,7 +214,7 @@ void lsf_light_tree_sample_run(lsf_light_tree_sample *pass, const lsf_iteration 
     lsf_begin_fullscreen(pass->framebuffer, grid->width, grid->layers * grid->height,
                          pass->program);
     lsf_surface_maps_bind(inputs->seen);
-    bind_tree(pass, inputs->tree);
+    lsf_light_tree_fetch_bind(&pass->fetch, inputs->tree);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_COUNTS, pass->count_buffer);
     bind_sight(pass, iteration, inputs);
     set_disc_scale(pass, iteration);
@@ -260,7 +248,7 @@ void lsf_light_tree_sample_destroy(lsf_light_tree_sample *pass)
         return;
     lsf_framebuffer_destroy(pass->context, &pass->framebuffer);
     lsf_textures_destroy(pass->context, textures, LSF_COUNT(textures), pass);
-    glDeleteTextures(LSF_COUNT(pass->fetches), pass->fetches);
+    lsf_light_tree_fetch_destroy(&pass->fetch);
     lsf_buffer_destroy(pass->context, &pass->count_buffer);
     lsf_timer_destroy(pass->timer);
     memset(pass, 0, sizeof *pass);

@@ -65,7 +65,7 @@ typedef struct lsf_light_tree_sample {
     GLuint count_buffer;
     uint64_t counts[LSF_LIGHT_TREE_SAMPLE_COUNTS];
     GLuint framebuffer, program;
-    GLuint fetches[3]; /* buffer textures: the cloud, the nodes, the areas */
+    lsf_light_tree_fetch fetch;
     lsf_timer *timer;
 } lsf_light_tree_sample;
 

@@ -1,14 +1,17 @@
 #include "gl_spy.h"
 
-enum { UNITS = 64 };
+enum { UNITS = 64, TEXTURES = 1 << 14 };
 
 static GLuint textures[UNITS], images[UNITS];
+static GLuint buffer_of_texture[TEXTURES]; /* of buffer textures */
 static gl_spy_use uses[GL_SPY_USES];
 static size_t use_count;
 static void (*tell)(const gl_spy_command *command);
 
 static PFNGLBINDTEXTUREUNITPROC bind_texture_unit;
 static PFNGLBINDIMAGETEXTUREPROC bind_image;
+static PFNGLTEXTUREBUFFERPROC texture_buffer;
+static PFNGLDELETETEXTURESPROC delete_textures;
 static PFNGLDISPATCHCOMPUTEPROC dispatch;
 static PFNGLDISPATCHCOMPUTEINDIRECTPROC dispatch_indirect;
 static PFNGLDRAWARRAYSPROC draw_arrays;
@@ -61,8 +64,9 @@ static void look_at_uniforms(GLuint program)
             glGetUniformiv(program, told[1] + k, &unit);
             assert_true(unit < UNITS);
             bool image = is_image(told[0]);
-            add(image ? GL_SPY_IMAGE : GL_SPY_TEXTURE, GL_TEXTURE,
-                (image ? images : textures)[unit], program, GL_UNIFORM, (GLuint)i);
+            GLuint texture = (image ? images : textures)[unit], buffer = buffer_of_texture[texture];
+            add(image ? GL_SPY_IMAGE : GL_SPY_TEXTURE, buffer ? GL_BUFFER : GL_TEXTURE,
+                buffer ? buffer : texture, program, GL_UNIFORM, (GLuint)i);
         }
     }
 }
@@ -121,6 +125,20 @@ static void spy_bind_image(GLuint unit, GLuint texture, GLint level, GLboolean l
     bind_image(unit, texture, level, layered, layer, access, format);
 }
 
+static void spy_texture_buffer(GLuint texture, GLenum format, GLuint buffer)
+{
+    assert_true(texture < TEXTURES);
+    buffer_of_texture[texture] = buffer;
+    texture_buffer(texture, format, buffer);
+}
+
+static void spy_delete_textures(GLsizei count, const GLuint *names)
+{
+    for (GLsizei i = 0; i < count; i++)
+        buffer_of_texture[names[i]] = 0;
+    delete_textures(count, names);
+}
+
 static void spy_dispatch(GLuint x, GLuint y, GLuint z)
 {
     look(false, false, false);
@@ -161,6 +179,9 @@ static void spy_draw_elements(GLenum mode, GLsizei count, GLenum type, const voi
 void gl_spy_start(void (*on_command)(const gl_spy_command *command))
 {
     tell = on_command;
+    memset(buffer_of_texture, 0, sizeof buffer_of_texture);
+    GL_SPY(TextureBuffer, texture_buffer, spy_texture_buffer);
+    GL_SPY(DeleteTextures, delete_textures, spy_delete_textures);
     GL_SPY(BindTextureUnit, bind_texture_unit, spy_bind_texture_unit);
     GL_SPY(BindImageTexture, bind_image, spy_bind_image);
     GL_SPY(DispatchCompute, dispatch, spy_dispatch);

@@ -17,7 +17,7 @@ typedef enum gl_spy_role {
 
 typedef struct gl_spy_use {
     gl_spy_role role;
-    GLenum kind;       /* GL_TEXTURE or GL_BUFFER */
+    GLenum kind;       /* GL_TEXTURE or GL_BUFFER; a buffer texture is its buffer */
     GLuint name;       /* 0: nothing is bound */
     char declared[64]; /* the variable's or the block's name, "" for vertices */
 } gl_spy_use;

@@ -25,13 +25,11 @@ typedef struct accesses {
 } accesses;
 
 static accesses buffers[OBJECTS], textures[OBJECTS];
-static GLuint buffer_of_texture[OBJECTS]; /* of buffer textures */
-static uint64_t now, barriers[BITS];      /* when each bit's last barrier was */
+static uint64_t now, barriers[BITS]; /* when each bit's last barrier was */
 static char *sources[PROGRAMS][STAGES];
 static int missing;
 
 static PFNGLMEMORYBARRIERPROC memory_barrier;
-static PFNGLTEXTUREBUFFERPROC texture_buffer;
 static PFNGLATTACHSHADERPROC attach_shader;
 static PFNGLDELETEBUFFERSPROC delete_buffers;
 static PFNGLDELETETEXTURESPROC delete_textures;
@@ -138,8 +136,6 @@ static int access_of(GLuint program, const gl_spy_use *use)
 static accesses *object(GLenum kind, GLuint name)
 {
     assert_true(name < OBJECTS);
-    if (kind == GL_TEXTURE && buffer_of_texture[name])
-        return &buffers[buffer_of_texture[name]];
     return kind == GL_TEXTURE ? &textures[name] : &buffers[name];
 }
 
@@ -258,13 +254,6 @@ static void spy_memory_barrier(GLbitfield bits)
 
 /* --- objects, and what is done with them apart from drawing ---------------------------------- */
 
-static void spy_texture_buffer(GLuint texture, GLenum format, GLuint buffer)
-{
-    assert_true(texture < OBJECTS);
-    buffer_of_texture[texture] = buffer;
-    texture_buffer(texture, format, buffer);
-}
-
 static void spy_delete_buffers(GLsizei count, const GLuint *names)
 {
     for (GLsizei i = 0; i < count; i++)
@@ -274,10 +263,8 @@ static void spy_delete_buffers(GLsizei count, const GLuint *names)
 
 static void spy_delete_textures(GLsizei count, const GLuint *names)
 {
-    for (GLsizei i = 0; i < count; i++) {
-        buffer_of_texture[names[i]] = 0;
+    for (GLsizei i = 0; i < count; i++)
         *object(GL_TEXTURE, names[i]) = (accesses){0};
-    }
     delete_textures(count, names);
 }
 
@@ -370,7 +357,6 @@ static void forget(void)
 {
     memset(buffers, 0, sizeof buffers);
     memset(textures, 0, sizeof textures);
-    memset(buffer_of_texture, 0, sizeof buffer_of_texture);
     for (int i = 0; i < PROGRAMS; i++)
         for (int stage = 0; stage < STAGES; stage++) {
             free(sources[i][stage]);
@@ -383,7 +369,6 @@ static void start(void)
     forget();
     gl_spy_start(on_command);
     GL_SPY(MemoryBarrier, memory_barrier, spy_memory_barrier);
-    GL_SPY(TextureBuffer, texture_buffer, spy_texture_buffer);
     GL_SPY(AttachShader, attach_shader, spy_attach_shader);
     GL_SPY(DeleteBuffers, delete_buffers, spy_delete_buffers);
     GL_SPY(DeleteTextures, delete_textures, spy_delete_textures);

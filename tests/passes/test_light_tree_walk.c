@@ -51,6 +51,7 @@ typedef struct rig {
     lsf_setup setup;
     lsf_iteration iteration;
     lsf_light_tree tree;
+    lsf_light_tree_fetch fetch;
     GLuint cloud, result;
     draw *draws;
 } rig;
@@ -78,6 +79,7 @@ static void rig_begin(rig *r)
         !lsf_light_tree_create(&r->tree, r->context, r->setup.plan, &tree, VPLS, &error))
         fail_msg("%s", error.message);
     lsf_light_tree_run(&r->tree, &r->iteration, r->cloud);
+    lsf_light_tree_fetch_create(&r->fetch);
     free(records);
 }
 
@@ -85,6 +87,7 @@ static void rig_end(rig *r)
 {
     lsf_buffer_destroy(r->context, &r->cloud);
     lsf_buffer_destroy(r->context, &r->result);
+    lsf_light_tree_fetch_destroy(&r->fetch);
     lsf_light_tree_destroy(&r->tree);
     lsf_setup_finish(&r->setup);
     gl_test_check(r->context);
@@ -113,7 +116,7 @@ static void draw_all(rig *r, bool substitute, bool sites, bool specular, float c
     if (!program)
         fail_msg("%s", error.message);
     glUseProgram(program);
-    lsf_light_tree_bind(&r->tree.outputs);
+    lsf_light_tree_fetch_bind(&r->fetch, &r->tree.outputs);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, r->result);
     glUniform3f(0, 1.0f, 0.0f, 0.0f);
     glUniform1f(2, 1e9f);
