@@ -8,18 +8,13 @@
 #include "shared/scene_data.h"
 #include "shared/vpl_data.h"
 
-/* Slots are multiples of a uniform buffer's alignment: LSF_VPL_STRIDE, and 512 bytes. */
 struct vpl_map_slot {
     lsf_light_data map;
-    vec4 unused;
+    vec4 unused; /* pads to a multiple of a uniform buffer's alignment */
 };
-struct vpl_slot {
-    lsf_vpl_data vpl;
-    vec4 unused[9];
-};
-layout(std430, binding = 1) writeonly buffer lsf_vpl_block
+layout(std430, binding = LSF_BINDING_VPL) writeonly buffer lsf_vpl_block
 {
-    vpl_slot vpls[];
+    lsf_vpl_data vpls[];
 };
 layout(std430, binding = 2) writeonly buffer lsf_vpl_map_block
 {

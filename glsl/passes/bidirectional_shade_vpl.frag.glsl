@@ -10,15 +10,22 @@
 #include "shared/light.h"
 #include "shared/vpl_data.h"
 
-layout(std140, binding = LSF_BINDING_VPL) uniform lsf_vpl_block
-{
-    lsf_vpl_data vpl;
-};
+layout(binding = LSF_UNIT_VPL) uniform samplerBuffer vpl_fetch;
+layout(location = LSF_LOCATION_VPL) uniform uint vpl_index;
 
 layout(location = 0) out vec4 irradiance_out;
 #if LSF_SPECULAR
 layout(location = 1) out vec4 specular_out;
 #endif
+
+/* Software GL fetches texels for all lanes at once, storage buffers lane by lane. */
+lsf_vpl_data current_vpl()
+{
+    vec4 t[7];
+    for (int i = 0; i < 7; i++)
+        t[i] = texelFetch(vpl_fetch, 7 * int(vpl_index) + i);
+    return lsf_vpl_data(t[0], t[1], t[2], t[3], t[4], t[5], t[6]);
+}
 
 /* Intensity of the VPL towards the vertex per unit of solid angle that it covers there, divided by its density by
  * area, times its weight. */
@@ -29,7 +36,7 @@ struct vpl_light {
 };
 
 #if LSF_PUNCTUAL
-surface vpl_surface()
+surface vpl_surface(lsf_vpl_data vpl)
 {
     surface s;
     s.geometric_normal = vpl.geometric_normal.xyz;
@@ -49,13 +56,13 @@ surface vpl_surface()
     return s;
 }
 
-vpl_light reflected_power(vec3 direction, float cosine_3, float distance2)
+vpl_light reflected_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float distance2)
 {
     vpl_light l;
     l.power = vec3(0.0);
     l.kernel_3 = 0.0;
     l.density = 1.0;
-    surface x1 = vpl_surface();
+    surface x1 = vpl_surface(vpl);
     float cosine_0 = dot(x1.geometric_normal, vpl.to_light.xyz);
     float shading_cosine_0 = dot(x1.normal, vpl.to_light.xyz);
     if (cosine_0 <= 0.0 || shading_cosine_0 <= 0.0)
@@ -79,7 +86,7 @@ vpl_light reflected_power(vec3 direction, float cosine_3, float distance2)
 #endif
 
 #if LSF_EMITTERS
-vpl_light emitted_power(vec3 direction, float cosine_3, float distance2)
+vpl_light emitted_power(lsf_vpl_data vpl, vec3 direction, float cosine_3, float distance2)
 {
     path_density p =
         emitter_density_at(vpl.intensity.w, cosine_3, distance2, bundle_pdf(direction));
@@ -93,6 +100,7 @@ vpl_light emitted_power(vec3 direction, float cosine_3, float distance2)
 
 void main()
 {
+    lsf_vpl_data vpl = current_vpl();
     shading_vertex v;
     if (vpl.position.w == LSF_VPL_DARK || !vertex_load(v))
         discard;
@@ -109,13 +117,13 @@ void main()
 #if LSF_PUNCTUAL && LSF_EMITTERS
     vpl_light l;
     if (vpl.position.w == LSF_VPL_EMITS)
-        l = emitted_power(direction, cosine_3, distance2);
+        l = emitted_power(vpl, direction, cosine_3, distance2);
     else
-        l = reflected_power(direction, cosine_3, distance2);
+        l = reflected_power(vpl, direction, cosine_3, distance2);
 #elif LSF_EMITTERS
-    vpl_light l = emitted_power(direction, cosine_3, distance2);
+    vpl_light l = emitted_power(vpl, direction, cosine_3, distance2);
 #else
-    vpl_light l = reflected_power(direction, cosine_3, distance2);
+    vpl_light l = reflected_power(vpl, direction, cosine_3, distance2);
 #endif
 
     /* Seen from x3, an area covers the solid angle cosine_3 / distance2 per unit. */

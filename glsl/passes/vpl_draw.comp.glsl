@@ -33,7 +33,7 @@ void main()
 #if LSF_TRANSMISSION
     transmission = s.transmission;
 #endif
-    vpls[index].vpl = lsf_vpl_data(
+    vpls[index] = lsf_vpl_data(
         vec4(h.position, h.lit ? LSF_VPL_REFLECTS : LSF_VPL_DARK), vec4(s.geometric_normal, h.pdf * drawn.w),
         vec4(s.normal, s.metallic), vec4(s.base_color, directional ? 1.0 : 0.0),
         vec4(s.roughness, s.f0, s.anisotropy, s.anisotropy_angle), vec4(-h.direction, distance2),

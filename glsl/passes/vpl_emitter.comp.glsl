@@ -16,6 +16,6 @@ void main()
     vpl.geometric_normal = normal;
     vpl.normal = vpl.base_color = vpl.specular_params = vpl.to_light = vec4(0.0);
     vpl.intensity = radiance;
-    vpls[index].vpl = vpl;
+    vpls[index] = vpl;
     vpl_map_write(index, position.xyz, normal.xyz, 0.0, position.w, map_shape);
 }

@@ -94,6 +94,7 @@ struct lsf_lobe_data {
 #define LSF_UNIT_SHADOW_TINT 12 /* see lib/shadow.glsl */
 #define LSF_UNIT_EMISSION 8     /* see lib/emission_pdf.glsl */
 #define LSF_UNIT_BUNDLE_PDF 9   /* density of ray-bundles by direction */
+#define LSF_UNIT_VPL 10         /* the VPLs of an iteration, a buffer texture: RGBA32F */
 
 /* Location of the radiance of an environment without a map. */
 #define LSF_LOCATION_ENVIRONMENT 10
@@ -107,6 +108,7 @@ struct lsf_lobe_data {
  * of the samples are enough (src/passes/bidirectional_shade.md). */
 #define LSF_HIDDEN_KERNEL (1.0f / 16.0f)
 #define LSF_LOCATION_ARRIVAL 14
+#define LSF_LOCATION_VPL 15
 #define LSF_LOCATION_ADDED 16
 /* Texture unit of the pixels at which light is gathered; see lib/sparse.glsl. */
 #define LSF_UNIT_POSITION_PIXELS 17
@@ -146,9 +148,9 @@ struct lsf_lobe_data {
 #define LSF_BINDING_LIGHT 1 /* the current light, or the current VPL as a light with a map */
 #define LSF_BINDING_BUNDLE 2
 #define LSF_BINDING_VOXEL 3
-#define LSF_BINDING_VPL 4 /* the current VPL */
 
 /* Storage buffers. */
+#define LSF_BINDING_VPL 1           /* the VPLs of an iteration, to be written */
 #define LSF_BINDING_SPARSE_COUNTS 7 /* pixels that no point of the grid represents */
 #define LSF_BINDING_BUNDLE_NODES 2  /* 2 to 7: the nodes of the current bundle */
 

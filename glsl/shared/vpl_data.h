@@ -1,15 +1,10 @@
 /* A virtual point light: x1 of the paper, lit by the light at x0; or a point of an emissive
- * surface. Normalised space. A storage buffer holds all of an iteration, uniform buffer
- * LSF_BINDING_VPL is the current one: llvmpipe reads a storage buffer's element for each pixel
- * anew. */
+ * surface. Normalised space. Written as storage buffer LSF_BINDING_VPL, read as a buffer texture.
+ */
 #ifndef LSF_SHARED_VPL_DATA_H
 #define LSF_SHARED_VPL_DATA_H
 
 #include "shared/shared.h"
-
-/* Bytes from one to the next: a uniform buffer's offset is a multiple of at most 256 (OpenGL 4.5,
- * table 23.64). */
-#define LSF_VPL_STRIDE 256
 
 #define LSF_VPL_DARK 0.0f     /* the ray from the light hit no reflecting surface */
 #define LSF_VPL_REFLECTS 1.0f /* the light of a punctual light */

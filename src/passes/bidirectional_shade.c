@@ -7,7 +7,6 @@
 #include "frame/light_walls.h"
 #include "shared/brdf.h"
 #include "shared/scene_data.h"
-#include "shared/vpl_data.h"
 
 const lsf_option_row lsf_bidirectional_shade_options[LSF_BIDIRECTIONAL_SHADE_OPTION_COUNT] = {
     {"bidirectional.strategy", LSF_OPTION_ENUM, offsetof(lsf_bidirectional_shade_params, strategy),
@@ -283,8 +282,8 @@ void lsf_bidirectional_shade_vpl(lsf_bidirectional_shade *pass, const lsf_iterat
     lsf_blend_add(pass->outputs.light.specular ? 2 : 1);
     bind_vertices(pass, inputs, sample, deep);
     set_sample(pass, sample, deep);
-    glBindBufferRange(GL_UNIFORM_BUFFER, LSF_BINDING_VPL, inputs->vpls,
-                      (GLintptr)vpl * LSF_VPL_STRIDE, sizeof(struct lsf_vpl_data));
+    lsf_bind_texture(LSF_UNIT_VPL, inputs->vpls);
+    glUniform1ui(LSF_LOCATION_VPL, vpl);
     lsf_region_set(region);
     lsf_draw_fullscreen(pass->context);
     lsf_timer_end(pass->vpl_timer);

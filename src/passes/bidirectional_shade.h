@@ -80,7 +80,7 @@ typedef struct lsf_bidirectional_sample {
 typedef struct lsf_bidirectional_shade_inputs {
     const lsf_surface_maps *seen; /* visible points, maybe split; not read for deep vertices */
     const lsf_shadow *shadow;     /* of the current VPL, or of the light that hits reflect */
-    GLuint vpls;                  /* as of lsf_vpl_outputs; VPLs only */
+    GLuint vpls;                  /* lsf_vpl_outputs.fetch; VPLs only */
     lsf_bundle_nodes nodes;       /* of the current bundle; hits only */
     GLuint hits;                  /* nodes found by ray_bundle; hits only */
     GLuint importance;            /* of the light's map, with adaptive emission */

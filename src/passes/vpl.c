@@ -10,16 +10,14 @@
 #include "shared/light_data.h"
 #include "shared/scene_data.h"
 
-/* Bytes from one VPL's map description to the next: a multiple of 256, as LSF_VPL_STRIDE. The
- * shader's array has the same stride. */
+/* Bytes from one VPL's map description to the next: a uniform buffer's offset is a multiple of at
+ * most 256 (GL 4.5, table 23.64). The shader's array has the same stride. */
 #define MAP_STRIDE 512
-_Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_write.glsl");
-_Static_assert(sizeof(struct lsf_vpl_data) == LSF_VPL_STRIDE - 9 * 16, "see vpl_write.glsl");
+_Static_assert(sizeof(struct lsf_light_data) == MAP_STRIDE - 16, "see vpl_draw.comp.glsl");
 
 #define GROUP_SIZE 64
 
 /* Storage buffers of vpl_draw and vpl_emitter. */
-#define BINDING_VPLS 1
 #define BINDING_MAPS 2
 #define BINDING_RANDOM 3
 #define BINDING_SUMS 4
@@ -88,7 +86,7 @@ void lsf_vpl_plan(lsf_plan *plan, const lsf_vpl_params *params, const lsf_vpl_us
     else
         lsf_plan_omit(plan, "vpl_emitter", "no surface emits light");
     uint64_t total = count * (use->lights && use->emitters ? 2 : 1);
-    lsf_plan_buffer_add(plan, "vpl.vpls", total * LSF_VPL_STRIDE, "vpl.count is %u",
+    lsf_plan_buffer_add(plan, "vpl.vpls", total * sizeof(struct lsf_vpl_data), "vpl.count is %u",
                         (unsigned)count);
     lsf_plan_buffer_add(plan, "vpl.maps", total * MAP_STRIDE, "the projection of each one's map");
     lsf_plan_pass_add(plan, "vpl_shadow_map", "what each virtual point light sees");
@@ -113,8 +111,11 @@ static bool create_buffers(lsf_vpl *pass, const lsf_plan *plan, lsf_error *error
 {
     lsf_context *context = pass->context;
     lsf_vpl_outputs *out = &pass->outputs;
-    return lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error) &&
-           lsf_plan_create_buffer(plan, context, "vpl.maps", NULL, 0, &out->maps, error) &&
+    if (!lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error))
+        return false;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &out->fetch);
+    glTextureBuffer(out->fetch, GL_RGBA32F, out->vpls);
+    return lsf_plan_create_buffer(plan, context, "vpl.maps", NULL, 0, &out->maps, error) &&
            lsf_plan_create_buffer_if_planned(plan, context, "vpl.random", NULL,
                                              GL_DYNAMIC_STORAGE_BIT, &pass->random, error) &&
            lsf_plan_create_buffer_if_planned(plan, context, "vpl.large", NULL, 0, &pass->large,
@@ -233,7 +234,7 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
                                  (GLsizeiptr)(filled * sizeof *random), random);
     }
     lsf_shadow_bind(inputs->shadow);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_VPLS, pass->outputs.vpls);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_RANDOM, pass->random);
     lsf_surface_maps_bind(inputs->seen);
@@ -246,7 +247,8 @@ void lsf_vpl_draw(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t first,
     glUniform2ui(0, first, count);
     glUniform2f(1, (float)pass->shadow_resolution, iteration->view.start.w);
     glDispatchCompute((count + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT |
+                    GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(pass->draw_timer);
 }
 
@@ -255,7 +257,7 @@ void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
 {
     const float *p = sample->position, *n = sample->normal, *l = sample->radiance;
     lsf_timer_begin(pass->emitter_timer);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_VPLS, pass->outputs.vpls);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_VPL, pass->outputs.vpls);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_MAPS, pass->outputs.maps);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); /* as in lsf_vpl_draw */
     glUseProgram(pass->emitter_program);
@@ -265,7 +267,8 @@ void lsf_vpl_emit(lsf_vpl *pass, const lsf_iteration *iteration, uint32_t index,
     glUniform4f(3, l[0], l[1], l[2], sample->weight_density);
     glUniform2f(4, (float)pass->shadow_resolution, iteration->view.start.w);
     glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT |
+                    GL_TEXTURE_FETCH_BARRIER_BIT);
     lsf_timer_end(pass->emitter_timer);
 }
 
@@ -381,6 +384,7 @@ void lsf_vpl_destroy(lsf_vpl *pass)
     lsf_texture_destroy(pass->context, &pass->outputs.emitter_map);
     lsf_buffer_destroy(pass->context, &pass->large);
     lsf_buffer_destroy(pass->context, &pass->command);
+    glDeleteTextures(1, &pass->outputs.fetch);
     lsf_buffer_destroy(pass->context, &pass->outputs.vpls);
     lsf_buffer_destroy(pass->context, &pass->outputs.maps);
     lsf_buffer_destroy(pass->context, &pass->random);

@@ -33,9 +33,9 @@ typedef struct lsf_vpl_inputs {
 } lsf_vpl_inputs;
 
 typedef struct lsf_vpl_outputs {
-    GLuint vpls; /* struct lsf_vpl_data each, LSF_VPL_STRIDE bytes apart: those of lights, then
-                  * those on emitters */
-    GLuint maps; /* struct lsf_light_data each, 512 bytes apart */
+    GLuint vpls;  /* struct lsf_vpl_data each: those of lights, then those on emitters */
+    GLuint fetch; /* buffer texture of the same, RGBA32F */
+    GLuint maps;  /* struct lsf_light_data each, 512 bytes apart */
     GLuint shadow_map,
         emitter_map; /* R32UI, lib/hemisphere.glsl; of the VPL of each kind in turn */
     GLuint shadow_tint,

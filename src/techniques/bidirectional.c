@@ -276,7 +276,7 @@ static void connect_vpl(sample_work *work, bool deep, uint32_t vpl,
     const lsf_shadow shadow = lsf_vpl_shadow(&b->vpl, vpl);
     inputs.bundle_pdf = b->bundle_pdf;
     inputs.shadow = &shadow;
-    inputs.vpls = b->vpl.outputs.vpls;
+    inputs.vpls = b->vpl.outputs.fetch;
     lsf_bidirectional_shade_vpl(&b->shade, work->iteration, &inputs, sample, deep, vpl,
                                 &work->region);
 }

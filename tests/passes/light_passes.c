@@ -138,9 +138,8 @@ struct lsf_vpl_data *light_passes_vpls(light_passes *p)
 {
     struct lsf_vpl_data *vpls = calloc(p->vpl.count, sizeof *vpls);
     assert_non_null(vpls);
-    for (uint32_t i = 0; i < p->vpl.count; i++)
-        glGetNamedBufferSubData(p->vpl.outputs.vpls, (GLintptr)i * LSF_VPL_STRIDE, sizeof *vpls,
-                                &vpls[i]);
+    glGetNamedBufferSubData(p->vpl.outputs.vpls, 0, (GLsizeiptr)(p->vpl.count * sizeof *vpls),
+                            vpls);
     return vpls;
 }
 
