@@ -14,6 +14,7 @@
 
 layout(binding = LSF_UNIT_LIGHT_TREE_AREAS) uniform samplerBuffer area_fetch;
 
+/* Squared radius of the disc that a VPL stands for. */
 float light_record_disc2(uint record)
 {
     return texelFetch(area_fetch, int(record)).r;
@@ -181,8 +182,8 @@ light_geometry light_geometry_to(light_receiver r, uint link, lsf_light_tree_nod
     return w;
 }
 
-/* Estimates of what all VPLs below a link contribute to the diffuse and, if asked for, to the specular lobe; `most`: the
- * largest luminance of a link's light. */
+/* Estimates of what all VPLs below a link contribute to the diffuse lobe (x) and, where `specular`, to the specular one
+ * (y; else it is x again), relative to `most`: the luminance of a node that the link is below, or is. */
 vec2 light_weights(light_receiver r, uint link, float most, bool specular)
 {
     lsf_light_tree_node node = light_node(link);

@@ -26,7 +26,6 @@ void lsf_light_tree_fetch_bind(const lsf_light_tree_fetch *fetch,
         lsf_bind_texture(LSF_UNIT_LIGHT_TREE_CLOUD + i, fetch->textures[i]);
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE, buffers->tree);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void lsf_light_tree_fetch_destroy(lsf_light_tree_fetch *fetch)

@@ -232,6 +232,7 @@ void lsf_light_tree_run(lsf_light_tree *pass, const lsf_iteration *iteration, GL
     dispatch(pass, LSF_LIGHT_TREE_LINK, groups_of(pass->capacity));
     merge(pass, longest_side(iteration->state));
     dispatch(pass, LSF_LIGHT_TREE_AREA, groups_of(pass->capacity));
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT); /* samples fetch it through buffer textures */
     lsf_timer_end(pass->timer);
 }
 

@@ -30,17 +30,10 @@ static lsf_image *render_side(lsf_context *context, const lsf_scene *scene,
                               lsf_render_params params, const char *side)
 {
     const char *const options[] = {side, "voxel.resolution=32", "shadow.texels_per_pixel=64"};
-    lsf_error error = {0};
     params.options = options;
     params.option_count = 3;
     params.width = params.height = SIZE;
-    lsf_renderer *renderer = lsf_renderer_create(context, scene, &params, &error);
-    bool good = renderer && lsf_renderer_run(renderer, &error);
-    lsf_image *image = good ? lsf_renderer_read(renderer, &error) : NULL;
-    if (!image)
-        fail_msg("%s", error.message);
-    lsf_renderer_destroy(renderer);
-    return image;
+    return render_gl_in(context, scene, &params);
 }
 
 /* How much of each pixel lies left of the edge, x < (y + 9) / 3 - 2.97 in a picture from -1 to 1.
