@@ -10,9 +10,10 @@ void lsf_light_tree_bind(const lsf_light_tree_buffers *buffers)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LSF_BINDING_LIGHT_TREE_AREAS, buffers->areas);
 }
 
-void lsf_light_tree_fetch_create(lsf_light_tree_fetch *fetch)
+bool lsf_light_tree_fetch_create(lsf_light_tree_fetch *fetch, lsf_context *context,
+                                 lsf_error *error)
 {
-    glCreateTextures(GL_TEXTURE_BUFFER, LSF_COUNT(fetch->textures), fetch->textures);
+    return lsf_buffer_textures_create(context, LSF_COUNT(fetch->textures), fetch->textures, error);
 }
 
 void lsf_light_tree_fetch_bind(const lsf_light_tree_fetch *fetch,

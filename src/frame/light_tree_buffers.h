@@ -23,7 +23,8 @@ typedef struct lsf_light_tree_fetch {
     GLuint textures[3];
 } lsf_light_tree_fetch;
 
-void lsf_light_tree_fetch_create(lsf_light_tree_fetch *fetch);
+bool lsf_light_tree_fetch_create(lsf_light_tree_fetch *fetch, lsf_context *context,
+                                 lsf_error *error);
 /* Binds a finished tree for LIGHT_TREE_FETCH of lib/light_tree.glsl. */
 void lsf_light_tree_fetch_bind(const lsf_light_tree_fetch *fetch,
                                const lsf_light_tree_buffers *buffers);

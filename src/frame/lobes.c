@@ -102,7 +102,8 @@ bool lsf_scene_gpu_create_lobes(lsf_scene_gpu *gpu, const lsf_plan *plan, lsf_er
         return false;
     if (!gpu->lobes)
         return true;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &gpu->lobe_table);
+    if (!lsf_buffer_textures_create(gpu->context, 1, &gpu->lobe_table, error))
+        return false;
     glTextureBuffer(gpu->lobe_table, GL_RGBA32F, gpu->lobes);
     return true;
 }

@@ -12,9 +12,9 @@
 #define LOCATION_NORMAL_TRANSFORM 5
 #define LOCATION_MATERIAL 9
 
-void lsf_triangle_fetch_create(lsf_triangle_fetch *fetch)
+bool lsf_triangle_fetch_create(lsf_triangle_fetch *fetch, lsf_context *context, lsf_error *error)
 {
-    glCreateTextures(GL_TEXTURE_BUFFER, LSF_COUNT(fetch->streams), fetch->streams);
+    return lsf_buffer_textures_create(context, LSF_COUNT(fetch->streams), fetch->streams, error);
 }
 
 void lsf_triangle_fetch_bind(const lsf_triangle_fetch *fetch, const lsf_scene_gpu *scene)

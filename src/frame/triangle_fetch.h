@@ -9,7 +9,7 @@ typedef struct lsf_triangle_fetch {
     GLuint streams[7]; /* buffer textures */
 } lsf_triangle_fetch;
 
-void lsf_triangle_fetch_create(lsf_triangle_fetch *fetch);
+bool lsf_triangle_fetch_create(lsf_triangle_fetch *fetch, lsf_context *context, lsf_error *error);
 void lsf_triangle_fetch_bind(const lsf_triangle_fetch *fetch, const lsf_scene_gpu *scene);
 /* Sets, for the program in use, the instance's transforms and material, and `count` of its
  * triangles from `first` on. */

@@ -82,6 +82,7 @@ struct lsf_context {
     lsf_cached_program *programs;
     uint64_t program_count, program_capacity;
     GLuint empty_vertex_array;
+    bool slots_settled; /* the state of software GL's sampler slots: buffer_texture.c */
 };
 
 /* --- state --- */
@@ -91,6 +92,11 @@ void lsf_state_set_conventions(void);
 /* Sets all state that passes rely on or change to what GL gives a new context. */
 void lsf_state_reset(const lsf_context *context);
 void lsf_state_count_bindings(lsf_context *context);
+
+/* --- samplers --- */
+
+/* Gives a sampler object the state of a texture by lsf_texture_create. */
+void lsf_sampler_set_nearest(GLuint sampler);
 
 /* --- messages --- */
 

@@ -49,6 +49,11 @@ GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes
                          GLbitfield flags, lsf_error *error);
 void lsf_buffer_destroy(lsf_context *context, GLuint *buffer);
 
+/* Names of buffer textures, which glTextureBuffer lets read a buffer. What is bound to texture
+ * units and to the framebuffer is undefined after it. */
+bool lsf_buffer_textures_create(lsf_context *context, GLsizei count, GLuint *textures,
+                                lsf_error *error);
+
 /* The bytes of a texel of this sized internal format; 0 when it is unknown. */
 uint32_t lsf_format_bytes(GLenum internal_format);
 const char *lsf_format_name(GLenum internal_format); /* "GL_RGBA16F" */

@@ -152,9 +152,9 @@ bool lsf_light_tree_sample_create(lsf_light_tree_sample *pass, lsf_context *cont
     const lsf_split_light *out = &pass->light;
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         !lsf_plan_create_buffer(plan, context, "light_tree_sample.counts", NULL, 0,
-                                &pass->count_buffer, error))
+                                &pass->count_buffer, error) ||
+        !lsf_light_tree_fetch_create(&pass->fetch, context, error))
         return false;
-    lsf_light_tree_fetch_create(&pass->fetch);
     glClearNamedBufferData(pass->count_buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     lsf_framebuffer_desc desc = {.label = "light_tree_sample",
                                  .color_count = out->specular ? 2 : 1,

@@ -68,9 +68,9 @@ bool lsf_open_sky_create(lsf_open_sky *pass, lsf_context *context, const lsf_pla
     if (!lsf_plan_create_textures(plan, context, textures, LSF_COUNT(textures), pass, error) ||
         (use->lobes && !lsf_plan_create_textures(plan, context, lobe_textures,
                                                  LSF_COUNT(lobe_textures), pass, error)) ||
-        !lsf_upload_create(&pass->drawn, context, plan, "open_sky.drawn", error))
+        !lsf_upload_create(&pass->drawn, context, plan, "open_sky.drawn", error) ||
+        !lsf_buffer_textures_create(context, 1, &pass->drawn_fetch, error))
         return false;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &pass->drawn_fetch);
     glTextureBuffer(pass->drawn_fetch, GL_RGBA32F, pass->drawn.buffer);
     const lsf_framebuffer_desc desc = {
         .label = "open_sky",

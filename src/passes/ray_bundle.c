@@ -233,7 +233,7 @@ static void set_ray(const lsf_ray_bundle *pass, GLuint program,
 {
     glUseProgram(program);
     if (pass->use.deep_vertices)
-        glUniform1i(0, origins->depth == 0);
+        glUniform1i(0, origins->from_position);
     if (lsf_ray_bundle_slices(&pass->params) > 0)
         glUniform1i(2, (lsf_ray_bundle_slices(&pass->params) + 1) / 4);
     lsf_region_set(region);

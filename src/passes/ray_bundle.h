@@ -57,9 +57,12 @@ typedef struct lsf_ray_bundle_direction {
 } lsf_ray_bundle_direction;
 
 /* The points where rays start. From the G-buffer: depth and surface. From other vertices:
- * position and surface; surfaces are as in lib/gbuffer.glsl. */
+ * position and surface; surfaces are as in lib/gbuffer.glsl. With use.deep_vertices both depth and
+ * position are given, whichever is read: for software GL a program whose textures are bound or not
+ * is two programs to compile. */
 typedef struct lsf_ray_bundle_origins {
-    GLuint depth;    /* G-buffer depth, or its split copy (R32F); 0: position is used */
+    bool from_position;
+    GLuint depth;    /* G-buffer depth, or its split copy (R32F) */
     GLuint position; /* RGBA32F: xyz; w 0: no vertex */
     GLuint surface;  /* its geometric normal turns the ray: +direction or -direction */
     GLuint pixels;   /* as in lsf_surface_maps; with depth */

@@ -184,9 +184,10 @@ bool lsf_ray_bundle_nodes_create(lsf_ray_bundle *pass, const lsf_plan *plan, lsf
                                                    &slot->arrays[array], error))
                 return false;
         }
-        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->head_fetch);
-        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->key_fetch);
-        glCreateTextures(GL_TEXTURE_BUFFER, 1, &slot->chain_fetch);
+        if (!lsf_buffer_textures_create(pass->context, 1, &slot->head_fetch, error) ||
+            !lsf_buffer_textures_create(pass->context, 1, &slot->key_fetch, error) ||
+            !lsf_buffer_textures_create(pass->context, 1, &slot->chain_fetch, error))
+            return false;
         glClearNamedBufferData(slot->arrays[LSF_RAY_BUNDLE_HEADS], GL_R32UI, GL_RED_INTEGER,
                                GL_UNSIGNED_INT, &zero);
         clear_chain(slot);

@@ -44,9 +44,9 @@ bool lsf_ray_bundle_raster_create(lsf_ray_bundle *pass, const lsf_plan *plan, ls
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for %u instances",
                              pass->draw_count);
     if (!lsf_plan_create_buffer(plan, pass->context, "ray_bundle.large", NULL,
-                                GL_DYNAMIC_STORAGE_BIT, &pass->large, error))
+                                GL_DYNAMIC_STORAGE_BIT, &pass->large, error) ||
+        !lsf_triangle_fetch_create(&pass->fetch, pass->context, error))
         return false;
-    lsf_triangle_fetch_create(&pass->fetch);
     pass->small_program = lsf_plan_program(plan, pass->context, "ray_bundle_build", files, error);
     return pass->small_program != 0;
 }

@@ -129,8 +129,8 @@ bool lsf_voxelize_create(lsf_voxelize **created, lsf_context *context, const lsf
     bool raster = params->method == LSF_VOXELIZE_RASTER;
     pass->context = context;
     pass->grid = *grid;
-    lsf_triangle_fetch_create(&pass->fetch);
-    if (!create_textures(pass, plan, error) || !create_lists(pass, plan, error) ||
+    if (!lsf_triangle_fetch_create(&pass->fetch, context, error) ||
+        !create_textures(pass, plan, error) || !create_lists(pass, plan, error) ||
         !lsf_voxelize_still_create(pass, plan, scene, error) ||
         !create_programs(pass, plan, raster, error) || (raster && !create_framebuffer(pass, error)))
         return false;

@@ -111,9 +111,9 @@ static bool create_buffers(lsf_vpl *pass, const lsf_plan *plan, lsf_error *error
 {
     lsf_context *context = pass->context;
     lsf_vpl_outputs *out = &pass->outputs;
-    if (!lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error))
+    if (!lsf_plan_create_buffer(plan, context, "vpl.vpls", NULL, 0, &out->vpls, error) ||
+        !lsf_buffer_textures_create(context, 1, &out->fetch, error))
         return false;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &out->fetch);
     glTextureBuffer(out->fetch, GL_RGBA32F, out->vpls);
     return lsf_plan_create_buffer(plan, context, "vpl.maps", NULL, 0, &out->maps, error) &&
            lsf_plan_create_buffer_if_planned(plan, context, "vpl.random", NULL,

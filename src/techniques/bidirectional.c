@@ -333,9 +333,10 @@ static void trace_segment(sample_work *work, uint32_t first, uint32_t segment, u
     uint32_t before = (first + segment + s->bundle_count - 2) % s->bundle_count;
     bool lit = s->bundle_light && segment <= s->bounces;
     lsf_bidirectional_shade_inputs inputs = work->inputs;
-    lsf_ray_bundle_origins origins = {.depth = deep ? 0 : inputs.seen->depth,
+    lsf_ray_bundle_origins origins = {.from_position = deep,
+                                      .depth = inputs.seen->depth,
                                       .pixels = inputs.seen->pixels,
-                                      .position = deep ? b->shade.outputs.position : 0,
+                                      .position = b->shade.outputs.position,
                                       .surface =
                                           deep ? b->shade.outputs.surface : inputs.seen->surface};
     inputs.hits =

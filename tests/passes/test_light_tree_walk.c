@@ -78,8 +78,9 @@ static void rig_begin(rig *r)
     if (!r->cloud || !r->result || !r->draws ||
         !lsf_light_tree_create(&r->tree, r->context, r->setup.plan, &tree, VPLS, &error))
         fail_msg("%s", error.message);
+    if (!lsf_light_tree_fetch_create(&r->fetch, r->context, &error))
+        fail_msg("%s", error.message);
     lsf_light_tree_run(&r->tree, &r->iteration, r->cloud);
-    lsf_light_tree_fetch_create(&r->fetch);
     free(records);
 }
 
