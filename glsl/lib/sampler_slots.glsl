@@ -1,5 +1,5 @@
-/* As many samplers as programs have at most, all of them in use. */
-layout(binding = 0) uniform sampler2D slots[24];
+/* LSF_SAMPLER_SLOTS samplers, all of them in use. */
+layout(binding = 0) uniform sampler2D slots[LSF_SAMPLER_SLOTS];
 
 ivec2 slots_sum()
 {

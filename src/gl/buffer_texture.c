@@ -4,45 +4,52 @@
  * than later on, so that programs were compiled twice. */
 #include "gl/context.h"
 
-enum { SLOTS = 24 }; /* as in lib/sampler_slots.glsl; programs have fewer */
+enum { SLOTS = 24 }; /* programs have fewer */
 
-/* A sampler object for each slot. */
-static void make_samplers(GLuint samplers[SLOTS])
+/* Runs a fragment shader and a compute shader that have a texture in every slot: one with the
+ * sampling state of most textures. */
+static bool run_slots(lsf_context *context, GLuint texture, GLuint framebuffer, lsf_error *error)
 {
-    glCreateSamplers(SLOTS, samplers);
-    for (int i = 0; i < SLOTS; i++)
-        lsf_sampler_set_nearest(samplers[i]);
-}
-
-/* Runs a program of each kind, of which every slot has the state of lsf_texture_create's textures:
- * the one that most textures leave. */
-static bool settle_slots(lsf_context *context, lsf_error *error)
-{
+    static const lsf_define slots = {"LSF_SAMPLER_SLOTS", SLOTS};
     static const lsf_program_desc drawn = {
         .label = "sampler_slots",
-        .files = {"lib/fullscreen.vert.glsl", "lib/sampler_slots.frag.glsl"}};
+        .files = {"lib/fullscreen.vert.glsl", "lib/sampler_slots.frag.glsl"},
+        .defines = &slots,
+        .define_count = 1};
     static const lsf_program_desc dispatched = {.label = "sampler_slots",
-                                                .files = {"lib/sampler_slots.comp.glsl"}};
-    static const lsf_framebuffer_desc desc = {
-        .label = "sampler_slots", .layer = -1, .width = 1, .height = 1};
+                                                .files = {"lib/sampler_slots.comp.glsl"},
+                                                .defines = &slots,
+                                                .define_count = 1};
     GLuint draw = lsf_program_get(context, &drawn, error);
     GLuint dispatch = draw ? lsf_program_get(context, &dispatched, error) : 0;
-    GLuint framebuffer = dispatch ? lsf_framebuffer_create(context, &desc, error) : 0;
-    if (!framebuffer)
+    if (!dispatch)
         return false;
-    GLuint samplers[SLOTS];
-    make_samplers(samplers);
     for (GLuint unit = 0; unit < SLOTS; unit++)
-        lsf_bind_texture(unit, 0);
-    glBindSamplers(0, SLOTS, samplers);
+        lsf_bind_texture(unit, texture);
     lsf_begin_fullscreen(framebuffer, 1, 1, draw);
     lsf_draw_fullscreen(context);
     glUseProgram(dispatch);
     glDispatchCompute(1, 1, 1);
-    glBindSamplers(0, SLOTS, NULL);
-    glDeleteSamplers(SLOTS, samplers);
-    lsf_framebuffer_destroy(context, &framebuffer);
     return true;
+}
+
+static bool settle_slots(lsf_context *context, lsf_error *error)
+{
+    static const lsf_texture_desc pixel = {.label = "sampler_slots",
+                                           .target = GL_TEXTURE_2D,
+                                           .internal_format = GL_R8,
+                                           .width = 1,
+                                           .height = 1,
+                                           .depth = 1,
+                                           .levels = 1};
+    static const lsf_framebuffer_desc desc = {
+        .label = "sampler_slots", .layer = -1, .width = 1, .height = 1};
+    GLuint texture = lsf_texture_create(context, &pixel, error);
+    GLuint framebuffer = texture ? lsf_framebuffer_create(context, &desc, error) : 0;
+    bool good = framebuffer && run_slots(context, texture, framebuffer, error);
+    lsf_framebuffer_destroy(context, &framebuffer);
+    lsf_texture_destroy(context, &texture);
+    return good;
 }
 
 bool lsf_buffer_textures_create(lsf_context *context, GLsizei count, GLuint *textures,

@@ -93,11 +93,6 @@ void lsf_state_set_conventions(void);
 void lsf_state_reset(const lsf_context *context);
 void lsf_state_count_bindings(lsf_context *context);
 
-/* --- samplers --- */
-
-/* Gives a sampler object the state of a texture by lsf_texture_create. */
-void lsf_sampler_set_nearest(GLuint sampler);
-
 /* --- messages --- */
 
 /* Sends the current context's KHR_debug messages to the log. */

@@ -49,8 +49,9 @@ GLuint lsf_buffer_create(lsf_context *context, const char *label, uint64_t bytes
                          GLbitfield flags, lsf_error *error);
 void lsf_buffer_destroy(lsf_context *context, GLuint *buffer);
 
-/* Names of buffer textures, which glTextureBuffer lets read a buffer. What is bound to texture
- * units and to the framebuffer is undefined after it. */
+/* Sets `textures` to new names of buffer textures; glTextureBuffer gives each its buffer. In
+ * software GL a context's first call draws: it changes the program, the framebuffer and texture
+ * units. */
 bool lsf_buffer_textures_create(lsf_context *context, GLsizei count, GLuint *textures,
                                 lsf_error *error);
 

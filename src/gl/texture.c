@@ -95,22 +95,6 @@ static bool check_limits(const lsf_texture_desc *desc, const char *what, lsf_err
     return true;
 }
 
-/* Whatever the number of levels: software GL compiles a program for each other filter. */
-static const struct {
-    GLenum parameter;
-    GLint value;
-} nearest[] = {{GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST},
-               {GL_TEXTURE_MAG_FILTER, GL_NEAREST},
-               {GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE},
-               {GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE},
-               {GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE}};
-
-void lsf_sampler_set_nearest(GLuint sampler)
-{
-    for (size_t i = 0; i < LSF_COUNT(nearest); i++)
-        glSamplerParameteri(sampler, nearest[i].parameter, nearest[i].value);
-}
-
 GLuint lsf_texture_create(lsf_context *context, const lsf_texture_desc *desc, lsf_error *error)
 {
     char what[320];
@@ -134,8 +118,12 @@ GLuint lsf_texture_create(lsf_context *context, const lsf_texture_desc *desc, ls
         glDeleteTextures(1, &texture);
         return 0;
     }
-    for (size_t i = 0; i < LSF_COUNT(nearest); i++)
-        glTextureParameteri(texture, nearest[i].parameter, nearest[i].value);
+    /* Whatever the number of levels: software GL compiles a program for each filter. */
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
     lsf_debug_label(GL_TEXTURE, texture, desc->label);
     return texture;
 }

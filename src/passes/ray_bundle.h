@@ -58,8 +58,8 @@ typedef struct lsf_ray_bundle_direction {
 
 /* The points where rays start. From the G-buffer: depth and surface. From other vertices:
  * position and surface; surfaces are as in lib/gbuffer.glsl. With use.deep_vertices both depth and
- * position are given, whichever is read: for software GL a program whose textures are bound or not
- * is two programs to compile. */
+ * position are given, whichever is read: software GL compiles a program again when one of its
+ * textures is missing. */
 typedef struct lsf_ray_bundle_origins {
     bool from_position;
     GLuint depth;    /* G-buffer depth, or its split copy (R32F) */

@@ -117,8 +117,7 @@ class Layers(unittest.TestCase):
 
     def test_textures_are_bound_with_their_samplers(self):
         """A unit keeps its sampler, whatever texture is bound next."""
-        allowed = {"src/gl/buffer_texture.c", "src/gl/draw.c", "src/gl/state.c",
-                   "src/frame/scene_gpu.c"}
+        allowed = {"src/gl/draw.c", "src/gl/state.c", "src/frame/scene_gpu.c"}
         calls = re.compile(r"\bglBind(TextureUnit|Textures?|Samplers?)\(")
         for path in files("src", endings=(".c",)):
             name = str(path.relative_to(ROOT))
