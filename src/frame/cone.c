@@ -95,8 +95,10 @@ static int32_t most_steps(const lsf_cone_params *params, const lsf_voxel_grid *g
 void lsf_cone_bind(const lsf_cone_params *params, const lsf_voxel_grid *grid,
                    const lsf_iteration *iteration, GLuint radiance, GLuint draws)
 {
-    glTextureParameteri(radiance, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    glTextureParameteri(radiance, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    if (!params->sealed) { /* marching cones interpolate; rays read a texel */
+        glTextureParameteri(radiance, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+        glTextureParameteri(radiance, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    }
     lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, radiance);
     lsf_vec4 cones[LSF_CONE_MAX];
     uint32_t index = iteration->index;

@@ -129,7 +129,9 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
     lsf_timer_begin(pass->timer);
     glUseProgram(pass->program);
     glUniform3i(LOCATION_SUM_OF, sum->keep, sum->base != 0, sum->source != 0);
-    lsf_bind_texture(UNIT_BASE, sum->base);
+    /* A term that is left out has the other's texture: software GL would compile the program again
+     * for a unit without a texture. */
+    lsf_bind_texture(UNIT_BASE, sum->base ? sum->base : sum->source);
     lsf_voxels_bind(voxels);
     if (sum->source) {
         lsf_cone_params cones = voxel_cones(&pass->params, sum->later);
@@ -138,6 +140,8 @@ GLuint lsf_voxel_bounce_run(lsf_voxel_bounce *pass, const lsf_iteration *iterati
             lsf_voxel_lamps_bind(iteration, &pass->grid, sum->lamps, sum->lit);
         if (sum->emitters)
             lsf_emitter_points_bind(sum->emitters, cones.emitters);
+    } else {
+        lsf_bind_texture(LSF_UNIT_VOXEL_RADIANCE, sum->base);
     }
     lsf_voxel_passage_bind(iteration);
     lsf_scene_gpu_bind_environment(iteration->scene);
