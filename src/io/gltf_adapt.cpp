@@ -11,11 +11,34 @@ namespace lsf
 
 using nlohmann::json;
 
-/* EXT_meshopt_compression: the buffer of views that are compressed in another one. */
-bool is_placeholder(const json &buffer)
+const char *meshopt_extension_of(const json &object)
 {
-    static const json::json_pointer fallback("/extensions/EXT_meshopt_compression/fallback");
-    return !buffer.contains("uri") && buffer.value(fallback, false);
+    auto extensions = object.find("extensions");
+    if (extensions == object.end())
+        return nullptr;
+    for (const char *name : MESHOPT_EXTENSIONS)
+        if (extensions->contains(name))
+            return name;
+    return nullptr;
+}
+
+std::vector<bool> placeholder_buffers(const json &root, bool has_binary)
+{
+    auto buffers = root.find("buffers"), views = root.find("bufferViews");
+    std::vector<bool> placeholders(buffers == root.end() ? 0 : buffers->size());
+    for (size_t i = 0; i < placeholders.size(); i++) {
+        const json &buffer = (*buffers)[i];
+        const char *name = meshopt_extension_of(buffer);
+        placeholders[i] = name && buffer["extensions"][name].value("fallback", false);
+    }
+    /* Not every exporter marks them. */
+    for (size_t i = 0; views != root.end() && i < views->size(); i++)
+        if (meshopt_extension_of((*views)[i]))
+            placeholders[(*views)[i]["buffer"].get<size_t>()] = true;
+    for (size_t i = 0; i < placeholders.size(); i++)
+        if ((*buffers)[i].contains("uri") || (i == 0 && has_binary))
+            placeholders[i] = false;
+    return placeholders;
 }
 
 /* Indices of an accessor without a buffer view: legal, and what KHR_draco_mesh_compression brings.
@@ -54,24 +77,23 @@ static bool name_no_nodes(json &root)
     return any;
 }
 
-void adapt_document(json &root, bool changed, gltf_checked &checked)
+void adapt_document(json &root, bool changed, const std::vector<bool> &placeholders,
+                    gltf_checked &checked)
 {
-    bool placeholders = false;
     auto buffers = root.find("buffers");
     for (size_t i = 0; buffers != root.end() && i < buffers->size(); i++) {
         const json &buffer = (*buffers)[i];
-        bool placeholder = is_placeholder(buffer);
-        placeholders = placeholders || placeholder;
+        changed = changed || placeholders[i];
         checked.buffers.push_back({buffer.value("uri", std::string()),
-                                   buffer["byteLength"].get<uint64_t>(), placeholder});
+                                   buffer["byteLength"].get<uint64_t>(), placeholders[i]});
     }
     take_out_indices(root, checked);
     bool nodeless = name_no_nodes(root);
-    if (!changed && !placeholders && !nodeless && checked.indices_without_view.empty())
+    if (!changed && !nodeless && checked.indices_without_view.empty())
         return;
     for (size_t i = 0; i < checked.buffers.size(); i++) {
         json &buffer = (*buffers)[i];
-        if (checked.buffers[i].placeholder)
+        if (placeholders[i])
             buffer["byteLength"] = 1;
         if (!buffer.contains("uri"))
             buffer["uri"] = "none";

@@ -134,7 +134,7 @@ void gltf_document_read(gltf_import &import)
     content_loan.take(bytes.size(), 1);
     refuse_other_formats(import.path, bytes);
     gltf_container container = gltf_container_split(bytes);
-    gltf_checked checked = gltf_schema_check(container.json, import.params->lenient, import.budget);
+    gltf_checked checked = gltf_schema_check(container, import.params->lenient, import.budget);
     import.repairs.shares_clamped = checked.shares_clamped;
     buffer_queue queue;
     read_buffers(import, container, checked, queue);

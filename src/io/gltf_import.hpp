@@ -120,7 +120,7 @@ gltf_container gltf_container_split(std::string_view bytes); /* gltf_container.c
 struct gltf_buffer_source {
     std::string uri; /* empty: the GLB's binary chunk */
     uint64_t byte_length;
-    bool placeholder; /* it has no data: EXT_meshopt_compression says where its data are */
+    bool placeholder; /* it has no data: the views into it say where their data are */
 };
 struct gltf_checked {
     std::vector<gltf_buffer_source> buffers;
@@ -137,7 +137,13 @@ struct gltf_checked {
     uint64_t shares_clamped = 0; /* factors beyond 0 to 1 */
 };
 bool extension_is_supported(const std::string &name);
-gltf_checked gltf_schema_check(std::string_view json, bool lenient, memory_budget &budget);
+gltf_checked gltf_schema_check(const gltf_container &container, bool lenient,
+                               memory_budget &budget);
+
+/* The names of the extension by which buffer views are stored compressed. Their members are the
+ * same; data of the second may be of a later version. */
+inline constexpr const char *MESHOPT_EXTENSIONS[] = {"EXT_meshopt_compression",
+                                                     "KHR_meshopt_compression"};
 
 /* gltf_uri.cpp */
 bool uri_is_data(const std::string &uri);

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cinttypes>
 
-/* EXT_meshopt_compression: buffer views that are stored compressed in another place. Each becomes a
- * view of a buffer of its own, so that whatever reads it afterwards finds plain elements. */
+/* EXT_meshopt_compression and KHR_meshopt_compression: buffer views that are stored compressed in
+ * another place. Each becomes a view of a buffer of its own, so that whatever reads it afterwards
+ * finds plain elements. */
 
 namespace lsf
 {
@@ -65,25 +66,29 @@ static void decode_view(gltf_import &import, size_t index, const Value &extensio
 }
 
 /* The file may hold the same data uncompressed, for readers without the extension. */
-static bool must_be_decoded(const gltf_import &import, const tinygltf::BufferView &view)
+static bool must_be_decoded(const gltf_import &import, const tinygltf::BufferView &view,
+                            const char *extension)
 {
     const std::vector<std::string> &required = import.model.extensionsRequired;
     return import.placeholders[(size_t)view.buffer] ||
-           std::find(required.begin(), required.end(), "EXT_meshopt_compression") != required.end();
+           std::find(required.begin(), required.end(), extension) != required.end();
 }
 
 void gltf_meshopt_decode(gltf_import &import)
 {
     std::vector<tinygltf::BufferView> &views = import.model.bufferViews;
     for (size_t i = 0; i < views.size(); i++) {
-        auto extension = views[i].extensions.find("EXT_meshopt_compression");
-        if (extension != views[i].extensions.end() && must_be_decoded(import, views[i]))
-            decode_view(import, i, extension->second,
-                        location_of("bufferViews", i) + "/extensions/EXT_meshopt_compression");
+        const char *name = nullptr;
+        for (const char *candidate : MESHOPT_EXTENSIONS)
+            if (!name && views[i].extensions.count(candidate))
+                name = candidate;
+        if (name && must_be_decoded(import, views[i], name))
+            decode_view(import, i, views[i].extensions.at(name),
+                        location_of("bufferViews", i) + "/extensions/" + name);
         else if (import.placeholders[(size_t)views[i].buffer])
             fail("UNDEFINED_PROPERTY", location_of("bufferViews", i),
-                 "buffer %d has no data, and the view does not say by EXT_meshopt_compression "
-                 "where they are; export the file again",
+                 "buffer %d has no data, and the view does not say where they are; export the file "
+                 "again",
                  views[i].buffer);
     }
 }

@@ -32,7 +32,8 @@ static const char *const supported_extensions[] = {
     "KHR_materials_sheen",        "KHR_materials_specular",
     "KHR_materials_transmission", "KHR_materials_unlit",
     "KHR_materials_variants",     "KHR_materials_volume",
-    "KHR_mesh_quantization",      "KHR_texture_transform",
+    "KHR_mesh_quantization",      "KHR_meshopt_compression",
+    "KHR_texture_transform",
 };
 
 bool extension_is_supported(const std::string &name)
@@ -403,8 +404,6 @@ static void refuse_version_1(const json &root)
 
 static const char *remedy_for(const std::string &extension)
 {
-    if (extension == "KHR_meshopt_compression")
-        return "export the file with mesh compression switched off";
     if (extension == "KHR_texture_basisu" || extension == "EXT_texture_avif" ||
         extension == "MSFT_texture_dds")
         return "export the file with PNG or JPEG textures";
@@ -440,16 +439,18 @@ static void check_required_extensions(const json &root, bool lenient)
 }
 
 static void check_compressed_view(const json &root, const json &view, const json &extension,
+                                  const std::vector<bool> &placeholders,
                                   const std::string &location)
 {
     uint64_t offset = extension.value("byteOffset", (uint64_t)0), end, size;
     uint64_t length = extension["byteLength"].get<uint64_t>();
-    const json &buffer = root["buffers"][extension["buffer"].get<size_t>()];
+    size_t source = extension["buffer"].get<size_t>();
+    const json &buffer = root["buffers"][source];
     if (__builtin_add_overflow(offset, length, &end) ||
-        end > buffer["byteLength"].get<uint64_t>() || is_placeholder(buffer))
+        end > buffer["byteLength"].get<uint64_t>() || placeholders[source])
         fail("BUFFER_VIEW_TOO_LONG", location,
-             "bytes from %" PRIu64 " on, %" PRIu64 " of them, are not in buffer %" PRIu64, offset,
-             length, extension["buffer"].get<uint64_t>());
+             "bytes from %" PRIu64 " on, %" PRIu64 " of them, are not in buffer %zu", offset,
+             length, source);
     if (__builtin_mul_overflow(extension["count"].get<uint64_t>(),
                                extension["byteStride"].get<uint64_t>(), &size) ||
         size != view["byteLength"].get<uint64_t>())
@@ -459,9 +460,8 @@ static void check_compressed_view(const json &root, const json &view, const json
              view["byteLength"].get<uint64_t>());
 }
 
-static void check_buffer_views(const json &root)
+static void check_buffer_views(const json &root, const std::vector<bool> &placeholders)
 {
-    static const json::json_pointer compressed("/extensions/EXT_meshopt_compression");
     auto views = root.find("bufferViews");
     if (views == root.end())
         return;
@@ -479,10 +479,9 @@ static void check_buffer_views(const json &root)
         if (view.contains("byteStride") && view["byteStride"].get<uint64_t>() % 4 != 0)
             fail("VALUE_NOT_IN_RANGE", location_of("bufferViews", i) + "/byteStride",
                  "%" PRIu64 " is not a multiple of 4", view["byteStride"].get<uint64_t>());
-        if (view.contains(compressed))
-            check_compressed_view(root, view, view[compressed],
-                                  location_of("bufferViews", i) +
-                                      "/extensions/EXT_meshopt_compression");
+        if (const char *name = meshopt_extension_of(view))
+            check_compressed_view(root, view, view["extensions"][name], placeholders,
+                                  location_of("bufferViews", i) + "/extensions/" + name);
     }
 }
 
@@ -530,11 +529,11 @@ static void check_choices(const json &root)
         }
 }
 
-gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budget &budget)
+gltf_checked gltf_schema_check(const gltf_container &container, bool lenient, memory_budget &budget)
 {
     json_document document;
     json &root = document.root;
-    parse(text, budget, root);
+    parse(container.json, budget, root);
     refuse_version_1(root);
     checker checker(root, lenient);
     /* Checked first: data missing from such a file may be what the extension brings. */
@@ -543,13 +542,14 @@ gltf_checked gltf_schema_check(std::string_view text, bool lenient, memory_budge
     take_entries(budget, root);
     checker.check_object(root, gltf_root_schema);
     check_version(root);
-    check_buffer_views(root);
+    std::vector<bool> placeholders = placeholder_buffers(root, !container.binary.empty());
+    check_buffer_views(root, placeholders);
     check_sources(root);
     check_choices(root);
 
     gltf_checked checked;
     checked.shares_clamped = checker.clamped();
-    adapt_document(root, checker.changed(), checked);
+    adapt_document(root, checker.changed(), placeholders, checked);
     return checked;
 }
 

@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -51,10 +52,15 @@ extern const schema gltf_root_schema;
 
 /* gltf_adapt.cpp */
 struct gltf_checked;
-bool is_placeholder(const nlohmann::json &buffer);
+/* Name of the extension by which a view, or a buffer, is compressed; NULL: by none. */
+const char *meshopt_extension_of(const nlohmann::json &object);
+/* By buffer: whether it has no data because its views are compressed in other buffers.
+ * `has_binary`: the file has a binary chunk, the data of its first buffer. */
+std::vector<bool> placeholder_buffers(const nlohmann::json &root, bool has_binary);
 /* Fills `checked`; changes the document, which has been checked, where tinygltf needs it.
  * `changed`: whether it is not the file's any more. */
-void adapt_document(nlohmann::json &root, bool changed, gltf_checked &checked);
+void adapt_document(nlohmann::json &root, bool changed, const std::vector<bool> &placeholders,
+                    gltf_checked &checked);
 
 } // namespace lsf
 

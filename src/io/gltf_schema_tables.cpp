@@ -52,9 +52,9 @@ static constexpr rule reference(const char *name, bool required, const char *arr
 {
     return {name, shape::reference, required, 0, 0, array};
 }
-static constexpr rule references(const char *name, const char *array)
+static constexpr rule references(const char *name, bool required, const char *array)
 {
-    return {name, shape::references, OPTIONAL, 0, 0, array};
+    return {name, shape::references, required, 0, 0, array};
 }
 static constexpr rule object(const char *name, bool required, const schema *child)
 {
@@ -78,7 +78,8 @@ static const schema asset = of(asset_rules);
 static const rule buffer_fallback_rules[] = {flag("fallback")};
 static const schema buffer_fallback = of(buffer_fallback_rules);
 static const rule buffer_extension_rules[] = {
-    object("EXT_meshopt_compression", OPTIONAL, &buffer_fallback)};
+    object("EXT_meshopt_compression", OPTIONAL, &buffer_fallback),
+    object("KHR_meshopt_compression", OPTIONAL, &buffer_fallback)};
 static const schema buffer_extensions = of(buffer_extension_rules);
 static const rule buffer_rules[] = {integer("byteLength", REQUIRED, 1, ANY_SIZE), text("uri"),
                                     text("name"), extensions(&buffer_extensions)};
@@ -94,7 +95,8 @@ static const rule meshopt_rules[] = {
     one_of("filter", OPTIONAL, "NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL")};
 static const schema meshopt = of(meshopt_rules);
 static const rule buffer_view_extension_rules[] = {
-    object("EXT_meshopt_compression", OPTIONAL, &meshopt)};
+    object("EXT_meshopt_compression", OPTIONAL, &meshopt),
+    object("KHR_meshopt_compression", OPTIONAL, &meshopt)};
 static const schema buffer_view_extensions = of(buffer_view_extension_rules);
 static const rule buffer_view_rules[] = {
     reference("buffer", REQUIRED, "buffers"),     integer("byteOffset", OPTIONAL, 0, ANY_SIZE),
@@ -300,7 +302,7 @@ static const schema node_extensions = of(node_extension_rules);
 static const rule node_rules[] = {reference("camera", OPTIONAL, "cameras"),
                                   reference("mesh", OPTIONAL, "meshes"),
                                   reference("skin", OPTIONAL, "skins"),
-                                  references("children", "nodes"),
+                                  references("children", OPTIONAL, "nodes"),
                                   numbers("matrix", 16),
                                   numbers("translation", 3),
                                   numbers("rotation", 4),
@@ -310,7 +312,7 @@ static const rule node_rules[] = {reference("camera", OPTIONAL, "cameras"),
                                   extensions(&node_extensions)};
 static const schema node = of(node_rules);
 
-static const rule scene_rules[] = {references("nodes", "nodes"), text("name")};
+static const rule scene_rules[] = {references("nodes", OPTIONAL, "nodes"), text("name")};
 static const schema scene = of(scene_rules);
 
 /* --- animations, skins --- */
@@ -336,7 +338,7 @@ static const schema animation = of(animation_rules);
 
 static const rule skin_rules[] = {reference("inverseBindMatrices", OPTIONAL, "accessors"),
                                   reference("skeleton", OPTIONAL, "nodes"),
-                                  references("joints", "nodes"), text("name")};
+                                  references("joints", REQUIRED, "nodes"), text("name")};
 static const schema skin = of(skin_rules);
 
 /* --- root --- */

@@ -36,7 +36,7 @@ typedef struct lsf_draco_module {
     bool (*decode)(lsf_draco_request *request, lsf_error *error);
 } lsf_draco_module;
 
-/* --- EXT_meshopt_compression --- */
+/* --- EXT_meshopt_compression, KHR_meshopt_compression --- */
 
 typedef enum lsf_meshopt_mode {
     LSF_MESHOPT_ATTRIBUTES,

@@ -1,4 +1,4 @@
-/* The module lightsheaf-meshopt: EXT_meshopt_compression by the meshoptimizer library, whose
+/* The module lightsheaf-meshopt: compressed buffer views by the meshoptimizer library, whose
  * decoders are made for untrusted input. They write count * stride bytes and allocate nothing. */
 #include "io/mesh_modules.h"
 
@@ -51,7 +51,10 @@ static bool decode(const lsf_meshopt_request *request, lsf_error *error)
     }
     if (status != 0)
         return lsf_error_set(error, LSF_ERROR_FILE,
-                             "the compressed bytes are damaged or of a later version");
+                             "the compressed bytes are damaged, or their version, %d, is later "
+                             "than what meshoptimizer %d.%d reads",
+                             request->length ? ((const unsigned char *)request->bytes)[0] & 15 : 0,
+                             MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION / 10 % 100);
     undo_filter(request);
     return true;
 }

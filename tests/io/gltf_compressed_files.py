@@ -84,7 +84,7 @@ case('draco_fallback.gltf', 'ok', 2)
 # Legal without any extension, too: all indices are 0.
 changed('indices_without_view.gltf', 'ok', lambda f: f.json['accessors'][2].pop('bufferView'), 2)
 
-# --- EXT_meshopt_compression, encoded as its specification says, without any compression ----------
+# --- EXT_meshopt_compression and its successor, encoded as its specification says, without any compression ----------
 
 
 def zigzag(value):
@@ -144,7 +144,7 @@ class CompressedFile(File):
                      'byteLength': len(content), 'byteStride': stride, 'count': count,
                      'mode': mode, **({'filter': filter} if filter else {}), **more}
         outer = {'buffer': 1, 'byteOffset': self.size, 'byteLength': stride * count,
-                 'extensions': {'EXT_meshopt_compression': extension}, **(view or {})}
+                 'extensions': {self.extension: extension}, **(view or {})}
         if mode == 'ATTRIBUTES':
             outer['byteStride'] = stride
         self.size += stride * count
@@ -153,8 +153,9 @@ class CompressedFile(File):
 
     def document(self):
         document = super().document()
-        document['buffers'] = [{'byteLength': len(self.data)}, {
-            'byteLength': self.size, 'extensions': {'EXT_meshopt_compression': {'fallback': True}}}]
+        document['buffers'] = [{'byteLength': len(self.data)}, {'byteLength': self.size}]
+        if self.marked:
+            document['buffers'][1]['extensions'] = {self.extension: {'fallback': True}}
         if self.fallback:
             document['buffers'][1]['uri'] = 'data:application/octet-stream;base64,' + \
                 base64.b64encode(self.fallback).decode()
@@ -166,7 +167,9 @@ class CompressedFile(File):
                                          base64.b64encode(self.data).decode())
         write(name, json.dumps(document).encode())
 
+    extension = 'EXT_meshopt_compression'
     fallback = None
+    marked = True
 
 
 # More than a block of 256 elements, so that several follow each other.
@@ -177,9 +180,10 @@ TRIANGLES = [i for y in range(GRID - 1) for x in range(GRID - 1)
 
 
 def meshopt(name, expected, triangles='', mode='TRIANGLES', index_size=2, change=None, glb=False,
-            encode=lambda content: content, **more):
+            encode=lambda content: content, extension='EXT_meshopt_compression', **more):
     """A grid: positions by exponents, normals as octahedra (all of them +x)."""
     file = CompressedFile()
+    file.extension = extension
     positions = b''.join(struct.pack('<3i', *(v * 2 | -1 << 24 for v in p)) for p in POINTS)
     normals = bytes([127, 0, 127, 0]) * len(POINTS)
     encoders = {'TRIANGLES': meshopt_triangles, 'INDICES': meshopt_indices}
@@ -196,8 +200,7 @@ def meshopt(name, expected, triangles='', mode='TRIANGLES', index_size=2, change
          'type': 'SCALAR', 'count': len(TRIANGLES)}]
     file.json['meshes'][0]['primitives'] = [
         {'attributes': {'POSITION': 0, 'NORMAL': 1}, 'indices': 2}]
-    file.json.update(extensionsUsed=['EXT_meshopt_compression'],
-                     extensionsRequired=['EXT_meshopt_compression'])
+    file.json.update(extensionsUsed=[extension], extensionsRequired=[extension])
     if change:
         change(file)
     if glb:
@@ -218,6 +221,8 @@ meshopt('meshopt.gltf', 'ok', WHOLE)
 meshopt('meshopt.glb', 'ok', WHOLE, glb=True)
 meshopt('meshopt_u32.gltf', 'ok', WHOLE, index_size=4)
 meshopt('meshopt_indices.gltf', 'ok', WHOLE, mode='INDICES')
+meshopt('meshopt_khr.gltf', 'ok', WHOLE, extension='KHR_meshopt_compression')
+meshopt('meshopt_unmarked.gltf', 'ok', WHOLE, change=lambda f: setattr(f, 'marked', False))
 meshopt('meshopt_cut.gltf', 'COMPRESSED_DATA_INVALID', encode=lambda content: content[:-400])
 meshopt('meshopt_version.gltf', 'COMPRESSED_DATA_INVALID',
         encode=lambda content: b'\xa1' + content[1:])
@@ -227,6 +232,7 @@ meshopt('meshopt_stride.gltf', 'COMPRESSED_DATA_INVALID',
 meshopt('meshopt_filter.gltf', 'COMPRESSED_DATA_INVALID', change=change_extension(filter='QUATERNION'))
 meshopt('meshopt_triangles.gltf', 'COMPRESSED_DATA_INVALID',
         change=change_extension(mode='TRIANGLES', filter='NONE', byteStride=4, count=1200))
+meshopt('meshopt_color.gltf', 'VALUE_NOT_IN_LIST', change=change_extension(filter='COLOR'))
 meshopt('meshopt_mode.gltf', 'VALUE_NOT_IN_LIST', change=change_extension(mode='LINES'))
 meshopt('meshopt_length.gltf', 'BUFFER_VIEW_TOO_LONG', change=change_extension(byteLength=10**6))
 meshopt('meshopt_placeholder.gltf', 'BUFFER_VIEW_TOO_LONG', change=change_extension(buffer=1))

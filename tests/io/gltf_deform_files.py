@@ -86,6 +86,8 @@ skinned('bind_nan.gltf', 'ACCESSOR_INVALID_FLOAT', bind=(IDENTITY, (math.nan,) *
 skinned('bind_vectors.gltf', 'SKIN_IBM_INVALID_FORMAT',
         change=lambda j: j['skins'][0].update(inverseBindMatrices=0))
 skinned('skin_empty.gltf', 'EMPTY_ENTITY', change=lambda j: j['skins'][0].update(joints=[]))
+skinned('skin_without_joints.gltf', 'UNDEFINED_PROPERTY',
+        change=lambda j: j['skins'][0].pop('joints'))
 skinned('skin_elsewhere.gltf', 'NODE_SKIN_NO_SCENE',
         change=lambda j: j.update(scenes=[{'nodes': [0]}, {'nodes': [1]}], animations=[]))
 skinned('joint_no_node.gltf', 'UNRESOLVED_REFERENCE',

@@ -55,8 +55,9 @@ static void test_draco(void **state)
 static void test_meshopt(void **state)
 {
     (void)state;
-    static const char *const names[] = {"meshopt.gltf", "meshopt.glb", "meshopt_u32.gltf",
-                                        "meshopt_indices.gltf", "meshopt_fallback.gltf"};
+    static const char *const names[] = {
+        "meshopt.gltf",          "meshopt.glb",      "meshopt_u32.gltf",     "meshopt_indices.gltf",
+        "meshopt_fallback.gltf", "meshopt_khr.gltf", "meshopt_unmarked.gltf"};
     enum { GRID = 20 };
     for (size_t n = 0; n < LSF_COUNT(names); n++) {
         lsf_scene *scene = load(names[n]);
