@@ -388,13 +388,15 @@ static void check_version(const json &root)
         wanted = asset["minVersion"].get<std::string>();
     if (wanted.compare(0, 2, "2.") != 0 || (asset.contains("minVersion") && wanted != "2.0"))
         fail("UNKNOWN_ASSET_MAJOR_VERSION", "/asset",
-             "glTF version %s is not supported; export the file as glTF 2.0", wanted.c_str());
+             "glTF version \"%s\" is not supported; export the file as glTF 2.0", wanted.c_str());
 }
 
 /* A file of glTF 1.0 may name no version, and keys its buffers by their names. */
 static void refuse_version_1(const json &root)
 {
-    const json version = root.value("/asset/version"_json_pointer, json());
+    auto asset = root.find("asset");
+    bool named = asset != root.end() && asset->is_object() && asset->contains("version");
+    const json version = named ? (*asset)["version"] : json();
     bool stated = (version.is_string() && version.get<std::string>().compare(0, 2, "1.") == 0) ||
                   (version.is_number() && version.get<double>() < 2);
     if (stated || (version.is_null() && root.contains("buffers") && root["buffers"].is_object()))

@@ -96,6 +96,9 @@ case('glb_no_binary.glb', 'BUFFER_BYTE_LENGTH_MISMATCH')
 write('glb_extra_chunk.glb', glb([(JSON, good), (BIN, binary), (0x41414141, b'more')]))
 case('glb_extra_chunk.glb', 'ok', 2)
 
+write('asset_array.gltf', b'{"asset":[]}')
+case('asset_array.gltf', 'TYPE_MISMATCH at /asset')
+
 # --- 26: depth ----------------------------------------------------------------------------------
 
 write('nested.gltf', b'{"asset":{"version":"2.0"},"extras":' + b'[' * 20000 + b']' * 20000 + b'}')
