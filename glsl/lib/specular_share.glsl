@@ -11,9 +11,9 @@
 layout(location = LSF_LOCATION_SPECULAR_SHARE) uniform float lobe_kernel;
 
 /* Twice the alpha to which the kernel would widen a lobe that reflects so much, seen under the cosine nv, over its own. */
-float widened_twice(float alpha, float reflects, float nv)
+float widened_twice(float kernel, float alpha, float reflects, float nv)
 {
-    return 2.0 * kernel_alpha(lobe_kernel, reflects, sqrt(mix(nv * nv, 1.0, alpha * alpha))) / alpha;
+    return 2.0 * kernel_alpha(kernel, reflects, sqrt(mix(nv * nv, 1.0, alpha * alpha))) / alpha;
 }
 
 /* Share that paths have of a lobe: all if the kernel would widen it, nothing if it is twice as wide as that. */
@@ -36,10 +36,10 @@ float lobe_widened_twice(surface s, vec3 view)
         return 0.0;
 #endif
     float nv = lifted_cosine(view, s.normal), alpha = lsf_alpha_from_roughness(s.roughness);
-    float twice = widened_twice(alpha, largest(surface_specular_fresnel(s, nv)), nv);
+    float twice = widened_twice(lobe_kernel, alpha, largest(surface_specular_fresnel(s, nv)), nv);
 #if LSF_COAT
     float coat_nv = lifted_cosine(view, s.coat_normal);
-    twice = max(twice, widened_twice(lsf_alpha_from_roughness(s.coat_roughness),
+    twice = max(twice, widened_twice(lobe_kernel, lsf_alpha_from_roughness(s.coat_roughness),
                                      s.coat * lsf_fresnel_schlick(LSF_COAT_F0, coat_nv), coat_nv));
 #endif
     return twice;

@@ -130,6 +130,37 @@ bool transmits(surface s)
 #endif
 }
 
+/* Voxels mirror the environment by the direction of it that they keep, too. */
+#define SKY_LAMPS (LSF_SPECULAR_PATHS && LSF_VOXEL_MIRRORS && LSF_VOXEL_LAMPS && LSF_ENVIRONMENT)
+
+#if SKY_LAMPS
+/* Share that directions drawn by the environment's radiance have of what a voxel mirrors of it, weighted against the
+ * path's own: all, unless the lobe is widened to show the lamp that the voxel keeps (lamp_mirrored), or nearly so.
+ * `density`: that of all paths that meet the voxel in this direction [1/sr]; 0: it was not drawn by a BRDF. */
+float sky_lamp_share(surface s, vec3 direction, float density)
+{
+    if (lamp_kernel.x < 0.0)
+        return 0.0;
+    float nv = lifted_cosine(-direction, s.normal), alpha = lsf_alpha_from_roughness(s.roughness);
+    float kernel = max(density > 0.0 ? lamp_kernel.x / density : 0.0, lamp_kernel.y);
+    return 1.0 - narrow_share(widened_twice(kernel, alpha, largest(surface_specular_fresnel(s, nv)), nv));
+}
+
+/* The part of the environment's light that a voxel mirrors, by the one of these directions that it keeps. Its
+ * irradiance is weighted against directions that are drawn by the cosine, and now against those of the lobe. */
+vec3 sky_lamp_mirrored(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, float density)
+{
+    voxel_lamp lamp;
+    if (!voxel_lamp_at(met.s, cell, side, lamp) || lamp.nearness != VOXEL_LAMP_SKY)
+        return vec3(0.0);
+    float drawn = sky_density(environment_radiance(lamp.to_lamp));
+    float by_cosine = max(dot(met.s.normal, lamp.to_lamp), 0.0) / LSF_PI;
+    float by_lobe = brdf_pdf(brdf_sampler_of(met.s, -direction, false), lamp.to_lamp);
+    return lamp_mirrored(met.s, lamp, cell, before.position, direction, density) *
+           (sky_lamp_share(met.s, direction, density) * (drawn + by_cosine) / (drawn + by_lobe));
+}
+#endif
+
 /* Radiance of the side of a voxel towards a path's previous vertex, but for its emission. `density`: that of all paths in
  * this direction [1/sr]; 0: it was not drawn by a BRDF. `mirrors`: the path goes on from the voxel as from a mirror;
  * `straight`: or straight through it. */
@@ -138,7 +169,11 @@ vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3
 #if LSF_VOXEL_MIRRORS
     if (mirrors) {
 #if LSF_VOXEL_LAMPS
-        return voxel_shows_lamp(met.s, cell, side, before.position, direction, density);
+        vec3 shown = voxel_shows_lamp(met.s, cell, side, before.position, direction, density);
+#if SKY_LAMPS
+        shown += sky_lamp_mirrored(met, cell, side, before, direction, density);
+#endif
+        return shown;
 #else
         return vec3(0.0);
 #endif
@@ -230,6 +265,7 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
      * straight through media, as voxels are lit. */
     float spread = 0.0;
     float sky_part = 1.0; /* part of the environment's light along the path that nothing else finds */
+    float sky_lamps = 0.0; /* sky_lamp_share of v */
     for (int segment = 0; segment < lengths.y; segment++) {
         vec3 u = path_random(key, index, uint(segment)), direction = -v.view;
         float pdf = 0.0;
@@ -286,7 +322,7 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
         if (!meets) {
 #if LSF_ENVIRONMENT
             vec3 sky = environment_radiance(direction);
-            sum += through * sky_part * (spread > 0.0 ? sky_left(sky, spread) : sky);
+            sum += through * sky_part * (spread > 0.0 ? sky_left(sky, spread) : mix(sky, sky_left(sky, pdf), sky_lamps));
 #endif
             break;
         }
@@ -294,6 +330,9 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
         through *= left_after(absorption, met.position - v.position);
 #if LSF_VOXEL_MIRRORS
         mirrors = voxel_mirrors(met.s, pdf);
+#if SKY_LAMPS
+        sky_lamps = mirrors ? sky_lamp_share(met.s, direction, float(paths) * pdf) : 0.0;
+#endif
 #endif
         bool last = false, straight = false;
 #if LSF_PATHS_BOUNCE
