@@ -157,7 +157,7 @@ vec3 sky_lamp_mirrored(path_vertex met, ivec3 cell, int side, path_vertex before
     float by_cosine = max(dot(met.s.normal, lamp.to_lamp), 0.0) / LSF_PI;
     float by_lobe = brdf_pdf(brdf_sampler_of(met.s, -direction, false), lamp.to_lamp);
     return lamp_mirrored(met.s, lamp, cell, before.position, direction, density) *
-           (sky_lamp_share(met.s, direction, density) * (drawn + by_cosine) / (drawn + by_lobe));
+           (sky_lamp_share(met.s, direction, density) * (drawn + by_cosine) / max(drawn + by_lobe, 1e-6));
 }
 #endif
 
@@ -322,7 +322,11 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
         if (!meets) {
 #if LSF_ENVIRONMENT
             vec3 sky = environment_radiance(direction);
-            sum += through * sky_part * (spread > 0.0 ? sky_left(sky, spread) : mix(sky, sky_left(sky, pdf), sky_lamps));
+            if (spread > 0.0)
+                sky = sky_left(sky, spread);
+            else if (sky_lamps > 0.0)
+                sky = mix(sky, sky_left(sky, pdf), sky_lamps);
+            sum += through * sky_part * sky;
 #endif
             break;
         }
