@@ -84,7 +84,7 @@ case('draco_fallback.gltf', 'ok', 2)
 # Legal without any extension, too: all indices are 0.
 changed('indices_without_view.gltf', 'ok', lambda f: f.json['accessors'][2].pop('bufferView'), 2)
 
-# --- EXT_meshopt_compression and its successor, encoded as its specification says, without any compression ----------
+# --- EXT_meshopt_compression and its successor, encoded as specified, without any compression -----
 
 
 def zigzag(value):
