@@ -146,7 +146,7 @@ float sky_lamp_share(surface s, vec3 direction, float density)
     return 1.0 - narrow_share(widened_twice(kernel, alpha, largest(surface_specular_fresnel(s, nv)), nv));
 }
 
-/* The part of the environment's light that a voxel mirrors, by the one of these directions that it keeps. Its
+/* What a voxel mirrors of the environment, by the one of these directions that it keeps, but for that share. Its
  * irradiance is weighted against directions that are drawn by the cosine, and now against those of the lobe. */
 vec3 sky_lamp_mirrored(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, float density)
 {
@@ -157,7 +157,7 @@ vec3 sky_lamp_mirrored(path_vertex met, ivec3 cell, int side, path_vertex before
     float by_cosine = max(dot(met.s.normal, lamp.to_lamp), 0.0) / LSF_PI;
     float by_lobe = brdf_pdf(brdf_sampler_of(met.s, -direction, false), lamp.to_lamp);
     return lamp_mirrored(met.s, lamp, cell, before.position, direction, density) *
-           (sky_lamp_share(met.s, direction, density) * (drawn + by_cosine) / max(drawn + by_lobe, 1e-6));
+           ((drawn + by_cosine) / max(drawn + by_lobe, 1e-6));
 }
 #endif
 
@@ -169,11 +169,7 @@ vec3 voxel_shows(path_vertex met, ivec3 cell, int side, path_vertex before, vec3
 #if LSF_VOXEL_MIRRORS
     if (mirrors) {
 #if LSF_VOXEL_LAMPS
-        vec3 shown = voxel_shows_lamp(met.s, cell, side, before.position, direction, density);
-#if SKY_LAMPS
-        shown += sky_lamp_mirrored(met, cell, side, before, direction, density);
-#endif
-        return shown;
+        return voxel_shows_lamp(met.s, cell, side, before.position, direction, density);
 #else
         return vec3(0.0);
 #endif
@@ -351,6 +347,11 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
             sum += emission;
         if (!last)
             sum += through * grid.unit.x * voxel_shows(met, cell, side, v, direction, float(paths) * pdf, mirrors, straight);
+#if SKY_LAMPS
+        if (!last && sky_lamps > 0.0)
+            sum += through * (grid.unit.x * sky_lamps) *
+                   sky_lamp_mirrored(met, cell, side, v, direction, float(paths) * pdf);
+#endif
         if (met.s.unlit || (!transmits(met.s) && !mirrors && !spreads))
             break;
         v = met;
