@@ -6,10 +6,6 @@
 #include "lib/brdf.glsl"
 #include "shared/scene_data.h"
 
-#if LSF_SPECULAR_PATHS
-/* Solid angle over which the other samples spread a lobe that reflects all light [sr], as in brdf_evaluate. */
-layout(location = LSF_LOCATION_SPECULAR_SHARE) uniform float lobe_kernel;
-
 /* Twice the alpha to which the kernel would widen a lobe that reflects so much, seen under the cosine nv, over its own. */
 float widened_twice(float kernel, float alpha, float reflects, float nv)
 {
@@ -27,6 +23,10 @@ float lifted_cosine(vec3 view, vec3 normal)
 {
     return max(dot(normal, lift_to_horizon(view, normal)), LSF_COSINE_MIN);
 }
+
+#if LSF_SPECULAR_PATHS
+/* Solid angle over which the other samples spread a lobe that reflects all light [sr], as in brdf_evaluate. */
+layout(location = LSF_LOCATION_SPECULAR_SHARE) uniform float lobe_kernel;
 
 /* widened_twice of a visible point's narrower lobe; 0: paths have no share. */
 float lobe_widened_twice(surface s, vec3 view)

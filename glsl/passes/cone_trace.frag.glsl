@@ -6,6 +6,7 @@
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
 #include "lib/voxel_cone.glsl"
+#include "lib/voxel_sky_lamp.glsl"
 
 layout(location = 0) out vec4 irradiance_out; /* alpha: ambient visibility, of green light */
 #if LSF_SPECULAR
@@ -50,7 +51,7 @@ layout(location = 1) uniform int most_mirrors; /* that a ray of the specular lob
 
 /* Light along a direction drawn from the lobe of a visible point with density `pdf`: from voxels, weighted against
  * points drawn on emitters, and from the environment, weighted against directions drawn by its radiance. What voxels
- * mirror of them is found in no other way. */
+ * mirror of emitters is found in no other way. */
 vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
 {
     vec3 sum = vec3(0.0), through = vec3(1.0), sky = vec3(0.0);
@@ -70,6 +71,11 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
 #if LSF_VOXEL_LAMPS
         shown += voxel_shows_lamp(s, way.cell, side, point, direction, pdf);
 #endif
+#if VOXEL_SKY_LAMPS
+        float sky_lamps = sky_lamp_share(s, direction, pdf);
+        if (sky_lamps > 0.0)
+            shown += sky_lamps * sky_lamp_mirrored(s, way.cell, side, point, direction, pdf);
+#endif
         sum += through * (way.radiance + way.left * shown);
         through *= way.left;
         point = vec3(way.cell) + voxel_point_unpack(texelFetch(voxel_point, way.cell, 0).r);
@@ -78,6 +84,9 @@ vec3 lobe_finds(vec3 point, vec3 normal, vec3 direction, float pdf)
             return grid.unit.x * sum;
         density = ONLY_WAY;
         sky = environment_radiance(direction);
+#if VOXEL_SKY_LAMPS
+        sky = mix(sky, sky_left(sky, pdf), sky_lamps);
+#endif
         way = cone_follow(point, s.geometric_normal, direction);
     }
 #endif

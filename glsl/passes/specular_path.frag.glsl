@@ -13,6 +13,7 @@
 #include "lib/sparse.glsl"
 #include "lib/specular_share.glsl"
 #include "lib/straight.glsl"
+#include "lib/voxel_sky_lamp.glsl"
 #include "lib/voxel_vertex.glsl"
 
 layout(binding = LSF_UNIT_VOXEL_RADIANCE) uniform sampler3D voxel_radiance; /* two slices along z, one for each side */
@@ -131,35 +132,7 @@ bool transmits(surface s)
 }
 
 /* Voxels mirror the environment by the direction of it that they keep, too. */
-#define SKY_LAMPS (LSF_SPECULAR_PATHS && LSF_VOXEL_MIRRORS && LSF_VOXEL_LAMPS && LSF_ENVIRONMENT)
-
-#if SKY_LAMPS
-/* Share that directions drawn by the environment's radiance have of what a voxel mirrors of it, weighted against the
- * path's own: all, unless the lobe is widened to show the lamp that the voxel keeps (lamp_mirrored), or nearly so.
- * `density`: that of all paths that meet the voxel in this direction [1/sr]; 0: it was not drawn by a BRDF. */
-float sky_lamp_share(surface s, vec3 direction, float density)
-{
-    if (lamp_kernel.x < 0.0)
-        return 0.0;
-    float nv = lifted_cosine(-direction, s.normal), alpha = lsf_alpha_from_roughness(s.roughness);
-    float kernel = max(density > 0.0 ? lamp_kernel.x / density : 0.0, lamp_kernel.y);
-    return 1.0 - narrow_share(widened_twice(kernel, alpha, largest(surface_specular_fresnel(s, nv)), nv));
-}
-
-/* What a voxel mirrors of the environment, by the one of these directions that it keeps, but for that share. Its
- * irradiance is weighted against directions that are drawn by the cosine, and now against those of the lobe. */
-vec3 sky_lamp_mirrored(path_vertex met, ivec3 cell, int side, path_vertex before, vec3 direction, float density)
-{
-    voxel_lamp lamp;
-    if (!voxel_lamp_at(met.s, cell, side, lamp) || lamp.nearness != VOXEL_LAMP_SKY)
-        return vec3(0.0);
-    float drawn = sky_density(environment_radiance(lamp.to_lamp));
-    float by_cosine = max(dot(met.s.normal, lamp.to_lamp), 0.0) / LSF_PI;
-    float by_lobe = brdf_pdf(brdf_sampler_of(met.s, -direction, false), lamp.to_lamp);
-    return lamp_mirrored(met.s, lamp, cell, before.position, direction, density) *
-           ((drawn + by_cosine) / max(drawn + by_lobe, 1e-6));
-}
-#endif
+#define SKY_LAMPS (LSF_SPECULAR_PATHS && VOXEL_SKY_LAMPS)
 
 /* Radiance of the side of a voxel towards a path's previous vertex, but for its emission. `density`: that of all paths in
  * this direction [1/sr]; 0: it was not drawn by a BRDF. `mirrors`: the path goes on from the voxel as from a mirror;
@@ -350,7 +323,7 @@ void add_path(path_vertex v, seen_body body, float share, path_random_key key, u
 #if SKY_LAMPS
         if (!last && sky_lamps > 0.0)
             sum += through * (grid.unit.x * sky_lamps) *
-                   sky_lamp_mirrored(met, cell, side, v, direction, float(paths) * pdf);
+                   sky_lamp_mirrored(met.s, cell, side, v.position, direction, float(paths) * pdf);
 #endif
         if (met.s.unlit || (!transmits(met.s) && !mirrors && !spreads))
             break;

@@ -8,6 +8,7 @@
 #include "lib/pixel_tile.glsl"
 #include "lib/sky.glsl"
 #include "lib/sparse.glsl"
+#include "lib/voxel_sky_lamp.glsl"
 #include "lib/voxel_vertex.glsl"
 #if LSF_VOXEL_DRAW
 #include "lib/voxel_draw.glsl"
@@ -148,14 +149,18 @@ vec3 reflected_of(vec3 spread, path_vertex met, ivec3 cell, int side, path_verte
 #endif
 }
 
-/* What a voxel that mirrors shows of lamps. */
-vec3 lamps_of(path_vertex met, ivec3 cell, int side, path_vertex v, vec3 direction, float density)
+/* What a voxel that mirrors shows of lamps; `sky_lamps`: its share of the environment's (sky_lamp_share). */
+vec3 lamps_of(path_vertex met, ivec3 cell, int side, path_vertex v, vec3 direction, float density, float sky_lamps)
 {
+    vec3 shown = vec3(0.0);
 #if LSF_VOXEL_LAMPS
-    return voxel_shows_lamp(met.s, cell, side, v.position, direction, density);
-#else
-    return vec3(0.0);
+    shown = voxel_shows_lamp(met.s, cell, side, v.position, direction, density);
 #endif
+#if VOXEL_SKY_LAMPS
+    if (sky_lamps > 0.0)
+        shown += sky_lamps * sky_lamp_mirrored(met.s, cell, side, v.position, direction, density);
+#endif
+    return shown;
 }
 
 #if LSF_VOXEL_DRAW
@@ -224,12 +229,15 @@ bool draw_direction(path_vertex v, brdf_sampler sampler_of_v, vec3 u, int segmen
 #if LSF_ENVIRONMENT
 /* Radiance of the environment along a direction drawn with density `pdf`, weighted against directions drawn by
  * this radiance: at a visible point, which has `count` paths, by its BRDF, at voxels by the cosine, as in
- * voxel_light. Light through a surface, and of voxels that mirror, is found by no other strategy. */
-vec3 sky_found(path_vertex v, vec3 direction, float pdf, int segment, float count)
+ * voxel_light. Voxels that mirror find it by their lobe, and by such directions with the share `sky_lamps`. Light
+ * through a surface is found by no other strategy. */
+vec3 sky_found(path_vertex v, vec3 direction, float pdf, int segment, float count, bool mirrors, float sky_lamps)
 {
     vec3 radiance = environment_radiance(direction);
     if (pdf <= 0.0)
         return radiance;
+    if (mirrors)
+        return mix(radiance, sky_left(radiance, pdf), sky_lamps);
     return sky_left(radiance,
                     segment == 0 ? count * pdf : dot(v.s.normal, direction) / LSF_PI);
 }
@@ -242,6 +250,7 @@ void add_path(path_vertex v, seen_body body, path_random_key key, uint index, in
     light_parts through = light_parts(vec3(1.0), vec3(1.0));
     vec3 absorption = vec3(0.0); /* the camera is in air */
     bool mirrors = false;        /* v shows the environment in its lobe */
+    float sky_lamps = 0.0;       /* sky_lamp_share of v */
     for (int segment = 0; segment < lengths.y; segment++) {
         brdf_sampler sampler_of_v = brdf_sampler_of(v.s, v.view, segment == 0);
 #if LSF_TRANSMISSION
@@ -283,7 +292,7 @@ void add_path(path_vertex v, seen_body body, path_random_key key, uint index, in
 #endif
         if (!meets) {
 #if LSF_ENVIRONMENT
-            add_light(through, sky_found(v, direction, mirrors ? 0.0 : pdf, segment, float(count)), segment == 0);
+            add_light(through, sky_found(v, direction, pdf, segment, float(count), mirrors, sky_lamps), segment == 0);
 #endif
             return;
         }
@@ -296,8 +305,14 @@ void add_path(path_vertex v, seen_body body, path_random_key key, uint index, in
         /* The last segment collects emission, with no bounce left to reflect other light; emission at the first
          * hit counts as direct light. */
         mirrors = voxel_mirrors_light(met.s, pdf);
+#if VOXEL_SKY_LAMPS
+        sky_lamps = mirrors && is_smooth_metal(met.s.metallic, met.s.roughness)
+                        ? sky_lamp_share(met.s, direction, float(count) * pdf)
+                        : 0.0;
+#endif
         if (segment < lengths.x && mirrors) {
-            add_light(through, grid.unit.x * lamps_of(met, cell, side, v, direction, float(count) * pdf), false);
+            add_light(through, grid.unit.x * lamps_of(met, cell, side, v, direction, float(count) * pdf, sky_lamps),
+                      false);
         } else if (segment < lengths.x) {
             vec3 by, spread = spread_of(cell, side, by);
             float density = pdf;
