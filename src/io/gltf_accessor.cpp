@@ -51,8 +51,7 @@ std::string accessor_format(const tinygltf::Accessor &accessor)
 /* Checks that `count` elements of `size` bytes lie inside the buffer view. The schema check
  * compared the view with its buffer. */
 static element_span find_elements(const gltf_import &import, int view_index, uint64_t offset,
-                                  uint64_t count, uint64_t size, uint64_t component,
-                                  const std::string &location)
+                                  uint64_t count, uint64_t size, const std::string &location)
 {
     const tinygltf::BufferView &view = import.model.bufferViews[(size_t)view_index];
     const tinygltf::Buffer &buffer = import.model.buffers[(size_t)view.buffer];
@@ -60,10 +59,6 @@ static element_span find_elements(const gltf_import &import, int view_index, uin
     if (stride < size)
         fail("ACCESSOR_SMALL_BYTESTRIDE", location,
              "elements of %" PRIu64 " bytes stand %" PRIu64 " bytes apart", size, stride);
-    if (offset % component != 0 || (view.byteOffset + offset) % component != 0)
-        fail("ACCESSOR_TOTAL_OFFSET_ALIGNMENT", location,
-             "byte offset %" PRIu64 " is not a multiple of the component's %" PRIu64 " bytes",
-             view.byteOffset + offset, component);
     uint64_t length;
     if (__builtin_mul_overflow(count - 1, stride, &length) ||
         __builtin_add_overflow(length, size, &length) ||
@@ -148,10 +143,10 @@ static void for_each_sparse(const gltf_import &import, const tinygltf::Accessor 
     uint64_t index_size = component_size(sparse.indices.componentType);
     element_span indices =
         find_elements(import, sparse.indices.bufferView, (uint64_t)sparse.indices.byteOffset, count,
-                      index_size, index_size, location + "/sparse/indices");
-    element_span values = find_elements(
-        import, sparse.values.bufferView, (uint64_t)sparse.values.byteOffset, count, element_size,
-        component_size(accessor.componentType), location + "/sparse/values");
+                      index_size, location + "/sparse/indices");
+    element_span values =
+        find_elements(import, sparse.values.bufferView, (uint64_t)sparse.values.byteOffset, count,
+                      element_size, location + "/sparse/values");
     uint64_t previous = 0;
     for (uint64_t i = 0; i < count; i++) {
         uint64_t element =
@@ -168,15 +163,19 @@ static void for_each_sparse(const gltf_import &import, const tinygltf::Accessor 
 }
 
 /* Element count and bounds of every accessor, before any memory is taken for one. */
-void accessors_check(const gltf_import &import)
+void accessors_check(gltf_import &import)
 {
     for (size_t i = 0; i < import.model.accessors.size(); i++) {
         const tinygltf::Accessor &accessor = import.model.accessors[i];
         uint64_t component = component_size(accessor.componentType);
         uint64_t width = (uint64_t)tinygltf::GetNumComponentsInType((uint32_t)accessor.type);
-        if (accessor.bufferView >= 0)
-            find_elements(import, accessor.bufferView, accessor.byteOffset, accessor.count,
-                          component * width, component, location_of("accessors", i));
+        if (accessor.bufferView < 0)
+            continue;
+        find_elements(import, accessor.bufferView, accessor.byteOffset, accessor.count,
+                      component * width, location_of("accessors", i));
+        /* Values are copied byte by byte, so that this is no obstacle. */
+        size_t view_offset = import.model.bufferViews[(size_t)accessor.bufferView].byteOffset;
+        import.repairs.unaligned_accessors += (view_offset + accessor.byteOffset) % component != 0;
     }
 }
 
@@ -192,7 +191,7 @@ static uint64_t read_any_floats(const gltf_import &import, int index, std::vecto
     element_span span = {nullptr, 0};
     if (accessor.bufferView >= 0)
         span = find_elements(import, accessor.bufferView, accessor.byteOffset, accessor.count, size,
-                             component, location);
+                             location);
     size_t first = values.size();
     values.resize(first + accessor.count * width);
     if (span.data)
@@ -241,7 +240,7 @@ void accessor_read_indices(const gltf_import &import, int index, uint64_t limit,
     values.resize(first + accessor.count);
     if (accessor.bufferView >= 0) {
         element_span span = find_elements(import, accessor.bufferView, accessor.byteOffset,
-                                          accessor.count, size, size, location);
+                                          accessor.count, size, location);
         for (uint64_t i = 0; i < accessor.count; i++)
             values[first + i] = load_unsigned(span.data + i * span.stride, accessor.componentType);
     }

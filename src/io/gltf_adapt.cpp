@@ -35,9 +35,16 @@ std::vector<bool> placeholder_buffers(const json &root, bool has_binary)
     for (size_t i = 0; views != root.end() && i < views->size(); i++)
         if (meshopt_extension_of((*views)[i]))
             placeholders[(*views)[i]["buffer"].get<size_t>()] = true;
-    for (size_t i = 0; i < placeholders.size(); i++)
-        if ((*buffers)[i].contains("uri") || (i == 0 && has_binary))
-            placeholders[i] = false;
+    /* Nothing is missing from buffers that no view reads. */
+    std::vector<bool> viewed(placeholders.size());
+    for (size_t i = 0; views != root.end() && i < views->size(); i++)
+        viewed[(*views)[i]["buffer"].get<size_t>()] = true;
+    for (size_t i = 0; i < placeholders.size(); i++) {
+        const json &buffer = (*buffers)[i];
+        bool has_data = buffer.contains("uri") || (i == 0 && has_binary);
+        placeholders[i] =
+            buffer["byteLength"] == 0 || (!has_data && (placeholders[i] || !viewed[i]));
+    }
     return placeholders;
 }
 
@@ -95,7 +102,7 @@ void adapt_document(json &root, bool changed, const std::vector<bool> &placehold
         json &buffer = (*buffers)[i];
         if (placeholders[i])
             buffer["byteLength"] = 1;
-        if (!buffer.contains("uri"))
+        if (placeholders[i] || !buffer.contains("uri"))
             buffer["uri"] = "none";
     }
     checked.json = root.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -17,7 +17,8 @@ static uint32_t little_endian_u32(std::string_view bytes, size_t offset)
     return value;
 }
 
-static void check_header(std::string_view bytes)
+/* Returns the declared length. */
+static uint32_t check_header(std::string_view bytes)
 {
     if (bytes.size() < 12)
         fail("GLB_UNEXPECTED_END_OF_HEADER", "GLB header",
@@ -26,10 +27,22 @@ static void check_header(std::string_view bytes)
     if (version != 2)
         fail("GLB_INVALID_VERSION", "GLB header",
              "version %" PRIu32 " is not supported; export the file as glTF 2.0", version);
-    if (length != bytes.size())
+    if (length < 12 || length > bytes.size())
         fail("GLB_LENGTH_MISMATCH", "GLB header",
              "%" PRIu32 " bytes are declared, the file has %zu; copy or export it again", length,
              bytes.size());
+    return length;
+}
+
+/* After a chunk whose length is no multiple of 4: some exporters leave out the padding, others do
+ * not count it. */
+static size_t skip_padding(std::string_view bytes, size_t offset)
+{
+    size_t padded = (offset + 3) / 4 * 4;
+    if (padded >= bytes.size())
+        return bytes.size();
+    bool header = padded + 8 <= bytes.size() && little_endian_u32(bytes, padded + 4) == CHUNK_BIN;
+    return header ? padded : offset;
 }
 
 gltf_container gltf_container_split(std::string_view bytes)
@@ -41,7 +54,9 @@ gltf_container gltf_container_split(std::string_view bytes)
         return container;
     }
     container.is_glb = true;
-    check_header(bytes);
+    uint32_t declared = check_header(bytes);
+    container.trailing = bytes.size() - declared;
+    bytes = container.bytes = bytes.substr(0, declared);
 
     size_t offset = 12;
     for (uint32_t chunk = 0; offset < bytes.size(); chunk++) {
@@ -56,9 +71,7 @@ gltf_container gltf_container_split(std::string_view bytes)
             fail("GLB_UNEXPECTED_END_OF_CHUNK_DATA", location,
                  "%" PRIu32 " bytes are declared, %zu follow; copy or export the file again",
                  length, bytes.size() - offset);
-        if (length % 4 != 0)
-            fail("GLB_CHUNK_LENGTH_UNALIGNED", location,
-                 "length %" PRIu32 " is not a multiple of 4; export the file again", length);
+        container.unpadded += length % 4 != 0;
         if ((chunk == 0) != (type == CHUNK_JSON))
             fail(chunk == 0 ? "GLB_UNEXPECTED_FIRST_CHUNK" : "GLB_DUPLICATE_CHUNK", location,
                  "chunk type 0x%08" PRIx32 "; the JSON chunk, and only it, comes first", type);
@@ -69,7 +82,7 @@ gltf_container gltf_container_split(std::string_view bytes)
             container.json = bytes.substr(offset, length);
         else if (type == CHUNK_BIN)
             container.binary = bytes.substr(offset, length);
-        offset += length;
+        offset = skip_padding(bytes, offset + length);
     }
     if (container.json.empty())
         fail("GLB_EMPTY_CHUNK", "GLB chunk 0", "there is no JSON; export the file again");

@@ -106,6 +106,10 @@ static void read_buffers(gltf_import &import, const gltf_container &container,
                 fail("BUFFER_BYTE_LENGTH_MISMATCH", location,
                      "%" PRIu64 " bytes are declared, the data URI holds %" PRIu64,
                      source.byte_length, size);
+            if (!tinygltf::IsDataURI(source.uri)) { /* a media type that it does not know */
+                std::string decoded = uri_data(source.uri, location + "/uri");
+                queue.contents.emplace_back(decoded.begin(), decoded.end());
+            }
         } else {
             queue.contents.push_back(read_buffer_file(import, source, location));
         }
@@ -136,6 +140,9 @@ void gltf_document_read(gltf_import &import)
     gltf_container container = gltf_container_split(bytes);
     gltf_checked checked = gltf_schema_check(container, import.params->lenient, import.budget);
     import.repairs.shares_clamped = checked.shares_clamped;
+    import.repairs.integers_rewritten = checked.integers_rewritten;
+    import.repairs.trailing_bytes = container.trailing;
+    import.repairs.unpadded_chunks = container.unpadded;
     buffer_queue queue;
     read_buffers(import, container, checked, queue);
     if (!checked.json.empty()) {
@@ -152,9 +159,10 @@ void gltf_document_read(gltf_import &import)
         container.binary.empty()
             ? parser.LoadASCIIFromString(&import.model, &error, &warning, container.json.data(),
                                          (unsigned int)container.json.size(), "")
-            : parser.LoadBinaryFromMemory(&import.model, &error, &warning,
-                                          reinterpret_cast<const unsigned char *>(bytes.data()),
-                                          (unsigned int)bytes.size(), "");
+            : parser.LoadBinaryFromMemory(
+                  &import.model, &error, &warning,
+                  reinterpret_cast<const unsigned char *>(container.bytes.data()),
+                  (unsigned int)container.bytes.size(), "");
     for (const gltf_checked::indices &indices : checked.indices_without_view)
         if (parsed)
             import.model.meshes[indices.mesh].primitives[indices.primitive].indices =

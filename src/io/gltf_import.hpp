@@ -109,8 +109,10 @@ class memory_loan
 
 /* The bytes of a .gltf or .glb, told apart by the magic, with the chunks of the latter. */
 struct gltf_container {
-    std::string_view bytes, json, binary;
+    std::string_view bytes, json, binary; /* `bytes` without what follows the declared length */
     bool is_glb = false;
+    uint64_t trailing = 0; /* bytes that follow it */
+    uint64_t unpadded = 0; /* chunks whose length is no multiple of 4: tinygltf refuses them */
 };
 
 gltf_container gltf_container_split(std::string_view bytes); /* gltf_container.cpp */
@@ -134,7 +136,8 @@ struct gltf_checked {
         int accessor;
     };
     std::vector<indices> indices_without_view;
-    uint64_t shares_clamped = 0; /* factors beyond 0 to 1 */
+    uint64_t shares_clamped = 0;     /* factors beyond 0 to 1 */
+    uint64_t integers_rewritten = 0; /* that were written with a point, as 1.0 */
 };
 bool extension_is_supported(const std::string &name);
 gltf_checked gltf_schema_check(const gltf_container &container, bool lenient,
@@ -176,7 +179,8 @@ struct gltf_repairs {
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
     uint64_t textures_without_image = 0, images_absent = 0, negative_colors = 0;
-    uint64_t shares_clamped = 0;
+    uint64_t shares_clamped = 0, integers_rewritten = 0, unaligned_accessors = 0;
+    uint64_t trailing_bytes = 0, unpadded_chunks = 0;
 };
 
 /* The property that a channel of an animation changes. */
@@ -251,7 +255,7 @@ void set_trs(gltf_import &import, const double translation[3], const double rota
 /* --- accessors, gltf_accessor.cpp --- */
 
 /* Checks that every accessor lies within its buffer view. */
-void accessors_check(const gltf_import &import);
+void accessors_check(gltf_import &import);
 /* Appends count * width floats; normalised integers become -1..1 or 0..1. Fails at NaN and
  * infinity. */
 void accessor_read_floats(const gltf_import &import, int accessor, std::vector<float> &values);

@@ -85,7 +85,7 @@ void gltf_meshopt_decode(gltf_import &import)
         if (name && must_be_decoded(import, views[i], name))
             decode_view(import, i, views[i].extensions.at(name),
                         location_of("bufferViews", i) + "/extensions/" + name);
-        else if (import.placeholders[(size_t)views[i].buffer])
+        else if (import.placeholders[(size_t)views[i].buffer] && views[i].byteLength > 0)
             fail("UNDEFINED_PROPERTY", location_of("bufferViews", i),
                  "buffer %d has no data, and the view does not say where they are; export the file "
                  "again",

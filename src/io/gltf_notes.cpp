@@ -57,6 +57,14 @@ void gltf_notes_add(gltf_import &import)
                              " that cannot be found: materials are shown without");
     lsf_scene_add_count_note(import.scene, repairs.shares_clamped, "factor",
                              " beyond 0 to 1: the nearest of the two is used");
+    lsf_scene_add_count_note(import.scene, repairs.integers_rewritten, "number",
+                             " written with a point where an integer is meant: read as integer");
+    lsf_scene_add_count_note(import.scene, repairs.trailing_bytes, "byte",
+                             " beyond the length that the GLB declares: ignored");
+    lsf_scene_add_count_note(import.scene, repairs.unpadded_chunks, "GLB chunk",
+                             " of a length that is no multiple of 4: read as it is");
+    lsf_scene_add_count_note(import.scene, repairs.unaligned_accessors, "accessor",
+                             " whose offset is no multiple of its components' size: read as it is");
     note_left_out(import, repairs.point_primitives, repairs.points, "points");
     note_left_out(import, repairs.line_primitives, repairs.lines, "lines");
     lsf_scene_add_count_note(import.scene, repairs.no_position, "primitive",

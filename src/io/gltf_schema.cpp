@@ -160,6 +160,10 @@ class checker
     {
         return clamped_;
     }
+    uint64_t integers_rewritten() const
+    {
+        return integers_rewritten_;
+    }
 
     uint64_t count(const char *array) const
     {
@@ -175,13 +179,14 @@ class checker
             counts_[array] = root_[pointer].size();
     }
     void check(json &value, const rule &rule, bool extension);
-    void check_integer(const json &value, double low, double high);
+    void check_integer(json &value, double low, double high);
     void check_number(json &value, double low, double high, bool extension);
     void check_share(json &value);
-    void check_code(const json &value, const char *names);
+    void check_code(json &value, const char *names);
     void check_name(const json &value, const char *names);
-    void check_reference(const json &value, const char *array);
+    void check_reference(json &value, const char *array);
     void expect(bool holds, const json &value, const char *wanted);
+    void expect_integer(json &value, const char *wanted);
     /* Runs `each` on all entries with the location extended by their index. */
     template <class Each> void check_entries(json &value, Each each);
     /* The same for the members of an object. */
@@ -190,7 +195,7 @@ class checker
     json &root_;
     bool lenient_;
     bool changed_ = false;
-    uint64_t clamped_ = 0;
+    uint64_t clamped_ = 0, integers_rewritten_ = 0;
     std::map<std::string, uint64_t> counts_;
     std::string location_; /* a JSON pointer, extended and cut while descending */
 };
@@ -221,9 +226,25 @@ template <class Each> void checker::check_entries(json &value, Each each)
     }
 }
 
-void checker::check_integer(const json &value, double low, double high)
+/* An integer may be written as 1.0, which the specification forbids and tinygltf does not read. */
+void checker::expect_integer(json &value, const char *wanted)
 {
-    expect(value.is_number_integer(), value, "an integer");
+    if (value.is_number_float()) {
+        double number = value.get<double>();
+        if (number == std::floor(number) && std::fabs(number) <= 0x1p53) {
+            value = (int64_t)number;
+            if (number >= 0.0)
+                value = (uint64_t)number;
+            changed_ = true;
+            integers_rewritten_++;
+        }
+    }
+    expect(value.is_number_integer(), value, wanted);
+}
+
+void checker::check_integer(json &value, double low, double high)
+{
+    expect_integer(value, "an integer");
     bool inside = value.is_number_unsigned() && (double)value.get<uint64_t>() >= low &&
                   (double)value.get<uint64_t>() <= high;
     if (!inside)
@@ -275,9 +296,9 @@ static bool among(const std::string &text, const char *names)
     return false;
 }
 
-void checker::check_code(const json &value, const char *names)
+void checker::check_code(json &value, const char *names)
 {
-    expect(value.is_number_integer(), value, "an integer");
+    expect_integer(value, "an integer");
     if (!among(value.dump(), names))
         fail("VALUE_NOT_IN_LIST", location_, "%s is not one of %s", shown(value).c_str(), names);
 }
@@ -289,9 +310,9 @@ void checker::check_name(const json &value, const char *names)
         fail("VALUE_NOT_IN_LIST", location_, "%s is not one of %s", shown(value).c_str(), names);
 }
 
-void checker::check_reference(const json &value, const char *array)
+void checker::check_reference(json &value, const char *array)
 {
-    expect(value.is_number_integer(), value, "an index");
+    expect_integer(value, "an index");
     if (!value.is_number_unsigned() || value.get<uint64_t>() >= count(array))
         fail("UNRESOLVED_REFERENCE", location_,
              "there is no entry %s in \"%s\", which has %" PRIu64, shown(value).c_str(), array,
@@ -337,21 +358,20 @@ void checker::check(json &value, const rule &rule, bool extension)
     case shape::reference:
         return check_reference(value, rule.names);
     case shape::integers:
-        return check_members(
-            value, [&](const json &member) { check_integer(member, rule.low, rule.high); });
+        return check_members(value,
+                             [&](json &member) { check_integer(member, rule.low, rule.high); });
     case shape::references:
-        return check_entries(value, [&](const json &entry) { check_reference(entry, rule.names); });
+        return check_entries(value, [&](json &entry) { check_reference(entry, rule.names); });
     case shape::object:
         return check_object(value, *rule.child, extension);
     case shape::objects:
         return check_entries(value,
                              [&](json &entry) { check_object(entry, *rule.child, extension); });
     case shape::attributes:
-        return check_members(value,
-                             [&](const json &member) { check_reference(member, "accessors"); });
+        return check_members(value, [&](json &member) { check_reference(member, "accessors"); });
     case shape::targets:
         return check_entries(value, [&](json &entry) {
-            check_members(entry, [&](const json &member) { check_reference(member, "accessors"); });
+            check_members(entry, [&](json &member) { check_reference(member, "accessors"); });
         });
     case shape::extensions:
         return check_object(value, *rule.child, true);
@@ -487,14 +507,24 @@ static void check_buffer_views(const json &root, const std::vector<bool> &placeh
     }
 }
 
+/* tinygltf decodes those of known types, and names no cause where it cannot. */
+static void check_image_uri(const std::string &uri, const std::string &location)
+{
+    if (tinygltf::IsDataURI(uri))
+        uri_data_size(uri, location);
+}
+
 static void check_sources(const json &root)
 {
     auto images = root.find("images");
-    if (images != root.end())
-        for (size_t i = 0; i < images->size(); i++)
-            if ((*images)[i].contains("uri") == (*images)[i].contains("bufferView"))
-                fail("ONE_OF_MISMATCH", location_of("images", i),
-                     "exactly one of \"uri\" and \"bufferView\" must be given");
+    for (size_t i = 0; images != root.end() && i < images->size(); i++) {
+        auto uri = (*images)[i].find("uri");
+        if ((uri != (*images)[i].end()) == (*images)[i].contains("bufferView"))
+            fail("ONE_OF_MISMATCH", location_of("images", i),
+                 "exactly one of \"uri\" and \"bufferView\" must be given");
+        if (uri != (*images)[i].end())
+            check_image_uri(uri->get_ref<const std::string &>(), location_of("images", i) + "/uri");
+    }
     auto accessors = root.find("accessors");
     if (accessors != root.end())
         for (size_t i = 0; i < accessors->size(); i++)
@@ -551,7 +581,8 @@ gltf_checked gltf_schema_check(const gltf_container &container, bool lenient, me
 
     gltf_checked checked;
     checked.shares_clamped = checker.clamped();
-    adapt_document(root, checker.changed(), placeholders, checked);
+    checked.integers_rewritten = checker.integers_rewritten();
+    adapt_document(root, checker.changed() || container.unpadded > 0, placeholders, checked);
     return checked;
 }
 

@@ -81,7 +81,7 @@ static const rule buffer_extension_rules[] = {
     object("EXT_meshopt_compression", OPTIONAL, &buffer_fallback),
     object("KHR_meshopt_compression", OPTIONAL, &buffer_fallback)};
 static const schema buffer_extensions = of(buffer_extension_rules);
-static const rule buffer_rules[] = {integer("byteLength", REQUIRED, 1, ANY_SIZE), text("uri"),
+static const rule buffer_rules[] = {integer("byteLength", REQUIRED, 0, ANY_SIZE), text("uri"),
                                     text("name"), extensions(&buffer_extensions)};
 static const schema buffer = of(buffer_rules);
 
@@ -100,7 +100,7 @@ static const rule buffer_view_extension_rules[] = {
 static const schema buffer_view_extensions = of(buffer_view_extension_rules);
 static const rule buffer_view_rules[] = {
     reference("buffer", REQUIRED, "buffers"),     integer("byteOffset", OPTIONAL, 0, ANY_SIZE),
-    integer("byteLength", REQUIRED, 1, ANY_SIZE), integer("byteStride", OPTIONAL, 4, 252),
+    integer("byteLength", REQUIRED, 0, ANY_SIZE), integer("byteStride", OPTIONAL, 4, 252),
     integer("target", OPTIONAL, 0, ANY_INT),      text("name"),
     extensions(&buffer_view_extensions)};
 static const schema buffer_view = of(buffer_view_rules);

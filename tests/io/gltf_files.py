@@ -87,8 +87,18 @@ write('glb_late_binary.glb', glb([(JSON, good), (0x41414141, b''), (BIN, binary)
 case('glb_late_binary.glb', 'GLB_UNEXPECTED_BIN_CHUNK')
 write('glb_chunk.glb', glb([(JSON, good, 0xfffffffc)]))
 case('glb_chunk.glb', 'GLB_UNEXPECTED_END_OF_CHUNK_DATA')
-write('glb_unaligned.glb', glb([(JSON, good, len(good) + -len(good) % 4 - 1), (BIN, binary)]))
-case('glb_unaligned.glb', 'GLB_CHUNK_LENGTH_UNALIGNED')
+# The padding of chunks may not be counted, or left out; in the binary chunk, too.
+odd = good + b' ' * ((3 - len(good)) % 4)
+uncounted = '%d GLB chunk%s of a length that is no multiple of 4'
+write('glb_uncounted.glb', glb([(JSON, odd, len(odd)), (BIN, binary)]))
+case('glb_uncounted.glb', 'ok', 2, uncounted % (1, ''))
+write('glb_uncounted_binary.glb', glb([(JSON, odd, len(odd)), (BIN, binary + b'xyz', len(binary) + 3)]))
+case('glb_uncounted_binary.glb', 'ok', 2, uncounted % (2, 's'))
+chunks = [struct.pack('<II', len(content), kind) + content for kind, content in ((JSON, odd), (BIN, binary + b'x'))]
+write('glb_unpadded.glb', b'glTF' + struct.pack('<II', 2, 12 + sum(map(len, chunks))) + b''.join(chunks))
+case('glb_unpadded.glb', 'ok', 2, uncounted % (2, 's'))
+write('glb_trailing.glb', glb([(JSON, good), (BIN, binary)]) + b'pad')
+case('glb_trailing.glb', 'ok', 2, '3 bytes beyond the length that the GLB declares')
 write('glb_no_json.glb', glb([(JSON, b'')]))
 case('glb_no_json.glb', 'GLB_EMPTY_CHUNK')
 write('glb_no_binary.glb', glb([(JSON, good)]))
@@ -158,7 +168,7 @@ for name, expected, change in [
         ('offset_2_64', 'VALUE_NOT_IN_RANGE', {'byteOffset': 2**64 - 8}),
         ('offset_2_62', 'ACCESSOR_TOO_LONG', {'byteOffset': 2**62}),
         ('offset_end', 'ACCESSOR_TOO_LONG', {'byteOffset': 4}),
-        ('offset_odd', 'ACCESSOR_TOTAL_OFFSET_ALIGNMENT', {'byteOffset': 2}),
+        ('offset_odd', 'ACCESSOR_TOO_LONG', {'byteOffset': 2}),
         ('component', 'VALUE_NOT_IN_LIST', {'componentType': 5124}),
         ('type', 'VALUE_NOT_IN_LIST', {'type': 'VEC5'}),
         ('format', 'MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT', {'type': 'VEC2'}),
@@ -176,10 +186,30 @@ for name, expected, change in [
         ('stride_8', 'ACCESSOR_SMALL_BYTESTRIDE', {'byteStride': 8}),
         ('stride_16', 'ACCESSOR_TOO_LONG', {'byteStride': 16}),
         ('length', 'BUFFER_VIEW_TOO_LONG', {'byteLength': 10**6}),
-        ('length_0', 'VALUE_NOT_IN_RANGE', {'byteLength': 0}),
+        ('length_0', 'ACCESSOR_TOO_LONG', {'byteLength': 0}),
         ('offset_2_63', 'BUFFER_VIEW_TOO_LONG', {'byteOffset': 2**63 - 1}),
 ]:
     changed('view_%s.gltf' % name, expected, lambda f: f.json['bufferViews'][position].update(change))
+
+# Data that no accessor reads may be missing, and unaligned data are read.
+changed('view_empty.gltf', 'ok', lambda f: f.json['bufferViews'].append(
+    {'buffer': 0, 'byteOffset': 0, 'byteLength': 0}), 2)
+file = quad()
+file.json['buffers'] = [{'byteLength': len(file.data)}, {'byteLength': 0, 'uri': ''}, {'byteLength': 0},
+                        {'byteLength': 9}]
+file.json['bufferViews'].append({'buffer': 1, 'byteLength': 0})
+file.glb('buffers_unread.glb')
+case('buffers_unread.glb', 'ok', 2)
+file = quad()
+shifted = file.view(b'x' + bytes(file.data[:48]))
+file.json['accessors'][position].update(bufferView=shifted, byteOffset=1)
+file.gltf('accessor_unaligned.gltf')
+case('accessor_unaligned.gltf', 'ok', 2, '1 accessor whose offset is no multiple')
+file = quad()
+for accessor in file.json['accessors']:
+    accessor.update((key, float(value)) for key, value in list(accessor.items()) if type(value) is int)
+file.gltf('integers_with_points.gltf')
+case('integers_with_points.gltf', 'ok', 2, 'written with a point where an integer is meant')
 
 # --- 29: vertex indices ---------------------------------------------------------------------------
 
@@ -228,6 +258,10 @@ def with_uri(name, expected, uri, **more):
 encoded = base64.b64encode(bytes(quad().data)).decode()
 prefix = 'data:application/octet-stream;base64,'
 with_uri('data_gltf_buffer.gltf', 'ok', 'data:application/gltf-buffer;base64,' + encoded)
+for name, media_type in (('type', 'model/gltf-buffer'), ('none', ''), ('charset', 'text/plain;charset=US-ASCII')):
+    with_uri('data_%s.gltf' % name, 'ok', 'data:%s;base64,%s' % (media_type, encoded))
+changed('data_image.gltf', 'INVALID_URI at /images/0/uri', lambda f: f.json.update(
+    images=[{'uri': 'data:image/png;base64,`'}]))
 with_uri('data_characters.gltf', 'INVALID_URI', prefix + '*' + encoded[1:])
 with_uri('data_cut.gltf', 'BUFFER_BYTE_LENGTH_MISMATCH', prefix + encoded[:40])
 with_uri('data_digits.gltf', 'INVALID_URI', prefix + encoded[:41])
