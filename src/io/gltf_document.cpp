@@ -139,8 +139,7 @@ void gltf_document_read(gltf_import &import)
     refuse_other_formats(import.path, bytes);
     gltf_container container = gltf_container_split(bytes);
     gltf_checked checked = gltf_schema_check(container, import.params->lenient, import.budget);
-    import.repairs.shares_clamped = checked.shares_clamped;
-    import.repairs.integers_rewritten = checked.integers_rewritten;
+    import.repairs.json = checked.repairs;
     import.repairs.trailing_bytes = container.trailing;
     import.repairs.unpadded_chunks = container.unpadded;
     buffer_queue queue;

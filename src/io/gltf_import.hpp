@@ -124,6 +124,12 @@ struct gltf_buffer_source {
     uint64_t byte_length;
     bool placeholder; /* it has no data: the views into it say where their data are */
 };
+/* How many things in the JSON were repaired. */
+struct gltf_json_repairs {
+    uint64_t shares_clamped = 0;     /* factors beyond 0 to 1 */
+    uint64_t integers_rewritten = 0; /* that were written with a point, as 1.0 */
+    uint64_t alphas_cut = 0;         /* of emissive factors */
+};
 struct gltf_checked {
     std::vector<gltf_buffer_source> buffers;
     /* The document in a form that tinygltf reads, when it would not read it as it is; else
@@ -136,8 +142,7 @@ struct gltf_checked {
         int accessor;
     };
     std::vector<indices> indices_without_view;
-    uint64_t shares_clamped = 0;     /* factors beyond 0 to 1 */
-    uint64_t integers_rewritten = 0; /* that were written with a point, as 1.0 */
+    gltf_json_repairs repairs;
 };
 bool extension_is_supported(const std::string &name);
 gltf_checked gltf_schema_check(const gltf_container &container, bool lenient,
@@ -179,8 +184,8 @@ struct gltf_repairs {
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
     uint64_t textures_without_image = 0, images_absent = 0, negative_colors = 0;
-    uint64_t shares_clamped = 0, integers_rewritten = 0, unaligned_accessors = 0;
-    uint64_t trailing_bytes = 0, unpadded_chunks = 0;
+    gltf_json_repairs json;
+    uint64_t trailing_bytes = 0, unpadded_chunks = 0, unaligned_accessors = 0;
 };
 
 /* The property that a channel of an animation changes. */

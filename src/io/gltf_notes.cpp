@@ -55,10 +55,12 @@ void gltf_notes_add(gltf_import &import)
                              " without a PNG, JPEG or WebP image: materials are shown without");
     lsf_scene_add_count_note(import.scene, repairs.images_absent, "image file",
                              " that cannot be found: materials are shown without");
-    lsf_scene_add_count_note(import.scene, repairs.shares_clamped, "factor",
+    lsf_scene_add_count_note(import.scene, repairs.json.shares_clamped, "factor",
                              " beyond 0 to 1: the nearest of the two is used");
-    lsf_scene_add_count_note(import.scene, repairs.integers_rewritten, "number",
+    lsf_scene_add_count_note(import.scene, repairs.json.integers_rewritten, "number",
                              " written with a point where an integer is meant: read as integer");
+    lsf_scene_add_count_note(import.scene, repairs.json.alphas_cut, "emissive factor",
+                             " of four numbers: the last is ignored");
     lsf_scene_add_count_note(import.scene, repairs.trailing_bytes, "byte",
                              " beyond the length that the GLB declares: ignored");
     lsf_scene_add_count_note(import.scene, repairs.unpadded_chunks, "GLB chunk",

@@ -150,19 +150,15 @@ class checker
     }
 
     void check_object(json &value, const schema &rules, bool extension = false);
-    /* Whether numbers in the document were replaced by the nearest in range; how many of them were
-     * beyond it by more than rounding. */
+    /* Whether anything in the document was replaced, if only a factor that rounding has put out of
+     * its range, which is no repair. */
     bool changed() const
     {
         return changed_;
     }
-    uint64_t clamped() const
+    const gltf_json_repairs &repairs() const
     {
-        return clamped_;
-    }
-    uint64_t integers_rewritten() const
-    {
-        return integers_rewritten_;
+        return repairs_;
     }
 
     uint64_t count(const char *array) const
@@ -184,6 +180,7 @@ class checker
     void check_share(json &value);
     void check_code(json &value, const char *names);
     void check_name(const json &value, const char *names);
+    void cut_alpha(json &value, const rule &rule);
     void check_reference(json &value, const char *array);
     void expect(bool holds, const json &value, const char *wanted);
     void expect_integer(json &value, const char *wanted);
@@ -195,7 +192,7 @@ class checker
     json &root_;
     bool lenient_;
     bool changed_ = false;
-    uint64_t clamped_ = 0, integers_rewritten_ = 0;
+    gltf_json_repairs repairs_;
     std::map<std::string, uint64_t> counts_;
     std::string location_; /* a JSON pointer, extended and cut while descending */
 };
@@ -236,7 +233,7 @@ void checker::expect_integer(json &value, const char *wanted)
             if (number >= 0.0)
                 value = (uint64_t)number;
             changed_ = true;
-            integers_rewritten_++;
+            repairs_.integers_rewritten++;
         }
     }
     expect(value.is_number_integer(), value, wanted);
@@ -265,7 +262,7 @@ void checker::check_share(json &value)
              shown(value).c_str(), nearest);
     value = nearest;
     changed_ = true;
-    clamped_ += !rounding;
+    repairs_.shares_clamped += !rounding;
 }
 
 void checker::check_number(json &value, double low, double high, bool extension)
@@ -330,6 +327,16 @@ template <class Each> void checker::check_members(json &value, Each each)
     }
 }
 
+/* Some exporters write emissive colours with an alpha. */
+void checker::cut_alpha(json &value, const rule &rule)
+{
+    if (value.size() != 4 || strcmp(rule.name, "emissiveFactor") != 0)
+        return;
+    value.erase(3);
+    changed_ = true;
+    repairs_.alphas_cut++;
+}
+
 void checker::check(json &value, const rule &rule, bool extension)
 {
     switch (rule.kind) {
@@ -350,6 +357,7 @@ void checker::check(json &value, const rule &rule, bool extension)
         return check_number(value, rule.low, rule.high, extension);
     case shape::numbers:
         expect(value.is_array(), value, "an array");
+        cut_alpha(value, rule);
         if (rule.entries && value.size() != rule.entries)
             fail("ARRAY_LENGTH_NOT_IN_LIST", location_, "%zu entries instead of %zu", value.size(),
                  rule.entries);
@@ -580,8 +588,7 @@ gltf_checked gltf_schema_check(const gltf_container &container, bool lenient, me
     check_choices(root);
 
     gltf_checked checked;
-    checked.shares_clamped = checker.clamped();
-    checked.integers_rewritten = checker.integers_rewritten();
+    checked.repairs = checker.repairs();
     adapt_document(root, checker.changed() || container.unpadded > 0, placeholders, checked);
     return checked;
 }

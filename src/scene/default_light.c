@@ -47,6 +47,11 @@ static void note_why(lsf_scene *scene, float emitted)
         lsf_scene_add_note(scene, "the file has no light and no environment was given: a default "
                                   "sky and key light are added; "
                                   "without default light it stays dark");
+    else if (emitted == 0.0f)
+        lsf_scene_add_note(scene,
+                           "the file has no light, and its emissive materials light less than half "
+                           "of its surfaces: a default sky and key light are added; without "
+                           "default light only these materials light it");
     else
         lsf_scene_add_note(
             scene,

@@ -405,6 +405,7 @@ for name, expected, material in [
             'KHR_materials_clearcoat': {'clearcoatFactor': 0.5, 'clearcoatRoughnessFactor': 0.25},
             'KHR_materials_sheen': {'sheenColorFactor': [0.5, 0.25, 1], 'sheenRoughnessFactor': 0.75},
             'KHR_materials_specular': {'specularFactor': 0.5, 'specularColorFactor': [1, 2, 0.25]}}}),
+        ('five', 'ARRAY_LENGTH_NOT_IN_LIST', {'emissiveFactor': [1, 1, 1, 1, 1]}),
         ('sheen', 'VALUE_NOT_IN_RANGE', {'extensions': {'KHR_materials_sheen': {'sheenColorFactor': [0, 2, 0]}}}),
         ('clearcoat', 'VALUE_NOT_IN_RANGE', {'extensions': {'KHR_materials_clearcoat': {'clearcoatFactor': -1}}}),
         ('specular', 'VALUE_NOT_IN_RANGE', {'extensions': {'KHR_materials_specular': {'specularFactor': 2}}}),
@@ -425,6 +426,9 @@ for name, expected, material in [
             lambda f: (f.json.update(materials=[material]),
                        f.json['meshes'][0]['primitives'][0].update(material=0)),
             2 if expected == 'ok' else '')
+changed('material_alpha_of_emission.gltf', 'ok', lambda f: (
+    f.json.update(materials=[{'emissiveFactor': [1, 0.5, 0, 1]}]),
+    f.json['meshes'][0]['primitives'][0].update(material=0)), 2, '1 emissive factor of four numbers')
 for name, expected, image in [('missing', 'cannot be found', {'uri': 'none.png'}),
                               ('corrupt', 'IMAGE_DATA_INVALID',
                                {'uri': 'data:image/png;base64,iVBORw0KGgoAAAAN'}),
