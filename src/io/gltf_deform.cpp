@@ -10,14 +10,14 @@ namespace lsf
 
 /* --- weights of morph targets --- */
 
-static uint64_t target_count(const tinygltf::Mesh &mesh, const std::string &location)
+/* A primitive may have fewer targets than others: those that it lacks move nothing. */
+static uint64_t target_count(gltf_import &import, const tinygltf::Mesh &mesh)
 {
-    uint64_t count = mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
+    size_t count = 0;
     for (const tinygltf::Primitive &primitive : mesh.primitives)
-        if (primitive.targets.size() != count)
-            fail("MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT", location + "/primitives",
-                 "one primitive has %" PRIu64 " morph targets, another %zu", count,
-                 primitive.targets.size());
+        count = std::max(count, primitive.targets.size());
+    for (const tinygltf::Primitive &primitive : mesh.primitives)
+        import.repairs.targets_missing += primitive.targets.size() < count;
     return count;
 }
 
@@ -42,12 +42,14 @@ void weights_import(gltf_import &import)
     const tinygltf::Model &model = import.model;
     std::vector<uint32_t> first(model.nodes.size(), LSF_NONE);
     std::vector<float> weights;
+    std::vector<uint64_t> counts(model.meshes.size());
+    for (size_t mesh = 0; mesh < counts.size(); mesh++)
+        counts[mesh] = import.mesh_used[mesh] ? target_count(import, model.meshes[mesh]) : 0;
     for (uint32_t i = 0; i < import.scene->node_count; i++) {
         size_t node = import.source_of[i];
         if (model.nodes[node].mesh < 0)
             continue;
-        size_t mesh = (size_t)model.nodes[node].mesh;
-        uint64_t count = target_count(model.meshes[mesh], location_of("meshes", mesh));
+        uint64_t count = counts[(size_t)model.nodes[node].mesh];
         if (count == 0)
             continue;
         if (first[node] == LSF_NONE) {

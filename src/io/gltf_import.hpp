@@ -186,6 +186,7 @@ struct gltf_repairs {
     uint64_t textures_without_image = 0, images_absent = 0, negative_colors = 0;
     gltf_json_repairs json;
     uint64_t trailing_bytes = 0, unpadded_chunks = 0, unaligned_accessors = 0;
+    uint64_t targets_missing = 0;
 };
 
 /* The property that a channel of an animation changes. */

@@ -45,6 +45,9 @@ void gltf_notes_add(gltf_import &import)
                              "placed by its own transform alone");
     lsf_scene_add_count_note(import.scene, repairs.joints_missing, "primitive",
                              " without joints, of a node with a skin: placed by the node");
+    lsf_scene_add_count_note(import.scene, repairs.targets_missing, "primitive",
+                             " with fewer morph targets than others of its mesh: the missing ones "
+                             "move nothing");
     lsf_scene_add_count_note(import.scene, repairs.weights_scaled, "vertex weight sum",
                              " of joints other than 1: scaled");
     lsf_scene_add_count_note(import.scene, repairs.weights_animated, "animation channel",

@@ -107,7 +107,7 @@ def sparse(file, count, elements):
     return len(file.json['accessors']) - 1
 
 
-def morphed(name, expected, note='', change=None, weights=(0, 1), count=4):
+def morphed(name, expected, note='', change=None, weights=(0, 1), count=4, triangles=2):
     """A quad: target 0 lifts its third corner by 1, target 1 shifts it along x by 2 and turns its
     normals to x."""
     file = quad()
@@ -123,7 +123,7 @@ def morphed(name, expected, note='', change=None, weights=(0, 1), count=4):
     if change:
         change(file.json)
     file.gltf(name)
-    case(name, expected, 2 if expected == 'ok' else '', note)
+    case(name, expected, triangles if expected == 'ok' else '', note)
 
 
 morphed('morph.gltf', 'ok')
@@ -136,6 +136,9 @@ morphed('morph_weights.gltf', 'MESH_INVALID_WEIGHTS_COUNT',
 morphed('morph_node_weights.gltf', 'NODE_WEIGHTS_INVALID',
         change=lambda j: j['nodes'][0].update(weights=[1, 2, 3]))
 morphed('morph_keys.gltf', 'ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT', weights=(0, 1, 1))
+morphed('morph_unequal.gltf', 'ok', '1 primitive with fewer morph targets', change=lambda j: (
+    j['meshes'][0]['primitives'].append(dict(j['meshes'][0]['primitives'][0])),
+    j['meshes'][0]['primitives'][1].update(targets=j['meshes'][0]['primitives'][0]['targets'][:1])), triangles=4)
 morphed('morph_nan.gltf', 'ACCESSOR_INVALID_FLOAT', weights=(0, math.nan))
 morphed('morph_scalar.gltf', 'MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT',
         change=lambda j: j['meshes'][0]['primitives'][0]['targets'][0].update(POSITION=2))
