@@ -162,6 +162,14 @@ static void for_each_sparse(const gltf_import &import, const tinygltf::Accessor 
     }
 }
 
+/* Whether data begin off their components' alignment. Values are copied byte by byte, so that this
+ * is no obstacle. */
+static bool is_unaligned(const gltf_import &import, int view, uint64_t offset, uint64_t component)
+{
+    uint64_t start = import.model.bufferViews[(size_t)view].byteOffset + offset;
+    return offset % component != 0 || start % component != 0;
+}
+
 /* Element count and bounds of every accessor, before any memory is taken for one. */
 void accessors_check(gltf_import &import)
 {
@@ -169,13 +177,20 @@ void accessors_check(gltf_import &import)
         const tinygltf::Accessor &accessor = import.model.accessors[i];
         uint64_t component = component_size(accessor.componentType);
         uint64_t width = (uint64_t)tinygltf::GetNumComponentsInType((uint32_t)accessor.type);
-        if (accessor.bufferView < 0)
-            continue;
-        find_elements(import, accessor.bufferView, accessor.byteOffset, accessor.count,
-                      component * width, location_of("accessors", i));
-        /* Values are copied byte by byte, so that this is no obstacle. */
-        size_t view_offset = import.model.bufferViews[(size_t)accessor.bufferView].byteOffset;
-        import.repairs.unaligned_accessors += (view_offset + accessor.byteOffset) % component != 0;
+        bool unaligned = false;
+        if (accessor.bufferView >= 0) {
+            find_elements(import, accessor.bufferView, accessor.byteOffset, accessor.count,
+                          component * width, location_of("accessors", i));
+            unaligned = is_unaligned(import, accessor.bufferView, accessor.byteOffset, component);
+        }
+        if (const auto &sparse = accessor.sparse; sparse.isSparse)
+            unaligned =
+                unaligned ||
+                is_unaligned(import, sparse.indices.bufferView, (uint64_t)sparse.indices.byteOffset,
+                             component_size(sparse.indices.componentType)) ||
+                is_unaligned(import, sparse.values.bufferView, (uint64_t)sparse.values.byteOffset,
+                             component);
+        import.repairs.unaligned_accessors += unaligned;
     }
 }
 

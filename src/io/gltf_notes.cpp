@@ -38,56 +38,51 @@ static void note_left_out(gltf_import &import, uint64_t primitives, uint64_t ele
 void gltf_notes_add(gltf_import &import)
 {
     const gltf_repairs &repairs = import.repairs;
+    const struct {
+        uint64_t count;
+        const char *what, *remark;
+    } notes[] = {
+        {repairs.scene_children, "node",
+         " of the scene with a parent: without an ancestor in the scene it is "
+         "placed by its own transform alone"},
+        {repairs.joints_missing, "primitive",
+         " without joints, of a node with a skin: placed by the node"},
+        {repairs.targets_missing, "primitive",
+         " with fewer morph targets than others of its mesh: the missing ones "
+         "move nothing"},
+        {repairs.weights_scaled, "vertex weight sum", " of joints other than 1: scaled"},
+        {repairs.weights_animated, "animation channel",
+         " of the weights of a node without morph targets: ignored"},
+        {repairs.negative_colors, "component", " of vertex colours below 0: set to 0"},
+        {repairs.textures_without_image, "texture",
+         " without a PNG, JPEG or WebP image: materials are shown without"},
+        {repairs.images_absent, "image file", " that cannot be found: materials are shown without"},
+        {repairs.json.shares_clamped, "factor", " beyond 0 to 1: the nearest of the two is used"},
+        {repairs.json.integers_rewritten, "number",
+         " written with a point where an integer is meant: read as integer"},
+        {repairs.json.alphas_cut, "emissive factor", " of four numbers: the last is ignored"},
+        {repairs.trailing_bytes, "byte", " beyond the length that the GLB declares: ignored"},
+        {repairs.unpadded_chunks, "GLB chunk",
+         " of a length that is no multiple of 4: read as it is"},
+        {repairs.unaligned_accessors, "accessor",
+         " with data at an offset that is no multiple of their components' size: read as it is"},
+        {repairs.no_position, "primitive", " without POSITION: ignored"},
+        {repairs.further_vertex_colors, "primitive",
+         " with more than one set of vertex colours: only COLOR_0 is used"},
+        {repairs.further_uv_sets, "primitive",
+         " with more than two sets of texture coordinates: only TEXCOORD_0 and TEXCOORD_1 "
+         "are used"},
+        {repairs.missing_uv_sets, "textured primitive",
+         " without the texture coordinates that the material reads: 0, 0 is used"},
+        {repairs.trailing_indices, "corner", " left over at the end of a triangle list: ignored"},
+        {repairs.rotations_scaled, "node rotation", " by other than a unit quaternion: scaled"},
+    };
     note_extensions(import);
-
-    lsf_scene_add_count_note(import.scene, repairs.scene_children, "node",
-                             " of the scene with a parent: without an ancestor in the scene it is "
-                             "placed by its own transform alone");
-    lsf_scene_add_count_note(import.scene, repairs.joints_missing, "primitive",
-                             " without joints, of a node with a skin: placed by the node");
-    lsf_scene_add_count_note(import.scene, repairs.targets_missing, "primitive",
-                             " with fewer morph targets than others of its mesh: the missing ones "
-                             "move nothing");
-    lsf_scene_add_count_note(import.scene, repairs.weights_scaled, "vertex weight sum",
-                             " of joints other than 1: scaled");
-    lsf_scene_add_count_note(import.scene, repairs.weights_animated, "animation channel",
-                             " of the weights of a node without morph targets: ignored");
-    lsf_scene_add_count_note(import.scene, repairs.negative_colors, "component",
-                             " of vertex colours below 0: set to 0");
-    lsf_scene_add_count_note(import.scene, repairs.textures_without_image, "texture",
-                             " without a PNG, JPEG or WebP image: materials are shown without");
-    lsf_scene_add_count_note(import.scene, repairs.images_absent, "image file",
-                             " that cannot be found: materials are shown without");
-    lsf_scene_add_count_note(import.scene, repairs.json.shares_clamped, "factor",
-                             " beyond 0 to 1: the nearest of the two is used");
-    lsf_scene_add_count_note(import.scene, repairs.json.integers_rewritten, "number",
-                             " written with a point where an integer is meant: read as integer");
-    lsf_scene_add_count_note(import.scene, repairs.json.alphas_cut, "emissive factor",
-                             " of four numbers: the last is ignored");
-    lsf_scene_add_count_note(import.scene, repairs.trailing_bytes, "byte",
-                             " beyond the length that the GLB declares: ignored");
-    lsf_scene_add_count_note(import.scene, repairs.unpadded_chunks, "GLB chunk",
-                             " of a length that is no multiple of 4: read as it is");
-    lsf_scene_add_count_note(import.scene, repairs.unaligned_accessors, "accessor",
-                             " whose offset is no multiple of its components' size: read as it is");
+    for (const auto &note : notes)
+        lsf_scene_add_count_note(import.scene, note.count, note.what, note.remark);
     note_left_out(import, repairs.point_primitives, repairs.points, "points");
     note_left_out(import, repairs.line_primitives, repairs.lines, "lines");
-    lsf_scene_add_count_note(import.scene, repairs.no_position, "primitive",
-                             " without POSITION: ignored");
-    lsf_scene_add_count_note(import.scene, repairs.further_vertex_colors, "primitive",
-                             " with more than one set of vertex colours: only COLOR_0 is used");
-    lsf_scene_add_count_note(
-        import.scene, repairs.further_uv_sets, "primitive",
-        " with more than two sets of texture coordinates: only TEXCOORD_0 and TEXCOORD_1 "
-        "are used");
-    lsf_scene_add_count_note(
-        import.scene, repairs.missing_uv_sets, "textured primitive",
-        " without the texture coordinates that the material reads: 0, 0 is used");
-    lsf_scene_add_count_note(import.scene, repairs.trailing_indices, "corner",
-                             " left over at the end of a triangle list: ignored");
     lsf_scene_note_frames(import.scene, &repairs.frames);
-    lsf_scene_add_count_note(import.scene, repairs.rotations_scaled, "node rotation",
-                             " by other than a unit quaternion: scaled");
 }
 
 } // namespace lsf

@@ -229,8 +229,9 @@ void checker::expect_integer(json &value, const char *wanted)
     if (value.is_number_float()) {
         double number = value.get<double>();
         if (number == std::floor(number) && std::fabs(number) <= 0x1p53) {
-            value = (int64_t)number;
-            if (number >= 0.0)
+            if (number < 0.0)
+                value = (int64_t)number;
+            else
                 value = (uint64_t)number;
             changed_ = true;
             repairs_.integers_rewritten++;

@@ -204,7 +204,7 @@ file = quad()
 shifted = file.view(b'x' + bytes(file.data[:48]))
 file.json['accessors'][position].update(bufferView=shifted, byteOffset=1)
 file.gltf('accessor_unaligned.gltf')
-case('accessor_unaligned.gltf', 'ok', 2, '1 accessor whose offset is no multiple')
+case('accessor_unaligned.gltf', 'ok', 2, '1 accessor with data at an offset')
 file = quad()
 for accessor in file.json['accessors']:
     accessor.update((key, float(value)) for key, value in list(accessor.items()) if type(value) is int)
@@ -227,17 +227,19 @@ case('index_float.gltf', 'MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT')
 def sparse(name, expected, indices, values=None, **more):
     file = quad()
     values = values if values is not None else [(5, 5, 5)] * len(indices)
-    index_view = file.view(b''.join(struct.pack('<H', i) for i in indices))
+    offset = more.get('offset', 0)
+    index_view = file.view(b'x' * offset + b''.join(struct.pack('<H', i) for i in indices))
     value_view = file.view(b''.join(struct.pack('<3f', *v) for v in values))
     file.json['accessors'][position]['sparse'] = {
         'count': more.get('count', len(indices)),
-        'indices': {'bufferView': more.get('index_view', index_view), 'componentType': USHORT},
+        'indices': {'bufferView': more.get('index_view', index_view), 'byteOffset': offset, 'componentType': USHORT},
         'values': {'bufferView': value_view}}
     file.gltf(name)
-    case(name, expected, 2 if expected == 'ok' else '')
+    case(name, expected, 2 if expected == 'ok' else '', more.get('note', ''))
 
 
 sparse('sparse.gltf', 'ok', [1, 3], [(2, 0, 0), (0, 2, 0)])
+sparse('sparse_unaligned.gltf', 'ok', [1, 3], [(2, 0, 0), (0, 2, 0)], offset=1, note='1 accessor with data at an offset')
 sparse('sparse_oob.gltf', 'ACCESSOR_SPARSE_INDEX_OOB', [1, 4])
 sparse('sparse_unsorted.gltf', 'ACCESSOR_SPARSE_INDICES_NON_INCREASING', [2, 1])
 sparse('sparse_twice.gltf', 'ACCESSOR_SPARSE_INDICES_NON_INCREASING', [1, 1])
