@@ -14,11 +14,12 @@
 
 #if VOXEL_SKY_LAMPS
 /* Share that directions drawn by the environment's radiance have of what a voxel mirrors of it, weighted against the
- * path's own: all, unless the lobe is widened to show the lamp that the voxel keeps (lamp_mirrored), or nearly so.
- * `density`: that of all paths that meet the voxel in this direction [1/sr]; 0: it was not drawn by a BRDF. */
+ * path's own: all, unless the lobe is widened to show the lamp that the voxel keeps (lamp_mirrored), or nearly so. 0 for
+ * what is not smooth metal, which keeps none. `density`: that of all paths that meet the voxel in this direction [1/sr];
+ * 0: it was not drawn by a BRDF. */
 float sky_lamp_share(surface s, vec3 direction, float density)
 {
-    if (lamp_kernel.x < 0.0)
+    if (lamp_kernel.x < 0.0 || !is_smooth_metal(s.metallic, s.roughness))
         return 0.0;
     float nv = lifted_cosine(-direction, s.normal), alpha = lsf_alpha_from_roughness(s.roughness);
     float kernel = max(density > 0.0 ? lamp_kernel.x / density : 0.0, lamp_kernel.y);

@@ -306,9 +306,7 @@ void add_path(path_vertex v, seen_body body, path_random_key key, uint index, in
          * hit counts as direct light. */
         mirrors = voxel_mirrors_light(met.s, pdf);
 #if VOXEL_SKY_LAMPS
-        sky_lamps = mirrors && is_smooth_metal(met.s.metallic, met.s.roughness)
-                        ? sky_lamp_share(met.s, direction, float(count) * pdf)
-                        : 0.0;
+        sky_lamps = mirrors ? sky_lamp_share(met.s, direction, float(count) * pdf) : 0.0;
 #endif
         if (segment < lengths.x && mirrors) {
             add_light(through, grid.unit.x * lamps_of(met, cell, side, v, direction, float(count) * pdf, sky_lamps),
