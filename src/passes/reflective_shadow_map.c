@@ -16,9 +16,10 @@
 #define BINDING_LIGHT 2
 
 const lsf_option_row lsf_reflective_shadow_map_options[LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT] = {
-    {"rsm.resolution", LSF_OPTION_INT, offsetof(lsf_reflective_shadow_map_params, resolution), 16,
+    {"rsm.resolution", LSF_OPTION_INT, offsetof(lsf_reflective_shadow_map_params, resolution), 0,
      4096, NULL, "texels",
-     "width and height of each face of a reflective shadow map, from which VPLs are drawn"},
+     "width and height of each face of a reflective shadow map, from which VPLs are drawn; 0: 256, "
+     "and for a point light's six faces 64 to 256, more for more iterations"},
     {"rsm.pdf", LSF_OPTION_ENUM, offsetof(lsf_reflective_shadow_map_params, pdf), 0, 0,
      "auto|uniform|adaptive", "",
      "how VPLs are drawn; uniform: by the light's own distribution; adaptive: by the light that "
@@ -49,7 +50,7 @@ static const struct {
     [SPECULAR_PARAMS] = {"specular_params", GL_R32UI, "roughness and f0"},
     [IMPORTANCE] = {"importance", GL_R32F, "the flux that each texel reflects to what is seen"},
     [TINT] = {"tint", GL_RGB10_A2, "light passes thin walls"},
-    [DEPTH] = {"depth", GL_DEPTH_COMPONENT32F, "rsm.resolution texels a side"},
+    [DEPTH] = {"depth", GL_DEPTH_COMPONENT32F, "distances, for shadows (rsm.resolution)"},
 };
 
 static void name_layer(char name[64], int kind, int layer)
@@ -68,10 +69,18 @@ static bool is_adaptive(const lsf_plan *plan, const lsf_reflective_shadow_map_pa
              kind == LSF_LIGHT_PROJECTION_WINDOWS));
 }
 
+static uint32_t side_of(const lsf_reflective_shadow_map_params *params, int kind)
+{
+    if (params->resolution > 0)
+        return (uint32_t)params->resolution;
+    return kinds[kind].faces > 1 ? (uint32_t)params->cube_resolution
+                                 : LSF_REFLECTIVE_SHADOW_MAP_RESOLUTION;
+}
+
 static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_params *params,
                      bool specular_params)
 {
-    uint32_t side = (uint32_t)params->resolution;
+    uint32_t side = side_of(params, kind);
     const bool present[LAYERS] = {
         [GRADIENT] = true,
         [SURFACE] = true,
@@ -97,15 +106,14 @@ static void plan_map(lsf_plan *plan, int kind, const lsf_reflective_shadow_map_p
     }
 }
 
-static void plan_pdf(lsf_plan *plan, uint32_t faces, uint32_t side)
+static void plan_pdf(lsf_plan *plan, uint64_t sums)
 {
     const lsf_requirements *r = &plan->requirements;
-    uint64_t rows = (uint64_t)faces * side;
     lsf_plan_pass_add(plan, "reflective_shadow_map_pdf", "where VPLs light what is seen (rsm.pdf)");
     lsf_light_switches(plan);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
-    lsf_plan_buffer_add(plan, "reflective_shadow_map.sums", (rows * side + rows) * sizeof(float),
+    lsf_plan_buffer_add(plan, "reflective_shadow_map.sums", sums * sizeof(float),
                         "running sums of importance");
 }
 
@@ -131,7 +139,7 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
     if (use->sky)
         needed[LSF_LIGHT_PROJECTION_WINDOWS] = true;
     bool specular_params = lsf_plan_surfaces_differ(plan);
-    uint32_t adaptive_faces = 0;
+    uint64_t most_sums = 0;
     lsf_plan_pass_add(plan, "reflective_shadow_map",
                       "the surfaces that %u punctual light%s%s light", state->light_count,
                       lsf_plural(state->light_count),
@@ -149,14 +157,15 @@ void lsf_reflective_shadow_map_plan(lsf_plan *plan, const lsf_reflective_shadow_
             continue;
         }
         plan_map(plan, kind, params, specular_params);
-        if (is_adaptive(plan, params, kind) && kinds[kind].faces > adaptive_faces)
-            adaptive_faces = kinds[kind].faces;
+        uint64_t side = side_of(params, kind), sums = kinds[kind].faces * side * (side + 1);
+        if (is_adaptive(plan, params, kind) && sums > most_sums)
+            most_sums = sums;
     }
     lsf_plan_buffer_add(plan, "reflective_shadow_map.light", sizeof(struct lsf_light_data),
                         "the light in turn and its map's projection");
     lsf_light_walls_plan(plan, "reflective_shadow_map_walls", false);
-    if (adaptive_faces > 0)
-        plan_pdf(plan, adaptive_faces, (uint32_t)params->resolution);
+    if (most_sums > 0)
+        plan_pdf(plan, most_sums);
     else
         lsf_plan_omit(plan, "reflective_shadow_map_pdf", "%s", why_uniform(plan, params));
 }

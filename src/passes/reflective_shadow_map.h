@@ -15,12 +15,15 @@ typedef enum lsf_reflective_shadow_map_pdf {
 } lsf_reflective_shadow_map_pdf;
 
 typedef struct lsf_reflective_shadow_map_params {
-    int32_t resolution; /* texels along a face's side */
-    int32_t pdf;        /* lsf_reflective_shadow_map_pdf */
+    int32_t resolution; /* texels along a face's side; 0: cube_resolution for maps of six faces,
+                         * LSF_REFLECTIVE_SHADOW_MAP_RESOLUTION for those of one */
+    int32_t cube_resolution; /* chosen by the number of iterations */
+    int32_t pdf;             /* lsf_reflective_shadow_map_pdf */
 } lsf_reflective_shadow_map_params;
 
-#define LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS                                                  \
-    .resolution = 256, .pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO
+enum { LSF_REFLECTIVE_SHADOW_MAP_RESOLUTION = 256, LSF_REFLECTIVE_SHADOW_MAP_LEAST = 16 };
+
+#define LSF_REFLECTIVE_SHADOW_MAP_PARAMS_DEFAULTS .pdf = LSF_REFLECTIVE_SHADOW_MAP_PDF_AUTO
 
 #define LSF_REFLECTIVE_SHADOW_MAP_OPTION_COUNT 2
 extern const lsf_option_row

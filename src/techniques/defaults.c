@@ -75,22 +75,29 @@ uint32_t lsf_default_voxels(const lsf_setup *setup)
     return STEP * (uint32_t)round(fmin(fmax(wanted, FEWEST), LSF_VOXEL_RESOLUTION) / STEP);
 }
 
-/* Light misses what is narrower than a texel, and no iteration adds it. The more of them take the
- * noise away, the narrower the texels: as the fourth root of their number, for which building a map
- * takes up to its square root more time. A time limit is assumed to leave room for two iterations a
- * second, as many as software OpenGL does of a small picture. */
-void lsf_default_bundles(lsf_setup *setup)
+/* Texels along the side of a map: `side` up to so many iterations. A map's bias shrinks with its
+ * texels, and no iteration takes it away. The more of them take the noise away, the narrower the
+ * texels: as the fourth root of their number, for which drawing a map takes up to its square root
+ * more time. A time limit is assumed to leave room for two iterations a second, as many as software
+ * OpenGL does of a small picture. */
+static int32_t map_side(const lsf_setup *setup, int side, int iterations, int most)
 {
-    enum { SIDE = 256, MOST = 768, STEP = 16, ITERATIONS = 32, ITERATIONS_A_SECOND = 2 };
+    enum { STEP = 16, ITERATIONS_A_SECOND = 2 };
     const lsf_render_params *params = &setup->params;
-    int32_t *side = &setup->pass_params.ray_bundle.resolution;
-    if (*side != 0)
-        return;
-    double iterations = params->samples == UINT32_MAX ? 0.0 : (double)params->samples;
+    double expected = params->samples == UINT32_MAX ? 0.0 : (double)params->samples;
     if (isfinite(params->time_limit))
-        iterations = fmin(params->samples, ITERATIONS_A_SECOND * params->time_limit);
-    double wanted = SIDE * pow(fmax(iterations / ITERATIONS, 1.0), 0.25);
-    *side = STEP * (int32_t)round(fmin(wanted, MOST) / STEP);
+        expected = fmin(params->samples, ITERATIONS_A_SECOND * params->time_limit);
+    double wanted = side * pow(fmax(expected / iterations, 1.0), 0.25);
+    return STEP * (int32_t)round(fmin(wanted, most) / STEP);
+}
+
+void lsf_default_maps(lsf_setup *setup)
+{
+    lsf_pass_params *params = &setup->pass_params;
+    if (params->ray_bundle.resolution == 0)
+        params->ray_bundle.resolution = map_side(setup, 256, 32, 768);
+    params->reflective_shadow_map.cube_resolution =
+        map_side(setup, 64, 16, LSF_REFLECTIVE_SHADOW_MAP_RESOLUTION);
 }
 
 /* The default of sparse.grid: as fine as the first iteration fits into a time limit. */

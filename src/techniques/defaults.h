@@ -12,8 +12,9 @@ bool lsf_shares_samples(const lsf_setup *setup);
 bool lsf_hurries(const lsf_setup *setup);
 /* Voxels along the scene's longest side, where voxel.resolution leaves them to the time limit. */
 uint32_t lsf_default_voxels(const lsf_setup *setup);
-/* Sets the option bundle.resolution, if it was left out, from the number of iterations. */
-void lsf_default_bundles(lsf_setup *setup);
+/* Sets the texels of ray-bundles and of reflective shadow maps from the number of iterations, where
+ * bundle.resolution and rsm.resolution leave them to it. */
+void lsf_default_maps(lsf_setup *setup);
 /* Sets the options of sample points that were left out. */
 void lsf_default_points(lsf_setup *setup);
 /* Sets light_tree.samples and voxel_path.max_samples, if they were left out, to as many as fit into

@@ -112,7 +112,7 @@ static bool begin_plan(lsf_setup *setup, lsf_error *error)
     lsf_plan *plan = setup->plan = lsf_alloc(1, sizeof *plan);
     if (!plan)
         return lsf_error_set(error, LSF_ERROR_RENDER, "out of memory for the frame plan");
-    lsf_default_bundles(setup);
+    lsf_default_maps(setup);
     lsf_default_points(setup);
     lsf_default_point_samples(setup);
     lsf_default_filter_steps(setup);
@@ -218,13 +218,12 @@ static bool update_previous(lsf_setup *setup, double time, const lsf_view *view,
 }
 
 /* A range that has a gap: options have a least and a largest value. */
-static bool check_bundles(const lsf_ray_bundle_params *params, lsf_error *error)
+static bool check_side(const char *option, int32_t side, int32_t least, lsf_error *error)
 {
-    return params->resolution == 0 || params->resolution >= LSF_RAY_BUNDLE_LEAST ||
+    return side == 0 || side >= least ||
            lsf_error_set(error, LSF_ERROR_USAGE,
-                         "-D bundle.resolution=%d: at least %d texels, or 0 to choose by the "
-                         "number of iterations",
-                         params->resolution, LSF_RAY_BUNDLE_LEAST);
+                         "-D %s=%d: at least %d texels, or 0 to choose by the number of iterations",
+                         option, side, least);
 }
 
 static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *params,
@@ -236,7 +235,10 @@ static bool read_options(lsf_pass_params *pass_params, const lsf_render_params *
             !lsf_option_set(lsf_pass_option_tables, lsf_pass_option_table_count, pass_params,
                             params->options[i], error))
             return false;
-    return check_bundles(&pass_params->ray_bundle, error);
+    return check_side("bundle.resolution", pass_params->ray_bundle.resolution, LSF_RAY_BUNDLE_LEAST,
+                      error) &&
+           check_side("rsm.resolution", pass_params->reflective_shadow_map.resolution,
+                      LSF_REFLECTIVE_SHADOW_MAP_LEAST, error);
 }
 
 bool lsf_setup_begin(lsf_setup *setup, const lsf_scene *scene, const lsf_render_params *params,

@@ -225,10 +225,10 @@ static void bad_params(void **unused)
     lsf_scene *scene = build_scene();
     finish_scene(scene);
     lsf_scene_compute_requirements(scene);
-    static const char *const bad[] = {"shadow.filter",       "shadow.filter=soft",
-                                      "shadow.nothing=1",    "shadow.texels_per_pixel=1e9",
-                                      "shadow.filter=pcf ",  "shadow.texels_per_pixel=nan",
-                                      "bundle.resolution=15"};
+    static const char *const bad[] = {"shadow.filter",        "shadow.filter=soft",
+                                      "shadow.nothing=1",     "shadow.texels_per_pixel=1e9",
+                                      "shadow.filter=pcf ",   "shadow.texels_per_pixel=nan",
+                                      "bundle.resolution=15", "rsm.resolution=15"};
     for (size_t i = 0; i < LSF_COUNT(bad); i++) {
         lsf_render_params params = {LSF_RENDER_PARAMS_DEFAULTS, .raw = true};
         params.technique = "direct";
@@ -431,8 +431,9 @@ static void voxels_by_time(void **unused)
     destroy_scene(scene);
 }
 
-/* Texels of bundles narrow as iterations take the noise away, if their number is known. */
-static void bundles_by_iterations(void **unused)
+/* Texels of bundles and of a point light's map narrow as iterations take the noise away, if their
+ * number is known. */
+static void maps_by_iterations(void **unused)
 {
     (void)unused;
     static const struct {
@@ -440,10 +441,16 @@ static void bundles_by_iterations(void **unused)
         double time_limit;
         const char *option;
         int64_t side;
-    } cases[] = {{32, INFINITY, NULL, 256},       {512, INFINITY, NULL, 512},
-                 {1u << 20, INFINITY, NULL, 768}, {UINT32_MAX, INFINITY, NULL, 256},
-                 {UINT32_MAX, 16.0, NULL, 256},   {UINT32_MAX, 256.0, NULL, 512},
-                 {512, 1.0, NULL, 256},           {512, INFINITY, "bundle.resolution=96", 96}};
+        uint32_t map_side;
+    } cases[] = {{16, INFINITY, NULL, 256, 64},
+                 {256, INFINITY, NULL, 432, 128},
+                 {1u << 20, INFINITY, NULL, 768, 256},
+                 {UINT32_MAX, INFINITY, NULL, 256, 64},
+                 {UINT32_MAX, 16.0, NULL, 256, 80},
+                 {UINT32_MAX, 256.0, NULL, 512, 160},
+                 {512, 1.0, NULL, 256, 64},
+                 {256, INFINITY, "bundle.resolution=96", 96, 128},
+                 {256, INFINITY, "rsm.resolution=48", 432, 48}};
     lsf_scene *scene = lit_floor();
     for (size_t i = 0; i < LSF_COUNT(cases); i++) {
         lsf_error error = {0};
@@ -457,6 +464,8 @@ static void bundles_by_iterations(void **unused)
             fail_msg("%s", error.message);
         assert_int_equal(lsf_plan_switch_value(plan, "bidirectional_shade_hit", "LSF_BUNDLE_SIDE"),
                          cases[i].side);
+        const lsf_plan_resource *map = lsf_plan_find(plan, "reflective_shadow_map.cube_depth");
+        assert_int_equal(map->texture.width, cases[i].map_side);
         lsf_plan_destroy(plan);
     }
     destroy_scene(scene);
@@ -478,7 +487,7 @@ int main(void)
         cmocka_unit_test(points_where_they_pay),
         cmocka_unit_test(coarse_shadows_where_time_is_short),
         cmocka_unit_test(voxels_by_time),
-        cmocka_unit_test(bundles_by_iterations),
+        cmocka_unit_test(maps_by_iterations),
         cmocka_unit_test(replaced_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
