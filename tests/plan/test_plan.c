@@ -443,6 +443,8 @@ static void maps_by_iterations(void **unused)
         int64_t side;
         uint32_t map_side;
     } cases[] = {{16, INFINITY, NULL, 256, 64},
+                 {32, INFINITY, NULL, 256, 80},
+                 {512, INFINITY, NULL, 512, 160},
                  {256, INFINITY, NULL, 432, 128},
                  {1u << 20, INFINITY, NULL, 768, 256},
                  {UINT32_MAX, INFINITY, NULL, 256, 64},
