@@ -1,9 +1,8 @@
 /* A ray-bundle: its projection and its nodes, one for each fragment of the scene along its direction. Switches
- * LSF_BUNDLE_SIDE (texels along a side), LSF_BUNDLE_SLICES, LSF_BUNDLE_SPECULAR_PARAMS, LSF_BUNDLE_ANISOTROPY,
- * LSF_BUNDLE_EMISSION, LSF_BUNDLE_GAPS; lsf_ray_bundle_reader_switches adds them. Writers define LSF_BUNDLE_ACCESS
- * as coherent.
+ * LSF_BUNDLE_SPECULAR_PARAMS, LSF_BUNDLE_ANISOTROPY, LSF_BUNDLE_EMISSION, LSF_BUNDLE_GAPS;
+ * lsf_ray_bundle_reader_switches adds them. Writers define LSF_BUNDLE_ACCESS as coherent.
  *
- * The first LSF_BUNDLE_SLICES fragments of a texel (a multiple of 4 less one, or 0) have slots of their own, in
+ * The first `bundle.sliced` fragments of a texel (a multiple of 4 less one, or 0) have slots of their own, in
  * slices of four that one fetch reads; the first slice begins with the number of fragments. Further fragments are
  * chained. The order of a texel's fragments is not deterministic, so that readers must not depend on it. */
 #ifndef LSF_LIB_RAY_BUNDLE
@@ -66,22 +65,29 @@ layout(std430,
 };
 #endif
 /* Texels are stored in tiles of 8 x 8, so that neighbours on the map are close in memory. */
-#define LSF_BUNDLE_ROW (8 * ((LSF_BUNDLE_SIDE + 7) / 8))
-#define LSF_BUNDLE_TEXELS uint(LSF_BUNDLE_ROW * LSF_BUNDLE_ROW)
-#define LSF_BUNDLE_FIRST_LINK /* its node */                                                     \
-    (uint(LSF_BUNDLE_SLICES + 4) / 4u * 4u * LSF_BUNDLE_TEXELS)
-
 int bundle_texel(ivec2 at)
 {
     ivec2 inside = at & 7, tile = at - inside;
-    return tile.y * LSF_BUNDLE_ROW + (tile.x << 3) + (inside.y << 3) + inside.x;
+    return tile.y * int(bundle.row) + (tile.x << 3) + (inside.y << 3) + inside.x;
 }
 
-/* The node of a fragment whose number is below LSF_BUNDLE_SLICES. */
+/* Texels of the map, those included that fill the last tiles. */
+uint bundle_texels()
+{
+    return bundle.row * bundle.row;
+}
+
+/* Whether the map has this texel. */
+bool bundle_has(ivec2 at)
+{
+    return min(at.x, at.y) >= 0 && max(at.x, at.y) < int(bundle.side);
+}
+
+/* The node of a fragment whose number is below `bundle.sliced`. */
 uint bundle_slice_node(uint texel, uint fragment)
 {
     uint slot = fragment + 1u;
-    return ((slot >> 2) * LSF_BUNDLE_TEXELS + texel) << 2 | (slot & 3u);
+    return ((slot >> 2) * bundle_texels() + texel) << 2 | (slot & 3u);
 }
 
 uint bundle_fragments(uint texel)
@@ -91,9 +97,9 @@ uint bundle_fragments(uint texel)
 
 uint bundle_key(uint node)
 {
-    if (node < LSF_BUNDLE_FIRST_LINK)
+    if (node < bundle.first_link)
         return bundle_keys[node];
-    return bundle_chain[node - LSF_BUNDLE_FIRST_LINK].x;
+    return bundle_chain[node - bundle.first_link].x;
 }
 
 vec3 bundle_coordinates(vec3 p)
@@ -116,13 +122,13 @@ float bundle_gaps_between(float from, float to)
 /* Continuous texel coordinates on the map of a point with these coordinates. */
 vec2 bundle_map_position(vec3 q)
 {
-    return ((q.xy - bundle.window.xy) / bundle.window.zw * 0.5 + 0.5) * float(LSF_BUNDLE_SIDE);
+    return ((q.xy - bundle.window.xy) / bundle.window.zw * 0.5 + 0.5) * float(bundle.side);
 }
 
 /* Width and height of a texel [normalised space]. */
 vec2 bundle_texel_size()
 {
-    return bundle.window.zw * (2.0 / float(LSF_BUNDLE_SIDE));
+    return bundle.window.zw * (2.0 / float(bundle.side));
 }
 
 /* Largest distance of a node's position from the plane of its surface, because vertices are moved by
@@ -307,7 +313,7 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
     vec3 q = bundle_coordinates(origin);
     vec2 position = bundle_map_position(q), size = bundle_texel_size();
     ivec2 at = ivec2(floor(position));
-    if (min(at.x, at.y) < 0 || max(at.x, at.y) >= LSF_BUNDLE_SIDE)
+    if (!bundle_has(at))
         return vec3(1.0);
     uint texel = uint(bundle_texel(at)), count = bundle_fragments(texel), link = 0u;
     vec2 from_center = (position - vec2(at) - 0.5) * size;
@@ -321,10 +327,10 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
 #endif
     for (uint i = 0u; i < count; i++) {
         uint node = bundle_slice_node(texel, i);
-        if (i >= uint(LSF_BUNDLE_SLICES)) {
-            link = i == uint(LSF_BUNDLE_SLICES) ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
+        if (i >= bundle.sliced) {
+            link = i == bundle.sliced ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
                                                 : bundle_chain[link].y;
-            node = LSF_BUNDLE_FIRST_LINK + link;
+            node = bundle.first_link + link;
         }
         uint key = bundle_key(node);
         if (!bundle_is_veil(key))

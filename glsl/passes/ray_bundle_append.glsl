@@ -17,19 +17,17 @@ layout(location = 0) uniform uint chain_capacity; /* nodes for chaining */
 uint append_node(uint texel, uint key)
 {
     uint fragment = atomicAdd(bundle_keys[4u * texel], 1u);
-#if LSF_BUNDLE_SLICES
-    if (fragment < uint(LSF_BUNDLE_SLICES)) {
+    if (fragment < bundle.sliced) {
         uint node = bundle_slice_node(texel, fragment);
         bundle_keys[node] = key;
         return node;
     }
-#endif
     uint link = atomicAdd(bundle_heads[LSF_BUNDLE_CHAINED], 1u);
     if (link >= chain_capacity)
         return LSF_NO_NODE;
     uint before = atomicExchange(bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel], link);
     bundle_chain[link] = uvec2(key, before);
-    return LSF_BUNDLE_FIRST_LINK + link;
+    return bundle.first_link + link;
 }
 
 /* `sides`: LSF_BUNDLE_EMITS_BACK and LSF_BUNDLE_EMITS_AHEAD. */

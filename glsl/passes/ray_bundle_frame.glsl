@@ -30,7 +30,7 @@ vec3 map_position(vec3 q, float steps)
 /* A vector in normalised space in texels and depth steps. */
 vec3 to_map(vec3 v)
 {
-    return bundle_coordinates(v) * vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw,
+    return bundle_coordinates(v) * vec3(0.5 * float(bundle.side) / bundle.window.zw,
                                         LSF_BUNDLE_DEPTH_STEPS / bundle.range.y);
 }
 #endif
@@ -49,7 +49,7 @@ bundle_frame frame_at(vec2 fragment)
 #else
     frame.start = to_map(view_ray_start(ndc)) -
                   vec3(bundle.window.xy - bundle.window.zw, bundle.range.x) *
-                      vec3(0.5 * float(LSF_BUNDLE_SIDE) / bundle.window.zw, steps);
+                      vec3(0.5 * float(bundle.side) / bundle.window.zw, steps);
     frame.along = to_map(view_ray_direction(ndc));
 #endif
     frame.forward = bundle.forward.xyz;

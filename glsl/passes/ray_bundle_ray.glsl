@@ -19,9 +19,6 @@ layout(location = 0) uniform bool from_position;
 layout(binding = 3) uniform usamplerBuffer head_fetch;
 layout(binding = 4) uniform usamplerBuffer key_fetch; /* four at once */
 layout(binding = 5) uniform usamplerBuffer chain_fetch;
-/* Number of slices. It is no compile-time constant, because software GL would unroll the loop and visit empty
- * slices, too. */
-layout(location = 2) uniform int slices_of_four;
 
 struct bundle_ray {
     int texel;
@@ -74,7 +71,7 @@ bundle_ray ray_of(ivec2 pixel, bundle_frame frame)
     vec3 position;
     bool present = origin(pixel, frame, position);
     ivec2 at = ivec2(floor(position.xy));
-    present = present && min(at.x, at.y) >= 0 && max(at.x, at.y) < LSF_BUNDLE_SIDE;
+    present = present && bundle_has(at);
     bundle_ray ray;
     ray.texel = present ? bundle_texel(at) : 0;
     ray.depth = position.z;
@@ -122,23 +119,19 @@ void visit(bundle_ray ray, bool present, uint key, int node, inout bundle_hit hi
 /* The nearest hit among the fragments in slices. */
 bundle_hit search_slices(bundle_ray ray)
 {
-    const int texels = int(LSF_BUNDLE_TEXELS);
+    int texels = int(bundle_texels()), count = min(ray.count, int(bundle.sliced));
     bundle_hit hit = bundle_hit(1e30, LSF_NO_NODE, -1, false);
-#if LSF_BUNDLE_SLICES
-    visit(ray, ray.count > 0, ray.first.y, 4 * ray.texel + 1, hit);
-    visit(ray, ray.count > 1, ray.first.z, 4 * ray.texel + 2, hit);
-    visit(ray, ray.count > 2, ray.first.w, 4 * ray.texel + 3, hit);
-    for (int i = 1; i < slices_of_four; i++) {
-        if (4 * i > ray.count)
-            break;
+    visit(ray, count > 0, ray.first.y, 4 * ray.texel + 1, hit);
+    visit(ray, count > 1, ray.first.z, 4 * ray.texel + 2, hit);
+    visit(ray, count > 2, ray.first.w, 4 * ray.texel + 3, hit);
+    for (int i = 1; 4 * i <= count; i++) {
         int at = i * texels + ray.texel;
         uvec4 keys = texelFetch(key_fetch, at);
         visit(ray, true, keys.x, 4 * at, hit);
-        visit(ray, 4 * i < ray.count, keys.y, 4 * at + 1, hit);
-        visit(ray, 4 * i + 1 < ray.count, keys.z, 4 * at + 2, hit);
-        visit(ray, 4 * i + 2 < ray.count, keys.w, 4 * at + 3, hit);
+        visit(ray, 4 * i < count, keys.y, 4 * at + 1, hit);
+        visit(ray, 4 * i + 1 < count, keys.z, 4 * at + 2, hit);
+        visit(ray, 4 * i + 2 < count, keys.w, 4 * at + 3, hit);
     }
-#endif
     return hit;
 }
 

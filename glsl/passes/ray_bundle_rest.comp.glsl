@@ -16,12 +16,12 @@ layout(binding = 0, rg32ui) writeonly uniform uimage2D hits;
 
 void search_chain(bundle_ray ray, inout bundle_hit hit)
 {
-    int left = ray.count - LSF_BUNDLE_SLICES;
+    int left = ray.count - int(bundle.sliced);
     int link = left > 0 ? int(texelFetch(head_fetch, LSF_BUNDLE_COUNTERS + ray.texel).x) : 0;
     for (uint round_index = 0u; round_index < LSF_ROUNDS && left > 0; round_index++)
         for (uint i = 0u; i < LSF_STEPS && left > 0; i++) {
             uvec2 node = texelFetch(chain_fetch, link).xy;
-            visit(ray, true, node.x, int(LSF_BUNDLE_FIRST_LINK) + link, hit);
+            visit(ray, true, node.x, int(bundle.first_link) + link, hit);
             link = int(node.y);
             left--;
         }
@@ -61,10 +61,10 @@ uint choose(uint texel, uint chosen)
     for (uint round_index = 0u; round_index < LSF_ROUNDS && round_index * LSF_STEPS < count; round_index++)
         for (uint i = round_index * LSF_STEPS; i < (round_index + 1u) * LSF_STEPS && i < count; i++) {
             uint node = bundle_slice_node(texel, i);
-            if (i >= uint(LSF_BUNDLE_SLICES)) {
-                link = i == uint(LSF_BUNDLE_SLICES) ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
+            if (i >= bundle.sliced) {
+                link = i == bundle.sliced ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
                                                     : bundle_chain[link].y;
-                node = LSF_BUNDLE_FIRST_LINK + link;
+                node = bundle.first_link + link;
             }
             if (bundle_key(node) == key && comes_before(node, chosen))
                 chosen = node;

@@ -16,7 +16,7 @@ void main()
     bundle_frame frame = bundle_frame(frame_start, frame_along, frame_forward, frame_scale);
     bundle_ray ray = ray_of(ivec2(gl_FragCoord.xy), frame);
     bundle_hit hit = search_slices(ray);
-    if (hit.tie || ray.count > LSF_BUNDLE_SLICES)
+    if (hit.tie || ray.count > int(bundle.sliced))
         rest[atomicAdd(rest_count, 1u)] = uint(gl_FragCoord.x) | uint(gl_FragCoord.y) << 16;
     hit_out = hit_pack(ray, hit, frame);
 }

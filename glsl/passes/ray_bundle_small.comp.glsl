@@ -20,7 +20,7 @@ vec3 to_map(uint vertex)
 {
     vec3 q = bundle_coordinates(triangle_position(vertex));
     vec2 ndc = (q.xy - bundle.window.xy) / bundle.window.zw;
-    float half_side = 0.5 * float(LSF_BUNDLE_SIDE);
+    float half_side = 0.5 * float(bundle.side);
     return vec3(ndc * half_side + half_side, (q.z - bundle.range.x) / bundle.range.y);
 }
 
@@ -59,9 +59,9 @@ void main()
     uvec3 corners = triangle_corners(triangle);
     vec3 p0 = to_map(corners.x), p1 = to_map(corners.y), p2 = to_map(corners.z);
     vec2 low = min(p0.xy, min(p1.xy, p2.xy)), high = max(p0.xy, max(p1.xy, p2.xy));
-    int margin = (LSF_BUNDLE_SIDE - int(bundle.range.z)) / 2; /* texels that are not used */
+    int margin = (int(bundle.side) - int(bundle.range.z)) / 2; /* texels that are not used */
     if (!(min(high.x, high.y) >= float(margin) &&
-          max(low.x, low.y) <= float(LSF_BUNDLE_SIDE - margin)))
+          max(low.x, low.y) <= float(int(bundle.side) - margin)))
         return;
     vec2 size = high - low + 1.0;
     if (size.x * size.y > float(LSF_BUNDLE_SMALL_TEXELS)) {
@@ -77,7 +77,7 @@ void main()
     if (area == 0)
         return;
     ivec2 least = max((min(s0, min(s1, s2)) + middle - 1) / step, ivec2(margin));
-    ivec2 most = min((max(s0, max(s1, s2)) - middle) / step, ivec2(LSF_BUNDLE_SIDE - 1 - margin));
+    ivec2 most = min((max(s0, max(s1, s2)) - middle) / step, ivec2(int(bundle.side) - 1 - margin));
     ivec2 count = most - least + 1;
     int samples = count.x > 0 && count.y > 0 ? count.x * count.y : 0;
     ivec2 at = least * step + middle;

@@ -1,6 +1,6 @@
-/* A triangle of the current instance in the grid. The lowest LSF_VOXELIZE_ID_BITS of a bid are the triangle's
- * number. Switch LSF_VOXEL_CHANCE: transmitting surfaces are present with some probability, because marching cones
- * cannot continue behind them. */
+/* A triangle of the current instance in the grid. The lowest grid.id_bits of a bid are the triangle's number. Switch
+ * LSF_VOXEL_CHANCE: transmitting surfaces are present with some probability, because marching cones cannot continue
+ * behind them. */
 #ifndef LSF_PASSES_VOXELIZE
 #define LSF_PASSES_VOXELIZE
 
@@ -16,8 +16,6 @@ layout(location = 0) uniform uint first_triangle; /* of the instance, in the num
 /* Positions in a grid of 512 voxels are rounded to 2^-15 of a voxel, and distances to edges to a few times as
  * much; triangles that come closer than this touch. [voxels] */
 const float slack = 1.0 / 4096.0;
-
-const uint id_mask = (1u << LSF_VOXELIZE_ID_BITS) - 1u;
 
 struct voxel_triangle {
     uint id;

@@ -31,7 +31,7 @@ layout(std430, binding = LSF_BINDING_WON) VOXELIZE_LIST_ACCESS buffer lsf_won_bl
 
 uint winner(ivec3 cell)
 {
-    const uint mask = (1u << LSF_VOXELIZE_ID_BITS) - 1u;
+    uint mask = (1u << grid.id_bits) - 1u;
     return mask - (imageLoad(key_image, cell).r & mask);
 }
 

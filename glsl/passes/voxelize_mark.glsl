@@ -55,10 +55,10 @@ void bid(voxel_triangle t, ivec3 cell, vec3 low)
 #endif
     vec3 nearest_point = t.a * weights.x + t.b * weights.y + t.c * weights.z;
     float distance = length(nearest_point - (low + 0.5));
-    const uint nearest = 0xffffffffu >> LSF_VOXELIZE_ID_BITS;
+    uint nearest = 0xffffffffu >> grid.id_bits, id_mask = (1u << grid.id_bits) - 1u;
     /* A triangle that touches a voxel is at most half the voxel's diagonal away, sqrt(3) / 2. */
     uint near = uint((1.0 - min(distance / 0.8661, 1.0)) * float(nearest));
-    uint key = (near << LSF_VOXELIZE_ID_BITS) | (id_mask - t.id);
+    uint key = (near << grid.id_bits) | (id_mask - t.id);
     /* Keys only grow: a bid that is beaten now stays beaten and needs no atomic operation. */
     if (imageLoad(key_image, cell).r >= key || imageAtomicMax(key_image, cell, key) != 0u)
         return;

@@ -6,17 +6,12 @@
 
 int lsf_bundle_size()
 {
-    return LSF_BUNDLE_SIDE;
+    return int(bundle.side);
 }
 
 vec2 lsf_bundle_texel(vec3 position)
 {
     return bundle_map_position(bundle_coordinates(position));
-}
-
-bool bundle_has(ivec2 texel)
-{
-    return min(texel.x, texel.y) >= 0 && max(texel.x, texel.y) < LSF_BUNDLE_SIDE;
 }
 
 int lsf_bundle_count(ivec2 texel)
@@ -27,12 +22,12 @@ int lsf_bundle_count(ivec2 texel)
 uint lsf_bundle_node(ivec2 texel, int i)
 {
     uint at = uint(bundle_texel(texel));
-    if (i < LSF_BUNDLE_SLICES)
+    if (i < int(bundle.sliced))
         return bundle_slice_node(at, uint(i));
     uint link = bundle_heads[uint(LSF_BUNDLE_COUNTERS) + at];
-    for (int k = LSF_BUNDLE_SLICES; k < i; k++)
+    for (int k = int(bundle.sliced); k < i; k++)
         link = bundle_chain[link].y;
-    return LSF_BUNDLE_FIRST_LINK + link;
+    return bundle.first_link + link;
 }
 
 float lsf_bundle_depth(uint node)

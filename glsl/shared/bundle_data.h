@@ -20,13 +20,17 @@ struct lsf_bundle_data {
                  * map's centre; 1 / texels of the map */
     vec4 gap_starts[3],
         gap_lengths[3]; /* along right, up and forward, in ascending order; length 0: none */
+    /* Texels along a side of the map, and the same rounded up to whole tiles; fragments of a texel
+     * that are in slices, see lib/ray_bundle.glsl; the first chained node. As switches they would
+     * make other numbers of samples compile other shaders. */
+    uint side, row, sliced, first_link;
 };
 
 /* Stride in an array of bundles, 256 bytes: GL's largest alignment of ranges bound as uniform
  * buffers. */
 struct lsf_bundle_slot_data {
     LSF_SHARED_STRUCT(lsf_bundle_data) data;
-    vec4 unused[5];
+    vec4 unused[4];
 };
 
 /* Largest distance of a node's plane from the origin of a ray at which it still is the surface

@@ -8,7 +8,10 @@
 struct lsf_voxel_grid_data {
     vec4 origin; /* xyz: lower corner [normalised space]; w: side of a voxel */
     vec4 size;   /* xyz: voxels along each axis, multiples of 16; w: 1 / side of a voxel */
-    vec4 unit;   /* x: factor on stored radiance, a power of two; y: 1 / x */
+    vec2 unit;   /* x: factor on stored radiance, a power of two; y: 1 / x */
+    /* Bits that tell a triangle among all, and one value more: a bid is never 0. As a switch they
+     * would make each scene compile its own shaders. */
+    uint id_bits, unused;
 };
 
 /* Occupancy has two levels with a bit for each cell: a voxel, or a brick of 4^3 voxels. A texel

@@ -111,6 +111,14 @@ void lsf_voxel_grid_remark(lsf_plan *plan, const lsf_voxel_grid_params *params,
             grid->resolution, grid->wanted, (double)params->memory, MAX_TEXTURE_DEPTH);
 }
 
+static uint32_t id_bits(uint64_t triangles)
+{
+    uint32_t bits = 1;
+    while (bits < 31 && (UINT64_C(1) << bits) < triangles + 1)
+        bits++;
+    return bits;
+}
+
 struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
                                                const lsf_iteration *iteration)
 {
@@ -127,7 +135,9 @@ struct lsf_voxel_grid_data lsf_voxel_grid_data(const lsf_voxel_grid *grid,
     return (struct lsf_voxel_grid_data){.origin = {shift[0], shift[1], shift[2], grid->side},
                                         .size = {(float)grid->size[0], (float)grid->size[1],
                                                  (float)grid->size[2], 1.0f / grid->side},
-                                        .unit = {grid->unit, 1.0f / grid->unit, 0.0f, 0.0f}};
+                                        .unit = {grid->unit, 1.0f / grid->unit},
+                                        .id_bits =
+                                            id_bits(iteration->plan->requirements.triangles)};
 }
 
 void lsf_voxels_bind_grid(const lsf_voxels *voxels)

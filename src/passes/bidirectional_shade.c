@@ -57,9 +57,8 @@ static const lsf_texture_row textures[] = {
 };
 
 /* Uniforms of lib/ray_bundle.glsl. */
-static const char *const bundle_switches[] = {
-    "LSF_BUNDLE_SIDE",       "LSF_BUNDLE_SLICES",   "LSF_BUNDLE_SPECULAR_PARAMS",
-    "LSF_BUNDLE_ANISOTROPY", "LSF_BUNDLE_EMISSION", "LSF_BUNDLE_GAPS"};
+static const char *const bundle_switches[] = {"LSF_BUNDLE_SPECULAR_PARAMS", "LSF_BUNDLE_ANISOTROPY",
+                                              "LSF_BUNDLE_EMISSION", "LSF_BUNDLE_GAPS"};
 
 static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *params,
                           const lsf_bidirectional_shade_use *use, bool of_vpl, bool deep)

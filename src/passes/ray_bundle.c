@@ -52,12 +52,9 @@ void lsf_ray_bundle_gap_switch(lsf_plan *plan)
                         "parts of the scene lie far apart");
 }
 
-void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params)
+void lsf_ray_bundle_reader_switches(lsf_plan *plan)
 {
     bool specular_params = lsf_plan_surfaces_differ(plan);
-    lsf_plan_switch_add(plan, "LSF_BUNDLE_SIDE", params->resolution, "bundle.resolution");
-    lsf_plan_switch_add(plan, "LSF_BUNDLE_SLICES", lsf_ray_bundle_slices(params),
-                        "bundle.slices, as a multiple of 4 less one that storage blocks hold");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_SPECULAR_PARAMS", specular_params,
                         "some material is glossy");
     lsf_plan_switch_add(plan, "LSF_BUNDLE_ANISOTROPY",
@@ -79,10 +76,13 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
         lsf_ray_bundle_aim_plan(plan);
     else
         lsf_plan_omit(plan, "ray_bundle_bounds", "bundles hold the whole scene");
-    lsf_plan_pass_add(plan, "ray_bundle_build", "every fragment of the scene along %u direction%s",
-                      use->count, lsf_plural(use->count));
+    lsf_plan_pass_add(plan, "ray_bundle_build",
+                      "every fragment of the scene along %u direction%s, on maps of %d x %d texels "
+                      "with slices for %d fragments each",
+                      use->count, lsf_plural(use->count), params->resolution, params->resolution,
+                      lsf_ray_bundle_slices(params));
     lsf_plan_reads(plan, "scene");
-    lsf_ray_bundle_reader_switches(plan, params);
+    lsf_ray_bundle_reader_switches(plan);
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
     lsf_scene_gpu_material_switches(plan, lsf_plan_surfaces_differ(plan) && !use->distances_only,
                                     lsf_plan_surfaces_shine(plan) && !use->distances_only);
@@ -96,7 +96,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_plan_reads(plan, "view points|gbuffer");
     if (use->deep_vertices)
         lsf_plan_reads(plan, "bidirectional_shade");
-    lsf_ray_bundle_reader_switches(plan, params);
+    lsf_ray_bundle_reader_switches(plan);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
     lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
@@ -234,8 +234,6 @@ static void set_ray(const lsf_ray_bundle *pass, GLuint program,
     glUseProgram(program);
     if (pass->use.deep_vertices)
         glUniform1i(0, origins->from_position);
-    if (lsf_ray_bundle_slices(&pass->params) > 0)
-        glUniform1i(2, (lsf_ray_bundle_slices(&pass->params) + 1) / 4);
     lsf_region_set(region);
 }
 

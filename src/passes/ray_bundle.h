@@ -111,7 +111,7 @@ GLuint lsf_ray_bundle_gate(const lsf_ray_bundle *pass);
 bool lsf_ray_bundle_settle(lsf_ray_bundle *pass, const lsf_iteration *iteration, bool wait,
                            uint32_t *iterations_done);
 /* Adds the switches of lib/ray_bundle.glsl to the current pass, which reads nodes. */
-void lsf_ray_bundle_reader_switches(lsf_plan *plan, const lsf_ray_bundle_params *params);
+void lsf_ray_bundle_reader_switches(lsf_plan *plan);
 void lsf_ray_bundle_destroy(lsf_ray_bundle *pass); /* NULL allowed */
 
 /* Timers of bounds (NULL where there are none), build and search, in this order. */

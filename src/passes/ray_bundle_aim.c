@@ -104,6 +104,7 @@ static void project(const lsf_ray_bundle *pass, const lsf_iteration *iteration, 
         .window = {center[0], center[1], extent[0], extent[1]},
         .range = {low[2], fmaxf(high[2] - low[2], MIN_LENGTH), texels, 1.0f / whole},
     };
+    lsf_ray_bundle_set_sizes(&pass->params, data);
     memcpy(data->gap_starts, gaps.starts, sizeof gaps.starts);
     memcpy(data->gap_lengths, gaps.lengths, sizeof gaps.lengths);
 }

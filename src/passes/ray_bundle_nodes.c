@@ -19,9 +19,14 @@
 static const char *const array_names[LSF_RAY_BUNDLE_ARRAYS] = {
     "heads", "keys", "surfaces", "specular_params", "emission", "chain"};
 
+static uint32_t row_texels(const lsf_ray_bundle_params *params)
+{
+    return (uint32_t)(params->resolution + 7) / 8 * 8;
+}
+
 uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params)
 {
-    uint64_t row = (uint64_t)(params->resolution + 7) / 8 * 8;
+    uint64_t row = row_texels(params);
     return row * row;
 }
 
@@ -46,6 +51,14 @@ int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params)
 static uint64_t own_nodes(const lsf_ray_bundle_params *params)
 {
     return ((uint64_t)lsf_ray_bundle_slices(params) + 4) / 4 * 4;
+}
+
+void lsf_ray_bundle_set_sizes(const lsf_ray_bundle_params *params, struct lsf_bundle_data *data)
+{
+    data->side = (uint32_t)params->resolution;
+    data->row = row_texels(params);
+    data->sliced = (uint32_t)lsf_ray_bundle_slices(params);
+    data->first_link = (uint32_t)(own_nodes(params) * lsf_ray_bundle_texels(params));
 }
 
 bool lsf_ray_bundle_has_wide_specular_params(const lsf_plan *plan)

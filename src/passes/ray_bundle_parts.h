@@ -58,6 +58,8 @@ void lsf_ray_bundle_gap_switch(lsf_plan *plan);
 uint64_t lsf_ray_bundle_texels(const lsf_ray_bundle_params *params);
 /* bundle.slices as a multiple of 4 less one, and no more than a storage block holds; or 0. */
 int32_t lsf_ray_bundle_slices(const lsf_ray_bundle_params *params);
+/* Sets the sizes in `data`. */
+void lsf_ray_bundle_set_sizes(const lsf_ray_bundle_params *params, struct lsf_bundle_data *data);
 /* Whether nodes hold anisotropy or transmission. */
 bool lsf_ray_bundle_has_wide_specular_params(const lsf_plan *plan);
 void lsf_ray_bundle_nodes_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,

@@ -29,18 +29,8 @@ uint32_t lsf_voxelize_bytes(const lsf_plan *plan, bool jitter)
     return lsf_voxelize_keeps_still(plan, jitter) ? 2 * bytes : bytes;
 }
 
-/* Bits that tell a triangle among all, and one value more: a bid is never 0. */
-static int id_bits(const lsf_plan *plan)
-{
-    int bits = 1;
-    while (bits < 31 && (UINT64_C(1) << bits) < plan->requirements.triangles + 1)
-        bits++;
-    return bits;
-}
-
 static void plan_switches(lsf_plan *plan)
 {
-    lsf_plan_switch_add(plan, "LSF_VOXELIZE_ID_BITS", id_bits(plan), "of a triangle's number");
     lsf_plan_switch_add(plan, "LSF_VOXELIZE_GROUP", GROUP, "triangles, or voxels, of a work group");
     lsf_plan_switch_add(plan, "LSF_BINDING_BRICKS", BINDING_BRICKS, "always");
     lsf_plan_switch_add(plan, "LSF_BINDING_DRAWS", BINDING_DRAWS, "always");

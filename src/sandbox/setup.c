@@ -147,7 +147,7 @@ static void plan_switches(lsf_sandbox_setup *setup)
                         "shadow.filter");
     lsf_scene_gpu_environment_switches(plan, "an environment shines");
     if (needs(setup, LSF_NEED_BUNDLE))
-        lsf_ray_bundle_reader_switches(plan, &setup->setup.pass_params.ray_bundle);
+        lsf_ray_bundle_reader_switches(plan);
 }
 
 /* Which pass uses which name, for readers of the plan. */

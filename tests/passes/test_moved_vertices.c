@@ -12,7 +12,7 @@ static const struct {
     const char *shader, *size;
 } surfaces[] = {
     {"gbuffer", "view.size.xy"},
-    {"ray_bundle_build", "vec2(LSF_BUNDLE_SIDE)"},
+    {"ray_bundle_build", "vec2(bundle.side)"},
     {"reflective_shadow_map", "vec2(light.map_shape.z)"},
     {"shadow_map", "vec2(light.map_shape.z)"},
     {"sky_map", "vec2(sky_maps[map].texel.w)"},

@@ -60,7 +60,7 @@ static void upload(grid *g)
     const struct lsf_voxel_grid_data data = {
         .origin = {0, 0, 0, 1},
         .size = {(float)g->size[0], (float)g->size[1], (float)g->size[2], 1},
-        .unit = {1, 1, 0, 0}};
+        .unit = {1, 1}};
     glCreateBuffers(1, &g->buffer);
     glNamedBufferStorage(g->buffer, sizeof data, &data, 0);
     glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VOXEL, g->buffer);
