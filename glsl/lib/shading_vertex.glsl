@@ -133,7 +133,7 @@ light_parts vertex_reflect(shading_vertex v, vec3 direction, float kernel)
     }
 #if LSF_POOLED
     vec3 f0 = surface_specular_f0(v.s);
-    kernel *= pooling_spread(kernel, largest(f0), pow(v.s.roughness, 4.0), v.normal_change, float(LSF_INTERLEAVE));
+    kernel *= pooling_spread(kernel, largest(f0), pow(v.s.roughness, 4.0), v.normal_change, float(INTERLEAVE_SIZE));
 #endif
     brdf_value f = brdf_evaluate(v.s, v.view, direction, kernel);
 #if LSF_DEEP

@@ -10,7 +10,7 @@
 /* Number of rows of a tile's points, and the row at which the tile would begin with one layer. */
 int tile_rows(int tile)
 {
-    return sparse_grid.y / LSF_INTERLEAVE + int(tile < sparse_grid.y % LSF_INTERLEAVE);
+    return sparse_grid.y / INTERLEAVE_SIZE + int(tile < sparse_grid.y % INTERLEAVE_SIZE);
 }
 
 int tile_corner(int tile)
@@ -21,7 +21,7 @@ int tile_corner(int tile)
 ivec2 sparse_position(ivec2 point, int layer)
 {
     ivec2 position = interleave_position(point, sparse_grid.xy);
-    int tile = point.y % LSF_INTERLEAVE;
+    int tile = point.y % INTERLEAVE_SIZE;
     position.y += (sparse_shape.y - 1) * tile_corner(tile) + layer * tile_rows(tile);
     return position;
 }
@@ -29,7 +29,7 @@ ivec2 sparse_position(ivec2 point, int layer)
 /* The inverse. */
 ivec2 sparse_point(ivec2 position, out int layer)
 {
-    int rows = sparse_grid.y / LSF_INTERLEAVE, higher = sparse_grid.y % LSF_INTERLEAVE;
+    int rows = sparse_grid.y / INTERLEAVE_SIZE, higher = sparse_grid.y % INTERLEAVE_SIZE;
     int high = sparse_shape.y * (rows + 1), low = max(sparse_shape.y * rows, 1);
     int tile = position.y / high;
     if (tile >= higher)

@@ -284,7 +284,8 @@ void lsf_iteration_begin(lsf_iteration *iteration, uint32_t done)
     lsf_sobol_2d(iteration->index, lsf_iteration_seed(iteration, LSF_PURPOSE_PIXEL), point);
     float x = (2.0f * point[0] - 1.0f) * iteration->view.size.z;
     float y = (2.0f * point[1] - 1.0f) * iteration->view.size.w;
-    iteration->view.jitter = (lsf_vec4){x, y, (float)iteration->plan->pixel_side, 0.0f};
+    iteration->view.jitter =
+        (lsf_vec4){x, y, (float)iteration->plan->pixel_side, (float)iteration->plan->interleave};
     iteration->view.clip = clip_matrix(&iteration->state->camera, x, y);
     iteration->view.previous_clip = clip_matrix(&iteration->previous_camera, x, y);
     iteration->view.previous_start = vec4_from(iteration->previous_camera.start);

@@ -55,6 +55,14 @@ void lsf_sparse_grid_switch(lsf_plan *plan)
                         "indirect light is gathered at fewer points than there are pixels");
 }
 
+void lsf_interleave_switch(lsf_plan *plan, uint32_t size)
+{
+    if (size > 1)
+        plan->interleave = size;
+    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", size > 1,
+                        "pixels take different samples in a pattern of interleave.size");
+}
+
 void lsf_sparse_grid_pixel_switch(lsf_plan *plan)
 {
     if (lsf_sparse_grid_is_of_pixels(plan))

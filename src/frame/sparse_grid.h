@@ -35,6 +35,8 @@ void lsf_sparse_grid_points(const lsf_plan *plan, uint32_t size[2]);
 void lsf_sparse_grid_switch(lsf_plan *plan);
 /* Adds LSF_PIXEL_SIDE, where it is above 1. */
 void lsf_sparse_grid_pixel_switch(lsf_plan *plan);
+/* Adds LSF_INTERLEAVE, and sets the plan's pattern of `size`, 1: none. */
+void lsf_interleave_switch(lsf_plan *plan, uint32_t size);
 /* Sets the uniforms of lib/sparse_grid.glsl in the program in use, where the plan is sparse. */
 void lsf_sparse_grid_set(const lsf_plan *plan, const lsf_sparse_grid *grid);
 /* The grid of the frame's iteration number `done`; `index` counts over all frames, so that

@@ -68,8 +68,7 @@ static void plan_switches(lsf_plan *plan, const lsf_bidirectional_shade_params *
     lsf_plan_switch_add(plan, "LSF_DEEP", deep, "vertices are hits of bundles");
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
-    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
-                        "the size of the interleaving pattern, 1: none");
+    lsf_interleave_switch(plan, use->interleave);
     lsf_plan_switch_add(plan, "LSF_POOLED",
                         !deep && plan->filtered && use->interleave > 1 && r->specular,
                         "a filter pools the light of the pattern");

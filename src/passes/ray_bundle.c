@@ -99,8 +99,7 @@ void lsf_ray_bundle_plan(lsf_plan *plan, const lsf_ray_bundle_params *params,
     lsf_ray_bundle_reader_switches(plan);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
-    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave,
-                        "size of the interleaving pattern");
+    lsf_interleave_switch(plan, use->interleave);
     lsf_plan_switch_add(plan, SURFACES, !use->distances_only, "not only distances are asked for");
     lsf_plan_switch_add(plan, "LSF_DEEP", use->deep_vertices, "paths go on from hits");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,

@@ -89,7 +89,7 @@ static void plan_switches(lsf_plan *plan, uint32_t interleave, bool tint)
     bool specular_params = lsf_gbuffer_specular_params(plan) != GL_NONE;
     lsf_sparse_grid_switch(plan);
     lsf_sparse_grid_pixel_switch(plan);
-    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)interleave, "interleave.size");
+    lsf_interleave_switch(plan, interleave);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", specular_params, "roughness or metallic vary");
     lsf_plan_switch_add(plan, "LSF_SPECULAR", r->specular, "materials have a specular lobe");
@@ -134,7 +134,7 @@ void lsf_sparse_plan_split(lsf_plan *plan, const lsf_sparse_params *params, uint
         lsf_plan_pass_add(plan, "sparse_split", "what points see%s",
                           interleave > 1 ? ", those side by side that take the same samples" : "");
         lsf_plan_fills(plan, "points");
-        lsf_plan_reads(plan, there & SHARED ? "view gbuffer sparse.source" : "gbuffer");
+        lsf_plan_reads(plan, there & SHARED ? "view gbuffer sparse.source" : "view gbuffer");
         plan_switches(plan, interleave, false);
     }
 }
@@ -145,9 +145,9 @@ void lsf_sparse_plan_gather(lsf_plan *plan, const lsf_sparse_params *params, uin
     bool tint = there & SHARED || params->outliers;
     if (there & GATHER) {
         lsf_plan_pass_add(plan, "sparse_gather", "light back into the order of points");
-        lsf_plan_reads(plan, "bidirectional_shade|cone_trace|light_tree_sample|voxel_path");
+        lsf_plan_reads(plan, "view bidirectional_shade|cone_trace|light_tree_sample|voxel_path");
         if (tint)
-            lsf_plan_reads(plan, "view gbuffer points.pixels");
+            lsf_plan_reads(plan, "gbuffer points.pixels");
         plan_switches(plan, interleave, tint);
         lsf_plan_switch_add(plan, "LSF_OUTLIERS", params->outliers, "sparse.outliers");
     }

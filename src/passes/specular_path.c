@@ -43,7 +43,7 @@ void lsf_specular_path_plan(lsf_plan *plan, const lsf_specular_path_params *para
     lsf_plan_reads(plan, use->reads);
     lsf_plan_switch_add(plan, "LSF_ORTHOGRAPHIC", plan->orthographic, "the camera is orthographic");
     lsf_sparse_grid_switch(plan);
-    lsf_plan_switch_add(plan, "LSF_INTERLEAVE", (int)use->interleave, "interleave.size");
+    lsf_interleave_switch(plan, use->interleave);
     lsf_plan_switch_add(plan, "LSF_SPECULAR", true, "always");
     lsf_plan_switch_add(plan, "LSF_SPECULAR_PARAMS", true, "always");
     lsf_plan_switch_add(plan, "LSF_TRANSMISSION", plan->transmission,

@@ -79,6 +79,7 @@ struct lsf_plan {
     bool random_samples; /* plain random numbers pick light samples, not low-discrepancy ones */
     uint32_t pattern;    /* side of the pattern in which pixels take different samples, which a
                           * filter pools; 1: no pattern */
+    uint32_t interleave; /* side of the pattern in which pixels take different samples; 0: none */
     uint32_t stride;     /* sample points from point to point at which indirect light is gathered, a
                           * power of two; 0 is 1 */
     uint32_t finest_stride; /* stride to which it falls as iterations go on; used where stride is

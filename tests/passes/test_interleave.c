@@ -57,20 +57,23 @@ static void shader_agrees(void **unused)
             uint32_t w = sizes[s][0], h = sizes[s][1];
             const lsf_sparse_grid grid = {.stride = 1, .width = w, .height = h, .layers = 1};
             lsf_error error = {0};
-            const lsf_define define = {"LSF_INTERLEAVE", size};
+            const lsf_define defines[] = {{"LSF_INTERLEAVE", size > 1}, {"LSF_ORTHOGRAPHIC", 0}};
+            const struct lsf_view_data view = {.jitter = {.w = (float)size}};
             lsf_program_desc desc = {.label = "places",
                                      .files = {"places.comp.glsl"},
-                                     .defines = &define,
-                                     .define_count = 1};
+                                     .defines = defines,
+                                     .define_count = LSF_COUNT(defines)};
             GLuint program = lsf_program_get(context, &desc, &error);
             if (!program)
                 fail_msg("%s", error.message);
             GLuint buffer = lsf_buffer_create(context, "places", 16 * (uint64_t)w * h, NULL,
                                               GL_MAP_READ_BIT, &error);
+            GLuint view_buffer = lsf_buffer_create(context, "view", sizeof view, &view, 0, &error);
             int32_t places[33 * 13][4];
             glUseProgram(program);
             glUniform2i(0, (GLint)w, (GLint)h);
             glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
+            glBindBufferBase(GL_UNIFORM_BUFFER, LSF_BINDING_VIEW, view_buffer);
             glDispatchCompute(w, h, 1);
             glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
             glGetNamedBufferSubData(buffer, 0, 16 * (GLsizeiptr)(w * h), places);
@@ -85,6 +88,7 @@ static void shader_agrees(void **unused)
                     assert_int_equal(p[3], y);
                 }
             lsf_buffer_destroy(context, &buffer);
+            lsf_buffer_destroy(context, &view_buffer);
         }
     gl_test_check(context);
     lsf_context_destroy(context);
