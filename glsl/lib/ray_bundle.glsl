@@ -329,7 +329,7 @@ vec3 bundle_tint(vec3 origin, vec3 ray_direction, float far)
         uint node = bundle_slice_node(texel, i);
         if (i >= bundle.sliced) {
             link = i == bundle.sliced ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
-                                                : bundle_chain[link].y;
+                                      : bundle_chain[link].y;
             node = bundle.first_link + link;
         }
         uint key = bundle_key(node);

@@ -63,7 +63,7 @@ uint choose(uint texel, uint chosen)
             uint node = bundle_slice_node(texel, i);
             if (i >= bundle.sliced) {
                 link = i == bundle.sliced ? bundle_heads[uint(LSF_BUNDLE_COUNTERS) + texel]
-                                                    : bundle_chain[link].y;
+                                          : bundle_chain[link].y;
                 node = bundle.first_link + link;
             }
             if (bundle_key(node) == key && comes_before(node, chosen))

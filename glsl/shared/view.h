@@ -17,7 +17,7 @@ struct lsf_view_data {
     vec4 forward, forward_dx, forward_dy;
     vec4 size;   /* width, height, 1 / width, 1 / height of what is seen [sample points] */
     vec4 jitter; /* xy: ndc of the sample minus ndc of the centre of its part of a pixel; z: sample
-                  * points along a pixel's side; w: side of the interleaving pattern, 1: none */
+                  * points along a pixel's side; w: side of the interleaving pattern, 0: none */
     vec4 depth;  /* a, b, scene units per normalised unit, view depth of the start */
 };
 

@@ -35,7 +35,8 @@ void lsf_sparse_grid_points(const lsf_plan *plan, uint32_t size[2]);
 void lsf_sparse_grid_switch(lsf_plan *plan);
 /* Adds LSF_PIXEL_SIDE, where it is above 1. */
 void lsf_sparse_grid_pixel_switch(lsf_plan *plan);
-/* Adds LSF_INTERLEAVE, and sets the plan's pattern of `size`, 1: none. */
+/* Adds LSF_INTERLEAVE to the pass added last: whether it follows a pattern of interleaved samples
+ * of this side, which the plan then keeps for lsf_view_data; 1: it follows none. */
 void lsf_interleave_switch(lsf_plan *plan, uint32_t size);
 /* Sets the uniforms of lib/sparse_grid.glsl in the program in use, where the plan is sparse. */
 void lsf_sparse_grid_set(const lsf_plan *plan, const lsf_sparse_grid *grid);
