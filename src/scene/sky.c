@@ -26,12 +26,6 @@ double lsf_sky_fluence(const lsf_environment *environment)
     return sum;
 }
 
-static double solid_angle(const lsf_environment *map, uint64_t texel)
-{
-    return lsf_environment_cell_solid_angle(map->width, map->height,
-                                            (uint32_t)(texel / map->width));
-}
-
 /* 1/2 over an integral; 0 where that is. */
 static float half_over(double integral)
 {
@@ -42,21 +36,27 @@ static float half_over(double integral)
 static void fill(lsf_sky *sky)
 {
     const lsf_environment *map = sky->environment;
-    uint64_t count = (uint64_t)map->width * map->height;
+    uint64_t width = map->width;
     double whole = lsf_sky_fluence(map), held = 0.0;
     sky->mean = (float)(whole / (4.0 * M_PI));
-    for (uint64_t i = 0; i < count; i++) {
-        sky->weights[i] = lsf_f3_luminance(lsf_f3_load(map->texels + 3 * i));
-        held += (double)fminf(sky->weights[i], sky->mean) * solid_angle(map, i);
+    for (uint32_t y = 0; y < map->height; y++) {
+        double solid_angle = lsf_environment_cell_solid_angle(map->width, map->height, y);
+        for (uint64_t i = y * width; i < (y + 1) * width; i++) {
+            sky->weights[i] = lsf_f3_luminance(lsf_f3_load(map->texels + 3 * i));
+            held += (double)fminf(sky->weights[i], sky->mean) * solid_angle;
+        }
     }
     sky->whole = half_over(whole);
     sky->held = half_over(held);
-    for (uint64_t i = 0; i < count; i++) {
-        float density = whole > 0.0 ? sky->whole * sky->weights[i] +
-                                          sky->held * fminf(sky->weights[i], sky->mean)
-                                    : 0.25f / LSF_PI;
-        sky->weights[i] = density * (float)solid_angle(map, i);
-        sky->sum += (double)sky->weights[i];
+    for (uint32_t y = 0; y < map->height; y++) {
+        float solid_angle = (float)lsf_environment_cell_solid_angle(map->width, map->height, y);
+        for (uint64_t i = y * width; i < (y + 1) * width; i++) {
+            float density = whole > 0.0 ? sky->whole * sky->weights[i] +
+                                              sky->held * fminf(sky->weights[i], sky->mean)
+                                        : 0.25f / LSF_PI;
+            sky->weights[i] = density * solid_angle;
+            sky->sum += (double)sky->weights[i];
+        }
     }
 }
 

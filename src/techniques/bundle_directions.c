@@ -29,26 +29,56 @@ static double cosine_of_edge(const lsf_bundle_directions *d, uint32_t row)
     return cos(M_PI * row / d->height);
 }
 
-static double solid_angle(const lsf_bundle_directions *d, uint32_t cell)
+static double solid_angle(const lsf_bundle_directions *d, uint32_t row)
 {
-    return lsf_environment_cell_solid_angle(d->width, d->height, cell / d->width);
+    return lsf_environment_cell_solid_angle(d->width, d->height, row);
 }
 
 /* Luminance of the map about the middle of a cell, which is turned with the map. */
 static float cell_luminance(const lsf_bundle_directions *d, const lsf_environment *map,
-                            uint32_t cell)
+                            uint32_t column, uint32_t row)
 {
-    double u = (cell % d->width + 0.5) / d->width + (double)map->u_offset;
+    double u = (column + 0.5) / d->width + (double)map->u_offset;
     u -= floor(u);
     uint32_t x = (uint32_t)(u * map->width);
-    return lsf_environment_texel_luminance(map, x < map->width ? x : 0, cell / d->width);
+    return lsf_environment_texel_luminance(map, x < map->width ? x : 0, row);
 }
 
 /* The opposite of a cell. */
-static uint32_t antipode(const lsf_bundle_directions *d, uint32_t cell)
+static uint32_t antipode(const lsf_bundle_directions *d, uint32_t column, uint32_t row)
 {
-    uint32_t x = cell % d->width, y = cell / d->width;
-    return (d->height - 1 - y) * d->width + (x + d->width / 2) % d->width;
+    return (d->height - 1 - row) * d->width + (column + d->width / 2) % d->width;
+}
+
+/* Fills the density of each cell, its luminance, and the weight by which it is drawn. */
+static void fill(lsf_bundle_directions *directions, const lsf_environment *environment,
+                 float environment_offset, float *light, float *weights)
+{
+    uint32_t width = directions->width, height = directions->height;
+    double mean = 0.0, integral = 0.0;
+    for (uint32_t y = 0, i = 0; y < height; y++) {
+        double share = solid_angle(directions, y) / (4.0 * M_PI);
+        for (uint32_t x = 0; x < width; x++, i++) {
+            light[i] = cell_luminance(directions, environment, x, y);
+            mean += (double)light[i] * share;
+        }
+    }
+    /* A black map leaves a uniform density. */
+    double offset = mean > 0.0 ? (double)environment_offset * mean : 1.0;
+    for (uint32_t y = 0, i = 0; y < height; y++) {
+        double angle = solid_angle(directions, y);
+        for (uint32_t x = 0; x < width; x++, i++) {
+            double of_cell = ((double)light[i] + offset) * angle;
+            weights[i] = (float)(of_cell / offset); /* keeps bright maps in the range of floats */
+            integral += of_cell;
+        }
+    }
+    for (uint32_t y = 0, i = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++, i++)
+            directions->pdf[i] =
+                (float)(((double)light[i] + (double)light[antipode(directions, x, y)] +
+                         2.0 * offset) /
+                        integral);
 }
 
 bool lsf_bundle_directions_init(lsf_bundle_directions *directions,
@@ -65,22 +95,7 @@ bool lsf_bundle_directions_init(lsf_bundle_directions *directions,
     directions->pdf = lsf_alloc(count, sizeof *directions->pdf);
     bool good = light && weights && directions->pdf;
     if (good) {
-        double mean = 0.0, integral = 0.0;
-        for (uint32_t i = 0; i < count; i++) {
-            light[i] = cell_luminance(directions, environment, i);
-            mean += (double)light[i] * solid_angle(directions, i) / (4.0 * M_PI);
-        }
-        /* A black map leaves a uniform density. */
-        double offset = mean > 0.0 ? (double)environment_offset * mean : 1.0;
-        for (uint32_t i = 0; i < count; i++) {
-            double of_cell = ((double)light[i] + offset) * solid_angle(directions, i);
-            weights[i] = (float)(of_cell / offset); /* keeps bright maps in the range of floats */
-            integral += of_cell;
-        }
-        for (uint32_t i = 0; i < count; i++)
-            directions->pdf[i] =
-                (float)(((double)light[i] + (double)light[antipode(directions, i)] + 2.0 * offset) /
-                        integral);
+        fill(directions, environment, environment_offset, light, weights);
         good = lsf_distribution_2d_init(&directions->cells, weights, width, directions->height);
     }
     free(light);
