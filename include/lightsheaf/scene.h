@@ -19,7 +19,8 @@ typedef struct lsf_scene lsf_scene;
 
 #define LSF_NONE UINT32_MAX /* no such index */
 
-/* Condition for adding a soft sky and a key light. */
+/* Condition for adding a soft sky and a key light, and, where the file has no lamp and these two do
+ * not reach what its first camera shows, a point light. */
 typedef enum lsf_default_light {
     LSF_DEFAULT_LIGHT_AUTO,   /* when the file has no light, its emissive materials do not light it,
                                * and no environment is given; with a note */

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "scene/default_lamp.h"
 #include "scene/emitted_light.h"
 
 /* The number of rows makes the error of linear interpolation of the cosine 3e-4 at most; two
@@ -30,35 +31,30 @@ static bool has_lamps(const lsf_requirements *r)
     return r->point_lights || r->spot_lights || r->directional_lights;
 }
 
-/* See lsf_emitted_light; negative without memory. */
-static float emitted_light(const lsf_scene *scene)
-{
-    lsf_state state = {0};
-    lsf_view_params view = {.fov_y = NAN, .aspect = 1.0f};
-    float light =
-        lsf_state_update(&state, scene, &view, NULL) ? lsf_emitted_light(scene, &state) : -1.0f;
-    lsf_state_finish(&state);
-    return light;
-}
-
 static void note_why(lsf_scene *scene, float emitted)
 {
+    const char *added = scene->default_lamp.present
+                            ? "a default sky and key light are added, and a lamp, for they do not "
+                              "reach more than a quarter of what the first camera shows"
+                            : "a default sky and key light are added";
     if (!scene->requirements.emissive)
-        lsf_scene_add_note(scene, "the file has no light and no environment was given: a default "
-                                  "sky and key light are added; "
-                                  "without default light it stays dark");
+        lsf_scene_add_note(scene,
+                           "the file has no light and no environment was given: %s; "
+                           "without default light it stays dark",
+                           added);
     else if (emitted == 0.0f)
         lsf_scene_add_note(scene,
                            "the file has no light, and its emissive materials light less than half "
-                           "of its surfaces: a default sky and key light are added; without "
-                           "default light only these materials light it");
+                           "of what its first camera shows: %s; without default light only these "
+                           "materials light it",
+                           added);
     else
         lsf_scene_add_note(
             scene,
-            "the file has no light but emissive materials, which would give half of its "
-            "surfaces, assumed to be white, a luminance of %.2g or less, below %g: a default "
-            "sky and key light are added; without default light only these materials light it",
-            (double)emitted, (double)LSF_LIT_LUMINANCE_MIN);
+            "the file has no light but emissive materials, which would give half of what its "
+            "first camera shows, assumed to be white, a luminance of %.2g or less, below %g: %s; "
+            "without default light only these materials light it",
+            (double)emitted, (double)LSF_LIT_LUMINANCE_MIN, added);
 }
 
 static bool add_sky(lsf_environment *sky)
@@ -88,32 +84,44 @@ static void add_key(lsf_key_light *key)
                                       -cos(key_azimuth) * cos(key_elevation)}};
 }
 
-bool lsf_default_light_add(lsf_scene *scene, lsf_default_light mode, lsf_error *error)
+/* Adds the light as `emitted` (lsf_emitted_light) and the camera's view ask for it. False without
+ * memory. */
+static bool add_light(lsf_scene *scene, lsf_default_light mode, const lsf_state *state,
+                      const lsf_seen *seen, float emitted)
 {
-    const lsf_requirements *r = &scene->requirements;
-    bool lit = has_lamps(r) || scene->environment.present;
-    if (mode == LSF_DEFAULT_LIGHT_NEVER || (mode == LSF_DEFAULT_LIGHT_AUTO && lit))
+    bool lit = has_lamps(&scene->requirements) || emitted >= LSF_LIT_LUMINANCE_MIN;
+    if (mode == LSF_DEFAULT_LIGHT_AUTO && lit) {
+        lsf_log(LSF_LOG_INFO,
+                "emissive materials light the scene: half of what its first camera shows, assumed "
+                "to be white, would have a luminance of %.2g or more; no default light is added",
+                (double)emitted);
         return true;
-    if (mode == LSF_DEFAULT_LIGHT_AUTO) {
-        float emitted = r->emissive ? emitted_light(scene) : 0.0f;
-        if (emitted < 0.0f)
-            goto no_memory;
-        if (emitted >= LSF_LIT_LUMINANCE_MIN) {
-            lsf_log(LSF_LOG_INFO,
-                    "emissive materials light the scene: half of its surfaces, assumed to be "
-                    "white, would have a luminance of %.2g or more; no default light is added",
-                    (double)emitted);
-            return true;
-        }
-        note_why(scene, emitted);
     }
     if (!scene->environment.present && !add_sky(&scene->environment))
-        goto no_memory;
+        return false;
     add_key(&scene->key_light);
-    if (!lsf_scene_compute_requirements(scene))
-        goto no_memory;
-    return true;
+    if (!lit)
+        scene->default_lamp =
+            lsf_default_lamp_place(state, seen, (double)scene->key_light.irradiance);
+    if (mode == LSF_DEFAULT_LIGHT_AUTO)
+        note_why(scene, emitted);
+    return lsf_scene_compute_requirements(scene);
+}
 
-no_memory:
-    return lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for its light", scene->path);
+bool lsf_default_light_add(lsf_scene *scene, lsf_default_light mode, lsf_error *error)
+{
+    bool lit = has_lamps(&scene->requirements) || scene->environment.present;
+    if (mode == LSF_DEFAULT_LIGHT_NEVER || (mode == LSF_DEFAULT_LIGHT_AUTO && lit))
+        return true;
+    lsf_state state = {0};
+    lsf_view_params params = {.fov_y = NAN, .aspect = 1.0f};
+    lsf_seen *seen = NULL;
+    bool good = lsf_state_update(&state, scene, &params, NULL) &&
+                (seen = lsf_seen_create(scene, &state)) != NULL;
+    float emitted = good ? lsf_emitted_light(scene, &state, seen) : -1.0f;
+    good = emitted >= 0.0f && add_light(scene, mode, &state, seen, emitted);
+    lsf_seen_free(seen);
+    lsf_state_finish(&state);
+    return good ||
+           lsf_error_set(error, LSF_ERROR_FILE, "%s: not enough memory for its light", scene->path);
 }

@@ -201,9 +201,10 @@ static void describe_json(lsf_string *out, const lsf_scene *scene)
     lsf_string_add(out, "  \"lights\": {\"point\": %u, \"spot\": %u, \"directional\": %u},\n",
                    count_placed(scene, LSF_LIGHT_POINT), count_placed(scene, LSF_LIGHT_SPOT),
                    count_placed(scene, LSF_LIGHT_DIRECTIONAL));
-    lsf_string_add(out, "  \"default_light\": {\"sky\": %s, \"key\": %s},\n",
+    lsf_string_add(out, "  \"default_light\": {\"sky\": %s, \"key\": %s, \"lamp\": %s},\n",
                    scene->environment.by_default ? "true" : "false",
-                   scene->key_light.present ? "true" : "false");
+                   scene->key_light.present ? "true" : "false",
+                   scene->default_lamp.present ? "true" : "false");
     add_cameras_json(out, scene);
     add_choices_json(out, "scenes", &scene->scenes);
     add_choices_json(out, "animations", &scene->animations);
@@ -291,6 +292,11 @@ static void describe_text(lsf_string *out, const lsf_scene *scene)
                    count_placed(scene, LSF_LIGHT_DIRECTIONAL));
     if (scene->key_light.present)
         lsf_string_add(out, "key light    directional, added by default\n");
+    if (scene->default_lamp.present) {
+        const double *p = scene->default_lamp.position;
+        lsf_string_add(out, "lamp         a point light at %.3g %.3g %.3g, added by default\n",
+                       p[0], p[1], p[2]);
+    }
     const lsf_environment *environment = &scene->environment;
     if (environment->by_default)
         lsf_string_add(out, "environment  a soft sky, added by default\n");

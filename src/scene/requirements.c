@@ -98,6 +98,7 @@ static void add_lights(const lsf_scene *scene, lsf_requirements *r)
         r->directional_lights += type == LSF_LIGHT_DIRECTIONAL;
     }
     r->directional_lights += scene->key_light.present;
+    r->point_lights += scene->default_lamp.present;
 }
 
 /* Nodes that an animation or a program moves, by themselves or with an ancestor; a node that is

@@ -233,6 +233,14 @@ typedef struct lsf_key_light {
     double direction[3]; /* unit, the way it shines */
 } lsf_key_light;
 
+/* A point light that no node carries, in a room that the key light does not reach (default_lamp.h).
+ */
+typedef struct lsf_default_lamp {
+    bool present;
+    float intensity;    /* grey [W/sr] */
+    double position[3]; /* scene units */
+} lsf_default_lamp;
+
 /* What a file offers to choose from, in its order. */
 typedef struct lsf_choice {
     char *name; /* "" when the file gives none */
@@ -292,6 +300,7 @@ struct lsf_scene {
     float *weights; /* of morph targets where no animation says otherwise; nodes may share them */
     lsf_environment environment;
     lsf_key_light key_light;
+    lsf_default_lamp default_lamp;
     lsf_choices scenes, animations, variants;
     uint32_t extension_count;
     lsf_extension *extensions;

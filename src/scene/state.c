@@ -173,9 +173,19 @@ static void update_key_light(lsf_light_state *out, const lsf_state *state, const
     update_light(out, state, &light, world);
 }
 
+static void update_default_lamp(lsf_light_state *out, const lsf_state *state,
+                                const lsf_default_lamp *lamp)
+{
+    float i = lamp->intensity;
+    const double *p = lamp->position;
+    lsf_light light = {.type = LSF_LIGHT_POINT, .intensity = {i, i, i}, .range = INFINITY};
+    const double world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, p[0], p[1], p[2], 1};
+    update_light(out, state, &light, world);
+}
+
 static bool update_lights(lsf_state *state, const lsf_scene *scene, const double *worlds)
 {
-    uint32_t count = scene->key_light.present;
+    uint32_t count = scene->key_light.present + scene->default_lamp.present, at = 0;
     for (uint32_t i = 0; i < scene->node_count; i++)
         count += scene->nodes[i].light != LSF_NONE;
     if (count != state->light_count || (count && !state->lights)) {
@@ -185,7 +195,7 @@ static bool update_lights(lsf_state *state, const lsf_scene *scene, const double
         if (!state->lights)
             return false;
     }
-    for (uint32_t i = 0, at = 0; i < scene->node_count; i++) {
+    for (uint32_t i = 0; i < scene->node_count; i++) {
         uint32_t light = scene->nodes[i].light;
         if (light == LSF_NONE)
             continue;
@@ -196,7 +206,9 @@ static bool update_lights(lsf_state *state, const lsf_scene *scene, const double
         at++;
     }
     if (scene->key_light.present)
-        update_key_light(&state->lights[count - 1], state, &scene->key_light);
+        update_key_light(&state->lights[at++], state, &scene->key_light);
+    if (scene->default_lamp.present)
+        update_default_lamp(&state->lights[at], state, &scene->default_lamp);
     return true;
 }
 

@@ -55,7 +55,8 @@ typedef struct lsf_state {
     lsf_instance_state *instances; /* index as in scene->instances */
     lsf_pose pose;                 /* their vertices */
     lsf_animated animated;         /* materials, and what lights are made of */
-    lsf_light_state *lights;       /* one for each node that carries a light, then the key light */
+    lsf_light_state *lights;       /* one for each node that carries a light, then those added by
+                                    * default: the key light, the lamp */
     lsf_camera_state camera;
     lsf_view view;                      /* the same, as a program would place it */
     float bounds_min[3], bounds_max[3]; /* normalised space; min > max when empty */

@@ -109,7 +109,7 @@ static void without_lights(lsf_scene *scene)
 {
     for (uint32_t i = 0; i < scene->node_count; i++)
         scene->nodes[i].light = LSF_NONE;
-    scene->key_light.present = false;
+    scene->key_light.present = scene->default_lamp.present = false;
 }
 
 /* What is left shines as brightly as the map on average over its texels, each by its solid angle.

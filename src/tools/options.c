@@ -299,8 +299,9 @@ static const lsf_command_option options[] = {
      1e20, NULL, "1", "multiply the environment's radiance by X"},
     {"default-light", 0, "WHEN", SCENES, "Scene", LSF_VALUE_CHOICE, AT(default_light),
      LSF_DEFAULT_LIGHT_AUTO, 0, "auto|always|never", "auto",
-     "whether to add a soft sky and a key light; auto: if the file has no light, its emissive "
-     "materials do not light it, and there is no --environment"},
+     "whether to add a soft sky and a key light, and a lamp where these do not reach what the "
+     "first camera shows; auto: if the file has no light, its emissive materials do not light it, "
+     "and there is no --environment"},
     {"diffuse-only", 0, NULL, SCENES, "Scene", LSF_VALUE_FLAG, AT(diffuse_only), 0, 0, NULL, NULL,
      "treat every material as diffuse with its base colour, without normal maps"},
     {"show-back-faces", 0, NULL, SCENES, "Scene", LSF_VALUE_FLAG, AT(show_back_faces), 0, 0, NULL,

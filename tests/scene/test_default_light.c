@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -32,15 +33,28 @@ static float emitted_light(lsf_scene *scene)
     lsf_view_params view = {.fov_y = NAN, .aspect = 1.0f};
     finish_scene(scene);
     assert_true(lsf_state_update(&state, scene, &view, NULL));
-    float mean = lsf_emitted_light(scene, &state);
+    lsf_seen *seen = lsf_seen_create(scene, &state);
+    assert_non_null(seen);
+    float median = lsf_emitted_light(scene, &state, seen);
+    lsf_seen_free(seen);
     lsf_state_finish(&state);
-    return mean;
+    return median;
 }
 
-/* A unit square below a square lamp of area 0.01, one unit above its centre. White, the floor has
- * the luminance L 0.01/pi / (1 + r^2)^2 at the distance r from the foot, but for the lamp's size.
- * Of all surfaces, half lie nearer than r = sqrt(0.505 / pi); the lamp's own receives nothing. */
-#define LAMP_SHARE (0.01 / M_PI / pow(1 + 0.505 / M_PI, 2))
+/* The camera looks down from y = 4 at the square that reaches from -half to half in x and z. */
+static void look_down(lsf_scene *scene, float half)
+{
+    lsf_camera *camera = &scene->cameras[0];
+    const double matrix[16] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 4, 0, 1};
+    camera->orthographic = true;
+    camera->x_magnification = camera->y_magnification = half;
+    memcpy(camera->matrix, matrix, sizeof matrix);
+}
+
+/* A unit square, seen from above, below a square lamp of area 0.01 that shines down, one unit above
+ * its centre. White, the floor has the luminance L 0.01/pi / (1 + r^2)^2 at the distance r from the
+ * foot, but for the lamp's size. Half of the floor lies nearer than r = sqrt(0.5 / pi). */
+#define LAMP_SHARE (0.01 / M_PI / pow(1 + 0.5 / M_PI, 2))
 static void build_lamp(lsf_scene *scene, float radiance)
 {
     build_material(scene, 1, 1, 1);
@@ -48,6 +62,7 @@ static void build_lamp(lsf_scene *scene, float radiance)
     build_emitter(scene, radiance);
     build_quad(scene, lsf_f3(-0.05f, 1, -0.05f), lsf_f3(0.05f, 1, -0.05f), lsf_f3(0.05f, 1, 0.05f),
                lsf_f3(-0.05f, 1, 0.05f));
+    look_down(scene, 0.5f);
 }
 
 static void test_emitted_light_has_closed_forms(void **state)
@@ -58,18 +73,23 @@ static void test_emitted_light_has_closed_forms(void **state)
     assert_near((double)emitted_light(scene), 3 * LAMP_SHARE, 0.03 * 3 * LAMP_SHARE);
     destroy_scene(scene);
 
-    /* Every point of a closed box that glows from all sides has radiance 2 all around it. */
+    /* Every point of a closed box that glows from all sides, of which the camera sees the floor,
+     * has radiance 2 all around it. */
     scene = build_scene();
     build_emitter(scene, 2);
     build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), true);
+    look_down(scene, 1);
     assert_near((double)emitted_light(scene), 1.85,
                 0.2); /* noise puts the median a little below the mean */
     destroy_scene(scene);
 
-    /* A convex thing cannot light itself, however strongly it glows. */
+    /* A convex thing cannot light itself, however strongly it glows; nor does what glows in a shell
+     * light what is seen of it. */
     scene = build_scene();
     build_emitter(scene, 1000);
     build_box(scene, lsf_f3(-1, -1, -1), lsf_f3(1, 1, 1), false);
+    build_box(scene, lsf_f3(-0.9f, -0.9f, -0.9f), lsf_f3(0.9f, 0.9f, 0.9f), true);
+    look_down(scene, 1);
     assert_near((double)emitted_light(scene), 0, 0);
     destroy_scene(scene);
 }
@@ -132,6 +152,62 @@ static void test_emitters_count_when_they_light(void **state)
     }
 }
 
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of a box's floor at y = -1: the median of I cos / r^2. */
+static double median_irradiance_of_floor(const lsf_default_lamp *lamp)
+{
+    enum { STEPS = 100 };
+    double each[STEPS * STEPS], height = lamp->position[1] + 1;
+    for (int i = 0; i < STEPS * STEPS; i++) {
+        double x = 2 * (i % STEPS + 0.5) / STEPS - 1 - lamp->position[0];
+        double z = 2 * (i / STEPS + 0.5) / STEPS - 1 - lamp->position[2];
+        each[i] = (double)lamp->intensity * height / pow(x * x + z * z + height * height, 1.5);
+    }
+    qsort(each, STEPS * STEPS, sizeof *each, by_size);
+    return each[STEPS * STEPS / 2];
+}
+
+static void build_room(lsf_scene *scene, bool roof)
+{
+    build_floor(scene, -1, 1);
+    for (int wall = 0; wall < 4; wall++) {
+        float x = wall % 2 ? 0 : wall - 1.0f, z = wall % 2 ? wall - 2.0f : 0; /* outwards */
+        build_quad(scene, lsf_f3(x - z, -1, z + x), lsf_f3(x + z, -1, z - x),
+                   lsf_f3(x + z, 1, z - x), lsf_f3(x - z, 1, z + x));
+    }
+    if (roof)
+        build_quad(scene, lsf_f3(-1, 1, -1), lsf_f3(1, 1, -1), lsf_f3(1, 1, 1), lsf_f3(-1, 1, 1));
+}
+
+/* A lamp lights a closed room into which the camera looks from outside, and no sky can. Without its
+ * roof the room needs none, nor does anything in the open. */
+static void test_rooms_get_a_lamp(void **state)
+{
+    (void)state;
+    for (int roof = 0; roof < 2; roof++) {
+        lsf_scene *scene = build_scene();
+        build_material(scene, 1, 1, 1);
+        build_room(scene, roof);
+        look_down(scene, 1);
+        finish_scene(scene);
+        lsf_scene_compute_requirements(scene);
+        assert_true(lsf_default_light_add(scene, LSF_DEFAULT_LIGHT_ALWAYS, NULL));
+        const lsf_default_lamp *lamp = &scene->default_lamp;
+        assert_int_equal(lamp->present, roof);
+        assert_int_equal(scene->requirements.point_lights, roof);
+        for (int axis = 0; axis < 3; axis++)
+            assert_true(fabs(lamp->position[axis]) < 0.9);
+        if (roof) /* seen points lie anywhere in their pixels, up to 1/16 from the centre */
+            assert_near(median_irradiance_of_floor(lamp), 0.5 * M_PI, 0.04 * 0.5 * M_PI);
+        destroy_scene(scene);
+    }
+}
+
 /* Irradiance of a plane by the sky's map, whose rows are uniform: over the whole sphere. */
 static double sky_irradiance(const lsf_environment *sky, const double normal[3])
 {
@@ -191,6 +267,7 @@ int main(void)
         cmocka_unit_test(test_emitted_light_has_closed_forms),
         cmocka_unit_test(test_rule),
         cmocka_unit_test(test_emitters_count_when_they_light),
+        cmocka_unit_test(test_rooms_get_a_lamp),
         cmocka_unit_test(test_brightness),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
