@@ -238,7 +238,7 @@ void accessor_read_directions(const gltf_import &import, int index, std::vector<
             std::fill_n(&values[i - (i - first) % width], width, 0.0f);
 }
 
-void accessor_read_indices(const gltf_import &import, int index, uint64_t limit,
+void accessor_read_indices(const gltf_import &import, int index, uint64_t limit, uint64_t *highest,
                            std::vector<uint32_t> &values)
 {
     const tinygltf::Accessor &accessor = import.model.accessors[(size_t)index];
@@ -267,9 +267,13 @@ void accessor_read_indices(const gltf_import &import, int index, uint64_t limit,
 
     uint32_t restart = size == 1 ? UINT8_MAX : size == 2 ? UINT16_MAX : UINT32_MAX;
     for (uint64_t i = 0; i < accessor.count; i++) {
-        if (values[first + i] == restart)
+        if (values[first + i] == restart && (!highest || restart >= limit))
             fail("ACCESSOR_INDEX_PRIMITIVE_RESTART", location,
-                 "index %" PRIu64 " is the primitive-restart value %" PRIu32, i, restart);
+                 "index %" PRIu64 " is the primitive-restart value %" PRIu32
+                 "; export the file with wider indices",
+                 i, restart);
+        if (values[first + i] == restart)
+            ++*highest;
         if (values[first + i] >= limit)
             fail("ACCESSOR_INDEX_OOB", location,
                  "index %" PRIu64 " names vertex %" PRIu32 " of %" PRIu64, i, values[first + i],

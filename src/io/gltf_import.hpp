@@ -179,7 +179,7 @@ file_content file_read(const std::string &path, const memory_budget &budget);
 struct gltf_repairs {
     lsf_frame_repairs frames = {};
     uint64_t rotations_scaled = 0, scene_children = 0;
-    uint64_t trailing_indices = 0, no_position = 0;
+    uint64_t trailing_indices = 0, highest_indices = 0, no_position = 0;
     uint64_t weights_scaled = 0, joints_missing = 0, weights_animated = 0;
     uint64_t point_primitives = 0, points = 0, line_primitives = 0, lines = 0;
     uint64_t further_vertex_colors = 0, further_uv_sets = 0, missing_uv_sets = 0;
@@ -268,9 +268,11 @@ void accessor_read_floats(const gltf_import &import, int accessor, std::vector<f
 /* The same for normals and tangents, which exporters leave undefined where triangles have no area:
  * an element that holds NaN or infinity becomes zeros. */
 void accessor_read_directions(const gltf_import &import, int accessor, std::vector<float> &values);
-/* Appends unsigned indices of any width; each must be below `limit`. */
+/* Appends unsigned indices of any width; each must be below `limit`. The highest value of a width
+ * may mean that a strip starts anew, and names no vertex; where no strip is possible, `highest`
+ * counts how often it names one all the same. NULL: that is an error. */
 void accessor_read_indices(const gltf_import &import, int accessor, uint64_t limit,
-                           std::vector<uint32_t> &values);
+                           uint64_t *highest, std::vector<uint32_t> &values);
 std::string accessor_format(const tinygltf::Accessor &accessor); /* "VEC3 of FLOAT" */
 
 /* --- images, gltf_glossiness.cpp --- */

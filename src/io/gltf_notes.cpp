@@ -66,6 +66,9 @@ void gltf_notes_add(gltf_import &import)
          " of a length that is no multiple of 4: read as it is"},
         {repairs.unaligned_accessors, "accessor",
          " with data at an offset that is no multiple of their components' size: read as it is"},
+        {repairs.highest_indices, "corner",
+         " of triangles with the primitive-restart value as index: read as the vertex that it "
+         "names"},
         {repairs.no_position, "primitive", " without POSITION: ignored"},
         {repairs.further_vertex_colors, "primitive",
          " with more than one set of vertex colours: only COLOR_0 is used"},

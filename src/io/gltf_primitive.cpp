@@ -218,7 +218,8 @@ std::vector<uint32_t> read_triangles(gltf_import &import, const tinygltf::Primit
 
     std::vector<uint32_t> sources;
     if (primitive.indices >= 0) {
-        accessor_read_indices(import, primitive.indices, vertex_count, sources);
+        accessor_read_indices(import, primitive.indices, vertex_count,
+                              list ? &import.repairs.highest_indices : nullptr, sources);
     } else {
         sources.resize(vertex_count);
         for (uint64_t i = 0; i < vertex_count; i++)

@@ -218,6 +218,12 @@ case('index_oob.gltf', 'ACCESSOR_INDEX_OOB')
 for name, index_type, value in (('u8', UBYTE, 255), ('u16', USHORT, 65535), ('u32', UINT, 2**32 - 1)):
     quad(indices=(0, 1, value), index_type=index_type).gltf('restart_%s.gltf' % name)
     case('restart_%s.gltf' % name, 'ACCESSOR_INDEX_PRIMITIVE_RESTART')
+many = [QUAD[i % 4] for i in range(256)]  # the last one has index 255, which may restart a strip
+for name, mode, expected in ('list', 4, 'ok'), ('strip', 5, 'ACCESSOR_INDEX_PRIMITIVE_RESTART'):
+    file = File()
+    file.primitive(many, (0, 1, 2, 0, 2, 255), UP * 64, UBYTE, mode=mode)
+    file.gltf('restart_in_%s.gltf' % name)
+    case('restart_in_%s.gltf' % name, expected, *([2, '1 corner of triangles'] if mode == 4 else []))
 quad(index_type=FLOAT).gltf('index_float.gltf')
 case('index_float.gltf', 'MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT')
 
