@@ -133,7 +133,7 @@ typedef struct lsf_camera_desc {
 #define LSF_CAMERA_DESC_DEFAULTS                                                                   \
     .name = NULL, .node = LSF_NONE, .fov_y = 45.0f, .height = 0.0f, .near_plane = 0.01f
 
-/* Without a camera, committing adds one that frames the scene. */
+/* Committing adds one more, "default", that frames the scene. */
 uint32_t lsf_scene_add_camera(lsf_scene *scene, const lsf_camera_desc *desc, lsf_error *error);
 
 /* Radiance from all directions: uniform, or a map with u = 0.5 + atan2(z, x) / 2 pi and the

@@ -161,6 +161,7 @@ bool lsf_scene_has(const lsf_scene *scene, lsf_feature feature);
  * outlive it. NULL with LSF_ERROR_USAGE where an animation brings the feature back. */
 lsf_scene *lsf_scene_without(const lsf_scene *scene, lsf_feature feature, lsf_error *error);
 
+/* Those of the file or the program, in their order, then "default", which frames the scene. */
 uint32_t lsf_scene_camera_count(const lsf_scene *scene); /* at least 1 */
 const char *lsf_scene_camera_name(const lsf_scene *scene, uint32_t index);
 

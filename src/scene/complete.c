@@ -12,7 +12,8 @@
 /* Coordinates beyond this, in scene units, could overflow a double on their way to the picture. */
 #define COORDINATE_MAX 1e100
 
-/* A three-quarter view from the front (glTF assets face +z), a little from above, through a lens
+/* After the file's own cameras, which may show little of the scene, comes one that frames it: a
+ * three-quarter view from the front (glTF assets face +z), a little from above, through a lens
  * that does not exaggerate: 45 mm for a picture 24 mm high. */
 static bool add_default_camera(lsf_scene *scene)
 {
@@ -20,23 +21,25 @@ static bool add_default_camera(lsf_scene *scene)
     double right[3] = {back[2] / hypot(back[0], back[2]), 0.0, -back[0] / hypot(back[0], back[2])};
     double up[3] = {back[1] * right[2], back[2] * right[0] - back[0] * right[2],
                     -back[1] * right[0]};
-    lsf_camera *camera = lsf_alloc(1, sizeof(*camera));
-    if (!camera)
+    lsf_camera *cameras =
+        realloc(scene->cameras, ((size_t)scene->camera_count + 1) * sizeof *cameras);
+    if (!cameras)
         return false;
-    free(scene->cameras);
-    scene->cameras = camera;
-    scene->camera_count = 1;
-    camera->name = strdup("default");
-    camera->node = LSF_NONE;
-    camera->frames_scene = true;
-    camera->fov_y = (float)(2.0 * atan(12.0 / 45.0));
-    camera->x_magnification = camera->y_magnification = 1.0f;
+    scene->cameras = cameras;
+    lsf_camera *camera = &cameras[scene->camera_count];
+    *camera = (lsf_camera){.name = strdup("default"),
+                           .node = LSF_NONE,
+                           .frames_scene = true,
+                           .fov_y = (float)(2.0 * atan(12.0 / 45.0)),
+                           .x_magnification = 1.0f,
+                           .y_magnification = 1.0f};
     for (int c = 0; c < 3; c++) {
         camera->matrix[c] = right[c];
         camera->matrix[4 + c] = up[c];
         camera->matrix[8 + c] = back[c];
     }
     camera->matrix[15] = 1.0;
+    scene->camera_count++;
     return camera->name != NULL;
 }
 
@@ -72,7 +75,7 @@ bool lsf_scene_complete(lsf_scene *scene, lsf_default_light default_light, lsf_e
         return no_memory(scene, error);
     if (!lsf_bound_lights(scene, error))
         return false;
-    if (scene->camera_count == 0 && !add_default_camera(scene))
+    if (!add_default_camera(scene))
         return no_memory(scene, error);
     return lsf_default_light_add(scene, default_light, error) &&
            (!scene->note_lost || no_memory(scene, error));

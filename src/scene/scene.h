@@ -288,7 +288,7 @@ struct lsf_scene {
     lsf_texture *textures;
     uint32_t light_count, camera_count, channel_count;
     lsf_light *lights;
-    lsf_camera *cameras; /* at least 1 */
+    lsf_camera *cameras; /* at least 1: the last one frames the scene */
     lsf_animation_channel *channels;
     uint32_t animated_count, animated_width; /* width: of all their values */
     lsf_animated_value *animated;

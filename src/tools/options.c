@@ -238,7 +238,8 @@ static const lsf_command_option options[] = {
      "default sky"},
 
     {"camera", 'c', "NAME|INDEX", STAGING, "Camera", LSF_VALUE_TEXT, AT(camera), 0, 0, NULL, NULL,
-     "camera of the scene, by name or by index from 0; the default is the first"},
+     "camera of the scene, by name or by index from 0; default, the last, is added to frame the "
+     "scene; without this option the first is used"},
     {"camera-position", 0, "X,Y,Z", STAGING, "Camera", LSF_VALUE_VECTOR, AT(camera_position), -1e30,
      1e30, NULL, NULL, "move the camera there, in scene units"},
     {"camera-target", 0, "X,Y,Z", STAGING, "Camera", LSF_VALUE_VECTOR, AT(camera_target), -1e30,

@@ -78,6 +78,13 @@ class Pictures(CommandTest):
         self.run_command("render", scene, "-o", "b.exr", "--camera", "Front", *SMALL)
         self.assertEqual(self.pixels("b.exr"), pictures[0])
 
+    def test_camera_that_frames_the_scene(self):
+        """It is there whether or not the file has one, too."""
+        for name, words in ("with", ["--camera", "default"]), ("without", []):
+            scene = self.scene(f"{name}.gltf", camera=name == "with")
+            self.run_command("render", scene, "-o", f"{name}.exr", *words, *SMALL)
+        self.assertEqual(self.pixels("with.exr"), self.pixels("without.exr"))
+
     def test_default_light(self):
         """A dial that glows does not keep the rest of the picture dark."""
         scene = self.scene(emissive=True, light=False)

@@ -120,6 +120,8 @@ static void add_nodes(lsf_scene *built, const lsf_scene *scene)
     }
     for (uint32_t i = 0; i < scene->camera_count; i++) {
         const lsf_camera *camera = &scene->cameras[i];
+        if (camera->frames_scene)
+            continue; /* added by committing */
         ADDED(lsf_scene_add_camera(
             built,
             &(lsf_camera_desc){.name = camera->name,
