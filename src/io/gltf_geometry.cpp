@@ -42,7 +42,8 @@ class geometry_importer
     uint32_t place(uint32_t node, uint32_t primitive);
     uint32_t deformer_of(uint32_t node, uint32_t primitive, uint32_t shape, uint32_t skin);
     void find_uses();
-    void repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles, memory_loan &loan);
+    void repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles,
+                const tinygltf::Primitive &source, memory_loan &loan);
     void make_flat(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
                    const std::string &location, memory_loan &loan);
     void compute_tangents(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
@@ -145,7 +146,7 @@ void geometry_importer::count_ignored(const tinygltf::Primitive &source,
 static const uint64_t SUM_BYTES = 3 * sizeof(double);
 
 void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t> &triangles,
-                               memory_loan &loan)
+                               const tinygltf::Primitive &source, memory_loan &loan)
 {
     lsf_frame_repairs *repairs = &import_.repairs.frames;
     if (lsf_unit_normals(arrays.normal.data(), arrays.normal.size() / 3, repairs) > 0) {
@@ -155,6 +156,13 @@ void geometry_importer::repair(vertex_arrays &arrays, const std::vector<uint32_t
     }
     lsf_unit_tangents(arrays.normal.data(), arrays.tangent.data(), arrays.tangent.size() / 4,
                       repairs);
+    if (!source.targets.empty()) /* they move normals from where the file has them */
+        return;
+    loan.take(arrays.count, 1);
+    if (!lsf_turn_normals(arrays.position.data(), arrays.count, triangles.data(), triangles.size(),
+                          arrays.normal.data(),
+                          arrays.tangent.empty() ? nullptr : arrays.tangent.data(), repairs))
+        throw std::bad_alloc();
 }
 
 void geometry_importer::make_flat(vertex_arrays &arrays, std::vector<uint32_t> &triangles,
@@ -294,7 +302,7 @@ void geometry_importer::add_shared(const tinygltf::Primitive &source, size_t mes
     std::vector<uint32_t> triangles =
         read_triangles(import_, source, primitive.vertex_count, location, loan);
     if (!known) {
-        repair(arrays, triangles, loan);
+        repair(arrays, triangles, source, loan);
         append_vertices(arrays, primitive);
         add_shape(source, mesh, false, arrays, location, primitive);
         known_vertices_[key] = primitive;
@@ -322,7 +330,7 @@ void geometry_importer::add_computed(const tinygltf::Primitive &source, size_t m
     std::vector<uint32_t> triangles = read_triangles(import_, source, arrays.count, location, loan);
     if (flat)
         make_flat(arrays, triangles, location, loan);
-    repair(arrays, triangles, loan);
+    repair(arrays, triangles, source, loan);
     if (tangents)
         compute_tangents(arrays, triangles, material_of(import_, source), location, loan);
     append_vertices(arrays, primitive);

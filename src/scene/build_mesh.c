@@ -183,14 +183,17 @@ static bool make_tangents(growth *g)
 }
 
 /* Repairs tangents that are given, and makes those that are not. */
-static bool complete_tangents(growth *g)
+static bool complete_frames(growth *g)
 {
-    if (g->scene->vertices.tangent && !g->flat && g->part->tangents)
-        lsf_unit_tangents(g->scene->vertices.normal + 3 * g->first,
-                          g->scene->vertices.tangent + 4 * g->first, g->count, g->repairs);
-    else if (g->material->has_tangents)
-        return make_tangents(g);
-    return true;
+    const lsf_vertices *v = &g->scene->vertices;
+    float *normals = v->normal + 3 * g->first;
+    float *given = v->tangent && !g->flat && g->part->tangents ? v->tangent + 4 * g->first : NULL;
+    if (given)
+        lsf_unit_tangents(normals, given, g->count, g->repairs);
+    if (!lsf_turn_normals(v->position + 3 * g->first, g->count, g->triangles, g->corner_count,
+                          normals, given, g->repairs))
+        return false;
+    return given || !g->material->has_tangents || make_tangents(g);
 }
 
 static bool append_primitive(growth *g)
@@ -232,7 +235,7 @@ static bool append_part(lsf_scene *scene, const lsf_mesh_part *part)
     bool good = g.triangles && open_streams(&g) && copy_vertices(&g);
     if (good)
         repair_normals(&g);
-    good = good && complete_tangents(&g) && append_primitive(&g);
+    good = good && complete_frames(&g) && append_primitive(&g);
     free(g.triangles);
     return good;
 }

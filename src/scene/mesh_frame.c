@@ -159,6 +159,40 @@ void lsf_replace_zero_normals(const float *positions, uint64_t vertex_count,
     free(sums);
 }
 
+bool lsf_turn_normals(const float *positions, uint64_t vertex_count, const uint32_t *indices,
+                      uint64_t index_count, float *normals, float *tangents,
+                      lsf_frame_repairs *repairs)
+{
+    enum { AGREES = 1, OPPOSES = 2 };
+    uint8_t *found = lsf_alloc(vertex_count, 1);
+    for (uint64_t i = 0; found && i + 2 < index_count; i += 3) {
+        const uint32_t *t = indices + i;
+        double ab[3], ac[3], n[3];
+        edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[1], ab);
+        edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[2], ac);
+        cross(ab, ac, n);
+        if (!normalize(n))
+            continue;
+        for (int corner = 0; corner < 3; corner++) {
+            const float *of = normals + 3 * (size_t)t[corner];
+            double normal[3] = {of[0], of[1], of[2]};
+            found[t[corner]] |= dot(n, normal) < -0.5 ? OPPOSES : AGREES;
+        }
+    }
+    for (uint64_t i = 0; found && i < vertex_count; i++) {
+        if (found[i] != OPPOSES)
+            continue;
+        for (int c = 0; c < 3; c++)
+            normals[3 * i + c] = -normals[3 * i + c];
+        if (tangents)
+            tangents[4 * i + 3] = -tangents[4 * i + 3];
+        repairs->normals_turned++;
+    }
+    bool enough = found != NULL;
+    free(found);
+    return enough;
+}
+
 /* --- tangents --- */
 
 /* Twice the signed area of the triangle in texture space, v pointing down: negative when the

@@ -24,7 +24,7 @@ bool lsf_make_unit(float vector[3], bool *off);
 /* Counts of what was repaired in normals and tangents. */
 typedef struct lsf_frame_repairs {
     uint64_t normals_missing; /* lists of triangles without normals */
-    uint64_t normals_scaled, normals_zero;
+    uint64_t normals_scaled, normals_zero, normals_turned;
     uint64_t tangents_scaled;
     uint64_t tangents_without_uv; /* lists of triangles */
 } lsf_frame_repairs;
@@ -41,6 +41,14 @@ void lsf_unit_tangents(const float *normals, float *tangents, uint64_t count,
  * by 0,0,1 where that has no length either. */
 void lsf_replace_zero_normals(const float *positions, uint64_t vertex_count,
                               const uint32_t *indices, uint64_t index_count, float *normals);
+
+/* Turns over unit normals that are more than 120 degrees away from those of all the triangles with
+ * area that use them, which a program wrote that reversed either; what is lit from the front would
+ * be dark. Normals that are bent on purpose, as those of foliage, stay. So do bitangents: the sign
+ * of tangents that have been made unit changes; NULL: there are none. False without memory. */
+bool lsf_turn_normals(const float *positions, uint64_t vertex_count, const uint32_t *indices,
+                      uint64_t index_count, float *normals, float *tangents,
+                      lsf_frame_repairs *repairs);
 
 /* A vertex cannot serve triangles whose texture is mirrored and others whose texture is not: the
  * bitangent's sign differs. Gives the mirrored ones vertices of their own, numbered from

@@ -90,6 +90,8 @@ void lsf_scene_note_frames(lsf_scene *scene, const lsf_frame_repairs *repairs)
     lsf_scene_add_count_note(
         scene, repairs->normals_zero, "normal",
         " without length, or not a number: replaced by those of the triangles around");
+    lsf_scene_add_count_note(scene, repairs->normals_turned, "normal",
+                             " on the back of all triangles around: turned over");
     lsf_scene_add_count_note(scene, repairs->tangents_scaled, "tangent",
                              " not of unit length, without a sign, or not a number: repaired");
     lsf_scene_add_count_note(

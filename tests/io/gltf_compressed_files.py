@@ -174,7 +174,7 @@ class CompressedFile(File):
 
 # More than a block of 256 elements, so that several follow each other.
 GRID = 20
-POINTS = [(x, y, (x * y) % 7) for y in range(GRID) for x in range(GRID)]
+POINTS = [(x, y, 3 * y % 7 - x) for y in range(GRID) for x in range(GRID)]
 TRIANGLES = [i for y in range(GRID - 1) for x in range(GRID - 1)
              for i in (y * GRID + x, y * GRID + x + 1, y * GRID + x + GRID)]
 

@@ -17,6 +17,11 @@ from gltf_writer import *
 
 quad().glb('quad.glb')
 case('quad.glb', 'ok', 2)
+DOWN = [(0, 0, -1)] * 4
+quad(normals=DOWN).gltf('normals_turned.gltf')
+case('normals_turned.gltf', 'ok', 2, '4 normals on the back of all triangles around')
+quad(normals=UP[:2] + [(0, -0.8, -0.6), (0, -1, 0)]).gltf('normals_bent.gltf')
+case('normals_bent.gltf', 'ok', 2, '1 normal on the back of all triangles around')
 quad(normals=None).gltf('flat.gltf')
 case('flat.gltf', 'ok', 2, 'without normals')
 for name, index_type in ('u8', UBYTE), ('u16', USHORT), ('u32', UINT):
