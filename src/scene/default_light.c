@@ -9,6 +9,7 @@
 #include "scene/default_light.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -108,16 +109,28 @@ static bool add_light(lsf_scene *scene, lsf_default_light mode, const lsf_state 
     return lsf_scene_compute_requirements(scene);
 }
 
+/* Of the first camera, or, where that one cannot show the scene, of the last one, which frames it.
+ */
+static bool update_state(lsf_state *state, const lsf_scene *scene)
+{
+    char last[16];
+    lsf_view_params params = {.fov_y = NAN, .aspect = 1.0f};
+    lsf_error error;
+    if (lsf_state_update(state, scene, &params, &error))
+        return true;
+    snprintf(last, sizeof last, "%u", scene->camera_count - 1);
+    params.camera = last;
+    return error.code == LSF_ERROR_USAGE && lsf_state_update(state, scene, &params, NULL);
+}
+
 bool lsf_default_light_add(lsf_scene *scene, lsf_default_light mode, lsf_error *error)
 {
     bool lit = has_lamps(&scene->requirements) || scene->environment.present;
     if (mode == LSF_DEFAULT_LIGHT_NEVER || (mode == LSF_DEFAULT_LIGHT_AUTO && lit))
         return true;
     lsf_state state = {0};
-    lsf_view_params params = {.fov_y = NAN, .aspect = 1.0f};
     lsf_seen *seen = NULL;
-    bool good = lsf_state_update(&state, scene, &params, NULL) &&
-                (seen = lsf_seen_create(scene, &state)) != NULL;
+    bool good = update_state(&state, scene) && (seen = lsf_seen_create(scene, &state)) != NULL;
     float emitted = good ? lsf_emitted_light(scene, &state, seen) : -1.0f;
     good = emitted >= 0.0f && add_light(scene, mode, &state, seen, emitted);
     lsf_seen_free(seen);
