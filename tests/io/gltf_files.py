@@ -372,10 +372,10 @@ for name, expected, camera in [
         ('missing', 'UNDEFINED_PROPERTY', {'type': 'orthographic'})]:
     changed('camera_%s.gltf' % name, expected,
             lambda f: (f.json.update(cameras=[camera]), f.json['nodes'][0].update(camera=0)))
-far_camera = {'camera': 0, 'translation': [0, 0, 1e12]}  # shows nothing; another one may
-changed('camera_far.gltf', 'ok',
+distant = {'camera': 0, 'translation': [0, 0, 1e12]}  # shows nothing; another one may
+changed('camera_distant.gltf', 'ok',
         lambda f: (f.json.update(cameras=[{'type': 'perspective', 'perspective': {'yfov': 1, 'znear': 1}}]),
-                   f.json['nodes'].append(far_camera), f.json['scenes'][0]['nodes'].append(1)), 2)
+                   f.json['nodes'].append(distant), f.json['scenes'][0]['nodes'].append(1)), 2)
 
 
 def animated(name, expected, times, values, note='', node=None, **more):
