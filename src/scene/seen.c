@@ -37,11 +37,11 @@ static void see(void *user, const lsf_surface_point *point)
     float scale = parallel ? 1.0f : 1.0f / depth;
     float x = scale * ndc(from, parallel ? camera->start_dx : camera->forward_dx);
     float y = scale * ndc(from, parallel ? camera->start_dy : camera->forward_dy);
-    if (!(fabsf(x) < 1.0f && fabsf(y) < 1.0f))
+    /* Bounds are checked after all rounding. */
+    float column = (0.5f * x + 0.5f) * LSF_SEEN_SIDE, row = (0.5f * y + 0.5f) * LSF_SEEN_SIDE;
+    if (!(column >= 0.0f && column < LSF_SEEN_SIDE && row >= 0.0f && row < LSF_SEEN_SIDE))
         return;
-    int column = (int)((0.5f * x + 0.5f) * LSF_SEEN_SIDE);
-    int row = (int)((0.5f * y + 0.5f) * LSF_SEEN_SIDE);
-    lsf_seen_point *pixel = &p->pixels[row * LSF_SEEN_SIDE + column];
+    lsf_seen_point *pixel = &p->pixels[(int)row * LSF_SEEN_SIDE + (int)column];
     lsf_float3 ray = parallel ? forward : lsf_f3_mad(from, forward, camera->start_depth);
     bool back = lsf_f3_dot(ray, point->normal) > 0.0f;
     if (depth < pixel->depth && !(back && hides_back(p, point->material)))
