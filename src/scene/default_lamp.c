@@ -1,7 +1,6 @@
 #include "scene/default_lamp.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "math/sampling.h"
 
@@ -97,12 +96,6 @@ static bool find_place(const dark_points *dark, lsf_float3 *best)
     return most > 0.0f;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* The median of cos / r^2 over the points that see the lamp, normalised units: a point's irradiance
  * by a lamp of intensity 1. */
 static float median_response(const dark_points *dark, lsf_float3 lamp)
@@ -114,8 +107,7 @@ static float median_response(const dark_points *dark, lsf_float3 lamp)
         if (cosine > 0.0f)
             responses[lit++] = cosine / (distance * distance);
     }
-    qsort(responses, lit, sizeof *responses, by_size);
-    return responses[lit / 2];
+    return lsf_seen_median(responses, lit);
 }
 
 lsf_default_lamp lsf_default_lamp_place(const lsf_state *state, const lsf_seen *seen,

@@ -1,9 +1,5 @@
 #include "scene/emitted_light.h"
 
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/base.h"
 #include "math/sampling.h"
 #include "scene/emitters.h"
 
@@ -40,19 +36,12 @@ static float reflected_of_all(const lsf_seen_point *point, const lsf_emitters *e
     return sum / EMITTERS_EACH;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 static float median_reflected(const lsf_seen *seen, const lsf_emitters *emitters)
 {
     float each[LSF_SEEN_SIDE * LSF_SEEN_SIDE];
     for (uint32_t i = 0; i < seen->count; i++)
         each[i] = reflected_of_all(&seen->points[i], emitters, i * EMITTERS_EACH);
-    qsort(each, seen->count, sizeof *each, by_size);
-    return each[seen->count / 2];
+    return lsf_seen_median(each, seen->count);
 }
 
 float lsf_emitted_light(const lsf_scene *scene, const lsf_state *state, const lsf_seen *seen)

@@ -132,16 +132,23 @@ void lsf_unit_tangents(const float *normals, float *tangents, uint64_t count,
     }
 }
 
+/* Twice the area of the triangle, along its normal. */
+static void area_vector(const float *positions, const uint32_t t[3], double result[3])
+{
+    double ab[3], ac[3];
+    edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[1], ab);
+    edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[2], ac);
+    cross(ab, ac, result);
+}
+
 void lsf_replace_zero_normals(const float *positions, uint64_t vertex_count,
                               const uint32_t *indices, uint64_t index_count, float *normals)
 {
     double *sums = lsf_alloc(vertex_count, 3 * sizeof(double));
     for (uint64_t i = 0; sums && i + 2 < index_count; i += 3) {
         const uint32_t *t = indices + i;
-        double ab[3], ac[3], n[3];
-        edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[1], ab);
-        edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[2], ac);
-        cross(ab, ac, n);
+        double n[3];
+        area_vector(positions, t, n);
         for (int corner = 0; corner < 3; corner++)
             for (int c = 0; c < 3; c++)
                 sums[3 * (size_t)t[corner] + c] += n[c];
@@ -167,10 +174,8 @@ bool lsf_turn_normals(const float *positions, uint64_t vertex_count, const uint3
     uint8_t *found = lsf_alloc(vertex_count, 1);
     for (uint64_t i = 0; found && i + 2 < index_count; i += 3) {
         const uint32_t *t = indices + i;
-        double ab[3], ac[3], n[3];
-        edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[1], ab);
-        edge(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[2], ac);
-        cross(ab, ac, n);
+        double n[3];
+        area_vector(positions, t, n);
         if (!normalize(n))
             continue;
         for (int corner = 0; corner < 3; corner++) {

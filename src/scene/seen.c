@@ -76,3 +76,15 @@ void lsf_seen_free(lsf_seen *seen)
     lsf_occupancy_finish(&seen->occupancy);
     free(seen);
 }
+
+static int by_size(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+float lsf_seen_median(float *values, uint32_t count)
+{
+    qsort(values, count, sizeof *values, by_size);
+    return values[count / 2];
+}

@@ -27,4 +27,7 @@ typedef struct lsf_seen {
 lsf_seen *lsf_seen_create(const lsf_scene *scene, const lsf_state *state);
 void lsf_seen_free(lsf_seen *seen);
 
+/* The median of what was found at `count` points, at least 1; sorts them. */
+float lsf_seen_median(float *values, uint32_t count);
+
 #endif
